@@ -1,8 +1,4 @@
-"""Bad input raises an exception that names the object, the value and the fix; nothing crashes or hangs.
-
-What declared fields tell (kinds of values, shapes, bounds, names of bodies) is asked of every kind of element
-in `test_elements.py`; here is what no single field tells.
-"""
+"""Bad input that no single field tells (those: `test_elements.py`) is refused by object, value and fix."""
 
 from __future__ import annotations
 
@@ -19,7 +15,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from seacrane import Curve, Frame, Run, SampledController, Scene, State, _core, simulate
-from seacrane.analysis import Evaluator, inverse_dynamics
+from seacrane.analysis import Evaluator
 from seacrane.crane import Payload
 from seacrane.errors import SceneError, SimulationError
 from seacrane.hydro import StateSpaceBlock
@@ -33,10 +29,9 @@ KINDS = tuple(joint_examples.KINDS)
 
 
 def scene_of_two(**settings: Any) -> Scene:
-    """Two bodies 1 m apart, not joined."""
     scene = Scene(**settings)
-    scene.add_body(name="a", mass=1.0, inertia=[1.0, 1.0, 1.0])
-    scene.add_body(name="b", mass=2.0, inertia=[1.0, 1.0, 1.0], position=(1.0, 0.0, 0.0))
+    scene.add_body("a", mass=1.0, inertia=[1.0, 1.0, 1.0])
+    scene.add_body("b", mass=2.0, inertia=[1.0, 1.0, 1.0], position=(1, 0, 0))
     return scene
 
 
@@ -46,31 +41,24 @@ def pendulum() -> Scene:
     return scene
 
 
-def refused(action: Callable[[], Any], told: str, error: type[Exception] = SceneError) -> None:
+def refused(action: Callable[[], Any], told: str, error: Any = SceneError) -> None:
     """The action raises that error, and its message holds the words in that order."""
-    with pytest.raises(error, match=f"(?s){told}") as caught:
+    with pytest.raises(error, match=f"(?s){told}"):
         action()
-    assert isinstance(caught.value, (SceneError, SimulationError)), type(caught.value)
 
 
 def rows(*table: tuple[Any, str]) -> Any:
-    """Of (what is given, the words of the answer)."""
     ids = [re.sub(r"\W+", " ", row[1]) for row in table]
     return pytest.mark.parametrize(("what", "told"), table, ids=ids)
 
 
-# bodies, joints, vessels
-
-
 @rows(
-    ({"mass": 1e-310}, "units"), ({"mass": 1e300}, "units"), ({"inertia": [5e-324] * 3}, "units"),
-    ({"inertia": [1, -1, 1]}, "positive definite.*-1"), ({"inertia": [0, 1, 1]}, "positive definite"),
-    ({"inertia": np.eye(3) + np.eye(3, k=1) / 2}, "not symmetric"), ({"inertia": [1j, 1, 1]}, "inertia is"),
+    ({"mass": 1e-310}, "units"), ({"inertia": [1, -1, 1]}, "positive definite.*-1"),
+    ({"inertia": np.eye(3) + np.eye(3, k=1) / 2}, "not symmetric"),
     ({"inertia": [1, 1, 3]}, "1, 1, 3 kg m2.*sum of the others"),
     ({"position": (0, 0, 1e12)}, r"position holds 1e\+12 m.*1e\+07"),
     ({"quaternion": (0, 0, 0, 0)}, "length 0.*normalise"),
-    ({"quaternion": (1, 1, 0, 0)}, "1.41421.*normalise"), ({"name": ""}, "name is empty"),
-    ({"name": "a\0b"}, r"name is 'a\\x00b'.*printable"), ({"name": "\ud800"}, "printable"),
+    ({"quaternion": (1, 1, 0, 0)}, "1.41421.*normalise"), ({"name": "a\0b"}, r"name is 'a\\x00b'.*printable"),
     ({"name": "ground"}, "body 'ground'.*inertial"), ({"name": "a"}, "'a'.*twice"),
 )  # fmt: skip
 def test_bodies(what: dict[str, Any], told: str) -> None:
@@ -84,29 +72,20 @@ ROD = {"kind": "distance", "point": (0, 0, 0), "second_point": (0, 0, 0)}
 
 
 @rows(
-    ({"kind": "hinge"}, "kind 'hinge' is unknown.*revolute"), ({"kind": None}, "kind is None"),
-    ({"second": "c"}, "no body 'c'"), ({"first": ["a"]}, r"\['a'\]"),
+    ({"kind": "hinge"}, "kind 'hinge' is unknown.*revolute"), ({"second": "c"}, "no body 'c'"),
     ({"second": "a"}, "joins 'a' to itself"), ({"first": "ground", "second": "ground"}, "'ground' to itself"),
-    ({"point": (NAN, 0, 0)}, "first_frame holds nan"), ({"point": (0, 0)}, r"point has shape \(2,\)"),
-    ({"point": (0, 1e9, 0)}, r"first_frame holds 1e\+09 m"),
-    ({"axis": (0, 0, 0)}, r"axis is \(0, 0, 0\).*zero"), ({"axis": "z"}, "axis is 'z'"),
-    ({"axis": (INF, 0, 0)}, "axis is"),
+    ({"point": (NAN, 0, 0)}, "first_frame holds nan"), ({"axis": (0, 0, 0)}, r"axis is \(0, 0, 0\).*zero"),
     ({"first_frame": LEFT_HANDED, "second_frame": Frame()}, "right-handed"),
     ({"first_frame": Frame(), "second_frame": SCALED}, "second_frame"),
-    ({"first_frame": Frame()}, "one frame only"),
-    ({"first_frame": 1, "second_frame": 2}, "a frame is 1.*seacrane.Frame"),
-    ({"second_point": (1, 0, 0)}, "second_point belongs to"),
+    ({"first_frame": Frame()}, "one frame only"), ({"second_point": (1, 0, 0)}, "second_point belongs to"),
     ({"second_axis": (1, 0, 0)}, "second_axis belongs to"), ({"kind": "universal"}, "needs second_axis"),
     ({"kind": "universal", "axis": (1, 0, 0), "second_axis": (1, 0, 0)}, "0.0 deg from.*perpendicular"),
     ({"kind": "distance"}, "needs second_point"), (ROD, "length is 0 m"),
-    (ROD | {"length": -1.0}, "length is -1 m"), (ROD | {"length": 1.0}, "coincide"),
-    ({"name": "rod"}, "joint 'rod'.*twice"),
+    (ROD | {"length": 1.0}, "coincide"), ({"name": "rod"}, "joint 'rod'.*twice"),
 )  # fmt: skip
 def test_joints(what: dict[str, Any], told: str) -> None:
     scene = scene_of_two()
-    scene.add_joint(
-        kind="distance", name="rod", first="a", second="b", point=(0, 0, 0), second_point=(1, 0, 0)
-    )
+    scene.add_joint("rod", kind="distance", first="a", second="b", point=(0, 0, 0), second_point=(1, 0, 0))
     usual = {"kind": "revolute", "name": "j", "first": "a", "second": "b"}
     own = "" if "name" in what else "joint 'j'.*"
     refused(lambda: (scene.add_joint(**usual | what), scene.compile()), own + told)
@@ -122,13 +101,10 @@ def memory_block(**changes: Any) -> StateSpaceBlock:
 
 
 @rows(
-    ({"body": "x"}, "vessel 'x'.*no body 'x'"), ({"drag": 1.0}, "drag is unknown.*added_mass"),
-    ({"added_mass": -HEAVE}, "added_mass is not positive"),
+    ({"drag": 1.0}, "drag is unknown.*added_mass"), ({"added_mass": -HEAVE}, "added_mass is not positive"),
     ({"restoring": np.eye(6)}, r"restoring\(0, 0\).*mooring"),
     ({"restoring": HEAVE + 1e5 * np.outer(np.eye(6)[2], np.eye(6)[4])}, "not symmetric"),
-    ({"kinematics": "fast"}, "'fast' is unknown.*yaw_following"),
-    ({"memory": 3}, "memory is 3.*StateSpaceBlock"),
-    ({"memory": [memory_block(inputs=[6])]}, "block 0.*input 6"),
+    ({"memory": 3}, "memory is 3.*StateSpaceBlock"), ({"memory": [memory_block(inputs=[6])]}, "input 6"),
     ({"memory": [memory_block(b=[[1.0, 2.0]])]}, "block 0.*shapes"),
     ({"memory": [memory_block(a=[[NAN]])]}, "block 0.*not finite"),
     ({"memory": [memory_block(state_scale=[0.0])]}, "state_scale"),
@@ -142,11 +118,8 @@ def test_vessels(what: dict[str, Any], told: str) -> None:
     refused(lambda: (scene.add_vessel(**{"body": "a"} | what), scene.compile()), own + told)
 
 
-# drives and loads on the pendulum
-
-
 def hang(**more: Any) -> Callable[[Scene], Any]:
-    return lambda scene: scene.add_spring(name="s", first="ground", second="bob", **more)
+    return lambda scene: scene.add_spring("s", first="ground", second="bob", **more)
 
 
 def gust(times: Any, loads: Any) -> Callable[[Scene], Any]:
@@ -155,46 +128,39 @@ def gust(times: Any, loads: Any) -> Callable[[Scene], Any]:
 
 def twice_driven(scene: Scene) -> None:
     for name in ("one", "two"):
-        scene.add_driver(joint="pin", curve=0.0, name=name)
+        scene.add_driver("pin", curve=0.0, name=name)
 
 
 def a_ball_driven(scene: Scene) -> None:
-    scene.add_joint(kind="spherical", name="ball", first="ground", second="bob")
-    scene.add_driver(joint="ball", coordinate="angle", curve=0.0)
+    scene.add_joint("ball", kind="spherical", first="ground", second="bob")
+    scene.add_driver("ball", coordinate="angle", curve=0.0)
 
 
 def one_name_for_two_coordinates(scene: Scene) -> None:
-    scene.add_joint(kind="cylindrical", name="sleeve", first="ground", second="bob")
+    scene.add_joint("sleeve", kind="cylindrical", first="ground", second="bob")
     for _ in range(2):  # the same again: nothing is lost
         scene.record_coordinate(joint="sleeve")
     scene.record_coordinate(joint="sleeve", coordinate="angle")
 
 
 @rows(
-    (lambda s: s.add_driver(joint="pin", coordinate="x", curve=0.0), "driver 'pin.x'.*no coord.*angle"),
+    (lambda s: s.add_driver("pin", coordinate="x", curve=0.0), "driver 'pin.x'.*no coord.*angle"),
     (twice_driven, "driver 'two'.*pin.angle.*driver 'one'"),
     (a_ball_driven, "'ball' is spherical.*no coordinate"),
-    (lambda s: s.add_actuator(name="motor", joint="pin"), "'motor'.*twice"),
-    (lambda s: s.add_point_force(name="f", body="ground", force=(0, 0, 1)), "point force 'f'.*'ground'"),
-    (lambda s: s.add_point_force(name="motor", body="bob", force=(0, 0, 1)), "actuator.*motor.force"),
-    (lambda s: s.add_spring(name="s", first="bob", second="bob"), "spring 's'.*itself"),
+    (lambda s: s.add_point_force("f", body="ground", force=(0, 0, 1)), "point force 'f'.*'ground'"),
+    (lambda s: s.add_point_force("motor", body="bob", force=(0, 0, 1)), "actuator.*motor.force"),
+    (lambda s: s.add_spring("s", first="bob", second="bob"), "spring 's'.*itself"),
     (hang(lengths=[1, 2], forces=[1]), "spring 's'.*2 lengths and 1 forces"),
     (hang(lengths=[2, 1], forces=[1, 2]), "spring 's'.*lengths must increase"),
-    (hang(lengths=[[1, 2]], forces=[1]), r"spring 's'.*lengths has shape \(1, 2\)"),
-    (gust([0, 1], np.zeros((2, 3))), r"force table 't'.*\(2, 3\).*\(n, 6\)"),
     (gust([0, 1, 2], np.zeros((2, 6))), "force table 't'.*3 times and 2"),
     (gust([1, 0], np.zeros((2, 6))), "force table 't'.*times must increase"),
     (gust([], np.zeros((0, 6))), "force table 't'.*0 times"),
-    (lambda s: s.record_coordinate(joint="x"), "no joint 'x'"),
     (lambda s: s.record_coordinate(joint="pin", coordinate="x"), "'pin'.*'x'.*angle"),
     (one_name_for_two_coordinates, "recorded coordinate 'sleeve'.*sleeve.displacement.*another name"),
 )  # fmt: skip
 def test_drives_and_loads(what: Callable[[Scene], Any], told: str) -> None:
     scene = pendulum()
     refused(lambda: (what(scene), scene.compile()), told)
-
-
-# assembly
 
 
 def frames(first: Any, second: Any, **of_first: Any) -> dict[str, Any]:
@@ -204,31 +170,31 @@ def frames(first: Any, second: Any, **of_first: Any) -> dict[str, Any]:
 def a_strut_too_short() -> Scene:
     """The bob turns on a circle of 1 m about the pin: the strut's end stays 4 m or more from (5, 0, 0)."""
     scene = pendulum()
-    scene.add_joint(kind="distance", name="strut", first="ground", second="bob", point=(5, 0, 0),
+    scene.add_joint("strut", kind="distance", first="ground", second="bob", point=(5, 0, 0),
                     second_point=(1, 0, 0), length=1.0)  # fmt: skip
     return scene
 
 
 def an_impossible_four_bar() -> Scene:
     scene, ends, far = scene_of_two(), frames((1, 0, 0), (-1, 0, 0)), frames((9, 0, 0), (1, 0, 0))
-    scene.add_joint(kind="revolute", name="o", first="ground", second="a", point=(0, 0, 0), axis=(0, 1, 0))
-    scene.add_joint(kind="revolute", name="p", first="a", second="b", **ends)
-    scene.add_joint(kind="spherical", name="q", first="ground", second="b", **far)
+    scene.add_joint("o", kind="revolute", first="ground", second="a", point=(0, 0, 0), axis=(0, 1, 0))
+    scene.add_joint("p", kind="revolute", first="a", second="b", **ends)
+    scene.add_joint("q", kind="spherical", first="ground", second="b", **far)
     return scene
 
 
 def a_joint_that_closes_upside_down() -> Scene:
     scene, turned = scene_of_two(), frames((0, 0, 0), (0, 0, 0), axes=np.diag([1.0, -1.0, -1.0]))
-    scene.add_joint(kind="weld", name="w", first="ground", second="a")
-    scene.add_joint(kind="revolute", name="r", first="ground", second="a", **turned)
+    scene.add_joint("w", kind="weld", first="ground", second="a")
+    scene.add_joint("r", kind="revolute", first="ground", second="a", **turned)
     return scene
 
 
 def a_drive_of_what_is_welded() -> Scene:
     """From 0 at t = 0, at 1 rad/s."""
     scene = pendulum()
-    scene.add_joint(kind="weld", name="fixed", first="ground", second="bob")
-    scene.add_driver(joint="pin", curve=Curve.pieces(starts=[-1.0], coefficients=[[-1.0, 1.0, 0, 0, 0, 0]]))
+    scene.add_joint("fixed", kind="weld", first="ground", second="bob")
+    scene.add_driver("pin", curve=Curve.pieces(starts=[-1.0], coefficients=[[-1.0, 1.0, 0, 0, 0, 0]]))
     return scene
 
 
@@ -239,11 +205,9 @@ def a_drive_of_what_is_welded() -> Scene:
     (a_drive_of_what_is_welded, "(?=.*'pin.angle')(?=.*'fixed').*rates contradict"),
     (lambda: Scene(name="empty"), "scene 'empty'.*no bodies"),
     (lambda: scene_of_two(gravity=NAN), "gravity is nan"),
-    (lambda: scene_of_two(gravity="9.81"), "gravity is '9.81'"),
     (lambda: scene_of_two(baumgarte=-1.0), "baumgarte is -1"),
     (lambda: scene_of_two(orientation="rpy"), "'rpy' is unknown.*quaternion"),
     (lambda: scene_of_two(length_scale=0.0), "length_scale is 0 m"),
-    (lambda: scene_of_two(name=3), "name is 3"),
 )  # fmt: skip
 def test_scenes_that_cannot_be_assembled(what: Callable[[], Scene], told: str) -> None:
     with warnings.catch_warnings():
@@ -251,27 +215,12 @@ def test_scenes_that_cannot_be_assembled(what: Callable[[], Scene], told: str) -
         refused(lambda: what().compile(), told)
 
 
-def test_velocities_that_break_a_joint_are_corrected_and_reported() -> None:
-    scene = pendulum()
-    scene.replace("bob", velocity=(5.0, 0.0, 0.0))
-    assembly = scene.compile().assembly
-    assert assembly["largest_velocity_change"] == pytest.approx(5.0, rel=1e-12)
-    assert assembly["rate_residual_after"] < 1e-9
-
-
-# waves
-
-
-@rows(
-    ({"hulls": {"b": HullLoads(transfer=np.ones((1, 6)))}}, "wave load.*'b' is not a vessel"),
-    ({"hulls": []}, r"hulls is \[\].*HullLoads"), ({"heading": NAN}, "heading is nan"),
-    ({"force_by_heading": 3.0}, "force_by_heading is 3.0.*ByHeading"),
-    ({"amplitude": [NAN]}, "'a'.*amplitude"), ({"omega": [-1.0]}, "'a'.*omega"),
-    ({"phase": [0.0, 1.0]}, "waves on 'a'"), ({"transfer": np.zeros((1, 5))}, "'a'.*transfer"),
-    ({"transfer": np.zeros(6)}, "'a'.*transfer"), ({"transfer": np.full((1, 6), NAN)}, "'a'.*transfer"),
-    ({"relative_bound": 0.0}, "'a'.*relative_bound is 0; give"),
-    ({"relative_bound": "small"}, "waves on 'a'"), ({"depth": 0.0}, "'a'.*depth"),
-)  # fmt: skip
+@rows(({"hulls": {"b": HullLoads(transfer=np.ones((1, 6)))}}, "wave load.*'b' is not a vessel"),
+      ({"heading": NAN}, "heading is nan"), ({"force_by_heading": 3.0}, "force_by_heading is 3.0.*ByHeading"),
+      ({"amplitude": [NAN]}, "'a'.*amplitude"), ({"omega": [-1.0]}, "'a'.*omega"),
+      ({"phase": [0.0, 1.0]}, "waves on 'a'"), ({"transfer": np.zeros((1, 5))}, "'a'.*transfer"),
+      ({"relative_bound": 0.0}, "'a'.*relative_bound is 0; give"),
+      ({"depth": 0.0}, "'a'.*depth"))  # fmt: skip
 def test_waves(what: dict[str, Any], told: str) -> None:
     scene, fields = scene_of_two(), HullLoads.__dataclass_fields__
     scene.add_vessel(body="a")
@@ -286,37 +235,26 @@ def test_waves(what: dict[str, Any], told: str) -> None:
     refused(compiled, told)
 
 
-# runs
-
-
 @rows(
-    ({"t_end": NAN}, "t_end is nan"), ({"t_end": INF}, "t_end is inf"),
-    ({"t_end": -1.0}, "t_end is -1.0 s.*start"), ({"t_end": "x"}, "t_end is 'x'"),
-    ({"t_end": None}, "t_end is None"), ({"dt_out": 0.0}, "dt_out is 0.0 s.*positive"),
-    ({"dt_out": NAN}, "dt_out is nan"), ({"dt_out": 1e-300}, "dt_out is 1e-300 s.*longer"),
+    ({"t_end": NAN}, "t_end is nan"), ({"t_end": -1.0}, "t_end is -1.0 s.*start"), ({"t_end": "x"}, "is 'x'"),
+    ({"dt_out": 0.0}, "dt_out is 0.0 s.*positive"), ({"dt_out": 1e-300}, "dt_out is 1e-300 s.*longer"),
     ({"t_end": 1e15, "dt_out": 1e-3}, "dt_out is 0.001 s.*longer"), ({"rtol": 0.0}, "rtol is 0.*positive"),
     ({"rtol": NAN}, "rtol is nan"), ({"rtol": 1e9}, r"rtol is 1e\+09.*up to 0.1"),
-    ({"rtol": "tight"}, "rtol is 'tight'"), ({"dt": -0.1, "integrator": "rk4"}, "dt is -0.1 s.*leave it out"),
-    ({"dt": NAN, "integrator": "rk4"}, "dt is nan s"), ({"dt": 0.0}, "dt is 0.0 s.*leave it out"),
-    ({"maximum_step": -1.0}, "maximum_step is -1.0 s"), ({"maximum_step": INF}, "maximum_step is inf s"),
-    ({"integrator": "euler"}, "euler.*dopri5"), ({"integrator": 3}, "integrator is 3.*dopri5"),
+    ({"dt": -0.1, "integrator": "rk4"}, "dt is -0.1 s.*leave it out"), ({"dt": 0.0}, "dt is 0.0 s.*leave it"),
+    ({"maximum_step": -1.0}, "maximum_step is -1.0 s"), ({"integrator": "euler"}, "euler.*dopri5"),
     ({"formulation": "magic"}, "formulation 'magic'.*redundant"),
     ({"channels": ["colour"]}, "channel 'colour'.*position"),
-    ({"channels": ["wave_force"]}, "'wave_force'.*position"),
-    ({"channels": "position"}, "channels is 'position'.*list"), ({"channels": 3}, "channels is 3.*list"),
-    ({"start": 3}, "start is 3.*State"), ({"controllers": 3}, "controllers holds 3.*SampledController"),
+    ({"channels": "position"}, "channels is 'position'.*list"), ({"start": 3}, "start is 3.*State"),
     ({"controllers": [3]}, "controllers holds 3.*SampledController"),
 )  # fmt: skip
 def test_settings_of_a_run(what: dict[str, Any], told: str) -> None:
     refused(lambda: simulate(pendulum(), **{"t_end": 1.0} | what), told)
 
 
-@rows(
-    ({"values": [1.0, 2.0]}, "state.*2 values.*15"), ({"values": np.full(15, NAN)}, "state.*not finite"),
-    ({"values": np.zeros(15)}, "state.*give a state of this scene"),
-    ({"inputs": []}, "inputs.*0 values.*3 slots"), ({"inputs": [NAN, 0.0, 0.0]}, "inputs.*not finite"),
-    ({"time": NAN}, "start time is nan"), ({"time": 7.0}, "t_end is 1.0 s.*7.0"),
-)  # fmt: skip
+@rows(({"values": [1.0, 2.0]}, "state.*2 values.*15"), ({"values": np.full(15, NAN)}, "state.*not finite"),
+      ({"values": np.zeros(15)}, "state.*give a state of this scene"),
+      ({"inputs": []}, "inputs.*0 values.*3 slots"), ({"inputs": [NAN, 0.0, 0.0]}, "inputs.*not finite"),
+      ({"time": NAN}, "start time is nan"), ({"time": 7.0}, "t_end is 1.0 s.*7.0"))  # fmt: skip
 def test_start_state(what: dict[str, Any], told: str) -> None:
     scene = pendulum()
     good = _core.initial_state(scene.compile())
@@ -326,24 +264,20 @@ def test_start_state(what: dict[str, Any], told: str) -> None:
     assert simulate(scene, t_end=1.0, start=near)["constraint_error"].max() < 1e-9
 
 
-@rows(
-    (lambda t, m: 1 / 0, "(?=.*t = 0).*ZeroDivisionError"), (lambda t, m: m["colour"], "KeyError.*colour"),
-    (lambda t, m: None, "returned None.*{input: value}"), (lambda t, m: 3.0, "returned 3.0"),
-    (lambda t, m: {"x": 1.0}, "input 'x'.*motor.force"),
-    (lambda t, m: {"motor.force": NAN}, "'motor.force' is nan"),
-    (lambda t, m: {"motor.force": "a"}, "'motor.force' is 'a'"),
-    (lambda t, m: {"motor.force": [1, 2]}, "'motor.force'.*1 finite"),
-)  # fmt: skip
+@rows((lambda t, m: 1 / 0, "(?=.*t = 0).*ZeroDivisionError"), (lambda t, m: m["colour"], "KeyError.*colour"),
+      (lambda t, m: None, "returned None.*{input: value}"), (lambda t, m: {"x": 1.0},
+                                                             "input 'x'.*motor.force"),
+      (lambda t, m: {"motor.force": NAN}, "'motor.force' is nan"),
+      (lambda t, m: {"motor.force": [1, 2]}, "'motor.force'.*1 finite"))  # fmt: skip
 def test_controllers(what: Any, told: str) -> None:
     tick = SampledController(period=0.1, function=what)
-    refused(
-        lambda: simulate(pendulum(), t_end=1.0, controllers=[tick]), told, error=(SceneError, SimulationError)
-    )
+    refused(lambda: simulate(pendulum(), t_end=1.0, controllers=[tick]), told,
+            error=(SceneError, SimulationError))  # fmt: skip
 
 
 def test_euler_angles_at_their_singularity() -> None:
     scene = Scene(orientation="euler_xyz")
-    scene.add_body(name="mast", mass=1.0, inertia=[1, 1, 1], quaternion=(np.sqrt(0.5), 0, np.sqrt(0.5), 0))
+    scene.add_body("mast", mass=1.0, inertia=[1, 1, 1], quaternion=(np.sqrt(0.5), 0, np.sqrt(0.5), 0))
     refused(lambda: simulate(scene, t_end=1.0), "body 'mast'.*phi_y is 90.*quaternion", SimulationError)
 
 
@@ -366,9 +300,9 @@ def test_step_of_a_fixed_step_method_beyond_stability_is_not_silent() -> None:
 def test_joints_too_close_together_to_hold_stop_the_run_by_name() -> None:
     """Two ball joints 0.01 mm apart are a hinge in name only: the run may not go on with open joints."""
     scene = scene_of_two()
-    scene.add_joint(kind="weld", name="base", first="ground", second="a")
+    scene.add_joint("base", kind="weld", first="ground", second="a")
     for name, height in (("lower", 0.0), ("upper", 1e-5)):
-        scene.add_joint(kind="spherical", name=name, first="a", second="b", point=(0.0, 0.0, height))
+        scene.add_joint(name, kind="spherical", first="a", second="b", point=(0.0, 0.0, height))
     with pytest.warns(UserWarning, match="redundant"):
         refused(lambda: simulate(scene, t_end=5.0), "(?=.*nearly depend).*er'.*open by", SimulationError)
 
@@ -378,14 +312,6 @@ def at_one_second() -> dict[str, Any]:
     first = _core.initial_state(pendulum().compile())
     tick = SampledController(period=1e-20, function=lambda t, m: {})
     return {"start": State(time=1.0, values=first.values, inputs=first.inputs), "controllers": [tick]}
-
-
-def period(value: Any) -> Any:
-    return lambda: SampledController(period=value, function=len)
-
-
-def force(value: Any) -> Any:
-    return lambda: pendulum().add_point_force(name="f", body="bob", force=value)
 
 
 MODEL = pendulum().compile()
@@ -400,32 +326,23 @@ DATES = np.array(["2026-01-01"] * 3, dtype="M8[D]")
     (lambda: Curve.quintic(start_time=2.0, end_time=1.0, start=0.0, end=1.0), "(?=.*1.0).*2.0"),
     (lambda: spline_curve(times=[0, 1], values=[0, 1]), "at least 6"),
     (lambda: spline_curve(times=[0, 1, 2, 3, 3, 4], values=[0] * 6), "must increase"),
-    (period(0.0), "period is 0.0"), (period(-1.0), "period is -1.0"), (period(NAN), "period is nan"),
-    (period(INF), "period is inf"), (period("fast"), "period is .*fast"), (period(None), "period is None"),
+    (lambda: SampledController(period=0.0, function=len), "period is 0.0"),
+    (lambda: SampledController(period=NAN, function=len), "period is nan"),
     (lambda: SampledController(period=1.0, function=3), "function is 3"),
     (lambda: simulate(pendulum(), t_end=2.0, **at_one_second()), "period is 1e-20 s"),
-    (force(np.array([1, b"2", 3], dtype=object)), "force.*give .*number"),
-    (lambda: Scene().add_body(name="x", mass=1, inertia=DATES), "inertia.*give .*number"),
-    (lambda: Scene().add_body(name="x", mass=1), "body 'x'.*neither inertia nor size"),
+    (lambda: Scene().add_body("x", mass=1, inertia=DATES), "inertia.*give .*number"),
+    (lambda: Scene().add_body("x", mass=1), "body 'x'.*neither inertia nor size"),
     (lambda: Scene().add_crane(foot=("33", "10", "10")), "foot.*give .*number"),
     (lambda: Payload(mass="20e3"), "mass.*give .*number"),
-    (lambda: inverse_dynamics(pendulum(), times=["0", "1"]), "times.*give .*number"),
     (lambda: Run(pendulum(), t_end=1.0).set_inputs({"motor.force": "1"}), "motor.force.*give .*number"),
     (lambda: Run(pendulum(), t_end=1.0).set_inputs({"motor": 1.0}), "'motor'.*motor.force, motor.reference"),
     (lambda: Run(pendulum(), t_end=1.0).core.set_inputs([1.0]), "inputs.*1 values.*3 slots"),
     (lambda: Run(pendulum(), t_end=1.0).advance(NAN), "t_end.*finite"),
     (lambda: Evaluator(MODEL).derivative(0.0, np.zeros(3)), "3 values.*15"),
     (lambda: Evaluator(MODEL).project(0.0, np.zeros((15, 15))), "225 values"),
-    (lambda: Evaluator(MODEL).time_parts(0.0, np.array(MODEL.initial_state), 0), "count is 0"),
 )  # fmt: skip
 def test_calls(what: Callable[[], Any], told: str) -> None:
     refused(what, told)
-
-
-def test_no_model_is_none() -> None:
-    for call in (Evaluator, _core.initial_state):
-        with pytest.raises(TypeError):
-            call(None)
 
 
 NUMBER = st.floats(min_value=-10.0, max_value=10.0)
@@ -447,15 +364,13 @@ def plausible_joint(draw: st.DrawFn) -> dict[str, Any]:
 
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(plausible_joint(), min_size=1, max_size=4), st.sampled_from(["quaternion", "euler_xyz"]))
-def test_any_set_of_joints_compiles_and_runs_or_is_refused(
-    joints: list[dict[str, Any]], orientation: str
-) -> None:
-    """Redundant, contradictory or singular: a run starts and stays on its constraints, or ends by name."""
+def test_any_set_of_joints_compiles_and_runs_or_is_refused(joints: list[dict[str, Any]],
+                                                           orientation: str) -> None:  # fmt: skip
 
     def build() -> Scene:
         scene = scene_of_two(orientation=orientation)
         for i, joint in enumerate(joints):
-            scene.add_joint(name=f"j{i}", **joint)
+            scene.add_joint(f"j{i}", **joint)
         return scene
 
     with warnings.catch_warnings():

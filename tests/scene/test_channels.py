@@ -1,24 +1,31 @@
-"""The core's table of channels is the only one: results, files and documents follow from it. One that a scene
-cannot have is refused by name, however it is asked for."""
+"""Channels by the core's table, by one text that says which curves are meant, and by expressions."""
 
 from __future__ import annotations
 
 import importlib.util
+import random
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from named import pendulum
+from numpy.testing import assert_allclose, assert_array_equal
+from test_relative_motion import hoisting, tumbling
 from test_restart import chain, crank
 
-from seacrane import Outputs, Run, Scene, Stage, _core, cases, ensemble, simulate, simulate_stages
-from seacrane.description import channels
-from seacrane.description.channels import DERIVED, FIXED, NAMED, OWN
-from seacrane.errors import SceneError
+from seacrane import Kept, Result, Run, Scene, Stage, Until, _core, cases, ensemble, simulate, simulate_stages
+from seacrane.analysis import linear_model
+from seacrane.description.channels import CHANNELS, DERIVED, FIXED, NAMED, OWN
+from seacrane.description.expression import DEEPEST, FUNCTIONS, LONGEST, parsed
+from seacrane.description.file import scene_digest
+from seacrane.description.pick import Pick, column_name, pick_of
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import shipped_database
-from seacrane.operability import Criterion, allowable_hs
-from seacrane.result import CHANNELS, Result, result, result_file
+from seacrane.operability import Criterion
+from seacrane.operability.linear_channels import linear_channels
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
@@ -49,25 +56,12 @@ def test_every_channel_carries_the_names_of_the_scene(make: Any) -> None:
     run = simulate(scene, t_end=0.1, channels=offered)
     for name, array in run.channels.items():
         assert array.shape[1:] == tuple(len(run.coords[dim]) for dim in run.dims[name][1:]), name
-    expected = {
-        "body": scene.bodies, "joint": scene.joints, "joint_coordinate": scene.recorded,
-        "actuator": scene.actuators, "driver": scene.drivers,
-        "link": [name for name, joint in scene.joints.items() if joint.kind == "distance"],
-    }  # fmt: skip
+    expected = {"body": scene.bodies, "joint": scene.joints, "joint_coordinate": scene.recorded,
+                "actuator": scene.actuators, "driver": scene.drivers,
+                "link": [name for name,
+                         joint in scene.joints.items() if joint.kind == "distance"]}  # fmt: skip
     for dim, names in expected.items():
         assert run.coords.get(dim, ()) == tuple(names), dim
-
-
-@pytest.mark.warns("UnitWarning")
-def test_several_vessels_are_told_apart_by_name() -> None:
-    scene = cases.vessel(hs=0.0, memory="none")
-    there = scene.vessels["vessel"]
-    scene.add_body(name="barge", mass=1e6, inertia=(1e8, 1e8, 1e8), position=(200.0, 0.0, 0.0))
-    same = {key: getattr(there, key) for key in ("added_mass", "restoring", "linear_damping")}
-    scene.add_vessel(body="barge", **same)
-    run = simulate(scene, t_end=0.1)
-    assert run.dims["vessel_motion"] == ("time", "vessel", "motion")
-    assert run.coords["vessel"] == tuple(scene.vessels)
 
 
 def test_channels_recorded_alone_are_those_of_a_run_that_records_all() -> None:
@@ -80,21 +74,6 @@ def test_channels_recorded_alone_are_those_of_a_run_that_records_all() -> None:
         alone = simulate(scene, channels=[name], **settings)
         assert np.array_equal(alone[name], whole[name]), name
         assert alone.stats["evaluations"] == whole.stats["evaluations"], name
-
-
-def test_an_axis_of_any_name_is_saved_and_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Neither results nor files know axes by name: a channel over a new one needs its entry alone."""
-    dims = ("time", "point", "axis")
-    new = channels.Channel(dims=dims, dims_of_several=dims, unit="m", long_name="of named points")
-    for module in (channels, result):
-        monkeypatch.setattr(module, "CHANNELS", {**CHANNELS, "point_position": new})
-    monkeypatch.setattr(result_file, "NAMED", NAMED | {"point"})
-    arrays, stats = {"point_position": np.arange(12.0).reshape(2, 2, 3)}, simulate(chain(), t_end=0.1).stats
-    coords = {"point": ["hook", "tip"]}
-    made = Result.from_arrays(time=[0.0, 1.0], arrays=arrays, coords=coords, stats=stats)
-    read = Result.load(made.save(tmp_path / "r.nc"))
-    assert read.coords == made.coords == {"point": ("hook", "tip"), "axis": ("x", "y", "z")}
-    assert np.array_equal(read.select("point_position", point="tip", axis="z"), [5.0, 11.0])
 
 
 def test_the_documented_table_is_current() -> None:
@@ -114,10 +93,10 @@ def box() -> Scene:
 
 def rod() -> Scene:
     scene, ends = box(), {"point": (0, 0, 20), "second_point": (0, 0, 5)}
-    scene.add_joint(kind="distance", name="rod", first="ground", second="load", **ends)
-    scene.add_body("arm", mass=1.0, inertia=(1.0, 1.0, 1.0))
-    scene.add_joint(kind="prismatic", name="slide", first="ground", second="arm", axis=(1, 0, 0))
-    scene.add_driver(joint="slide", curve=0.0)
+    scene.add_joint("rod", kind="distance", first="ground", second="load", **ends)
+    scene.add_body("arm", mass=1.0, inertia=(1.0,) * 3)
+    scene.add_joint("slide", kind="prismatic", first="ground", second="arm", axis=(1, 0, 0))
+    scene.add_driver("slide", curve=0.0)
     return scene
 
 
@@ -134,20 +113,12 @@ def ship(*, crane: bool = False, hoist: bool = False) -> Scene:
     return scene
 
 
-def ship_with_crane() -> Scene:
-    return ship(crane=True)
-
-
-def ship_with_hoist() -> Scene:
-    return ship(hoist=True)
-
-
-@pytest.mark.parametrize("make", [box, rod, ship, ship_with_crane, ship_with_hoist])
+@pytest.mark.parametrize("make", [box, rod, ship, partial(ship, crane=True), partial(ship, hoist=True)])
 def test_each_channel_is_recorded_or_refused_by_its_name(make: Callable[[], Scene]) -> None:
     scene, refused = make(), set()
     for channel in CHANNELS:
         try:
-            run = Run(scene, 0.1, outputs=Outputs(channels=[channel]))
+            run = Run(scene, 0.1, channels=[channel])
         except SceneError as error:
             assert f"channel {channel!r} is unknown to this scene" in str(error)
             refused.add(channel)
@@ -156,38 +127,263 @@ def test_each_channel_is_recorded_or_refused_by_its_name(make: Callable[[], Scen
     assert {"own", "clearance"} < refused < set(CHANNELS)
 
 
-def limited(scene: Scene, channel: str) -> Scene:
-    scene.add_limit_state(channel, maximum=1.0)
-    return scene
-
-
-def below_one(channel: str) -> Criterion:
-    return Criterion(channel=channel, maximum=1.0)
-
-
-ALL = [Stage(name="all", duration=0.1)]
-SEAS: dict[str, Any] = {"tp": [8.0], "direction_deg": [90.0], "hs": [1.0]}
-WAYS: dict[str, Callable[[Scene, str], Any]] = {
-    "outputs": lambda scene, name: simulate(scene, 0.1, channels=[name]),
-    "stages": lambda scene, name: simulate_stages(scene, ALL, channels=[name]),
-    "kept": lambda scene, name: ensemble(scene, over={"seed": [1]}, keep={"most": f"{name}.max"}),
-    "criterion": lambda scene, name: allowable_hs(scene, criteria=[below_one(name)], **SEAS),
-    "limit state": lambda scene, name: simulate(limited(scene, name), 0.1),
-    "limit state of stages": lambda scene, name: simulate_stages(limited(scene, name), ALL),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("way", WAYS)
-def test_it_is_refused_by_every_way_of_asking(way: str) -> None:
-    for channel in ("swing", "offlead", "utilisation", "tip_velocity", "line_tension"):
-        with pytest.raises(SceneError, match=f"channel '{channel}' is unknown to this scene; it"):
-            WAYS[way](ship(), channel)
-
-
 @pytest.mark.warns("LineLengthWarning")
 def test_what_a_later_stage_connects_is_recorded_there_and_its_limits_hold() -> None:
-    scene = limited(ship_with_hoist(), "swing")
+    scene = ship(hoist=True)
+    scene.add_limit_state("swing", maximum=1.0)
     stages = [Stage(name="before", duration=0.2), Stage(name="hooked", connect=["hoist"], duration=0.2)]
     run = simulate_stages(scene, stages, channels=["swing", "position"], rtol=1e-3)
     assert np.isnan(run["swing"][0]) and np.isfinite(run["swing"][-1])
     assert np.isfinite(run.utilisation.largest)
+
+
+@pytest.fixture(scope="module")
+def lift() -> Result:
+    return simulate(cases.case2(), t_end=3.0, dt_out=0.5)
+
+
+PICKS: dict[str, tuple[Any, ...]] = {  # channel, names along its dimensions, and the time after which
+    "hook_load": ("hook_load", {}, None), "roll": ("vessel_motion", {"motion": "roll"}, None),
+    "vessel_motion[barge, roll]": ("vessel_motion", {"vessel": "barge", "motion": "roll"}, None),
+    "vessel_motion[ roll ,after=60]": ("vessel_motion", {"motion": "roll"}, 60.0),
+    "position[z, load]": ("position", {"body": "load", "axis": "z"}, None),
+    "position[axis=x, body=z]": ("position", {"body": "z", "axis": "x"}, None),
+    'hook_load["a, b"]': ("hook_load", {"suspension": "a, b"}, None),
+    "load_state[hoist.length]": ("load_state", {"state_name": "hoist.length"}, None),
+    "reaction_force[main foot, y]": ("reaction_force", {"joint": "main foot", "axis": "y"}, None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", PICKS)
+def test_a_text_names_channel_dimensions_and_time(text: str) -> None:
+    channel, names, after = PICKS[text]
+    assert pick_of("test", text) == Pick(channel=channel, names=names, after=after)
+
+
+def test_every_curve_of_every_channel_has_a_text_that_finds_it() -> None:
+    for channel, about in CHANNELS.items():
+        dims = about.dims_of_several[1:]
+        names = {dim: FIXED[dim][-1] if dim in FIXED else f"the {dim}, 1" for dim in dims}
+        assert pick_of("test", column_name(channel, list(names.values()))).names == names
+        whole = Pick(channel=channel, names=names)
+        assert pick_of("test", whole) == whole
+
+
+def test_a_text_that_says_nothing_is_refused_by_what_is_wrong() -> None:
+    for text, told in {
+        "hok_load": "did you mean 'hook_load'", "position[load, z, y]": "has no 'y'",
+        "position[load, axis=w]": "axis is 'w'.*x, y, z", "position[load, hook=z]": "no dimension 'hook'",
+        "position[axis=z, axis=y]": "two names along axis", "hook_load[after=soon]": "after is 'soon'.*time",
+        "position[load": "give a channel",
+    }.items():  # fmt: skip
+        with pytest.raises(SceneError, match=told):
+            pick_of("test", text)
+
+
+def test_select_and_curve_take_the_text(lift: Result) -> None:
+    roll = lift.select("vessel_motion", motion="roll")
+    for found in (lift.select("roll"), lift.select("vessel_motion[roll]"), lift.curve("roll")):
+        assert np.array_equal(found, roll)
+    assert lift.select("position[payload]").shape == (lift.time.size, 3)
+    with pytest.raises(SceneError, match="several curves; give axis: one of x, y, z"):
+        lift.curve("position[payload]")
+    for late in ("roll[after=1]", "vessel_motion[roll, after=1]"):  # the first has no such dimension
+        with pytest.raises(ValueError, match="all outputs"):
+            lift.select(late)
+
+
+def test_a_table_has_a_column_for_each_curve_under_its_text(lift: Result, tmp_path: Path) -> None:
+    table = lift.to_dataframe("roll", "position[payload]")
+    assert list(table) == ["vessel_motion[roll]", *(f"position[payload, {axis}]" for axis in "xyz")]
+    assert table.index.name == "time"
+    assert table.attrs["units"]["vessel_motion[roll]"] == "rad"
+    for name in table:
+        assert np.array_equal(table[name], lift.select(name))
+    whole = lift.to_dataframe()
+    assert len(whole.columns) == sum(array[0].size for array in lift.channels.values())
+    assert lift.to_dataframe("vessel_motion[roll, after=1]").index[0] == 1.0
+    with pytest.raises(SceneError, match="of one part of the run"):
+        lift.to_dataframe("vessel_motion[roll, after=1]", "link_tension")
+
+    path = lift.to_csv(tmp_path / "lift.csv", "roll", "link_tension")
+    first, *rows = path.read_text(encoding="utf-8").splitlines()
+    assert first == "time,vessel_motion[roll],link_tension"
+    read = np.array([[float(cell) for cell in row.split(",")] for row in rows])
+    assert np.array_equal(read.T, [lift.time, lift.select("roll"), lift["link_tension"]])
+
+
+def test_what_is_kept_is_said_by_a_text() -> None:
+    late = {"channel": "position", "what": "minimum", "names": {"body": "load", "axis": "z"}, "after": 60.0}
+    assert Kept.of_text("position[load, z, after=60].min") == Kept(**late)
+    assert Kept(channel="position[load, z, after=60]", what="minimum") == Kept(**late)
+    roll = Kept(channel="vessel_motion", what="standard_deviation", names={"motion": "roll"})
+    assert Kept.of_text("roll.std") == roll
+    with pytest.raises(SceneError, match="give each name once"):
+        Kept(channel="position[load, z]", names={"axis": "x"})
+    low = Kept(channel="position", what="minimum", names={"body": "bob", "axis": "z"})
+    keep: dict[str, Any] = {"low": "position[bob, z].min", "same": low}
+    found = ensemble(pendulum(), over={"gravity": [9.0, 9.8]}, keep=keep, t_end=1.0)
+    assert np.array_equal(found.dataset.low, found.dataset.same)
+
+
+def z(result: Result, body: str) -> Any:
+    return result.select("position", body=body, axis="z")
+
+
+def of_load(result: Result, axis: str, channel: str = "velocity") -> Any:
+    return result.select(channel, body="load", axis=axis)
+
+
+def corner(result: Result, axis: str) -> Any:
+    return result.select("point_position", point="corner", axis=axis)
+
+
+EXPRESSIONS: dict[str, tuple[str, str, Callable[[Result], Any]]] = {
+    "sum": ("corner.z - load.z + 3 m", "m", lambda r: corner(r, "z") - z(r, "load") + 3.0),
+    "signs": ("-load.z - -hull.z", "m", lambda r: -z(r, "load") + z(r, "hull")),
+    "order": ("load.z - 2 * hull.z / 4 - 1 m", "m", lambda r: z(r, "load") - 2 * z(r, "hull") / 4 - 1),
+    "left": ("load.z / 2 / 3 * 4", "m", lambda r: z(r, "load") / 2 / 3 * 4),
+    "nested": ("(load.z - (hull.z - 2 m)) * 0.5", "m", lambda r: (z(r, "load") - (z(r, "hull") - 2.0)) * 0.5),
+    "speed": ("hypot(velocity[load, x], velocity[load, axis=y])", "m/s",
+              lambda r: np.hypot(of_load(r, "x"), of_load(r, "y"))),
+    "root": ("sqrt(load.x * load.x + load.y * load.y)", "m",
+             lambda r: np.sqrt(of_load(r, "x", "position") ** 2 + of_load(r, "y", "position") ** 2)),
+    "angle": ("atan2(corner.y, corner.x)", "rad", lambda r: np.arctan2(corner(r, "y"), corner(r, "x"))),
+    "most": ("max(abs(hull.z), load.z, 200 mm)", "m",
+             lambda r: np.maximum(np.maximum(np.abs(z(r, "hull")), z(r, "load")), 0.2)),
+    "least": ("min(load.z, hull.z)", "m", lambda r: np.minimum(z(r, "load"), z(r, "hull"))),
+    "heel": ("heel[hull] - 10 deg", "rad", lambda r: r.select("heel", body="hull") - np.radians(10.0)),
+    "power": ("1e3 kg * acceleration[load, z] * velocity[load, z]", "W",
+              lambda r: 1e3 * of_load(r, "z", "acceleration") * of_load(r, "z")),
+    "constant": ("2.5e1 kN", "N", lambda r: np.full(r.time.size, 25e3)),
+}  # fmt: skip
+
+
+def described(scene: Scene) -> Scene:
+    for name, (text, _, _) in EXPRESSIONS.items():
+        scene.add_channel(name, expression=text)
+    return scene
+
+
+def test_expressions_are_those_of_numpy_on_what_was_recorded() -> None:
+    scene = described(tumbling())
+    result = simulate(scene, 3.0)
+    assert {"heel", "acceleration"} <= set(result)  # on request, and recorded by themselves
+    for name, (_, unit, expected) in EXPRESSIONS.items():
+        assert scene.channels[name].unit == unit
+        values = result.curve(f"own[{name}]")
+        assert values.shape == result.time.shape
+        assert_allclose(values, expected(result), rtol=4e-16, atol=1e-15, err_msg=name)
+    assert np.ptp(result.curve("own[speed]")) > 0.0 or np.ptp(result.curve("own[angle]")) > 0.1
+    alone = simulate(scene, 3.0, channels=["own"])
+    assert list(alone) == ["own"] and alone.coords["expression"] == tuple(EXPRESSIONS)
+    assert_array_equal(alone["own"], result["own"])
+    assert "own" not in simulate(tumbling(), 0.1)
+
+
+def test_a_limit_state_a_criterion_and_what_is_kept_take_it() -> None:
+    scene = tumbling()
+    scene.add_channel("over", expression="load.z - hull.z")
+    scene.add_limit_state("own[over]", minimum=5.0)
+    result = simulate(scene, 2.0)
+    lowest = result.curve("own[over]").min()
+    assert result.utilisation[0].utilisation == pytest.approx(5.0 / lowest)
+    assert Criterion(channel="own[over]", minimum=5.0).names == {"expression": "over"}
+    assert Kept.of_text("own[over].min").of(result).values == pytest.approx(lowest)
+
+
+def test_a_stage_ends_where_it_says(tmp_path: Path) -> None:
+    scene = hoisting()
+    scene.add_channel("raised", expression="load.z + 10 m")
+    scene.add_channel("slack", expression="line_unstretched_length[wire] - 2 m")
+    up = {"until": Until.channel("own[raised]", minimum=1.0), "maximum_duration": 20.0}
+    stages = [Stage(name="up", **up), Stage(name="on", duration=1.0)]
+    for asked in (None, ["own", "position", "hook_speed"]):
+        result = simulate_stages(scene, stages, dt_out=0.05, channels=asked)
+        end = result.stages[0].end
+        assert 1.5 < end < 3.0
+        assert np.interp(end, result.time, result.curve("own[raised]")) == pytest.approx(1.0, abs=1e-3)
+        assert_allclose(result.curve("own[raised]"), result.curve("position[load, z]") + 10.0, atol=1e-12)
+    assert "hook_speed" in result
+    assert_array_equal(Result.load(result.save(tmp_path / "run.nc"))["own"], result["own"])
+
+
+def test_files_keep_it_and_digests_tell_it(tmp_path: Path) -> None:
+    scene = tumbling()
+    digest, path = scene_digest(scene), tmp_path / "scene.json"
+    scene.save(path)
+    assert not Scene.load(path).channels
+    described(scene)
+    assert scene_digest(scene) != digest and scene_digest(tumbling()) == digest
+    scene.save(path)
+    assert Scene.load(path).channels == scene.channels
+    path.write_text(path.read_text().replace("corner.z", "croner.z"))
+    with pytest.raises(FileFormatError, match=r"no point or body 'croner'; did you mean 'corner'\?"):
+        Scene.load(path)
+
+
+NEEDED, DEEP = "number or a curve was expected at", f"more than {DEEPEST} parentheses"
+REFUSED = [
+    ("load.z + heel[hull]", r"'\+' is of m and rad"), ("load.z - 3", "'-' is of m and 1.*'3 m'"),
+    ("hypot(load.z, velocity[load, z])", "'hypot' is of m and m/s"), ("lod.z", "'lod'; did you mean 'load'"),
+    ("sqr(load.z)", "function 'sqr'; did you mean 'sqrt'"), ("atan2(load.z)", "atan2 has 1 arguments.*2"),
+    ("load.z load.x", "operator or the end .* at 'load.x'"), ("(load.z", r"'\)' was expected at its end"),
+    ("", f"channel 'a' is '': a {NEEDED}"), ("1e999 m", "'1e999' is no finite number"),
+    ("own[a]", "is a channel of your own too"), ("slew_angle", "slew_angle counts on over a whole run"),
+    ("load_state", "load_state is in SI"), ("vessel_motion", "one unit"),
+    ("position[load, z, after=3]", "leave after out"), ("__import__('os').system('true')", "is no part"),
+    ("load.z ** 2", rf"{NEEDED} '\*'"), ("(" * 100 + "load.z" + ")" * 100, DEEP),
+    ("-" * 900 + "load.z", DEEP), ("load.z+" * 500 + "load.z", f"3506 characters, above {LONGEST}"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "told"), REFUSED, ids=[row[0][:30] for row in REFUSED])
+def test_what_makes_no_sense_is_refused_by_name(text: str, told: str) -> None:
+    scene = tumbling()
+    with pytest.raises(SceneError, match=told) as caught:
+        scene.add_channel("a", expression=text)
+    assert str(caught.value).startswith("channel 'a'") and len(str(caught.value)) < 500
+    assert not scene.channels
+
+
+def test_names_that_the_scene_does_not_have_end_before_a_run() -> None:
+    scene = hoisting()
+    scene.add_channel("a", expression="line_tension[wier]")
+    with pytest.raises(SceneError, match=r"channel 'a': line_tension.*'wier'; did you mean 'wire'"):
+        simulate(scene, 0.1)
+
+
+def test_a_name_of_a_point_and_a_body_is_told_apart() -> None:
+    scene = tumbling()
+    scene.add_point(name="load", body="hull", point=(0, 0, 0))
+    with pytest.raises(SceneError, match=r"point and a body; write point_position\[load, z\] or position"):
+        scene.add_channel("a", expression="load.z")
+    scene.add_point(name="corner 0", body="hull", point=(0, 0, 0))
+    scene.add_channel("a", expression="'corner 0'.z - \"corner 0\".x")
+    assert scene.channels["a"].unit == "m"
+
+
+def test_random_texts_are_read_or_refused() -> None:
+    """Pieces of expressions in any order: nothing but a program or a SceneError comes of them."""
+    parts = [*FUNCTIONS, "load.z", "'a b'.x", "p[q, r]", "roll", "3", "1e9", ".5 m", "kN", "(", ")",
+             ",", "+", "-", "*", "/", "[", "]", "'", '"', ".", "=", "\u00b2", "\0", "9" * 400]  # fmt: skip
+    draw, read = random.Random(7), 0
+    for _ in range(20_000):
+        text = draw.choice(["", " "]).join(draw.choices(parts, k=draw.randint(1, 12)))
+        try:
+            read += len(parsed("fuzz", text)) > 0
+        except SceneError as error:
+            assert str(error).startswith("fuzz")
+    assert read > 500
+
+
+def test_ensembles_and_linear_models_take_it() -> None:
+    scene = cases.vessel(hs=1.0, tp=8.0)
+    scene.add_channel("bow", expression="vessel_motion[heave] - 60 m * vessel_motion[pitch] / 1 rad")
+    kept = ensemble(scene, over={"seed": [1, 2]}, keep={"bow": "own[bow].max"}, t_end=10.0)
+    assert not kept.failures
+    values = kept.dataset["bow"].values
+    assert values.shape == (2,) and values[0] != values[1]
+    motions = [Criterion(channel=channel, maximum=1.0) for channel in ("own[bow]", "heave", "pitch")]
+    known = linear_channels(linear_model(scene), motions)
+    assert_allclose(known.c[0], known.c[1] - 60.0 * known.c[2], atol=1e-9)

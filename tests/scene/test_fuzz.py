@@ -36,7 +36,6 @@ OTHER_DAMPING = 3  # last lines of the OrcaFlex model, which it may lack
 
 
 def placed(name: str, folder: Path) -> Target:
-    """A target among the files that stand beside its cases."""
     target = TARGETS[name]
     if target.reader == "orcaflex":
         pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")

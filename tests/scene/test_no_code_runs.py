@@ -6,16 +6,12 @@ import ast
 from pathlib import Path
 
 CALLS = {"eval", "exec", "compile", "__import__", "execfile"}
-MODULES = {
-    "pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "shelve", "marshal", "runpy", "code",
-}  # fmt: skip
+MODULES = {"pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "shelve", "marshal", "runpy",
+           "code"}  # fmt: skip
 # A .py script named on the command line is run, as the command says; YAML is read by a safe loader; an
 # ensemble hands its study to workers as bytes, which are in no file.
-ALLOWED = {
-    "ensembles/job.py": {"pickle"},
-    "cli/scene_source.py": {"run_path", "runpy"},
-    "hydro/readers/orcaflex_model.py": {"yaml.load"},
-}
+ALLOWED = {"ensembles/job.py": {"pickle"}, "cli/scene_source.py": {"run_path", "runpy"},
+           "hydro/readers/orcaflex_model.py": {"yaml.load"}}  # fmt: skip
 YAML = {"load", "load_all", "full_load", "unsafe_load", "Loader", "FullLoader", "UnsafeLoader"}
 METHODS = {"exec_module", "run_path", "run_module", "read_pickle", "unsafe_load"}
 

@@ -35,7 +35,7 @@ def test_every_load_between_two_points_is_drawn(kind: str) -> None:
     scene = Scene()
     load = LOAD_KINDS[kind].example()
     for name in (load.first, load.second):
-        scene.add_body(name=name, mass=1.0, inertia=(1.0, 1.0, 1.0))
+        scene.add_body(name, mass=1.0, inertia=(1.0,) * 3)
     scene.add_load(load)
     assert load.name in {wire["element"] for wire in wires_of(scene, list(scene.bodies))}
 

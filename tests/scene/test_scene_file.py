@@ -6,7 +6,6 @@ import dataclasses
 import json
 import math
 import pickle
-import struct
 from pathlib import Path
 from typing import Any
 
@@ -22,62 +21,51 @@ from seacrane.scene import HullLoads, SeaProvenance, VesselProvenance, Waves
 THIRD = 1.0 / 3.0
 
 
-def waves(body: str) -> Waves:
-    draw = np.random.default_rng(3)
-    omega, amplitude = np.array([0.5, 0.7, 1.1]), draw.uniform(0.01, 0.02, 3)
-    phase, direction = draw.uniform(0.0, 6.0, 3), draw.uniform(-3.0, 3.0, 3)
-    transfer = draw.normal(size=(3, 6)) + 1j * draw.normal(size=(3, 6))
-    return Waves(
-        omega=omega, amplitude=amplitude, phase=phase, direction=direction, evaluation="exact",
-        hulls={body: HullLoads(transfer=transfer, position=(THIRD, -0.0), heading=-THIRD)},
-        provenance=SeaProvenance(seed=3, repeat_period_s=math.inf, realised_hs=np.float64(THIRD)),
-    )  # fmt: skip
-
-
 def every_kind() -> Scene:
     """One of each element that a file can hold, with numbers that have no short decimal form."""
     scene = Scene(name="every kind", gravity=9.8 + THIRD / 100, baumgarte=THIRD, length_scale=1.1)
     inertia, half = np.array([[2.0, 0.1, 0.0], [0.1, 3.0, THIRD], [0.0, THIRD, 2.5]]), math.sqrt(0.5)
-    scene.add_body(name="hull", mass=1e7 * THIRD, inertia=inertia * 1e6, center_of_mass=(0.1, -0.2, THIRD))
-    scene.add_body(
-        name="arm", mass=5e-4, inertia=inertia * 1e-4, position=(1.0, THIRD, -2.0),
-        quaternion=(half, 0, half, 0), velocity=(0.0, -0.0, 1e-300), angular_velocity=(5e-324, 0.0, 0.0),
-        gravity=False,
-    )  # fmt: skip
+    scene.add_body("hull", mass=1e7 * THIRD, inertia=inertia * 1e6, center_of_mass=(0.1, -0.2, THIRD))
+    scene.add_body("arm", mass=5e-4, inertia=inertia * 1e-4, position=(1.0, THIRD, -2.0),
+                   quaternion=(half, 0, half, 0), velocity=(0.0, -0.0, 1e-300),
+                   angular_velocity=(5e-324, 0.0, 0.0), gravity=False)  # fmt: skip
     for i, name in enumerate(("bob", "kite")):
-        scene.add_body(name=name, mass=1.0, inertia=[1.0, 1.0, 1.0], position=(4.0, i, 0.0))
+        scene.add_body(name, mass=1.0, inertia=[1.0, 1.0, 1.0], position=(4.0, i, 0.0))
     pair = {"kind": "universal", "axis": (1, 0, 0), "second_axis": (0, THIRD, 1)}
     wire = {"kind": "distance", "point": (4, 0, 0), "second_point": (4, 1, THIRD)}
-    frames = {"first_frame": Frame(point=(4.0, 1.0, 0.0)), "second_frame": Frame()}
-    scene.add_joint(kind="revolute", name="pin", first="hull", second="arm", axis=(THIRD, 1.0, 0.2))
-    scene.add_joint(name="cross", first="hull", second="bob", **pair)
-    scene.add_joint(name="wire", first="bob", second="kite", **wire)
-    scene.add_joint(kind="cylindrical", name="sleeve", first="ground", second="kite", **frames)
+    frames = {"first_frame": Frame(point=(4, 1, 0)), "second_frame": Frame()}
+    scene.add_joint("pin", kind="revolute", first="hull", second="arm", axis=(THIRD, 1.0, 0.2))
+    scene.add_joint("cross", first="hull", second="bob", **pair)
+    scene.add_joint("wire", first="bob", second="kite", **wire)
+    scene.add_joint("sleeve", kind="cylindrical", first="ground", second="kite", **frames)
     swing = Curve.harmonic(offset=0.0, amplitude=0.01, omega=THIRD, phase=-math.pi / 2.0)
-    scene.add_driver(joint="sleeve", curve=swing, name="shaker")
+    scene.add_driver("sleeve", curve=swing, name="shaker")
     move = Curve.quintic(start_time=0.1, end_time=7.0, start=0.0, end=THIRD)
     scene.add_actuator(name="motor", joint="pin", stiffness=THIRD, damping=0.2, feed_forward=1e-3,
                        reference=move.then(time=9.0, curve=swing))  # fmt: skip
-    scene.add_point_force(name="push", body="arm", force=(THIRD, 0, 0), point=(0, THIRD, 0), body_axes=True)
+    scene.add_point_force("push", body="arm", force=(THIRD, 0, 0), point=(0, THIRD, 0), body_axes=True)
     soft = {"stiffness": THIRD, "damping": 0.1, "natural_length": 0.3}
     table = {"first_point": (0, 0, THIRD), "lengths": [1, 2.5], "forces": [0, THIRD]}
-    scene.add_spring(name="soft", first="ground", second="bob", **soft)
-    scene.add_spring(name="table", first="hull", second="kite", **table)
+    scene.add_spring("soft", first="ground", second="bob", **soft)
+    scene.add_spring("table", first="hull", second="kite", **table)
     loads = np.arange(12.0).reshape(2, 6) / 7
     scene.add_force_table(name="gust", body="kite", times=[0.0, THIRD], loads=loads)
     matrix, restoring = np.diag([1e6, 2e6, 3e6, 4e6, 5e6, 6e6]) * THIRD, np.diag([0, 0, 1e6, 2e6, 3e6, 0])
-    memory = [
-        StateSpaceBlock(inputs=[2, 4], outputs=[4], a=[[-1.0, THIRD], [0.0, -2.0]], b=np.eye(2),
-                        c=[[THIRD, 1.0]], d=[[0.0, 1e-9]], state_scale=[0.5, THIRD]),
-        StateSpaceBlock(inputs=[0], outputs=[0], a=np.zeros((0, 0)), b=np.zeros((0, 1)), c=np.zeros((1, 0)),
-                        d=[[3.0]]),
-    ]  # fmt: skip
-    scene.add_vessel(
-        body="hull", name="water", added_mass=matrix, linear_damping=matrix / 10, restoring=restoring,
-        quadratic_damping=np.arange(6.0), mooring_stiffness=(1e4, 2e4, 3e4), mooring_damping=(1, 2, THIRD),
-        memory=memory,
-    )  # fmt: skip
-    scene.waves = waves("hull")
+    memory = [StateSpaceBlock(inputs=[2, 4], outputs=[4], a=[[-1.0, THIRD], [0.0, -2.0]], b=np.eye(2),
+                              c=[[THIRD, 1.0]], d=[[0.0, 1e-9]], state_scale=[0.5, THIRD]),
+              StateSpaceBlock(inputs=[0], outputs=[0], a=np.zeros((0, 0)), b=np.zeros((0, 1)),
+                              c=np.zeros((1, 0)), d=[[3.0]])]  # fmt: skip
+    scene.add_vessel(body="hull", name="water", added_mass=matrix, linear_damping=matrix / 10,
+                     restoring=restoring, quadratic_damping=np.arange(6.0), mooring_stiffness=(1e4, 2e4, 3e4),
+                     mooring_damping=(1, 2, THIRD), memory=memory)  # fmt: skip
+    draw = np.random.default_rng(3)
+    omega, amplitude = np.array([0.5, 0.7, 1.1]), draw.uniform(0.01, 0.02, 3)
+    phase, direction = draw.uniform(0.0, 6.0, 3), draw.uniform(-3.0, 3.0, 3)
+    transfer = draw.normal(size=(3, 6)) + 1j * draw.normal(size=(3, 6))
+    hull = HullLoads(transfer=transfer, position=(THIRD, -0.0), heading=-THIRD)
+    told = SeaProvenance(seed=3, repeat_period_s=math.inf, realised_hs=np.float64(THIRD))
+    scene.waves = Waves(omega=omega, amplitude=amplitude, phase=phase, direction=direction,
+                        hulls={"hull": hull}, provenance=told, evaluation="exact")  # fmt: skip
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.record_coordinate(joint="sleeve", coordinate="angle", name="turn")
     scene.add_roles(prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="wire")
@@ -88,20 +76,16 @@ def every_kind() -> Scene:
 
 
 def plain(value: Any) -> Any:
-    """Everything a scene holds, as nested lists with each float as its eight bytes."""
-    if isinstance(value, (float, np.floating)):
-        return struct.pack("<d", value)
-    if isinstance(value, (complex, np.complexfloating)):
-        return [plain(value.real), plain(value.imag)]
-    if isinstance(value, np.integer):
-        return int(value)
+    """Everything a scene holds, as nested lists with each number as its bytes."""
+    if isinstance(value, (float, complex, np.number)):
+        return np.asarray(value, dtype=complex).tobytes()
     if isinstance(value, Curve):
         return plain(value.to_pieces())
     if isinstance(value, (list, tuple, np.ndarray)):
         return [plain(item) for item in value]
     if isinstance(value, dict):
         return [[key, plain(item)] for key, item in value.items()]
-    if isinstance(value, (str, int, bool, type(None))):
+    if isinstance(value, (str, int, type(None))):
         return value
     names = [name for name in dir(value) if not name.startswith("_") and not callable(getattr(value, name))]
     assert names, f"{value!r} shows nothing to compare"
@@ -140,8 +124,8 @@ def test_a_loaded_case_runs_to_the_same_bits(tmp_path: Path) -> None:
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=6, max_size=6))
 def test_any_finite_number_comes_back(tmp_path: Path, values: list[float]) -> None:
     scene = Scene()
-    scene.add_body(name="b", mass=1.0, inertia=[1, 1, 1], velocity=values[:3])
-    scene.add_point_force(name="f", body="b", force=values[3:])
+    scene.add_body("b", mass=1.0, inertia=[1, 1, 1], velocity=values[:3])
+    scene.add_point_force("f", body="b", force=values[3:])
     scene.notes["values"] = values
     scene.save(tmp_path / "scene.json")
     back = Scene.load(tmp_path / "scene.json")
@@ -195,32 +179,25 @@ def test_a_truncated_file_names_its_line(tmp_path: Path, text: str) -> None:
 
 MORE = object()  # an entry more, as the last
 BROKEN: list[tuple[str, Any, str]] = [  # the entry, what it becomes, and what is told
-    ("version", "0.5", r"file version '0\.5'.*version '0\.4'; make"), ("version", 1, "is of file version 1"),
+    ("version", "0.5", r"file version '0\.5'.*version '0\.4'; make"), ("gravity", "9", "gravity is '9'"),
     ("sprngs", [], "unknown entry 'sprngs'.*springs"), ("bodies", {}, "bodies is {}.*list"),
-    ("name", 3, "name is 3"), ("gravity", "9", "gravity is '9'.*number"),
     ("bodies 1", 7, r"bodies\[1\] is 7.*object with name, mass"),
-    ("bodies 0 mass", True, r"bodies\[0\].mass is True"),
+    ("bodies 0 mass", True, r"bodies\[0\].mass is True"), ("bodies 0 gravity", 1, "gravity is 1.*true"),
     ("bodies 0 mass", 10**400, r"bodies\[0\].mass.*1.8e308"),
-    ("bodies 0 gravity", 1, r"bodies\[0\].gravity is 1.*true"),
     ("bodies 0 masss", 1, r"bodies\[0\].*unknown.*masss"),
-    ("bodies 0 position", [0, 0], "position: has 2 entries; give 3"),
     ("bodies 0 inertia 1", [0.0] * 4, r"inertia\[1\]: has 4 entries; give 3"),
-    ("bodies 2 position", [0, 0, 0, None], "position: has 4"),
     ("bodies 2 velocity", [0, 0, None], r"bodies\[2\].velocity\[2\]"),
     ("bodies 3 name", "hull", "body 'hull'.*twice"),
-    ("joints 0 second", ["arm"], r"joints\[0\].second is \['arm'\]"),
-    ("joints 0 first_frame", "x", r"joints\[0\].first_frame is 'x'"),
     ("joints 0 first_frame axis", 1, "first_frame: has an unknown"),
     ("drivers 0 curve", {"starts": [], "coefficients": [], "cosines": []}, r"drivers\[0\].curve.*no pieces"),
     ("actuators 0 reference coefficients 0", [0.0] * 5, r"actuators\[0\].*coefficients\[0\].*5.*give 6"),
     ("drivers 0 joint", "x", r"drivers\[0\].*no joint 'x'"),
-    ("vessels 0 kinematics", "x", r"vessels\[0\].*'x'"),
     ("vessels 0 memory 0 inputs", [1.5, 2], r"vessels\[0\].memory\[0\].inputs\[0\] is 1.5.*whole number"),
     ("vessels 0 memory 0 b", [[1.0, 0.0]], r"memory\[0\].b: has 1 entries"),
-    ("waves phase", [0.0, 1.0], "waves.phase: has 2 entries; give 3"), ("waves", [], r"waves is \[\]"),
+    ("waves phase", [0.0, 1.0], "waves.phase: has 2 entries; give 3"),
     ("waves hulls 0 transfer_imaginary 1", [0.0] * 5, r"hulls\[0\].transfer_imaginary\[1\]: has 5"),
     ("waves hulls", MORE, r"waves.hulls\[1\].body is 'hull'.*every vessel once"),
-    ("recorded 0 joint", "x", r"recorded\[0\].*no joint 'x'"), ("notes", [], r"notes is \[\].*object"),
+    ("recorded 0 joint", "x", r"recorded\[0\].*no joint 'x'"),
 ]  # fmt: skip
 
 
@@ -243,18 +220,8 @@ def test_numbers_and_keys_that_are_none(tmp_path: Path, text: str) -> None:
     refused(tmp_path, text.replace(key, key + key), "'version' occurs twice")
 
 
-def test_nested_notes(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "lift.json"
-    path.write_text(text.replace('"author": "someone"', f'"author": {"[" * 900 + "]" * 900}'))
-    try:
-        assert isinstance(Scene.load(path).notes["author"], list)
-    except FileFormatError as error:  # depends on how deep the caller stands
-        assert "nested" in str(error)
-
-
-def test_a_file_larger_than_the_bound_is_not_parsed(
-    tmp_path: Path, text: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_larger_than_the_bound_is_not_parsed(tmp_path: Path, text: str,
+                                                    monkeypatch: pytest.MonkeyPatch) -> None:  # fmt: skip
     for place in ("file", "file_text"):
         monkeypatch.setattr(f"seacrane.description.{place}.LARGEST_FILE", len(text) - 1)
     refused(tmp_path, text, "larger than")
@@ -264,18 +231,13 @@ def test_a_file_larger_than_the_bound_is_not_parsed(
 
 
 OTHERS: dict[str, tuple[bytes, str]] = {
-    "crane.toml": (b"name = 'crane'\n", "TOML, as of a crane"),
-    "hook.step": (b"ISO-10303-21;\nHEADER;\n", "a STEP model"),
-    "crane.urdf": (b'<?xml version="1.0"?>\n<robot name="crane"/>\n', "XML, such as a URDF model"),
-    "run.nc": (b"\x89HDF\r\n\x1a\n", "a NetCDF file"), "lift.py": (b"import seacrane\n", "a Python script"),
-    "ship.yml": (b"General:\n  Units: SI\n", "YAML, as of an OrcaFlex model"),
-    "empty.json": (b" \n", "empty"), "list.json": (b"[1, 2]", "a JSON list"),
-    "run.state": (b"seacrane state\n{}", "a state"), "notes.txt": (b"hello", "something else"),
+    "crane.toml": (b"name = 'crane'\n", "TOML, as of a crane"), "lift.py": (b"import a\n", "a Python script"),
+    "run.nc": (b"\x89HDF\r\n\x1a\n", "a NetCDF file"), "run.state": (b"seacrane state\n{}", "a state"),
+    "notes.txt": (b"hello", "something else"),
 }  # fmt: skip
 
 
 def test_a_file_of_another_kind_is_named_as_what_it_is(tmp_path: Path, text: str) -> None:
-    """Not as malformed JSON."""
     for name, (content, kind) in OTHERS.items():
         (tmp_path / name).write_bytes(content)
         with pytest.raises(FileFormatError, match=f"{name}: is {kind}.*no scene file.*Scene.save"):

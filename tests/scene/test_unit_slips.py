@@ -22,9 +22,7 @@ SLIPS = {
     for key in sample.numbers
     for label, factor in FACTORS.items()
 }
-ELEMENTS = {
-    *_core.LOAD_KINDS.values(), _core.Body, _core.Driver, _core.VesselHydrodynamics, _core.Point,
-}  # fmt: skip
+ELEMENTS = {*_core.LOAD_KINDS.values(), _core.Body, _core.Driver, _core.VesselHydrodynamics, _core.Point}
 NO_QUANTITIES = {  # directions, angles that tables turn about, counts, shares of a line; a C function's own
     "Body.quaternion", "FlowForce.angles", "Line.axes", "Line.turns", "Line.share", "ImmersedSpan.share",
     "FunctionForce.parameters",
@@ -75,7 +73,7 @@ def test_values_that_are_meant_as_none_are_no_slips() -> None:
     """A bound of 1e7 is none, whether it was written or left out."""
     scene, wire = with_load(), {"bodies": ["ground", "load"], "points": np.zeros((2, 3))}
     scene.add_line(name="wire", EA=5e7, tension_at_start=MASS * scene.gravity, **wire)
-    scene.add_winch(line="wire", maximum_rate=1e7, maximum_acceleration=1e7, lag=0.2, maximum_tension=1e12)
+    scene.add_winch("wire", maximum_rate=1e7, maximum_acceleration=1e7, lag=0.2, maximum_tension=1e12)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         simulate(scene, t_end=0.2)

@@ -28,41 +28,35 @@ def refused(repository: Path) -> dict[str, list[str]]:
 
 
 def replaced(place: str, word: str, refused: dict[str, list[str]]) -> bool:
-    """Whether a word at a place is one that the table replaces."""
     rows = [stays for old, stays in refused.items() if fnmatchcase(word, old)]
     return any(not any(fnmatchcase(place, at) for at in stays) for stays in rows)
 
 
 def keywords_of(name: str, call: Any) -> Iterator[tuple[str, str]]:
-    """Each parameter of a call, with where it is."""
     try:
-        parameters = inspect.signature(call).parameters.values()
+        parameters = inspect.signature(call).parameters
     except (TypeError, ValueError):  # of the core, whose keywords are those of Scene
         return
-    yield from ((f"{name}({one.name}=)", one.name) for one in parameters)
+    yield from ((f"{name}({one}=)", one) for one in parameters)
 
 
 def public(module: ModuleType, prefix: str = "") -> Iterator[tuple[str, str]]:
     """Keywords of what a module shows, of its modules, and of the methods of its classes."""
-    for name in dir(module):
+    for name in (name for name in dir(module) if not name.startswith("_")):
         one = getattr(module, name)
-        if name.startswith("_") or not str(getattr(one, "__module__", "seacrane")).startswith("seacrane"):
-            continue
         if isinstance(one, ModuleType):
             if one.__name__.startswith("seacrane.") and not prefix:
                 yield from public(one, f"{name}.")
-        elif isinstance(one, type):
-            if issubclass(one, BaseException):
-                continue
+        elif not str(getattr(one, "__module__", "")).startswith("seacrane") or not callable(one):
+            continue
+        elif not (isinstance(one, type) and issubclass(one, BaseException)):
             yield from keywords_of(prefix + name, one)
-            for method in (method for method in vars(one) if not method.startswith("_")):
-                yield from keywords_of(f"{prefix}{name}.{method}", getattr(one, method))
-        elif callable(one):
-            yield from keywords_of(prefix + name, one)
+            for method in vars(one) if isinstance(one, type) else ():
+                if not method.startswith("_"):
+                    yield from keywords_of(f"{prefix}{name}.{method}", getattr(one, method))
 
 
 def keys_in(path: str, keys: Iterable[Key]) -> Iterator[tuple[str, str]]:
-    """Keys of a table and of those inside it."""
     for key in keys:
         yield f"[{path}] {key.name}", key.name
         yield from keys_in(f"{path}.{key.name}", key.keys)

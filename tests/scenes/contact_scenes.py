@@ -13,18 +13,16 @@ GRAVITY = 9.80665
 MASS, STIFFNESS = 2000.0, 8.0e6
 FEET = np.array([(x, y, 0.0) for x in (-1.0, 1.0) for y in (-1.0, 1.0)])  # as high as the centre: no tipping
 # d v, restitution, deepest compression over v sqrt(m / k): Hunt and Crossley's law in closed form
-REBOUNDS = (
-    (0.05, 0.96773858, 0.98380316), (0.1, 0.93747558, 0.96848544), (0.2, 0.88218999, 0.94017135),
-    (0.5, 0.74843493, 0.86964311), (1.0, 0.59362426, 0.78339367), (2.0, 0.41071969, 0.67133736),
-)  # fmt: skip
+REBOUNDS = ((0.05, 0.96773858, 0.98380316), (0.1, 0.93747558, 0.96848544), (0.2, 0.88218999, 0.94017135),
+            (0.5, 0.74843493, 0.86964311), (1.0, 0.59362426, 0.78339367),
+            (2.0, 0.41071969, 0.67133736))  # fmt: skip
 
 
 def ball(speed: float, damping: float, **contact: Any) -> Scene:
     """A ball that flies against the ground, without gravity, 0.1 m before it."""
     scene = Scene(name="ball", gravity=0.0)
-    scene.add_body(
-        name="ball", mass=MASS, inertia=(1.0e3,) * 3, position=(0, 0, 0.1), velocity=(0, 0, -speed)
-    )
+    scene.add_body(name="ball", mass=MASS, inertia=(1.0e3,) * 3, position=(0, 0, 0.1),
+                   velocity=(0, 0, -speed))  # fmt: skip
     scene.add_contact("ball", points=[(0.0, 0.0, 0.0)], on="ground", stiffness=STIFFNESS, damping=damping,
                       name="wall", **contact)  # fmt: skip
     return scene

@@ -7,6 +7,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import named
 import numpy as np
 
 from seacrane import Curve, HydroDatabase, Kept, Result, Scene
@@ -26,10 +27,7 @@ SWING = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
 
 
 def pendulum(*, mass: float = 2.0, start: float = 1.0) -> Scene:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=mass, inertia=(0.1, 0.1, 0.1), position=(start, 0.0, 0.0))
-    scene.add_joint("pin", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
-    return scene
+    return named.pendulum(mass=mass, arm=start)
 
 
 def luffed(*, turned: bool = False, behind: bool = False, driven: bool = False) -> Scene:

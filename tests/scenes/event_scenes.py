@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from named import on_joint
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
@@ -17,26 +18,20 @@ LENGTH, FIRST_SPEED = 2.0, 8.0  # of the pendulum: enough to leave the circle, t
 
 def ball(*, restitution: float = 0.5, height: float = HEIGHT, sticking_speed: float = 1e-3) -> Scene:
     scene = Scene(name="ball")
-    scene.add_body(name="ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, height))
-    scene.add_joint(kind="free", name="air", first="ground", second="ball", point=(0.0, 0.0, height))
-    scene.add_end_stop(
-        joint="air", coordinate="z", minimum=-height, restitution=restitution,
-        sticking_speed=sticking_speed, name="floor",
-    )  # fmt: skip
+    scene.add_body("ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, height))
+    scene.add_joint("air", kind="free", first="ground", second="ball", point=(0.0, 0.0, height))
+    scene.add_end_stop(joint="air", coordinate="z", minimum=-height, restitution=restitution,
+                       sticking_speed=sticking_speed, name="floor")  # fmt: skip
     return scene
 
 
 def pendulum(restitution: float = 0.0, **wire: Any) -> Scene:
     """A ball below its hook, thrown sideways so fast that the wire goes slack before the top."""
     scene = Scene(name="pendulum")
-    scene.add_body(
-        name="ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, -LENGTH),
-        velocity=(FIRST_SPEED, 0.0, 0.0)
-    )  # fmt: skip
-    scene.add_joint(
-        kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
-        second_point=(0.0, 0.0, -LENGTH),
-    )  # fmt: skip
+    scene.add_body("ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, -LENGTH),
+                   velocity=(FIRST_SPEED, 0.0, 0.0))  # fmt: skip
+    scene.add_joint("wire", kind="distance", first="ground", second="ball", point=(0, 0, 0),
+                    second_point=(0.0, 0.0, -LENGTH))  # fmt: skip
     scene.add_line(joint="wire", rung="rigid", restitution=restitution, **wire)
     return scene
 
@@ -59,9 +54,8 @@ def scipy_pendulum(times: Array, restitution: float) -> tuple[Array, list[float]
     y = np.array([0.0, FIRST_SPEED / LENGTH])
     while t < end:
         if taut:
-            run = solve_ivp(
-                lambda _, y: [y[1], -GRAVITY / LENGTH * np.sin(y[0])], (t, end), y, events=tension, **settings
-            )
+            run = solve_ivp(lambda _, y: [y[1], -GRAVITY / LENGTH * np.sin(y[0])], (t, end), y,
+                            events=tension, **settings)  # fmt: skip
         else:
             run = solve_ivp(lambda _, y: [y[2], y[3], 0.0, -GRAVITY], (t, end), y, events=reach, **settings)
         here = (times >= t) & (times <= run.t[-1])
@@ -95,13 +89,8 @@ def scipy_pendulum(times: Array, restitution: float) -> tuple[Array, list[float]
 
 def pushed(restitution: float = 0.0) -> Scene:
     """A slide pushed against its stop by a load that turns round: F = -F0 cos(w t)."""
-    scene = Scene(name="pushed", gravity=0.0)
-    scene.add_body(name="slide", mass=MASS, inertia=INERTIA)
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="slide", axis=(1.0, 0.0, 0.0))
-    scene.add_actuator(
-        joint="rail", name="ram", feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0)
-    )  # fmt: skip
-    scene.record_coordinate(joint="rail")
+    scene = on_joint("slide", mass=MASS, gravity=0.0)
+    scene.add_actuator("rail", name="ram", feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0))
     scene.add_end_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=restitution)
     return scene
 
@@ -109,18 +98,12 @@ def pushed(restitution: float = 0.0) -> Scene:
 def lift(rate: float = 0.2, stiffness: float = 2.0e3) -> Scene:
     """A load on the deck, a hook that is hauled up, a spring between them that is just slack at the start."""
     scene = Scene(name="lift")
-    scene.add_body(name="load", mass=MASS, inertia=INERTIA)
-    scene.add_body(
-        name="hook", mass=1.0, inertia=INERTIA, position=(0.0, 0.0, 5.0), velocity=(0.0, 0.0, rate)
-    )
-    scene.add_joint(kind="weld", name="deck", first="ground", second="load")
-    scene.add_joint(kind="prismatic", name="hoist", first="ground", second="hook")
-    scene.add_driver(
-        joint="hoist", curve=Curve.pieces(starts=[-1.0], coefficients=[[-rate, rate, 0.0, 0.0, 0.0, 0.0]])
-    )  # fmt: skip
-    scene.add_spring(
-        name="wire", first="hook", second="load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
-        stiffness=stiffness, natural_length=5.0,
-    )  # fmt: skip
+    scene.add_body("load", mass=MASS, inertia=INERTIA)
+    scene.add_body("hook", mass=1.0, inertia=INERTIA, position=(0, 0, 5), velocity=(0.0, 0.0, rate))
+    scene.add_joint("deck", kind="weld", first="ground", second="load")
+    scene.add_joint("hoist", kind="prismatic", first="ground", second="hook")
+    rise = Curve.pieces(starts=[-1.0], coefficients=[[-rate, rate, 0, 0, 0, 0]])
+    scene.add_driver("hoist", curve=rise)
+    scene.add_spring("wire", first="hook", second="load", stiffness=stiffness, natural_length=5.0)
     scene.add_seat(joint="deck")
     return scene

@@ -13,7 +13,6 @@ from test_hydro_nemoh import control
 from seacrane.hydro import HydroDatabase, HydroGroup, shipped_database
 from seacrane.sea.dispersion import wavenumber
 
-NAMES = ("crane", "feeder")
 MOTIONS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 FEEDER = (6.0, 38.0, -1.5)  # m, reference point of the second hull
 HEIGHT = 1.5  # m, of the first one's reference point above the still waterline
@@ -22,26 +21,20 @@ HEIGHT = 1.5  # m, of the first one's reference point above the still waterline
 def written_pair(*, heading: float = 0.0, hull: HydroDatabase | None = None) -> HydroGroup:
     """A hull twice, with coupling blocks of any numbers, so that no transposition goes unseen."""
     hull = hull or shipped_database().select(every=8, every_heading=3)
-    pair = HydroGroup.from_databases(
-        databases={"crane": hull, "feeder": hull},
-        positions={"crane": (0.0, 0.0, HEIGHT), "feeder": FEEDER},
-        headings={"feeder": heading},
-        name="pair",
-    )
+    pair = HydroGroup.from_databases(databases={"crane": hull, "feeder": hull},
+                                     positions={"crane": (0.0, 0.0, HEIGHT), "feeder": FEEDER},
+                                     headings={"feeder": heading}, name="pair")  # fmt: skip
     draw = np.random.default_rng(33)
     size = np.sqrt(np.abs(np.diagonal(pair.added_mass, axis1=1, axis2=2)).max(axis=0))
     coupling = np.kron(1.0 - np.eye(2), np.ones((6, 6))) * np.outer(size, size)
     shape = pair.added_mass.shape
     infinite = pair.infinite_frequency_added_mass
-    return replace(
-        pair,
-        added_mass=pair.added_mass + 0.1 * coupling * draw.standard_normal(shape),
-        damping=pair.damping + 0.1 * coupling * draw.standard_normal(shape),
-        infinite_frequency_added_mass=infinite + 0.1 * coupling * draw.standard_normal(shape[1:]),
-        zero_frequency_added_mass=None,
-        force=pair.force * (1.0 + 0.1 * draw.standard_normal(pair.force.shape[2])),
-        trusted_band=None,
-    )
+    return replace(pair, added_mass=pair.added_mass + 0.1 * coupling * draw.standard_normal(shape),
+                   damping=pair.damping + 0.1 * coupling * draw.standard_normal(shape),
+                   infinite_frequency_added_mass=infinite + 0.1 * coupling * draw.standard_normal(shape[1:]),
+                   zero_frequency_added_mass=None,
+                   force=pair.force * (1.0 + 0.1 * draw.standard_normal(pair.force.shape[2])),
+                   trusted_band=None)  # fmt: skip
 
 
 def capytaine_dataset(group: HydroGroup) -> xarray.Dataset:
@@ -62,23 +55,18 @@ def capytaine_dataset(group: HydroGroup) -> xarray.Dataset:
     bodies = group.names[::-1]
     by_name = {body.name: body for body in group.bodies}
     centres = (("body", "space_coordinate"), np.array([by_name[name].position for name in bodies]))
-    return xarray.Dataset(
-        {
-            "added_mass": (("omega", *matrix), added_mass[square]),
-            "radiation_damping": (("omega", *matrix), damping[square]),
-            "excitation_force": (waves, np.stack([turned.real, turned.imag])),
-            "inertia_matrix": (matrix, group.mass_matrix[np.ix_(order, order)]),
-            "hydrostatic_stiffness": (matrix, group.restoring[np.ix_(order, order)]),
-            "draught": ("body", [by_name[name].draught for name in bodies]),
-        },
-        {
-            "omega": omega, "wave_direction": group.heading, "complex": ["re", "im"], "body": list(bodies),
-            "influenced_dof": labels[order], "radiating_dof": labels[order], "rho": group.rho, "g": group.g,
-            "space_coordinate": ["x", "y", "z"], "rotation_center": centres, "water_depth": np.inf,
-            "forward_speed": 0.0,
-        },
-        {"capytaine_version": "3.0.0"},
-    )  # fmt: skip
+    return xarray.Dataset({"added_mass": (("omega", *matrix), added_mass[square]),
+                           "radiation_damping": (("omega", *matrix), damping[square]),
+                           "excitation_force": (waves, np.stack([turned.real, turned.imag])),
+                           "inertia_matrix": (matrix, group.mass_matrix[np.ix_(order, order)]),
+                           "hydrostatic_stiffness": (matrix, group.restoring[np.ix_(order, order)]),
+                           "draught": ("body", [by_name[name].draught for name in bodies])},
+                          {"omega": omega, "wave_direction": group.heading, "complex": ["re", "im"],
+                           "body": list(bodies), "influenced_dof": labels[order],
+                           "radiating_dof": labels[order], "rho": group.rho, "g": group.g,
+                           "space_coordinate": ["x", "y", "z"], "rotation_center": centres,
+                           "water_depth": np.inf, "forward_speed": 0.0},
+                          {"capytaine_version": "3.0.0"})  # fmt: skip
 
 
 def capytaine_file(group: HydroGroup, folder: Path) -> Path:

@@ -37,9 +37,8 @@ def revolved(radius: Array, height: Array, count: int) -> Mesh:
     """Body of revolution about the z axis from its meridian, bottom to top, in quadrilaterals."""
     angle = np.arange(count) * 2.0 * np.pi / count
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    vertices = np.concatenate(
-        [np.column_stack([r * ring, np.full(count, h)]) for r, h in zip(radius, height, strict=True)]
-    )
+    vertices = np.concatenate([np.column_stack([r * ring, np.full(count, h)]) for r,
+                               h in zip(radius, height, strict=True)])  # fmt: skip
     faces = []
     for i in range(len(radius) - 1):
         for j in range(count):

@@ -19,13 +19,12 @@ FULL, RING = np.pi / 4.0 * BORE**2, np.pi / 4.0 * (BORE**2 - ROD**2)
 RETRACTED, STROKE, START = 1.05, 0.6, 0.3  # m
 HOLDING = MASS * G
 # Rahikainen et al., Multibody Syst. Dyn. 2020, as Chrono's hydraulic crane has them.
-SET: dict[str, Any] = {
-    "full_area": FULL, "rod_side_area": RING, "retracted_length": RETRACTED, "stroke": STROKE,
-    "hose_volume": 31.4e-6, "hose_volume_rod": 78.5e-6, "oil_modulus": 1.5e9, "hose_modulus": 1.5e8,
-    "cylinder_modulus": 3.15e10, "pump_pressure": 7.6e6, "tank_pressure": 0.1e6, "rated_flow": 24e-3 / 60.0,
-    "rated_drop": 3.5e6, "laminar_drop": 2e5, "spool_lag": 1.0 / (2.0 * np.pi * 35.0),
-    "viscous_friction": 1e5,
-}  # fmt: skip
+SET: dict[str, Any] = {"full_area": FULL, "rod_side_area": RING, "retracted_length": RETRACTED,
+                       "stroke": STROKE, "hose_volume": 31.4e-6, "hose_volume_rod": 78.5e-6,
+                       "oil_modulus": 1.5e9, "hose_modulus": 1.5e8, "cylinder_modulus": 3.15e10,
+                       "pump_pressure": 7.6e6, "tank_pressure": 0.1e6, "rated_flow": 24e-3 / 60.0,
+                       "rated_drop": 3.5e6, "laminar_drop": 2e5, "spool_lag": 1.0 / (2.0 * np.pi * 35.0),
+                       "viscous_friction": 1e5}  # fmt: skip
 
 
 def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **settings: Any) -> Scene:
@@ -33,13 +32,9 @@ def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **s
     sign = 1.0 if above else -1.0
     scene = Scene(name="on a cylinder")
     place = (0.0, 0.0, sign * (RETRACTED + START))
-    scene.add_body(
-        name="load", mass=mass, inertia=(10.0, 10.0, 10.0), position=place, velocity=(0, 0, velocity)
-    )
-    scene.add_joint(
-        kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1)
-    )
-    scene.add_hydraulic_cylinder(name="ram", first="ground", second="load", **SET | settings)
+    scene.add_body("load", mass=mass, inertia=(10.0,) * 3, position=place, velocity=(0, 0, velocity))
+    scene.add_joint("guide", kind="prismatic", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1))
+    scene.add_hydraulic_cylinder("ram", first="ground", second="load", **SET | settings)
     return scene
 
 
@@ -101,19 +96,16 @@ def own_solution(times: Array, pressures: tuple[float, float], **more: Any) -> A
         swept1, swept2 = FULL * s, RING * (STROKE - s)
         b1, b2 = modulus(swept1, given["hose_volume"]), modulus(swept2, given["hose_volume_rod"])
         force = p1 * FULL - p2 * RING - given["viscous_friction"] * v
-        return [
-            v, force / MASS - G, b1 / (swept1 + given["hose_volume"]) * (q1 - FULL * v),
-            b2 / (swept2 + given["hose_volume_rod"]) * (q2 + RING * v), (command(t) - u) / given["spool_lag"],
-        ]  # fmt: skip
+        return [v, force / MASS - G, b1 / (swept1 + given["hose_volume"]) * (q1 - FULL * v),
+                b2 / (swept2 + given["hose_volume_rod"]) * (q2 + RING * v),
+                (command(t) - u) / given["spool_lag"]]  # fmt: skip
 
     found, x = [], np.array([START, 0.0, *pressures, 0.0])
     corners = [0.0, 0.1, 0.3, 0.8, 0.9, 1.2, 1.4, float(times[-1])]
     for begin, end in pairwise(corners):
         inside = times[(times >= begin) & (times < end)]
-        part = solve_ivp(
-            rates, (begin, end), x, method="Radau", t_eval=[*inside, end], rtol=1e-10,
-            atol=[1e-12, 1e-12, 1e-4, 1e-4, 1e-12],
-        )  # fmt: skip
+        part = solve_ivp(rates, (begin, end), x, method="Radau", t_eval=[*inside, end], rtol=1e-10,
+                         atol=[1e-12, 1e-12, 1e-4, 1e-4, 1e-12])  # fmt: skip
         found.append(part.y[:, :-1])
         x = part.y[:, -1]
     return np.hstack([*found, x[:, None]])

@@ -14,19 +14,12 @@ G = 9.80665
 MASS, STIFFNESS = 20e3, 3e6  # kg, N/m: of the load and of the line at its start
 
 
-def hung(
-    *,
-    length: float = 10.0,
-    damping: float = 0.0,
-    stretch: float = MASS * G / STIFFNESS,
-    falls: int = 1,
-    **load: Any,
-) -> Scene:
+def hung(*, length: float = 10.0, damping: float = 0.0, stretch: float = MASS * G / STIFFNESS, falls: int = 1,
+         **load: Any) -> Scene:  # fmt: skip
     """A load below a fixed block, stretched by its own weight; `length` is that of one fall, unstretched."""
     scene = Scene(name="hung")
-    scene.add_body(
-        name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -length - stretch), **load
-    )
+    scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -length - stretch),
+                   **load)  # fmt: skip
     blocks = ["ground", "load"] * falls
     scene.add_line(name="hoist", bodies=blocks[: falls + 1], points=np.zeros((falls + 1, 3)),
                    EA=STIFFNESS * length / falls, length=falls * length, damping_ratio=damping,
@@ -50,13 +43,11 @@ def on_deck() -> Scene:
     """A load that a winch lifts off its seat."""
     scene = Scene(name="on deck")
     scene.add_body(name="load", mass=2e3, inertia=(300.0, 300.0, 300.0))
-    scene.add_joint(
-        kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1)
-    )
+    scene.add_joint(kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0),
+                    axis=(0, 0, 1))  # fmt: skip
     scene.add_end_stop(joint="guide", minimum=0.0)
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=[(0, 0, 10), (0, 0, 0)], EA=2e6, length=10.05
-    )
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 10), (0, 0, 0)], EA=2e6,
+                   length=10.05)  # fmt: skip
     scene.add_winch(line="hoist", rate=-0.2, lag=0.2)
     return scene
 
@@ -65,9 +56,8 @@ def reeved() -> Scene:
     """A swinging arm that carries a block, a tackle of two falls below it, and a tugger on a third body."""
     scene = Scene(name="reeved")
     scene.add_body(name="arm", mass=800.0, inertia=(50.0, 900.0, 900.0), position=(2.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="arm", point=(0, 0, 0), axis=(0, 1, 0)
-    )
+    scene.add_joint(kind="revolute", name="pin", first="ground", second="arm", point=(0, 0, 0),
+                    axis=(0, 1, 0))  # fmt: skip
     scene.add_actuator(joint="pin", stiffness=4e6, damping=3e5)
     scene.add_body(name="cleat", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(3.5, 0.0, 0.2))
     scene.add_joint(kind="weld", name="bolts", first="arm", second="cleat", point=(3.5, 0, 0))
@@ -120,9 +110,8 @@ def taut() -> Scene:
     return scene
 
 
-def below(
-    place: Any, *, mass: float = MASS, velocity: Any = (0.0, 0.0, 0.0), size: Any = None, **line: Any
-) -> Scene:
+def below(place: Any, *, mass: float = MASS, velocity: Any = (0.0, 0.0, 0.0), size: Any = None,
+          **line: Any) -> Scene:  # fmt: skip
     """A load at a place, on a line "hoist" from the origin of the ground; alone without words for a line."""
     scene = Scene(name="below")
     shape = {"inertia": 0.5 * mass * np.eye(3)} if size is None else {"size": size}

@@ -34,16 +34,12 @@ def reference_vessel(scene: Scene) -> LinearVessel:
 def rod(scene: Scene, name: str, first: str, top: float, *, angle: float = 0.0, damping: float = 0.0) -> None:
     """A uniform rod of 2 m and 3 kg hanging from a hinge about y at height `top`."""
     direction = np.array([-np.sin(angle), 0.0, -np.cos(angle)])
-    scene.add_body(
-        name=name, mass=3.0, inertia=(1.0, 1.0, 0.01), position=np.array([0.0, 0.0, top]) + direction,
-        quaternion=(np.cos(angle / 2.0), 0.0, np.sin(angle / 2.0), 0.0),
-    )  # fmt: skip
+    scene.add_body(name, mass=3.0, inertia=(1.0, 1.0, 0.01), position=np.array([0.0, 0.0, top]) + direction,
+                   quaternion=(np.cos(angle / 2.0), 0.0, np.sin(angle / 2.0), 0.0))  # fmt: skip
     point = (0.0, 0.0, top)
-    scene.add_joint(
-        kind="revolute", name=f"{name}.hinge", first=first, second=name, point=point, axis=(0, 1, 0)
-    )
+    scene.add_joint(f"{name}.hinge", kind="revolute", first=first, second=name, point=point, axis=(0, 1, 0))
     if damping:
-        scene.add_actuator(joint=f"{name}.hinge", damping=damping)
+        scene.add_actuator(f"{name}.hinge", damping=damping)
 
 
 def crane_with_payload() -> Scene:

@@ -10,9 +10,10 @@ import numpy as np
 from seacrane import MotionHistory, MotionRaos
 
 
-def record(heave: float, noise: float = 0.0) -> MotionHistory:
+def record(heave: float, noise: float = 0.0, roll: float = 0.0) -> MotionHistory:
     time, motion = np.linspace(0.0, 60.0, 601), np.zeros((601, 6))
     motion[:, 2] = heave * np.sin(0.7 * time) + noise * np.random.default_rng(0).normal(size=601)
+    motion[:, 3] = roll * np.sin(0.7 * time)
     return MotionHistory(time=time, motion=motion)
 
 

@@ -22,15 +22,12 @@ CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02
 GAINS = {"slew": (2.0e9, 6.0e8), "main": (6.0e7, 2.0e7), "knuckle": (2.5e7, 8.0e6)}
 
 
-def record(
-    scene: Scene, t_end: float, *, dt_out: float = 0.05, rtol: float = 1e-8, **settings: Any
-) -> dict[str, Any]:
+def record(scene: Scene, t_end: float, *, dt_out: float = 0.05, rtol: float = 1e-8,
+           **settings: Any) -> dict[str, Any]:  # fmt: skip
     """All channels of a run, opt-in ones too, and `stats`."""
     model = scene.compile()
-    run = Run(
-        scene, t_end=t_end, dt_out=dt_out, rtol=rtol, model=model,
-        channels=model.channel_names(defaults_only=False), **settings
-    )  # fmt: skip
+    run = Run(scene, t_end=t_end, dt_out=dt_out, rtol=rtol, model=model,
+              channels=model.channel_names(defaults_only=False), **settings)  # fmt: skip
     run.advance(t_end)
     out: dict[str, Any] = dict(run.core.channels())
     return out | {"stats": run.core.statistics(), "bodies": list(scene.bodies), "joints": list(scene.joints)}
@@ -46,18 +43,16 @@ def ramp(rate: float, start: float = 0.0) -> Curve:
     return Curve.pieces(starts=[-1.0], coefficients=[[start - rate, rate, 0.0, 0.0, 0.0, 0.0]])
 
 
-def add_moving_bodies(
-    scene: Scene, mechanism: SingleCoordinate, names: list[str], q: float, rate: float
-) -> list[Array]:
+def add_moving_bodies(scene: Scene, mechanism: SingleCoordinate, names: list[str], q: float,
+                      rate: float) -> list[Array]:  # fmt: skip
     """Adds the bodies of a mechanism at (q, rate); returns their rotation matrices."""
     rotations = []
     for name, moving in zip(names, mechanism.kinematics(Jet(q, 1.0)), strict=True):
         _, _, position, slope, spin = moving.terms()
         rotation = np.array([[c.f for c in axis] for axis in moving.axes]).T
-        scene.add_body(
-            name=name, mass=moving.mass, inertia=moving.inertia, position=position, velocity=rate * slope,
-            quaternion=quaternions_from_matrices(rotation), angular_velocity=rate * spin,
-        )  # fmt: skip
+        scene.add_body(name, mass=moving.mass, inertia=moving.inertia, position=position,
+                       velocity=rate * slope, quaternion=quaternions_from_matrices(rotation),
+                       angular_velocity=rate * spin)  # fmt: skip
         rotations.append(rotation)
     return rotations
 
@@ -68,39 +63,31 @@ def slider_crank(crank: SliderCrank, q: float, rate: float, *, gravity: float = 
     _, rod, _ = add_moving_bodies(scene, crank.mechanism(), ["crank", "rod", "slider"], q, rate)
     middle = scene.bodies["rod"].position
     half = 0.5 * crank.rod_length * rod[:, 0]
-    scene.add_joint(
-        kind="revolute", name="shaft", first="ground", second="crank", point=crank.pivot, axis=(1, 0, 0)
-    )
-    scene.add_joint(kind="spherical", name="pin", first="crank", second="rod", point=middle - half)
-    scene.add_joint(
-        kind="universal", name="cross", first="slider", second="rod", point=middle + half, axis=(0, 1, 0),
-        second_axis=rod[:, 1]
-    )  # fmt: skip
-    scene.add_joint(
-        kind="prismatic", name="guide", first="ground", second="slider", point=middle + half, axis=(1, 0, 0)
-    )
+    scene.add_joint("shaft", kind="revolute", first="ground", second="crank", point=crank.pivot,
+                    axis=(1, 0, 0))  # fmt: skip
+    scene.add_joint("pin", kind="spherical", first="crank", second="rod", point=middle - half)
+    scene.add_joint("cross", kind="universal", first="slider", second="rod", point=middle + half,
+                    axis=(0, 1, 0), second_axis=rod[:, 1])  # fmt: skip
+    scene.add_joint("guide", kind="prismatic", first="ground", second="slider", point=middle + half,
+                    axis=(1, 0, 0))  # fmt: skip
     return scene
 
 
-def crane_scene(
-    *, base: str = "ground", payload: bool = True, references: dict[str, Curve] | None = None, **pose: float
-) -> Scene:
+def crane_scene(*, base: str = "ground", payload: bool = True, references: dict[str, Curve] | None = None,
+                **pose: float) -> Scene:  # fmt: skip
     """The shipped crane with its three actuators; on the ground, or on a body of this name added before."""
     scene = Scene(name="crane on a fixed base")
     add_crane(scene, base=base, payload=payload, references=references, **pose)
     return scene
 
 
-def add_crane(
-    scene: Scene, *, base: str, payload: bool, references: dict[str, Curve] | None = None, **pose: float
-) -> None:
+def add_crane(scene: Scene, *, base: str, payload: bool, references: dict[str, Curve] | None = None,
+              **pose: float) -> None:  # fmt: skip
     scene.add_crane(base=base, payload=Payload() if payload else None, damping=False, **pose)
     for name, joint in ACTUATORS.items():
         stiffness, damping = GAINS[name]
-        scene.add_actuator(
-            name=name, joint=joint, stiffness=stiffness, damping=damping,
-            reference=(references or {}).get(name, 0.0)
-        )  # fmt: skip
+        scene.add_actuator(name=name, joint=joint, stiffness=stiffness, damping=damping,
+                           reference=(references or {}).get(name, 0.0))  # fmt: skip
 
 
 def swing_out(duration: float = 10.0) -> dict[str, Curve]:

@@ -8,12 +8,10 @@ import numpy as np
 
 from seacrane import Criterion, Scene, cases
 
-HEAVE = Criterion(
-    channel="vessel_motion", names={"motion": "heave"}, maximum=0.8, motion=True, exposure=900.0, name="heave"
-)
-PITCH = Criterion(
-    channel="vessel_motion", names={"motion": "pitch"}, maximum=0.03, statistic="significant", name="pitch"
-)
+HEAVE = Criterion(channel="vessel_motion", names={"motion": "heave"}, maximum=0.8, motion=True,
+                  exposure=900.0, name="heave")  # fmt: skip
+PITCH = Criterion(channel="vessel_motion", names={"motion": "pitch"}, maximum=0.03, statistic="significant",
+                  name="pitch")  # fmt: skip
 SHORT: dict[str, Any] = {"duration": 900.0, "start_up": 100.0, "seeds": range(1, 6), "rtol": 1e-3}
 HANGING_MASS, SOFT_PERIOD, WIRE = 5e3, 8.0, 10.0  # kg, s, m
 WEIGHT = HANGING_MASS * 9.80665
@@ -28,13 +26,9 @@ def soft_wire() -> Scene:
     scene = vessel()
     spring = HANGING_MASS * (2.0 * np.pi / SOFT_PERIOD) ** 2
     top = (-50.0, 0.0, 30.0)
-    scene.add_body(
-        name="load", mass=HANGING_MASS, inertia=(HANGING_MASS,) * 3,
-        position=(top[0], 0.0, top[2] - WIRE - WEIGHT / spring),
-    )  # fmt: skip
-    scene.add_line(
-        name="wire", bodies=["vessel", "load"], points=[top, (0.0, 0.0, 0.0)], EA=spring * WIRE,
-        length=WIRE,
-    )  # fmt: skip
-    scene.add_pendulum_damping(name="swing", first="vessel", second="load", first_point=top, ratio=0.05)
+    scene.add_body("load", mass=HANGING_MASS, inertia=(HANGING_MASS,) * 3,
+                   position=(top[0], 0.0, top[2] - WIRE - WEIGHT / spring))  # fmt: skip
+    scene.add_line(name="wire", bodies=["vessel", "load"], points=[top, (0.0, 0.0, 0.0)], EA=spring * WIRE,
+                   length=WIRE)  # fmt: skip
+    scene.add_pendulum_damping("swing", first="vessel", second="load", first_point=top, ratio=0.05)
     return scene

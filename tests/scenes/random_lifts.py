@@ -10,6 +10,7 @@ import warnings
 from collections import Counter
 from dataclasses import dataclass, replace
 from functools import cache
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -61,13 +62,11 @@ class View:
 
 
 AS_DRAWN = View()
-VIEWS = {
-    "mirrored": View(mirrored=True), "turned": View(turn_deg=73.0), "shifted": View(shift=(310.0, -140.0)),
-    "later": View(later=7.3), "cut in two": View(cut=True), "twice half": View(twice_half=True),
-    "other": View(other=True),
-    "all": View(mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True, twice_half=True,
-                other=True),
-}  # fmt: skip
+VIEWS = {"mirrored": View(mirrored=True), "turned": View(turn_deg=73.0),
+         "shifted": View(shift=(310.0, -140.0)), "later": View(later=7.3), "cut in two": View(cut=True),
+         "twice half": View(twice_half=True), "other": View(other=True),
+         "all": View(mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True,
+                     twice_half=True, other=True)}  # fmt: skip
 
 
 @cache
@@ -75,33 +74,7 @@ def barges() -> HydroGroup:
     return two_barges(lid_damping=0.03)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Drawn:
-    """What a lift is, whatever the view."""
-
-    base: str  # ground, ship, given, pair
-    sea: dict[str, Any] | None
-    slew: float
-    mass: float
-    size: tuple[float, float, float]
-    height: float  # of its underside
-    stiffness: float
-    rung: str
-    compartment: bool
-    oil: bool  # in the crane's cylinders
-    winch_lag: float
-    part: str
-    deck: float | None  # m above the water, of a contact's plane or box below the load
-    surface: str
-    friction: float
-    tugger: float  # N, of its line at the start
-    damping: bool  # of the load's swing, which knows one body
-    stages: tuple[tuple[str, float], ...]
-    formulation: str
-    integrator: str
-
-
-def fits(lift: Drawn, view: View) -> bool:
+def fits(lift: SimpleNamespace, view: View) -> bool:
     """Whether the lift is the same in that view: given motions have a clock, a second ship lies to port,
     damping is that of one body, and friction holds as stiffly as the load's weight asks, whatever presses."""
     return not (
@@ -112,7 +85,8 @@ def fits(lift: Drawn, view: View) -> bool:
     )
 
 
-def drawn(seed: int) -> Drawn:
+def drawn(seed: int) -> SimpleNamespace:
+    """What a lift is, whatever the view."""
     rng = np.random.default_rng([4501, seed])
 
     def one_of(*names: Any) -> Any:
@@ -120,21 +94,22 @@ def drawn(seed: int) -> Drawn:
 
     base = one_of("ground", "ground", "ship", "ship", "given", "pair")
     part = one_of("none", "box", "plate", "cylinder", "sphere")
-    deck = float(rng.uniform(0.0, 3.0)) if rng.random() < 0.5 else None
+    deck = float(rng.uniform(0.0, 3.0)) if rng.random() < 0.5 else None  # m above the water, below the load
     wet = base in ("ship", "given", "pair") or rng.random() < 0.5
     sea = {"hs": float(rng.uniform(0.3, 2.5)), "tp": float(rng.uniform(6.0, 12.0)),
            "direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 99)), "count": 40,
            "spreading": one_of(None, 2.0)}  # fmt: skip
     kinds = rng.choice(["lower", "raise", "wait", "meet", "let go"], int(rng.integers(1, 5)))
-    return Drawn(
-        base=base, sea=sea if wet else None, slew=float(rng.uniform(-2.0, 2.0)),
+    return SimpleNamespace(
+        base=base, part=part, deck=deck, sea=sea if wet else None, slew=float(rng.uniform(-2.0, 2.0)),
         mass=float(rng.uniform(5e3, 4e4)), size=tuple(rng.uniform(1.5, 5.0, 3).tolist()),
-        height=float((deck or 0.0) + rng.uniform(0.3, 2.0)), stiffness=float(10.0 ** rng.uniform(5.8, 7.2)),
-        rung=one_of("elastic", "elastic", "quasi-static"),
+        height=float((deck or 0.0) + rng.uniform(0.3, 2.0)),  # of the underside
+        stiffness=float(10.0 ** rng.uniform(5.8, 7.2)), rung=one_of("elastic", "elastic", "quasi-static"),
         compartment=bool(part == "box" and rng.random() < 0.5),
-        oil=bool(rng.random() < 0.25), winch_lag=one_of(0.0, 0.3), part=part,
-        deck=deck, surface=one_of("plane", "box"),
-        friction=one_of(0.0, 0.3), tugger=one_of(0.0, 5e3), damping=bool(rng.random() < 0.3),
+        oil=bool(rng.random() < 0.25),  # in the crane's cylinders
+        winch_lag=one_of(0.0, 0.3), surface=one_of("plane", "box"), friction=one_of(0.0, 0.3),
+        tugger=one_of(0.0, 5e3),  # N, of its line at the start
+        damping=bool(rng.random() < 0.3),  # of the load's swing, which knows one body
         stages=tuple((str(kind), float(rng.uniform(0.3, 1.2))) for kind in kinds),
         formulation=one_of("recursive", "redundant"),
         integrator=one_of("tsit5", "dop853", "dopri5", "cvode-bdf"),
@@ -144,16 +119,13 @@ def drawn(seed: int) -> Drawn:
 class Lift:
     """A drawn lift as a view tells it."""
 
-    def __init__(self, lift: Drawn, view: View) -> None:
+    def __init__(self, lift: SimpleNamespace, view: View) -> None:
         self.lift, self.view = lift, view
         self.scene = Scene(name="random lift", gravity=G)
         self.base = {"ground": "ground", "pair": "crane vessel"}.get(lift.base, "vessel")
         self.heading = view.turn_deg
-        self.add_sea()
-        self.add_base()
-        self.add_load()
-        self.add_water()
-        self.add_contacts()
+        for add in (self.add_sea, self.add_base, self.add_load, self.add_water, self.add_contacts):
+            add()
 
     def add_sea(self) -> None:
         """The sea alone, its components turned, mirrored, and as they were `later` ago."""
@@ -165,9 +137,8 @@ class Lift:
         direction = view.side * waves.direction + np.radians(view.turn_deg)
         k = wavenumber(waves.omega, g=G, depth=waves.depth)
         along = k * (view.shift[0] * np.cos(direction) + view.shift[1] * np.sin(direction))
-        scene.waves = replace(
-            waves, direction=direction, phase=waves.phase + along - waves.omega * view.later
-        )
+        scene.waves = replace(waves, direction=direction,
+                              phase=waves.phase + along - waves.omega * view.later)  # fmt: skip
 
     def add_base(self) -> None:
         lift, view, scene = self.lift, self.view, self.scene
@@ -175,14 +146,12 @@ class Lift:
         place: dict[str, Any] = {"position": (x, y, 0.0), "heading_deg": self.heading}
         if lift.base == "ship":
             scene.add_vessel(shipped_database(), **place)
-            scene.add_sea()
         elif lift.base == "given":
             scene.add_given_vessel(shipped_database(), ramp=2.0, duration=90.0, **place)
-            scene.add_sea()
         elif lift.base == "pair":
             scene.add_vessels(barges(), **place)
-            for vessel in ("crane vessel", "feeder"):
-                scene.add_sea(vessel=vessel)
+        for vessel in {"ground": (), "pair": ("crane vessel", "feeder")}.get(lift.base, ("vessel",)):
+            scene.add_sea(vessel=vessel)
         if lift.base == "ground":
             foot, slew = view.at((0.0, 0.0, 8.0)), view.side * lift.slew + np.radians(view.turn_deg)
         else:
@@ -219,7 +188,7 @@ class Lift:
         place = {"position": np.array(whole.position), "quaternion": np.array(whole.quaternion)}
         scene.replace("load", mass=rest, inertia=inertia - part - turned, center_of_mass=other)
         scene.add_body("other part", mass=small, inertia=part, center_of_mass=offset, **place)
-        scene.add_joint(kind="weld", name="cut", first="load", second="other part", point=place["position"])
+        scene.add_joint("cut", kind="weld", first="load", second="other part", point=place["position"])
 
     def halves(self, name: str) -> list[tuple[str, float]]:
         return [(f"{name} 1", HALF), (f"{name} 2", HALF)] if self.view.twice_half else [(name, 1.0)]
@@ -227,12 +196,10 @@ class Lift:
     def add_water(self) -> None:
         lift, scene = self.lift, self.scene
         length, breadth, height = lift.size
-        parts = {
-            "box": BoxPart(size=lift.size, strips=(2, 2), fill=0.2),
-            "plate": PlatePart(size=(length, breadth), thickness=0.1, point=(0.0, 0.0, -HALF * height)),
-            "cylinder": CylinderPart(length=length, diameter=min(breadth, height)),
-            "sphere": SpherePart(diameter=min(lift.size)),
-        }
+        parts = {"box": BoxPart(size=lift.size, strips=(2, 2), fill=0.2),
+                 "plate": PlatePart(size=(length, breadth), thickness=0.1, point=(0.0, 0.0, -HALF * height)),
+                 "cylinder": CylinderPart(length=length, diameter=min(breadth, height)),
+                 "sphere": SpherePart(diameter=min(lift.size))}  # fmt: skip
         if lift.part in parts:
             scene.add_immersed("load", parts=[parts[lift.part]])
         if lift.compartment:
@@ -297,7 +264,7 @@ def center(result: Result) -> Array:
     return np.asarray(np.average(places, axis=0, weights=masses))
 
 
-def difference(lift: Drawn, view: View, as_drawn: Result) -> dict[str, float]:
+def difference(lift: SimpleNamespace, view: View, as_drawn: Result) -> dict[str, float]:
     """How far a view's run is from the lift as drawn: places in m, forces in shares of the largest."""
     told = Lift(lift, view).run()
     ends = [abs(a.end - b.end - view.later) for a, b in zip(told.stages, as_drawn.stages, strict=True)]
@@ -327,11 +294,9 @@ def judged(seed: int) -> tuple[str, dict[str, str]]:
             as_drawn = Lift(lift, AS_DRAWN).run()
         except SeacraneError as error:
             return f"no run: {str(error)[:160]}", {}
-        for name, view in VIEWS.items():
-            if not fits(lift, view):
-                continue
+        for name in (name for name, view in VIEWS.items() if fits(lift, view)):
             try:
-                off = difference(lift, view, as_drawn)
+                off = difference(lift, VIEWS[name], as_drawn)
             except SeacraneError as error:
                 wrong[name] = str(error)[:300]
                 continue
@@ -340,20 +305,17 @@ def judged(seed: int) -> tuple[str, dict[str, str]]:
     return "run", wrong
 
 
-def main() -> int:
-    count, first = (int(one) for one in (*sys.argv[1:], *("100", "0")[len(sys.argv) - 1 :]))
+def main(count: int = 100, first: int = 0) -> int:
     how, bad = Counter[str](), 0
     for seed in range(first, first + count):
         went, wrong = judged(seed)
         how[went.split(":")[0]] += 1
         bad += bool(wrong)
-        for name, what in wrong.items():
-            print(f"{seed} {name}: {what}", flush=True)
-        if went != "run":
-            print(f"{seed} {went}", flush=True)
+        for name, what in ({went: ""} if went != "run" else wrong).items():
+            print(f"{seed} {name} {what}", flush=True)
     print(f"{count} lifts, {dict(how)}, {bad} differ")
     return int(bad > 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(*map(int, sys.argv[1:])))

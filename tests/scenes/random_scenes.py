@@ -78,10 +78,9 @@ class Builder:
         mass = float(10.0 ** self.rng.uniform(-half, half)) if mass is None else mass
         a, b, c = self.rng.uniform(0.05, 0.3, 3)  # of three pairs of points: such a body exists
         quaternion = self.rng.normal(size=4)
-        self.scene.add_body(
-            name=name, mass=mass, inertia=mass * np.diag([b + c, a + c, a + b]), position=position,
-            quaternion=quaternion / np.linalg.norm(quaternion), center_of_mass=self.rng.uniform(-0.2, 0.2, 3),
-        )  # fmt: skip
+        self.scene.add_body(name, mass=mass, inertia=mass * np.diag([b + c, a + c, a + b]), position=position,
+                            quaternion=quaternion / np.linalg.norm(quaternion),
+                            center_of_mass=self.rng.uniform(-0.2, 0.2, 3))  # fmt: skip
 
     def add_vessel(self) -> None:
         root = self.rng.normal(size=(6, 6))
@@ -105,9 +104,7 @@ class Builder:
             other["second_point"] = point + self.rng.uniform(0.3, 1.0) * unit(self.rng)
         if about.rows == 0:
             axis = np.array([0.0, 0.0, 1.0])
-        self.scene.add_joint(
-            kind=kind, name=name, first=first, second=second, point=point, axis=axis, **other
-        )
+        self.scene.add_joint(name, kind=kind, first=first, second=second, point=point, axis=axis, **other)
 
     def add_struts(self) -> None:
         """Cylinders across the first hinges, the universal joint at either end, joints in either order; every
@@ -144,7 +141,7 @@ class Builder:
             first, second = second, first
             if "second_axis" in axes:
                 axes["axis"], axes["second_axis"] = axes["second_axis"], axes["axis"]
-        self.scene.add_joint(kind=kind, name=name, first=first, second=second, point=point, **axes)
+        self.scene.add_joint(name, kind=kind, first=first, second=second, point=point, **axes)
 
     def frame(self, joint: Any) -> tuple[Array, Array]:
         """Joint point and axes in the inertial frame."""
@@ -160,21 +157,18 @@ class Builder:
         names = [self.base, *self.names()]
         for i in range(2):
             first, second = rng.choice(names, 2, replace=False)
-            scene.add_spring(
-                name=f"spring {i}", first=str(first), second=str(second), first_point=rng.uniform(-1, 1, 3),
-                second_point=rng.uniform(-1, 1, 3), stiffness=rng.uniform(1, 50), damping=rng.uniform(0, 2),
-                natural_length=0.4,
-            )  # fmt: skip
+            scene.add_spring(f"spring {i}", first=str(first), second=str(second),
+                             first_point=rng.uniform(-1, 1, 3), second_point=rng.uniform(-1, 1, 3),
+                             stiffness=rng.uniform(1, 50), damping=rng.uniform(0, 2),
+                             natural_length=0.4)  # fmt: skip
         movable = [j for j in scene.joints.values() if j.kind in ("revolute", "prismatic", "cylindrical")]
         for k, joint in enumerate(j for j in movable if not j.name.endswith("slide")):
             if k % 2 and self.shape.driven and not self.shape.closing:
                 curve = Curve.harmonic(offset=-0.2 * np.cos(0.7), amplitude=0.2, omega=1.5, phase=0.7)
                 scene.add_driver(joint=joint.name, curve=curve)
             else:
-                scene.add_actuator(
-                    joint=joint.name, stiffness=rng.uniform(0, 20), damping=rng.uniform(0, 2),
-                    feed_forward=rng.normal(), reference=0.1 * rng.normal(),
-                )  # fmt: skip
+                scene.add_actuator(joint=joint.name, stiffness=rng.uniform(0, 20), damping=rng.uniform(0, 2),
+                                   feed_forward=rng.normal(), reference=0.1 * rng.normal())  # fmt: skip
 
 
 def build(shape: Shape) -> Scene:

@@ -18,10 +18,8 @@ def hanging() -> Scene:
     """A load on a winch, above the sea and its bed."""
     scene = Scene(name="random lift")
     scene.add_body("load", mass=MASS, size=(4.0, 3.0, 2.0 * HALF), position=(0.0, 0.0, HIGH))
-    scene.add_line(
-        "wire", first="ground", first_point=(0.0, 0.0, 40.0), second="load", EA=1e8, damping_ratio=0.2,
-        tension_at_start=MASS * scene.gravity,
-    )  # fmt: skip
+    scene.add_line("wire", first="ground", first_point=(0, 0, 40), second="load", EA=1e8,
+                   damping_ratio=0.2, tension_at_start=MASS * scene.gravity)  # fmt: skip
     scene.add_winch("wire", lag=0.2)
     feet = [(x, y, -HALF) for x in (-2.0, 2.0) for y in (-1.5, 1.5)]
     scene.add_contact("load", on="ground", points=feet, place=(0.0, 0.0, BED), friction=0.3, name="feet")

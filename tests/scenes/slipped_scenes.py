@@ -66,7 +66,7 @@ def at(height: float, **body: Any) -> Callable[[], Scene]:
 def on_rail(kind: str = "prismatic", **body: Any) -> Scene:
     scene = with_load((0.0, 0.0, 1.5), **body)
     axis = {"axis": (0, 0, 1)} if kind == "prismatic" else {"axis": (0, 1, 0)}
-    scene.add_joint(kind=kind, name="rail", first="ground", second="load", **axis)
+    scene.add_joint("rail", kind=kind, first="ground", second="load", **axis)
     return scene
 
 
@@ -81,7 +81,7 @@ def at_the_surface() -> Scene:
 
 def beside_a_part() -> Scene:
     scene = at_the_surface()
-    scene.add_immersed("load", parts=[BoxPart(size=(2.0, 1.6, 2.0), point=(0.3, 0.0, 0.0))])
+    scene.add_immersed("load", parts=[BoxPart(size=(2.0, 1.6, 2.0), point=(0.3, 0, 0))])
     return scene
 
 
@@ -90,30 +90,30 @@ def over_a_boat() -> Scene:
     length = 15.0 / (1 + MASS * G / 5e7)
     wire = {"points": np.zeros((2, 3)), "EA": 5e7, "length": length, "winch": True, "lag": 0.2}
     add_load(scene, _core.Line(name="wire", bodies=["ground", "load"], **wire))
-    scene.add_body(name="boat", mass=1e5, inertia=np.diag([1e6] * 3), gravity=False)
+    scene.add_body("boat", mass=1e5, inertia=np.diag([1e6] * 3), gravity=False)
     return scene
 
 
 def on_a_ball() -> Scene:
     scene = with_load((0.0, 0.0, -10.0))
-    scene.add_joint(kind="spherical", name="hook", first="ground", second="load")
+    scene.add_joint("hook", kind="spherical", first="ground", second="load")
     return scene
 
 
 def a_ship() -> Scene:
     scene = Scene(name="sample")
-    scene.add_body(name="ship", mass=1e7, inertia=np.diag([1e9, 8e9, 8e9]))
+    scene.add_body("ship", mass=1e7, inertia=np.diag([1e9, 8e9, 8e9]))
     return scene
 
 
 def weighed(scene: Scene, **numbers: Any) -> None:
-    scene.add_body(name="load", **numbers)
-    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=15.0)
+    scene.add_body("load", **numbers)
+    scene.add_line("wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=15.0)
 
 
 def linked(scene: Scene, length: float, **points: Any) -> None:
     frames = {f"{end}_frame": _core.Frame(point=points[f"{end} point"]) for end in ("first", "second")}
-    scene.add_joint(kind="distance", name="link", first="ground", second="load", length=length, **frames)
+    scene.add_joint("link", kind="distance", first="ground", second="load", length=length, **frames)
 
 
 def tabled(scene: Scene, wrenches: Any, **numbers: Any) -> None:

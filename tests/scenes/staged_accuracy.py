@@ -8,13 +8,13 @@ from __future__ import annotations
 import csv
 import sys
 import warnings
-from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
+from accuracy_scenes import AGREED, ENDS, said, told
 from random_staged_lifts import hanging, random_stages
 from stage_scenes import heaving, hoisting, lift_off, meeting, on_deck, swinging
 
@@ -26,8 +26,6 @@ SEED = 2033
 CURVES = ("position", "line_tension")
 ASKED = (*CURVES, "line_tension.max", "position.min", "event_times")
 OTHERS = ("dop853", "verner65", "verner76")  # judges, the first two that the run did not take
-AGREED = 0.1  # of the limit, between both judges
-ENDS = ("held", "beyond", "refused", "not judgeable")
 DT_OUT = 0.2  # s
 
 Lift = tuple[Scene, list[Stage]]
@@ -58,14 +56,11 @@ def met(rng: np.random.Generator) -> Lift:
     """Two bodies that are welded as they meet, and held by a wire from then on."""
     after = float(rng.uniform(0.2, 1.0))
     scene = meeting(velocity=float(rng.uniform(0.2, 1.0)), after=after)
-    scene.add_line(
-        "tether", first="ground", first_point=(0.0, 0.0, 1.5), second="hook",
-        EA=float(10.0 ** rng.uniform(1.5, 3.0)), length=float(rng.uniform(1.4, 1.6)), damping_ratio=0.1,
-    )  # fmt: skip
-    return scene, [
-        Stage(name="apart", duration=after),
-        Stage(name="one", duration=3.0, connect=["shackle", "tether"]),
-    ]
+    scene.add_line("tether", first="ground", first_point=(0, 0, 1.5), second="hook",
+                   EA=float(10.0 ** rng.uniform(1.5, 3.0)), length=float(rng.uniform(1.4, 1.6)),
+                   damping_ratio=0.1)  # fmt: skip
+    return scene, [Stage(name="apart", duration=after), Stage(name="one", duration=3.0,
+                                                              connect=["shackle", "tether"])]  # fmt: skip
 
 
 def from_a_ship(rng: np.random.Generator) -> Lift:
@@ -84,77 +79,55 @@ def from_a_ship(rng: np.random.Generator) -> Lift:
 KINDS: tuple[Callable[[np.random.Generator], Lift], ...] = (in_water, off_deck, swung, met, from_a_ship)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Word:
-    """What was asked of a lift, promised and found; `told` is the estimate."""
-
-    number: int
-    kind: str
-    quantity: str
-    limit: float
-    end: Literal["held", "beyond", "refused", "not judgeable"]
-    told: float = 0.0
-    error: float = 0.0
-    other_course: bool = False
-    runs: int = 0
-    cost: float = 0.0  # evaluations of all runs over those of the one that is returned
-    why: str = ""
-
-
 def lift_of(number: int) -> Lift:
     return KINDS[number % len(KINDS)](np.random.default_rng([SEED, number]))
 
 
-def word(number: int) -> Word:
+def word(number: int) -> SimpleNamespace:
     """What `accuracy=` promises on one lift, judged by two other methods at tighter tolerances."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return _word(number)
 
 
-def _word(number: int) -> Word:
+def _word(number: int) -> SimpleNamespace:
     rng = np.random.default_rng([SEED, 1, number])
     quantity = ASKED[int(rng.integers(len(ASKED)))]
     part = float(10.0 ** rng.uniform(-4.5, -2.0))
     scene, stages = lift_of(number)
     rough = simulate_stages(scene, stages, dt_out=DT_OUT, integrator="verner76", rtol=1e-6)
     limit = part * _size(scene, quantity, rough)
-    about = {
-        "number": number, "kind": KINDS[number % len(KINDS)].__name__, "quantity": quantity, "limit": limit
-    }  # fmt: skip
+    kind = KINDS[number % len(KINDS)].__name__
+    about: dict[str, Any] = {"number": number, "kind": kind, "quantity": quantity, "limit": limit}
+    about |= {"other_course": False, "cost": 0.0}
     try:
         found = simulate_stages(scene, stages, dt_out=DT_OUT, accuracy={quantity: limit})
     except SeacraneError as refused:
-        return Word(**about, end="refused", why=str(refused))
+        return said(**about, end="refused", why=str(refused))
     stats = found.stats
-    about |= {
-        "told": float(stats[f"error_estimate_{quantity}"]), "other_course": "accuracy_course" in stats,
-        "runs": int(stats["accuracy_runs"]),
-        "cost": float(stats["accuracy_evaluations"]) / float(stats["evaluations"]),
-    }  # fmt: skip
+    about |= {"told": float(stats[f"error_estimate_{quantity}"]), "other_course": "accuracy_course" in stats}
+    about["cost"] = float(stats["accuracy_evaluations"]) / float(stats["evaluations"])  # of all runs
     one, other = _judges(scene, stages, found)
     extremes = bool(about["other_course"])
     apart = distance(scene, quantity, other, one, extremes=extremes)
     if apart > AGREED * limit or (matched(other, one).course and quantity in CURVES and not extremes):
-        return Word(**about, end="not judgeable", why=f"judges are {apart:.3g} apart")
+        return said(**about, end="not judgeable", why=f"judges are {apart:.3g} apart")
     error = distance(scene, quantity, found, other, extremes=extremes)
-    return Word(**about, end="held" if error <= limit else "beyond", error=error)
+    return said(**about, end="held" if error <= limit else "beyond", error=error)
 
 
 def _judges(scene: Scene, stages: list[Stage], found: Result) -> tuple[Result, Result]:
     rtol = float(found.settings["rtol"])
-    first, second = [name for name in OTHERS if name != found.stats["integrator"]][:2]
-    return (
-        simulate_stages(scene, stages, dt_out=DT_OUT, integrator=first, rtol=min(0.1 * rtol, 1e-7)),
-        simulate_stages(scene, stages, dt_out=DT_OUT, integrator=second, rtol=min(0.01 * rtol, 1e-8)),
-    )
+    names = [name for name in OTHERS if name != found.stats["integrator"]]
+    one, other = (simulate_stages(scene, stages, dt_out=DT_OUT, integrator=name, rtol=min(part * rtol, most))
+                  for name, part, most in zip(names, (0.1, 0.01), (1e-7, 1e-8), strict=False))  # fmt: skip
+    return one, other
 
 
 def _size(scene: Scene, quantity: str, result: Result) -> float:
     """Of its motion; of times 10 s."""
-    if quantity == "event_times":
-        return 10.0
-    return max(quantities_of(scene, None, [quantity])[quantity].motion(result), 0.01)
+    measured = None if quantity == "event_times" else quantities_of(scene, None, [quantity])[quantity]
+    return max(measured.motion(result), 0.01) if measured else 10.0
 
 
 def distance(scene: Scene, quantity: str, one: Result, other: Result, *, extremes: bool) -> float:
@@ -171,38 +144,10 @@ def distance(scene: Scene, quantity: str, one: Result, other: Result, *, extreme
     return curve_apart(one.time, mine, other.time, its, matching)
 
 
-def told(words: Sequence[Word]) -> str:
-    """Counts, and every lift that did not hold."""
-    ends = Counter(one.end for one in words)
-    low = sum(one.error > one.told for one in words if one.end in ("held", "beyond"))
-    held = [one for one in words if one.end == "held"]
-    lines = [
-        f"{len(words)} staged lifts: {dict(ends)}, {low} above their estimate, "
-        f"{sum(one.other_course for one in words)} of another course; all runs over the returned one "
-        f"{np.median([one.cost for one in held] or [0.0]):.2f} (median), "
-        f"estimate over error {np.median([one.told / max(one.error, 1e-300) for one in held] or [0.0]):.3g}"
-    ]
-    lines += [
-        f"  {one.number} {one.kind} {one.quantity}: {one.end}, asked {one.limit:.3g}, told {one.told:.3g}, "
-        f"true {one.error:.3g} {one.why}"
-        for one in words
-        if one.end != "held"
-    ]
-    return "\n".join(lines)
-
-
-def table(words: Sequence[Word]) -> list[list[str]]:
+def table(words: Sequence[SimpleNamespace]) -> list[list[str]]:
     """Counts by kind of lift."""
-    out = [
-        [
-            "lifts",
-            "number",
-            *ENDS,
-            "above their estimate",
-            "of another course",
-            "all runs over the returned one",
-        ]
-    ]
+    out = [["lifts", "number", *ENDS, "above their estimate", "of another course",
+            "all runs over the returned one"]]  # fmt: skip
     for kind in (*(one.__name__.replace("_", " ") for one in KINDS), "all"):
         own = [one for one in words if kind in (one.kind.replace("_", " "), "all")]
         counts = [sum(one.end == end for one in own) for end in ENDS]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -27,24 +27,8 @@ GRID: dict[str, list[dict[str, float]]] = {  # each from loose to tight
 }
 
 
-@dataclass(frozen=True)
-class Promise:
-    """What was asked for, promised and found, and the cost over that of the cheapest passing grid point.
-
-    `part` is the limit over the size of the motion.
-    """
-
-    what: str
-    part: float
-    limit: float
-    estimate: float
-    error: float
-    runs: int
-    cost_of_run: float
-    cost_of_all: float
-
-
-CLAIMS: dict[str, Callable[[Promise], bool]] = {
+# Of what was asked for, promised and found, and the cost over that of the cheapest grid point that passes.
+CLAIMS: dict[str, Callable[[SimpleNamespace], bool]] = {
     "error within the limit": lambda p: p.error <= p.limit,
     "error within the estimate": lambda p: p.error <= p.estimate,
     "returned run within twice the cheapest": lambda p: p.cost_of_run <= 2.0,
@@ -52,24 +36,19 @@ CLAIMS: dict[str, Callable[[Promise], bool]] = {
 }
 
 
-def shares(found: list[Promise]) -> dict[str, float]:
+def shares(found: list[SimpleNamespace]) -> dict[str, float]:
     """How often each claim holds."""
     return {claim: float(np.mean([holds(p) for p in found])) for claim, holds in CLAIMS.items()}
 
 
-def summary(found: list[Promise]) -> str:
-    """Shares and median costs, by decade of the limit over the motion, as a table."""
+def summary(found: list[SimpleNamespace]) -> str:
+    """Shares and median costs, by decade of the limit over the motion."""
     decades = [math.floor(math.log10(p.part)) for p in found]
-    head = ["limit / motion", "scenes", *CLAIMS, "median cost of run", "of all", "runs"]
-    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
     groups = {f"1e{d} to 1e{d + 1}": [p for p, own in zip(found, decades, strict=True) if own == d]
               for d in sorted(set(decades))}  # fmt: skip
-    for name, group in {**groups, "all": found}.items():
-        medians = (np.median([p.cost_of_run for p in group]), np.median([p.cost_of_all for p in group]))
-        cells = [name, str(len(group)), *(f"{100 * share:.1f} %" for share in shares(group).values())]
-        cells += [*(f"{m:.2f}" for m in medians), f"{np.mean([p.runs for p in group]):.2f}"]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+    medians = {name: np.median([(p.cost_of_run, p.cost_of_all) for p in group], axis=0)
+               for name, group in (groups | {"all": found}).items()}  # fmt: skip
+    return "\n".join(f"{name}: {shares(groups.get(name, found))}, costs {medians[name]}" for name in medians)
 
 
 def random_scene(rng: np.random.Generator) -> Scene:
@@ -77,11 +56,9 @@ def random_scene(rng: np.random.Generator) -> Scene:
     kind = rng.choice(["case1", "case2", "case2", "case3", "vessel", "chain"])
     if kind == "chain":
         return random_chain(rng)
-    options = {
-        "hs": float(rng.uniform(0.5, 4.0)), "tp": float(rng.uniform(7.5, 14.0)),
-        "wave_direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 10**6)),
-        "memory": str(rng.choice(["per-pair", "passive"])),
-    }  # fmt: skip
+    options = {"hs": float(rng.uniform(0.5, 4.0)), "tp": float(rng.uniform(7.5, 14.0)),
+               "wave_direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 10**6)),
+               "memory": str(rng.choice(["per-pair", "passive"]))}  # fmt: skip
     if kind == "case2":
         mass, length = float(10.0 ** rng.uniform(3.0, 4.7)), float(rng.uniform(4.0, 15.0))
         options["payload"] = Payload(mass=mass, link_length=length)
@@ -99,13 +76,13 @@ def random_chain(rng: np.random.Generator) -> Scene:
         axis = np.array([np.cos(turn), np.sin(turn), 0.0])
         along = length * np.array([-np.sin(swing) * axis[1], np.sin(swing) * axis[0], -np.cos(swing)])
         name, inertia = f"rod{i}", mass * length**2 / 12.0
-        scene.add_body(name, mass=mass, inertia=(inertia, inertia, inertia), position=end + along / 2)
-        scene.add_joint(kind="revolute", name=f"pin{i}", first=before, second=name, point=end, axis=axis)
+        scene.add_body(name, mass=mass, inertia=(inertia,) * 3, position=end + along / 2)
+        scene.add_joint(f"pin{i}", kind="revolute", first=before, second=name, point=end, axis=axis)
         before, end = name, end + along
     return scene
 
 
-def promise(rng: np.random.Generator, *, t_end: float, grid: bool = True) -> Promise:
+def promise(rng: np.random.Generator, *, t_end: float, grid: bool = True) -> SimpleNamespace:
     """Ask for a random accuracy of a random quantity, and compare with a tight run and, for cost, a grid."""
     scene = random_scene(rng)
     offered = quantities_of(scene, scene.compile(), None)
@@ -116,23 +93,16 @@ def promise(rng: np.random.Generator, *, t_end: float, grid: bool = True) -> Pro
     part = 10.0 ** rng.uniform(-7.0, -2.0)
     result = simulate(scene, accuracy={quantity.name: part * size}, **span)
     cheapest = _cheapest(scene, quantity, truth, part * size, span) if grid else math.nan
-    return Promise(
-        what=f"{scene.name} {quantity.name}",
-        part=part,
-        limit=part * size,
-        estimate=float(result.stats[f"error_estimate_{quantity.name}"]),
-        error=compare(truth, quantity.values(result)).largest,
-        runs=int(result.stats["accuracy_runs"]),
-        cost_of_run=int(result.stats["evaluations"]) / cheapest,
-        cost_of_all=int(result.stats["accuracy_evaluations"]) / cheapest,
-    )
+    return SimpleNamespace(what=f"{scene.name} {quantity.name}", part=part, limit=part * size,
+                           estimate=float(result.stats[f"error_estimate_{quantity.name}"]),
+                           error=compare(truth, quantity.values(result)).largest,
+                           runs=int(result.stats["accuracy_runs"]),
+                           cost_of_run=int(result.stats["evaluations"]) / cheapest,
+                           cost_of_all=int(result.stats["accuracy_evaluations"]) / cheapest)  # fmt: skip
 
 
 def _cheapest(scene: Scene, quantity: Quantity, truth: Any, limit: float, span: dict[str, Any]) -> float:
-    """Evaluations of the cheapest grid point within the limit.
-
-    Of each method the loosest that passes; what costs more than another's need not be run.
-    """
+    """Evaluations of the cheapest grid point within the limit: of each method the loosest that passes."""
     least = math.inf
     for name, sizes in GRID.items():
         for size in sizes:

@@ -75,10 +75,8 @@ class VeresRun:
     def force(self) -> np.ndarray:
         """Excitation (m, n, 6) with the symmetry of a ship."""
         beta, w = np.radians(self.heading_deg)[:, None], self.omega[None, :]
-        shape = np.stack(
-            [np.cos(beta) * 1j, np.sin(beta) * 1j, 1.0 + 0.0 * beta, np.sin(beta) * 3j, np.cos(beta) * 20j,
-             5.0 * np.sin(2.0 * beta)], axis=-1
-        )  # fmt: skip
+        shape = np.stack([np.cos(beta) * 1j, np.sin(beta) * 1j, 1.0 + 0.0 * beta, np.sin(beta) * 3j,
+                          np.cos(beta) * 20j, 5.0 * np.sin(2.0 * beta)], axis=-1)  # fmt: skip
         return np.asarray(shape * (2e6 * np.exp(-0.4 * w**2))[..., None] * np.exp(0.3j * w)[..., None])
 
     def linearised(self) -> np.ndarray:

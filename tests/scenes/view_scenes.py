@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Result, Scene, cases, simulate
-from seacrane._core import Body
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
 from seacrane.warnings import BallastWarning, LargeSwingWarning, OutsideRangeWarning
@@ -35,11 +34,7 @@ def thrown() -> Result:
     """Case 2 with a payload that is thrown up and sideways, so that its wire goes slack and snatches."""
     scene = cases.case2()
     scene.add_line(joint="link", rung="rigid")
-    load = scene.bodies["payload"]
-    scene.bodies["payload"] = Body(
-        name=load.name, mass=load.mass, inertia=load.inertia, center_of_mass=load.center_of_mass,
-        position=load.position, quaternion=load.quaternion, velocity=(1.0, 2.0, 6.0),
-    )  # fmt: skip
+    scene.replace("payload", kind="body", velocity=(1, 2, 6))
     return _quietly(scene, 6.0, OutsideRangeWarning)
 
 
@@ -49,7 +44,7 @@ def pair() -> Result:
     database = shipped_database()
     scene = Scene(name="<i>two vessels</i>")
     scene.add_vessel(database)
-    scene.add_vessel(database, name=HTML_NAME, position=(-15.0, 45.0, 0.0), heading_deg=12.0, memory="none")
+    scene.add_vessel(database, name=HTML_NAME, position=(-15, 45, 0), heading_deg=12.0, memory="none")
     scene.add_sea(hs=2.5, tp=8.0, seed=3, count=120)
     scene.add_sea(vessel=HTML_NAME)
     scene.add_crane(base="vessel", payload=Payload(mass=20e3))
