@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from multibody_runs import Array, quaternion_about, record
+from named import on_joint
 
 from seacrane import SampledController, Scene, SceneError, SimulationError, simulate
 
@@ -146,11 +147,8 @@ def test_c_function_pointer_sees_the_state_and_its_parameters() -> None:
 
 
 def cart(**actuator: float) -> Scene:
-    scene = Scene(gravity=0.0)
-    scene.add_body(name="cart", mass=MASS, inertia=INERTIA)
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1, 0, 0))
+    scene = on_joint("cart", mass=MASS, gravity=0.0)
     scene.add_actuator(joint="rail", name="motor", **actuator)
-    scene.record_coordinate(joint="rail")
     return scene
 
 

@@ -17,7 +17,7 @@ from multibody_runs import (
     slider_crank,
     swing_out,
     world_inertia,
-)
+)  # fmt: skip
 
 from seacrane import Curve, Scene
 from seacrane.analysis import driven
@@ -44,7 +44,7 @@ def joint_points(scene: Scene, out: dict[str, Any]) -> Array:
 
 
 def loads_on_bodies(scene: Scene, out: dict[str, Any]) -> tuple[Array, Array]:
-    """Sum of weight, reactions, actuator and driver loads per body about its centre of mass, (k, n, 3)."""
+    """Of weight, reactions, actuators and drivers per body about its centre of mass, (k, n, 3)."""
     names = list(scene.bodies)
     count = len(out["time"])
     force, moment = np.zeros((count, len(names), 3)), np.zeros((count, len(names), 3))
@@ -92,11 +92,10 @@ def check_balance(scene: Scene, out: dict[str, Any]) -> None:
     np.testing.assert_allclose(spin_rate, moment, rtol=0.0, atol=1e-9 * size * reach)
 
 
-@pytest.mark.parametrize("payload", [False, True])
-def test_every_body_of_a_moving_crane_is_in_balance(payload: bool) -> None:
+def test_every_body_of_a_moving_crane_is_in_balance() -> None:
     """By its actuators, and by drivers in their place."""
-    scene = crane_scene(payload=payload, references=swing_out(6.0))
-    for one in (scene, driven(scene)) if payload else (scene,):
+    scene = crane_scene(payload=True, references=swing_out(6.0))
+    for one in (scene, driven(scene)):
         out = record(one, 7.0, dt_out=0.25)
         assert np.max(np.abs(out["acceleration"])) > 0.1
         check_balance(one, out)
@@ -143,8 +142,7 @@ def test_every_joint_kind_reports_the_load_it_carries_however_its_bodies_are_wri
         check_balance(one, out)
 
 
-@pytest.mark.parametrize(("s1", "s2"), [(0.0, 0.0), (2.0, 2.0), (3.0, 1.0)])
-@pytest.mark.parametrize("payload", [False, True])
+@pytest.mark.parametrize(("s1", "s2", "payload"), [(0.0, 0.0, False), (3.0, 1.0, True)])
 def test_crane_at_rest_on_a_fixed_base(s1: float, s2: float, payload: bool) -> None:
     scene = driven(
         crane_scene(payload=payload, slew=-0.7, s1=s1, s2=s2),
@@ -168,6 +166,5 @@ def test_crane_at_rest_on_a_fixed_base(s1: float, s2: float, payload: bool) -> N
     got = out["driver_force"][0]
     np.testing.assert_allclose(got[1:], expected, rtol=1e-9)
     np.testing.assert_allclose(got[0], 0.0, atol=1e-6 * weight)  # weight has no moment about the slew axis
-
     if payload:
         np.testing.assert_allclose(out["tension"][0, 0], mass * G, rtol=1e-10)

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from multibody_runs import ramp
 from numpy.typing import NDArray
 from random_scenes import moving
 from test_formulations import Comparison
 
-from seacrane import Curve, Run, Scene, cases, simulate
+from seacrane import Run, Scene, cases, simulate
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
@@ -25,10 +26,6 @@ WAYS = list(itertools.product([False, True], [0.0, 0.2], [False, True]))
 def turned(vector: Any) -> Array:
     """From the axes that a mechanism is drawn in to the inertial ones."""
     return np.asarray(rotation_matrix(TILT) @ np.asarray(vector, dtype=float))
-
-
-def curve(slope: float) -> Curve:
-    return Curve.pieces(starts=[-1.0], coefficients=[[0.3, slope, 0.0, 0.0, 0.0, 0.0]])
 
 
 def add_body(scene: Scene, name: str, at: Any, inertia: Array) -> None:
@@ -76,9 +73,11 @@ def jib(*, off_line: float = 0.0, swapped: bool = False, at_base: bool = True, c
         )
     else:
         join("prismatic", "way", "ground", "tail", (4.2, 0.1, 1.5), (0.2, 0.3, 1.0))
-        scene.add_actuator(name="push", joint="way", stiffness=50.0, damping=4.0, reference=curve(0.1))
-    scene.add_actuator(name="turn", joint="slew", stiffness=30.0, damping=5.0, feed_forward=curve(2.0))
-    scene.add_actuator(name="lift", joint="cylinder", stiffness=400.0, damping=20.0, reference=curve(-0.2))
+        scene.add_actuator(name="push", joint="way", stiffness=50.0, damping=4.0, reference=ramp(0.1, 0.4))
+    scene.add_actuator(name="turn", joint="slew", stiffness=30.0, damping=5.0, feed_forward=ramp(2.0, 2.3))
+    scene.add_actuator(
+        name="lift", joint="cylinder", stiffness=400.0, damping=20.0, reference=ramp(-0.2, 0.1)
+    )
     return scene
 
 
@@ -98,11 +97,9 @@ def test_structure_changes_no_acceleration(
 
 
 @pytest.mark.warns(sometimes=["PushingLinkWarning"])
-@pytest.mark.parametrize(("swapped", "off_line", "carried"), WAYS)
-def test_actuators_do_the_same_work_on_coordinates_as_on_bodies(
-    swapped: bool, off_line: float, carried: bool
-) -> None:
-    scene = jib(off_line=off_line, swapped=swapped, carried=carried)
+@pytest.mark.parametrize(("swapped", "off_line"), [(False, 0.0), (True, 0.2)])
+def test_actuators_do_the_same_work_on_coordinates_as_on_bodies(swapped: bool, off_line: float) -> None:
+    scene = jib(off_line=off_line, swapped=swapped, carried=not swapped)
     tree, bodies = (
         simulate(scene, t_end=1.0, dt_out=0.25, rtol=1e-10, integrator="dop853", formulation=kind)
         for kind in ("recursive", "redundant")
@@ -116,10 +113,9 @@ def test_actuators_do_the_same_work_on_coordinates_as_on_bodies(
     assert tree["absolute_work"][-1] > 1.0
 
 
-@pytest.mark.parametrize("off_line", [0.0, 0.2])
-def test_implicit_steps_know_the_actuators_on_the_tree(off_line: float) -> None:
+def test_implicit_steps_know_the_actuators_on_the_tree() -> None:
     """A wrong Jacobian would cost the order of a Rosenbrock method."""
-    scene, errors = jib(off_line=off_line), []
+    scene, errors = jib(), []
     settings: dict[str, Any] = {"t_end": 0.5, "dt_out": 0.5, "formulation": "recursive"}
     exact = simulate(scene, integrator="dop853", rtol=1e-12, **settings)["position"]
     for rtol in (1e-4, 1e-7):

@@ -1,6 +1,6 @@
 """Rigid bodies, joints, forces and one vessel from plain records; accelerations and multipliers by eq. (35).
 
-Schema of `System.from_records` (JSON types; SI, radians; every point and axis is given in the inertial
+Schema of the records (JSON types; SI, radians; every point and axis is given in the inertial
 frame in the start pose; "ground" or null is the fixed ground):
 
 ``gravity``        [gx, gy, gz]; not applied to the vessel's body
@@ -55,7 +55,7 @@ class Evaluation:
 
 
 class System:
-    """Compiled system; build it with `from_records`."""
+    """Compiled from the records of the module's description; `wave_loads` (t -> 6) replaces vessel.waves."""
 
     def __init__(self, records: Mapping[str, Any], wave_loads: WaveLoads | None = None) -> None:
         bodies = list(records["bodies"])
@@ -90,14 +90,6 @@ class System:
             self.vessel = Vessel(vessel, at, self.start, self.vectors, wave_loads)
             weighing[at] = False
         self.weight = np.outer(self.mass * weighing, np.asarray(records["gravity"], dtype=float))
-        self._finish()
-
-    @classmethod
-    def from_records(cls, records: Mapping[str, Any], *, wave_loads: WaveLoads | None = None) -> System:
-        """Build from the records of the module's description; `wave_loads` (t -> 6) replaces vessel.waves."""
-        return cls(records, wave_loads)
-
-    def _finish(self) -> None:
         self.rows.freeze()
         self.vectors.freeze()
         self.memory_states = 0 if self.vessel is None else len(self.vessel.memory.a)
