@@ -48,10 +48,9 @@ def ships() -> Iterator[Row]:
 def _problems(comparisons: Iterable[Any], subject: str, test: str) -> Iterator[Row]:
     worst: dict[tuple[str, ...], tuple[float, str]] = {}
     for one in comparisons:
-        problem, compared, source, *_, largest = one.row()
-        value, _, unit = largest.partition(" ")
-        key = (problem, compared, source)
-        worst[key] = max(worst.get(key, (0.0, unit)), (float(value), unit))
+        key = (one.problem, one.quantity, one.source)
+        found = (float(f"{one.difference:.1e}"), one.unit)
+        worst[key] = max(worst.get(key, (0.0, one.unit)), found)
     for (problem, compared, source), (difference, unit) in worst.items():
         yield Row(
             subject=subject, compared=f"{problem}: {compared}", reference=source, difference=difference,

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from seacrane import Curve, Result, Run, Scene, SceneError, balance, cases, simulate
 from seacrane.analysis import Evaluator, driven, feed_forward, quasi_static_loads
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.scene import spline_curve
 from seacrane.warnings import LargeSwingWarning, UnstableRestWarning
 
 Array = NDArray[np.float64]
@@ -105,25 +104,6 @@ def test_balance_equals_weight_and_moments_by_hand(payload: Payload | None) -> N
     forces = crane.static_cylinder_forces(s1=0.0, s2=0.0, payload_mass=payload.mass if payload else 0.0)
     np.testing.assert_allclose([held.loads["main"], held.loads["knuckle"]], forces, rtol=1e-9)
     assert abs(held.loads["slew"]) < 1e-3
-
-
-def test_driven_forces_put_back_return_the_motion() -> None:
-    """Forces that the motion needs in waves, fed forward at the same gains, give the same motion."""
-    scene = cases.case2(hs=4.0)
-    wanted = simulate(driven(scene), t_end=30.0, dt_out=0.02, rtol=1e-10)
-    loads = {"slew": wanted["slew_torque"], "main": wanted.select("cylinder_force", cylinder="main"),
-             "knuckle": wanted.select("cylinder_force", cylinder="knuckle")}  # fmt: skip
-    free = scene.copy(actuators={})
-    for name, a in scene.actuators.items():
-        free.add_actuator(
-            name=name, joint=a.joint, stiffness=a.stiffness, damping=a.damping, reference=a.reference,
-            feed_forward=spline_curve(times=wanted.time, values=loads[name]),
-        )  # fmt: skip
-    got = simulate(free, t_end=30.0, dt_out=0.02, rtol=1e-10)
-    assert np.max(np.abs(got["position"] - wanted["position"])) < 1e-6
-    assert np.max(np.abs(got["stroke"] - wanted["stroke"])) < 1e-7
-    plain = simulate(scene, t_end=30.0, dt_out=0.02)
-    assert np.max(np.abs(plain["stroke"] - wanted["stroke"])) > 1e-3
 
 
 STROKES = ("main", "knuckle")

@@ -70,26 +70,9 @@ def reversed_slide() -> Scene:
     return scene
 
 
-def four_bar() -> Scene:
-    """A crank that a driver turns round and round, in a loop of three spatial joints and a pin."""
-    scene = Scene(name="four bar")
-    corners = np.array([[0.0, 0.0], [0.907, 1.782], [4.62, 5.13], [6.0, 0.0]])
-    for name, a, b in zip(("crank", "coupler", "rocker"), corners, corners[1:], strict=False):
-        x, z = 0.5 * (a + b)
-        scene.add_body(name, mass=10.0, inertia=(1.0, 1.0, 1.0), position=(x, 0.0, z))
-    ends = ("ground", "crank", "coupler", "rocker", "ground")
-    for i, kind in enumerate(("revolute", "spherical", "universal", "revolute")):
-        axes = {"axis": (0.0, 1.0, 0.0)} if kind == "revolute" else {}
-        axes |= {"axis": (1.0, 0.0, 0.0), "second_axis": (0.0, 1.0, 0.0)} if kind == "universal" else {}
-        point = (corners[i][0], 0.0, corners[i][1])
-        scene.add_joint(f"pin {i}", kind=kind, first=ends[i], second=ends[i + 1], point=point, **axes)
-    scene.add_driver("pin 0", curve=Curve.quintic(start_time=0.0, end_time=6.0, start=0.0, end=5.0))
-    return scene
-
-
 SCENES = {
     "crane": lift, "crane on the rod's rung": lambda: lift(rung="quasi-static"), "given ship": given_ship,
-    "reversed": reversed_slide, "four bar": four_bar,
+    "reversed": reversed_slide,
 }  # fmt: skip
 
 

@@ -12,18 +12,7 @@ from hydraulic_scenes import RETRACTED, SET, START, lifted, raised
 from line_scenes import add_led
 from multibody_runs import record
 
-from seacrane import (
-    Curve,
-    Move,
-    Scene,
-    SceneError,
-    Stage,
-    Until,
-    natural_modes,
-    simulate,
-    simulate_stages,
-    statics,
-)
+from seacrane import Curve, Move, Scene, Stage, Until, natural_modes, simulate, simulate_stages, statics
 from seacrane.crane import KnuckleBoomCrane, Payload, data_file, load_crane
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
@@ -251,18 +240,3 @@ def test_a_stage_opens_the_spool_and_one_alone_starts_on_oil_that_holds_its_load
     alone = simulate_stages(raised(**FOLLOWS), [up, Stage(name="wait", duration=1.0)], first="wait")
     np.testing.assert_allclose(alone["hydraulic_stroke"][:, 0], START + 0.1, atol=1e-6)
     np.testing.assert_allclose(alone["hydraulic_force"][:, 0], 1000.0 * 9.80665, rtol=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("settings", "commands", "message"),
-    [
-        ({}, {"ram.reference": Move(by=0.1, over=1.0)}, "there are ram.command"),
-        (FOLLOWS, {"ram.reference": 0.4}, "give Move"),
-        ({}, {"ram.rupture": Move(to=1e-6, over=1.0)}, "a hose bursts at once"),
-        ({}, {"ram.rupture": HOLE}, "stage 'again': commands 'ram.rupture'"),
-    ],
-)
-def test_commands_that_cannot_be_are_told(settings: Any, commands: dict[str, Any], message: str) -> None:
-    stages = [Stage(name=name, duration=1.0, commands=commands) for name in ("s", "again")]
-    with pytest.raises(SceneError, match=message):
-        simulate_stages(raised(**settings), stages)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,6 @@ from scipy.integrate import simpson
 from scipy.optimize import brentq
 
 from seacrane import Curve, SceneError, natural_modes, simulate
-from seacrane.warnings import UnsteadyOilWarning
 
 LEAKS = {"internal_leakage": 2e-13, "external_leakage": 1e-13, "overlap": 0.05}
 
@@ -142,36 +140,6 @@ def test_energy_closes_with_every_part_and_runs_go_on_bit_for_bit() -> None:
 def test_bad_input_is_named(wrong: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=f"hydraulic cylinder 'ram': .*{message}"):
         raised(**wrong).compile()
-
-
-SETTINGS: dict[str, Any] = {"viscous_friction": 2e3, "spool_lag": 1e-3, "reference": START + 0.005}
-
-
-def swings(gain: float) -> tuple[bool, list[str]]:
-    """Whether the pressure still swings after a step of the reference, and what is told."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        result = simulate(raised(gain=gain, **SETTINGS), 4.0, dt_out=5e-3)
-    late = result["hydraulic_pressure"][-200:, 0, 0]
-    return bool(np.std(late) > 1e4), [
-        str(one.message) for one in caught if one.category is UnsteadyOilWarning
-    ]
-
-
-def steady_gain() -> float:
-    """Routh, of a quick spool: gain times its speed < 2 zeta omega = friction / mass; of the mean slope."""
-    back = 0.1 * SET["pump_pressure"]
-    load = (HOLDING + back * RING) / FULL
-    conductance = SET["rated_flow"] / np.sqrt(SET["rated_drop"])
-    drops = (SET["pump_pressure"] - load, load - SET["tank_pressure"])
-    flow = conductance * 0.5 * sum(drop / (drop**2 + SET["laminar_drop"] ** 2) ** 0.25 for drop in drops)
-    return float(SETTINGS["viscous_friction"] / MASS / (flow / FULL))
-
-
-def test_a_gain_above_the_closed_form_is_told_and_swings() -> None:
-    assert swings(0.6 * steady_gain()) == (False, [])
-    swinging, (told, *_) = swings(1.7 * steady_gain())
-    assert swinging and "hydraulic cylinder 'ram': with its gain of" in told
 
 
 CLOSED = {"viscous_friction": 0.0}

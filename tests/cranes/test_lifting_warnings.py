@@ -151,8 +151,6 @@ def test_a_crane_that_nothing_acts_on_is_held_as_by_drivers() -> None:
     scene.add_driver("slew", curve=Curve.table([0, 3], [0, 0.1]))
     holds = {one.joint for one in with_holds(scene).drivers.values()}
     assert holds == {"A", "main_cylinder", "knuckle_cylinder"} and len(with_holds(scene).drivers) == 3
-    actuator = scene.add_actuator("main", stiffness=1e8)
-    assert (actuator.joint, actuator.coordinate) == ("main_cylinder", "displacement")
 
 
 def test_a_crane_that_is_free_is_told_of_and_a_spring_holds_but_friction_does_not() -> None:

@@ -18,7 +18,7 @@ from seacrane.trading.row import Row
 from stability_atlas import committed, stability_atlas, workers
 from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES
-from stability_atlas.measure import measure, reference_of
+from stability_atlas.measure import measure
 from stability_atlas.methods import DEFAULT, QUICK
 
 
@@ -79,7 +79,6 @@ RK4 = Method(integrator="rk4", dt=0.02)
         (replace(GOOD, energy=1e-3), "energy error"),
         (replace(GOOD, **known(0.9, 1e-9)), "of the motion"),
         (replace(GOOD, verdict=rows.SLOW, message="granted 20 s"), "slow instead of completed: granted 20 s"),
-        (replace(STOPPED, message="something went wrong"), "says nothing of hinge, open by"),
         (replace(STOPPED, verdict=rows.COMPLETED), "completed instead of stopped"),
         *((replace(GOOD, case=HEEL, method=RK4, verdict=bad, message="x"), bad) for bad in rows.FORBIDDEN),
     ],
@@ -117,18 +116,6 @@ def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr("seacrane.run.run.Run.advance", fail)
     assert verdict(DEFAULT).verdict == rows.UNNAMED
-
-
-def test_errors_are_against_a_reference_that_checks_itself() -> None:
-    case = short(10.0)
-    truth = reference_of(case, 5.0)
-    assert truth.uncertainty["points"] < 1e-9 * truth.motion["points"]
-    loose = Method(formulation="redundant", integrator="bs32", rtol=1e-3)
-    tight = Method(formulation="recursive", integrator="tsit5", rtol=1e-9)
-    found = [measure(case, method, truth, 5.0, empty(method)) for method in (loose, tight)]
-    errors = [row.relative_error("points") for row in found]
-    assert 1e-6 < errors[0] < 1e-1
-    assert errors[1] < 1e-7
 
 
 def test_a_scene_that_cannot_be_made_is_a_row_of_its_own() -> None:

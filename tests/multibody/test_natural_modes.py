@@ -8,7 +8,6 @@ from linear_scenes import crane_with_payload, rod
 from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, cases, equilibrium, linear_model, natural_modes, simulate
-from seacrane.analysis import driven
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -87,15 +86,6 @@ def test_later_poses_are_reached_along_the_references() -> None:
     np.testing.assert_allclose(at_rest["vessel_motion"][0, 3], run["vessel_motion"][-1, 3], rtol=0.01)
     assert abs(at_rest["vessel_motion"][0, 3]) > np.radians(2.0)
     np.testing.assert_allclose(at_rest["slew_angle"][0], run["slew_angle"][-1], rtol=1e-3)
-
-
-def test_driven_crane_leaves_vessel_and_payload() -> None:
-    held_crane = driven(cases.case2(hs=0.0))
-    rest = equilibrium(held_crane, time=50.0)
-    assert linear_model(held_crane, state=rest).degrees_of_freedom == 11
-    run = simulate(held_crane, t_end=50.0, start=rest, channels=["slew_angle", "stroke"])
-    assert run["slew_angle"][0] == pytest.approx(-np.pi / 2.0, abs=1e-9)
-    np.testing.assert_allclose(run["stroke"][0], 2.0, atol=1e-9)
 
 
 def test_orientation_state_does_not_matter() -> None:

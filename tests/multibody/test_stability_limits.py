@@ -14,7 +14,6 @@ from numpy.polynomial import Polynomial
 
 from seacrane import Scene, _core, integrator_names, simulate
 from seacrane.analysis.linear_system import linear_model
-from seacrane.scene import spline_curve
 from seacrane.warnings import GrowingModeWarning
 from stability_atlas.step_limit import found_limit, predicted_limit
 
@@ -85,33 +84,3 @@ def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, s
         result = run(sprung(MODE, damping_ratio, speed=AMPLITUDE * MODE), integrator, **settings)
     start, end = np.abs(result["position"][:20, 0, 0]).max(), np.abs(result["position"][-20:, 0, 0]).max()
     assert end < 2.0 * start
-
-
-def hoisted(damping_ratio: float) -> Scene:
-    """A load on an elastic line below a point that heaves."""
-    scene = Scene(name="hoist")
-    time = np.linspace(0.0, 600.0, 2401)
-    heave = 0.5 * np.sin(0.7 * time) * np.minimum(1.0, time / 30.0)
-    scene.add_body(name="top", mass=1e3, inertia=[1e3] * 3)
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="top", axis=(0, 0, 1))
-    scene.add_driver(joint="rail", curve=spline_curve(times=time, values=heave))
-    scene.add_body(name="load", mass=20e3, inertia=[2e4] * 3, position=(0, 0, -30))
-    scene.add_line(
-        name="wire", bodies=["top", "load"], points=np.zeros((2, 3)), EA=1e8,
-        tension_at_start=20e3 * scene.gravity, damping_ratio=damping_ratio,
-    )  # fmt: skip
-    return scene
-
-
-def test_a_wire_that_rings_at_a_loose_tolerance_is_told_of() -> None:
-    """The tension's deviation is several times what a tight tolerance gives, and only then."""
-    told = {}
-    for rtol in (1e-2, 1e-6):
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            result = simulate(hoisted(0.02), t_end=500.0, integrator="tsit5", rtol=rtol)
-        ringing = [str(one.message) for one in caught if issubclass(one.category, GrowingModeWarning)]
-        told[rtol] = (float(result["line_tension"][1000:].std()), ringing)
-    assert told[1e-2][0] > 3.0 * told[1e-6][0]
-    assert "tsit5 at rtol 0.01 keeps an oscillation of body 'load' ringing" in told[1e-2][1][0]
-    assert not told[1e-6][1]

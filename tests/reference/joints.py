@@ -10,19 +10,13 @@ import numpy as np
 
 from .constraint_rows import ConstraintRows
 from .kinematics import BodyVectors, Motion, VectorMotion
-from .reference_curves import ReferenceCurve
 from .rotation import Array, cross, dot
-
-KINDS = ("weld", "revolute", "prismatic", "universal", "spherical", "distance")
 
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint of the compiled system.
-
-    `p1`, `p2` are the body-vector indices of its point on either body, `axis` that of its axis on the first
-    body, `t1`, `t2` those of the perpendicular vectors on either body that measure its angle; -1: none.
-    """
+    """Indices of body vectors: its point on either body, its axis on the first, and the vectors across that
+    measure its angle; -1: none."""
 
     name: str
     kind: str
@@ -47,8 +41,6 @@ def add_joint(
 ) -> Joint:  # fmt: skip
     """Register the vectors and rows of one joint record (schema: `system` module)."""
     name, kind = str(record["name"]), str(record["kind"])
-    if kind not in KINDS:
-        raise ValueError(f"joint {name!r}: kind {kind!r} is unknown; use one of {KINDS}")
     first, second = body_index(record.get("first"), bodies), body_index(record["second"], bodies)
     point = np.asarray(record["point"], dtype=float)
     other = np.asarray(record.get("second_point", point), dtype=float)
@@ -94,21 +86,6 @@ def unit(values: Any) -> Array:
 def body_index(name: Any, bodies: Mapping[str, int]) -> int:
     """None or "ground" is the fixed ground, the index after the last body."""
     return len(bodies) if name in (None, "ground") else bodies[name]
-
-
-def add_driver(
-    joint: Joint, curve: ReferenceCurve, start: Motion, vectors: BodyVectors, rows: ConstraintRows
-) -> None:
-    """Prescribe the coordinate of a revolute or prismatic joint, from zero at the start."""
-    ends = (joint.index, joint.first, joint.second)
-    if joint.kind == "revolute":
-        row = rows.add("spin", *ends, joint.axis, joint.t1, joint.t2)
-    elif joint.kind == "prismatic":
-        offset = start_extension(joint, start, vectors)
-        row = rows.add("slide", *ends, joint.p1, joint.p2, joint.axis, offset)
-    else:
-        raise ValueError(f"driver of {joint.name!r}: a {joint.kind} joint cannot be driven")
-    rows.drive(row, curve, is_angle=joint.kind == "revolute")
 
 
 def start_extension(joint: Joint, start: Motion, vectors: BodyVectors) -> float:

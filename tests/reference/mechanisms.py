@@ -21,7 +21,7 @@ JetVector = list[Jet]
 
 @dataclass(frozen=True)
 class Moving:
-    """Kinematics of one body along q: centre of mass p, and rotation by the body's axes."""
+    """One body along q: centre of mass p, and rotation by the body's axes."""
 
     mass: float
     inertia: Array
@@ -85,7 +85,6 @@ def inner(a: JetVector, b: JetVector) -> Jet:
 
 
 def outer_product(a: JetVector, b: JetVector) -> JetVector:
-    """Vector (cross) product."""
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
@@ -97,10 +96,9 @@ def fixed(values: Sequence[float] | Array) -> JetVector:
 class SliderCrank:
     """Crank on the x axis, rod on a spherical joint, universal joint on a slider along x.
 
-    The crank pin is at (0, a cos q, a sin q) + pivot; the slider's point at (s, 0, 0). The rod's body axes
-    are its direction e from pin to slider, then n = (y axis x e)/|.|, then e x n; the universal joint's
-    axes are the y axis (on the slider) and n (on the rod), so n stays perpendicular to y. Rod centre of
-    mass: midpoint.
+    The crank pin is at (0, a cos q, a sin q) + pivot; the slider's point at (s, 0, 0). The rod's body axes:
+    its direction e from pin to slider, n = (y axis x e)/|.|, e x n. The universal joint's axes are the y axis
+    (on the slider) and n (on the rod). Rod centre of mass: midpoint.
     """
 
     crank: Link

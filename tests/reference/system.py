@@ -11,7 +11,6 @@ frame in the start pose; "ground" or null is the fixed ground):
                    first body and, unless `second_point` is given, on the second too. universal: `axis` is
                    fixed on the first body, `second_axis` on the second. distance: from `point` to
                    `second_point`, `length` defaulting to their distance at the start
-``drivers``        list of {joint (revolute or prismatic), reference (curve)}
 ``actuators``      list of {joint, stiffness, damping, feedforward, reference (curve)}; the load on the
                    second body along (about) the axis is stiffness (ref - s) + damping (refdot - sdot) +
                    feedforward
@@ -32,10 +31,9 @@ from typing import Any
 
 import numpy as np
 
-from . import reference_curves
 from .constraint_rows import ConstraintRows, RowValues
 from .forces import Actuators, PointForces
-from .joints import JointCoordinates, add_driver, add_joint, body_index
+from .joints import JointCoordinates, add_joint, body_index
 from .kinematics import BodyVectors, Motion, VectorMotion
 from .rotation import Array, cross, matrix_from_quaternion, nearest_rotation, rotation_exponential
 from .vessel import Vessel, VesselLoads, WaveLoads
@@ -70,16 +68,12 @@ class System:
             at_rest, at_rest.copy(),
         )  # fmt: skip
         self.vectors = BodyVectors()
-        self.rows = ConstraintRows(len(bodies), self.vectors)
+        self.rows = ConstraintRows(len(bodies))
         self.joints = [
             add_joint(record, k, index, self.start, self.vectors, self.rows)
             for k, record in enumerate(records["joints"])
         ]
         self.joint_names = [j.name for j in self.joints]
-        for record in records.get("drivers", []):
-            joint = self.joints[self.joint_names.index(record["joint"])]
-            curve = reference_curves.from_record(record["reference"])
-            add_driver(joint, curve, self.start, self.vectors, self.rows)
         self.coordinates = JointCoordinates(self.joints, self.start, self.vectors)
         self.actuators = Actuators(records.get("actuators", []), self.coordinates)
         self.point_forces = PointForces(records.get("point_forces", []), index, self.start, self.vectors)
@@ -93,23 +87,16 @@ class System:
         self.rows.freeze()
         self.vectors.freeze()
         self.memory_states = 0 if self.vessel is None else len(self.vessel.memory.a)
-        curves = [*self.actuators.curves, *(d.curve for d in self.rows.drivers)]
-        self.breaks = sorted({b for curve in curves for b in curve.breaks})
+        self.breaks = sorted({b for curve in self.actuators.curves for b in curve.breaks})
         linear = 6 * np.arange(len(self.mass))[:, None] + np.arange(3)
         self._linear_diagonal = (linear.ravel(), linear.ravel())
         self._angular = ((linear + 3)[:, :, None], (linear + 3)[:, None, :])
         x = self.vectors.evaluate(self.start)
         mass, _ = self._mass_matrix(self.start, self._vessel_loads(0.0, x, np.zeros(self.memory_states)))
-        whitened = np.linalg.solve(
-            np.linalg.cholesky(mass), self.matrix(self.rows.evaluate(0.0, x)).T
-        )  # rank counts in the mass metric
+        # rank counts in the mass metric
+        whitened = np.linalg.solve(np.linalg.cholesky(mass), self.matrix(self.rows.evaluate(x)).T)
         sigma = np.linalg.svd(whitened / np.linalg.norm(whitened, axis=0), compute_uv=False)
         self.rank = int(np.sum(sigma > 1e-10 * sigma[0]))
-
-    @property
-    def degrees_of_freedom(self) -> int:
-        """Velocities minus independent constraints (drivers count as constraints)."""
-        return 6 * len(self.mass) - self.rank
 
     def matrix(self, values: RowValues) -> Array:
         """D (m, 6 n) without the ground's columns."""
@@ -134,7 +121,7 @@ class System:
     def evaluate(self, t: float, motion: Motion, memory: Array) -> Evaluation:
         """Accelerations and multipliers at one state."""
         x = self.vectors.evaluate(motion)
-        values = self.rows.evaluate(t, x)
+        values = self.rows.evaluate(x)
         vessel = self._vessel_loads(t, x, memory)
         mass, j = self._mass_matrix(motion, vessel)
 
@@ -170,18 +157,14 @@ class System:
     def reactions(self, e: Evaluation) -> tuple[Array, Array]:
         """Force and moment (joints, 3) on the second body, inertial frame, at the joint's point."""
         count = len(self.joints)
-        wrench = np.zeros((count + 1, 6))
+        wrench = np.zeros((count, 6))
         rows = np.arange(self.rows.count)
         loads = e.rows.matrix[rows, self.rows.second_of_row] * e.multipliers[:, None]
         np.add.at(wrench, self.rows.joint_of_row, loads)
-        force, moment = wrench[:count, :3], wrench[:count, 3:]
+        force, moment = wrench[:, :3], wrench[:, 3:]
         points = np.array([j.reaction_point for j in self.joints])
         second = np.array([j.second for j in self.joints])
         return force, moment + cross(e.vectors.motion.r[second] - e.vectors.point(points), force)
-
-    def driver_loads(self, e: Evaluation) -> Array:
-        """Loads of the drivers on the second body along their coordinates."""
-        return np.array([e.multipliers[d.row] for d in self.rows.drivers])
 
     def project(self, t: float, motion: Motion, memory: Array) -> Motion:
         """Nearest motion, in the mass metric, that satisfies the constraints on position and velocity."""
@@ -190,7 +173,7 @@ class System:
         best, zero = np.inf, np.zeros(6 * len(self.mass))
         for _ in range(12):
             x = self.vectors.evaluate(out)
-            values = self.rows.evaluate(t, x)
+            values = self.rows.evaluate(x)
             mass, _j = self._mass_matrix(out, self._vessel_loads(t, x, memory))
             error = float(np.max(np.abs(values.residual)))
             if error < 1e-13 or error > 0.5 * best:
@@ -201,7 +184,7 @@ class System:
             out.rotation[:-1] = rotation_exponential(steps[:, 3:]) @ out.rotation[:-1]
         if not error < 1e-7:
             raise ValueError(f"the joints do not close at t = {t} s: residual {error:.3g} m or rad")
-        step = self.solve(mass, values, zero, -values.rate)[0].reshape(-1, 6)
+        step = self.solve(mass, values, zero, -self.matrix(values) @ out.twists())[0].reshape(-1, 6)
         out.v[:-1] += step[:, :3]
         out.w[:-1] += step[:, 3:]
         return out

@@ -81,8 +81,6 @@ class VesselLoads:
 
 
 class Vessel:
-    """Compiled hydrodynamics of one body."""
-
     def __init__(
         self, record: Mapping[str, Any], body: int, start: Motion, vectors: BodyVectors,
         wave_loads: WaveLoads | None,
@@ -106,7 +104,7 @@ class Vessel:
         return np.concatenate([x.point(self.point) - self.rest, angles])
 
     def loads(self, t: float, x: VectorMotion, memory: Array) -> VesselLoads:
-        """Evaluate; the added-mass inertia is returned, its velocity terms are part of the wrench."""
+        """The added-mass inertia is returned, its velocity terms are part of the wrench."""
         lever, w = x.g[self.point], x.motion.w[self.body]
         eta = self.displacement(x)
         rates = angle_rate_matrix(eta[4], eta[5])

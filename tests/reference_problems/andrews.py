@@ -28,18 +28,6 @@ END = np.array([
     0.1581077119629904e2, -0.1575637105984298e2, 0.4082224013073101e-1, -0.5347301163226948,
     0.5244099658805304, 0.5347301163226948, 0.1048080741042263e1,
 ])  # fmt: skip
-END_RATES = np.array([
-    0.1139920302151208e4, -0.1424379294994111e4, 0.1103291221937134e2, 0.1929337464421385e2,
-    0.5735699284790808, -0.1929337464421385e2, 0.3231791658026955,
-])  # fmt: skip
-# Second derivatives at the start, and at the end.
-START_ACCELERATION = np.array(
-    [14222.4439199541138705911625887, -10666.8329399655854029433719415, 0, 0, 0, 0, 0]
-)
-END_ACCELERATION = np.array([
-    -0.2463176316946196e5, 0.5185037701610329e5, 0.3241025686413781e6, 0.5667493645176213e6,
-    0.1674362929479361e5, -0.5667493645176222e6, 0.9826520791458422e4,
-])  # fmt: skip
 A, B, C = np.array([-0.06934, -0.00227]), np.array([-0.03635, 0.03273]), np.array([0.014, 0.072])
 MASS = (0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498)
 INERTIA = (2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5)
@@ -66,10 +54,8 @@ def scene(*, planar: bool = False) -> Scene:
     centers = ((RA, 0), (-DA, 0), (SA, SB), (0, -(E - EA)), (TA, TB), (ZF - FA, 0), (UA, UB))
     out = Scene(name="Andrews' squeezer", gravity=0.0)
     for i in range(7):
-        add_body(
-            out, "xy", f"K{i + 1}", mass=MASS[i], inertia=INERTIA[i], origin=origins[i], angle=absolute[i],
-            center=centers[i],
-        )  # fmt: skip
+        place = {"origin": origins[i], "angle": absolute[i], "center": centers[i]}
+        add_body(out, "xy", f"K{i + 1}", mass=MASS[i], inertia=INERTIA[i], **place)
     closing, sliding = ("revolute", "revolute") if planar else ("spherical", "cylindrical")
     pins: list[tuple[str, str, str, Any, str]] = [
         ("O", "ground", "K1", np.zeros(2), "revolute"), ("F", "K1", "K2", pin, "revolute"),
@@ -88,12 +74,7 @@ def scene(*, planar: bool = False) -> Scene:
     return out
 
 
-def relative(absolute: Array) -> Array:
-    """The problem's seven angles (or rates) from those of the bodies (k, 7)."""
-    k1, k2, k3, k4, k5, k6, k7 = np.moveaxis(absolute, -1, 0)
-    return np.stack([k1, k2 - k1, k3, k4 - k5, k5, k6 - k7, k7], axis=-1)
-
-
 def problem_angles(quaternions: Array) -> Array:
     """beta ... epsilon (k, 7) from the quaternions of a run (k, 7, 4) with outputs close enough to unwrap."""
-    return relative(angles("xy", quaternions))
+    k1, k2, k3, k4, k5, k6, k7 = np.moveaxis(angles("xy", quaternions), -1, 0)
+    return np.stack([k1, k2 - k1, k3, k4 - k5, k5, k6 - k7, k7], axis=-1)

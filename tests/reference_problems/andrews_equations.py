@@ -36,29 +36,18 @@ def mass(q: Array) -> Array:
 
 def force(q: Array, v: Array) -> Array:
     _, theta, gamma, phi, _, omega, _ = q
-    d = a.B + np.array(
-        [a.SD * np.cos(gamma) + a.SC * np.sin(gamma), a.SD * np.sin(gamma) - a.SC * np.cos(gamma)]
-    )
-    reach = d - a.C
+    c, s = np.cos(gamma), np.sin(gamma)
+    reach = a.B + np.array([a.SD * c + a.SC * s, a.SD * s - a.SC * c]) - a.C
     length = float(np.hypot(*reach))
     pull = -a.STIFFNESS * (length - a.NATURAL_LENGTH) / length * reach
-    turn = np.array(
-        [a.SC * np.cos(gamma) - a.SD * np.sin(gamma), a.SD * np.cos(gamma) + a.SC * np.sin(gamma)]
-    )
+    turn = np.array([a.SC * c - a.SD * s, a.SD * c + a.SC * s])
     crank = a.MASS[1] * a.DA * a.RR * np.sin(theta)
     knee4 = a.MASS[3] * a.ZT * (a.E - a.EA) * np.cos(phi)
     knee6 = a.MASS[5] * a.U * (a.ZF - a.FA) * np.cos(omega)
-    return np.array(
-        [
-            a.TORQUE - crank * v[1] * (v[1] + 2.0 * v[0]),
-            crank * v[0] ** 2,
-            pull @ turn,
-            knee4 * v[4] ** 2,
-            -knee4 * v[3] * (v[3] + 2.0 * v[4]),
-            -knee6 * v[6] ** 2,
-            knee6 * v[5] * (v[5] + 2.0 * v[6]),
-        ]
-    )
+    return np.array([
+        a.TORQUE - crank * v[1] * (v[1] + 2.0 * v[0]), crank * v[0] ** 2, pull @ turn, knee4 * v[4] ** 2,
+        -knee4 * v[3] * (v[3] + 2.0 * v[4]), -knee6 * v[6] ** 2, knee6 * v[5] * (v[5] + 2.0 * v[6]),
+    ])  # fmt: skip
 
 
 # Each loop: the pin's place by both ways, as sums of length * (cos, sin) of sums of angles (plus a quarter
@@ -90,10 +79,7 @@ def acceleration(q: Array, v: Array) -> Array:
     return np.asarray(np.linalg.solve(system, np.concatenate([force(q, v), -rate]))[:7])
 
 
-def solution(times: ArrayLike) -> tuple[Array, Array]:
-    """Angles and rates (k, 7), DOP853 at 1e-12."""
-    y = integrate(
-        lambda _, s: np.concatenate([s[7:], acceleration(s[:7], s[7:])]),
-        np.concatenate([a.START, np.zeros(7)]), times
-    )  # fmt: skip
-    return y[:, :7], y[:, 7:]
+def solution(times: ArrayLike) -> Array:
+    """Angles (k, 7), DOP853 at 1e-12."""
+    start = np.concatenate([a.START, np.zeros(7)])
+    return integrate(lambda _, s: np.concatenate([s[7:], acceleration(s[:7], s[7:])]), start, times)[:, :7]

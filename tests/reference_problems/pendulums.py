@@ -24,18 +24,13 @@ def scene() -> Scene:
     return out
 
 
-def place(times: ArrayLike) -> tuple[Array, Array]:
-    """Place and velocity (x, z) of the mass (k, 2): sin(b / 2) = k sn(K - w t), k = sin(45 deg), w^2 = g /
-    L."""
+def place(times: ArrayLike) -> Array:
+    """Place (x, z) of the mass (k, 2): sin(b / 2) = k sn(K - w t), k = sin(45 deg), w^2 = g / L."""
     from scipy.special import ellipj, ellipk
 
-    omega, m = np.sqrt(GRAVITY), 0.5
-    sn, cn, _, _ = ellipj(ellipk(m) - omega * np.asarray(times, dtype=float), m)
-    half = np.sqrt(m) * sn
-    angle = -2.0 * np.arcsin(half)  # from hanging, towards +x positive
-    rate = 2.0 * np.sqrt(m) * omega * cn  # b' = 2 k w cn, as d sn = cn dn and cos(b / 2) = dn
-    position = np.column_stack([np.sin(angle), -np.cos(angle)])
-    return position, rate[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    sn, _, _, _ = ellipj(ellipk(0.5) - np.sqrt(GRAVITY) * np.asarray(times, dtype=float), 0.5)
+    angle = -2.0 * np.arcsin(np.sqrt(0.5) * sn)  # from hanging, towards +x positive
+    return np.column_stack([np.sin(angle), -np.cos(angle)])
 
 
 def double_scene() -> Scene:
