@@ -8,20 +8,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Curve, Result, Run, Scene, SceneError, balance, cases, simulate
+from seacrane import Curve, Run, Scene, SceneError, balance, cases, simulate
 from seacrane.analysis import Evaluator, driven, feed_forward, quasi_static_loads
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.warnings import LargeSwingWarning, UnstableRestWarning
+from seacrane.warnings import UnstableRestWarning
 
 Array = NDArray[np.float64]
 G = 9.80665
 CASES: dict[str, Callable[..., Scene]] = {"case1": cases.case1, "case2": cases.case2, "case3": cases.case3}
-
-
-@pytest.fixture(scope="module")
-def runs() -> dict[str, Result]:
-    with pytest.warns(LargeSwingWarning):  # of case 1
-        return {name: simulate(case()) for name, case in CASES.items()}
 
 
 def mass_scaled_singular_values(terms: dict[str, Array]) -> Array:
@@ -50,16 +44,6 @@ def test_case2_has_60_coordinates_46_constraints_and_14_freedoms_and_keeps_its_e
         load = terms["mass"] @ terms["acceleration"] - pull - terms["load"]
         assert np.max(np.abs(load)) < 1e-10 * np.max(np.abs(terms["load"]))
         assert np.max(np.abs(terms["jacobian"] @ terms["acceleration"] - terms["gamma"])) < 1e-10
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_constraints_stay_closed_and_so_does_the_energy_balance(runs: dict[str, Result], name: str) -> None:
-    run = runs[name]
-    assert np.max(run["constraint_error"]) < 1e-9
-    assert np.max(run["constraint_rate_error"]) < 1e-9
-    assert np.max(run["constraint_error_before_projection"]) == 0.0  # tree coordinates leave nothing open
-    assert np.max(np.abs(run["energy_balance"])) < 1e-6 * run["absolute_work"][-1]
-    assert run["absolute_work"][-1] > 1e8
 
 
 def test_projection_closes_what_steps_of_the_redundant_form_open() -> None:

@@ -10,13 +10,11 @@ from element_runs import FORMULATIONS as FORMS
 from element_runs import goes_on
 from marks import needs_lanes
 from multibody_runs import ACTUATORS, crane_scene, ramp, record, swing_out
-from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SceneError, SeacraneError, _core, shipped_database, simulate
 from seacrane.analysis import driven, inverse_dynamics, reflected_inertia
 from seacrane.run.lanes import module_of
 
-Array = NDArray[np.float64]
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 
 

@@ -6,22 +6,9 @@ import numpy as np
 import pytest
 from reference_problems import four_bars
 
-from seacrane import Curve, Scene, _core, simulate
+from seacrane import Curve, Scene, simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore")
-
-
-@pytest.mark.parametrize("planar", [True, False])
-@pytest.mark.parametrize("loops", [3, 20])
-def test_both_formulations_accelerate_alike_along_a_turn(loops: int, planar: bool) -> None:
-    scene = four_bars.scene(loops, planar=planar)
-    model = scene.compile()
-    recursive, redundant = (_core.Evaluator(model, name) for name in ("recursive", "redundant"))
-    for end in (0.0, 0.6, 1.2):
-        start = model.initial_state
-        values = simulate(scene, end, formulation="redundant", rtol=1e-10).state.values if end else start
-        found, expected = (np.asarray(one.accelerations(0.0, values)) for one in (recursive, redundant))
-        assert np.abs(found - expected).max() < 1e-8 * np.abs(expected).max()
 
 
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])

@@ -9,16 +9,13 @@ from typing import Any
 
 import pytest
 
-from seacrane import Method, cases
+from seacrane import Method
 from seacrane.accuracy.quantities import ErrorMeasures
 from seacrane.trading import row as rows
-from seacrane.trading.case import Case
-from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
 from stability_atlas import committed, stability_atlas, workers
 from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES
-from stability_atlas.measure import measure
 from stability_atlas.methods import DEFAULT, QUICK
 
 
@@ -88,34 +85,6 @@ def test_a_broken_promise_is_told(row: Row, words: str) -> None:
     assert committed.broken([GOOD, STOPPED, replace(GOOD, **known(0.9, 0.8))], list(AXES)) == []
     (text,) = committed.broken([row], list(AXES))
     assert words in text
-
-
-def short(t_end: float = 1.0) -> Case:
-    return Case(scene=cases.vessel(count=5), t_end=t_end, dt_out=0.5)
-
-
-def empty(method: Method) -> Row:
-    return workers.Group(axis="heel", value=0.0, methods=(method,), limit_s=1.0).empty(method)
-
-
-def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
-    def verdict(method: Method, case: Case | None = None, limit_s: float = 5.0) -> Row:
-        return measure(case or short(), method, Reference(), limit_s, empty(method))
-
-    done = verdict(DEFAULT)
-    assert (done.verdict, done.message) == (rows.COMPLETED, "") and done.energy < 1e-4
-    assert verdict(Method(formulation="recursive", integrator="ida")).verdict == rows.REFUSED
-    slow = verdict(Method(formulation="redundant", integrator="rk4", dt=1e-5), short(1e4), 0.05)
-    assert slow.verdict == rows.SLOW
-    assert 0 < slow.steps < 1e6 and slow.cpu_s < 10.0
-    stopped = verdict(Method(formulation="redundant", integrator="rk4", dt=0.02), AXES["memory"].case(-10.0))
-    assert stopped.verdict == rows.STOPPED and "vessel" in stopped.message
-
-    def fail(*_: Any) -> None:
-        raise RuntimeError("mystery")
-
-    monkeypatch.setattr("seacrane.run.run.Run.advance", fail)
-    assert verdict(DEFAULT).verdict == rows.UNNAMED
 
 
 def test_a_scene_that_cannot_be_made_is_a_row_of_its_own() -> None:

@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import cases, simulate
+from seacrane import simulate
 from seacrane.result import Result
 from seacrane.trading.case import Case
 from stability_atlas.axes import AXES
-from stability_atlas.duration_axes import HOUR
 from stability_atlas.points import POINTS
 
 
@@ -36,18 +35,6 @@ def test_rebounds_that_a_fixed_step_cannot_resolve_come_to_rest() -> None:
     assert tight.events[-1].kind == found.events[-1].kind == "contact"
     assert found.events[-1].time == pytest.approx(tight.events[-1].time, abs=2e-2)
     assert np.abs(found["position"][-1] - tight["position"][-1]).max() < 5e-3
-
-
-@pytest.mark.slow("hours of motion")
-@pytest.mark.filterwarnings("ignore")
-def test_a_day_of_a_vessel_whose_memory_is_not_passive_does_not_grow() -> None:
-    how = {"t_end": 24.0 * HOUR, "dt_out": 2.0, "channels": ["vessel_motion"]}
-    motion = simulate(cases.vessel(memory="per-pair"), **how)["vessel_motion"]
-    part = len(motion) // 24
-    size = [np.std(motion[k * part : (k + 1) * part], axis=0) for k in range(1, 24)]
-    swell = np.array(size)[:, 2:5]  # heave, roll, pitch: surge, sway and yaw drift slowly in their mooring
-    assert np.max(swell[-6:].mean(axis=0) / swell[:6].mean(axis=0)) < 1.2
-    assert np.max(swell.max(axis=0) / swell.min(axis=0)) < 2.0
 
 
 def test_a_heeled_vessel_loses_energy_and_never_gains_any() -> None:

@@ -74,7 +74,7 @@ class System:
             for k, record in enumerate(records["joints"])
         ]
         self.joint_names = [j.name for j in self.joints]
-        self.coordinates = JointCoordinates(self.joints, self.start, self.vectors)
+        self.coordinates = JointCoordinates(self.joints)
         self.actuators = Actuators(records.get("actuators", []), self.coordinates)
         self.point_forces = PointForces(records.get("point_forces", []), index, self.start, self.vectors)
         self.vessel = None
