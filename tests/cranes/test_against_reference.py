@@ -144,6 +144,9 @@ def test_a_run_agrees_with_the_reference() -> None:
     channels = {n: ours.time if n == "time" else ours[n] for n in MOTION}
     found = differences(theirs, channels, bodies=list(ours.coords["body"]))
     assert max(found.values()) < 1e-8
+    moved = channels | {"position": ours["position"] + [0.0, 0.0, 1e-3], "quaternion": -ours["quaternion"]}
+    other = differences(theirs, moved, bodies=list(ours.coords["body"]))  # is not blind
+    assert other["position"] == pytest.approx(1e-3, rel=1e-3) and other["attitude"] < 1e-8
     for one, other in (("actuator_force", "actuator_load"), ("wave_force", "wave_force")):
         error = np.max(np.abs(ours[one] - theirs[other]), axis=0) / np.max(np.abs(theirs[other]), axis=0)
         np.testing.assert_array_less(error, 1e-8)

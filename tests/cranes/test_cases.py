@@ -108,7 +108,6 @@ def moves() -> dict[str, Curve]:
 
 @pytest.mark.parametrize("payload", [None, Payload(mass=15e3)])
 def test_on_a_fixed_base_they_are_the_cranes_static_forces(payload: Payload | None) -> None:
-    """Virtual work on the crane's geometry, at poses on the way; a level slew bearing carries nothing."""
     times = np.array([0.0, 6.0, 11.0, 15.0, 30.0])
     loads = quasi_static_loads(on_the_ground(payload), times=times, references=moves())
     for i, time in enumerate(times):

@@ -109,7 +109,6 @@ PLACE: dict[str, Any] = {"slew": -0.6, "s1": 1.7, "s2": 2.9}
 
 
 def test_a_crane_in_a_scene_has_its_bodies_joints_ranges_and_payload() -> None:
-    """A payload hangs by the centroid of its top."""
     pose = CRANE.geometry.pose(**PLACE)
     for body in CRANE.bodies(**PLACE):
         np.testing.assert_allclose(rotation_matrix(body.quaternion), pose[body.name][1], atol=1e-15)

@@ -1,4 +1,4 @@
-"""Cranes: one that gives, stiffness at the hook in series, snaps; two in one scene, roles of parts."""
+"""Cranes: one that gives, stiffness at the hook in series; two in one scene, roles of parts."""
 
 from __future__ import annotations
 

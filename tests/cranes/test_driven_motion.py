@@ -207,7 +207,6 @@ def test_inverse_dynamics_by_algebra_agrees_with_the_driven_simulation() -> None
 
 
 def test_reflected_inertia_by_hand() -> None:
-    """Two links in line on hinges about z: parallel axes, and a cart that carries a mass on a lever."""
     scene = Scene(gravity=9.81)
     scene.add_body(name="inner", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.5, 0.0, 0.0))
     scene.add_body(name="outer", mass=2.0, inertia=(0.2, 0.25, 0.4), position=(1.0, 0.6, 0.0))

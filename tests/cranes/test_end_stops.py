@@ -53,7 +53,6 @@ def test_load_leaves_the_deck_when_the_hoist_carries_its_weight(merge: bool) -> 
 
 
 def test_several_limits_reached_at_once_share_one_impact() -> None:
-    """A plate that lands flat on three feet stays, each foot carrying its share."""
     scene = Scene(name="plate")
     scene.add_body(name="plate", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, 1.0))
     feet = {"a": (1.0, 0.0, 1.0), "b": (-0.5, 0.8, 1.0), "c": (-0.5, -0.8, 1.0)}

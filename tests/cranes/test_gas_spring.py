@@ -46,7 +46,6 @@ def test_force_and_stiffness_give_the_same_gas() -> None:
 
 @pytest.mark.parametrize(("exponent", "pushes"), [(1.0, True), (1.4, False)])
 def test_large_strokes_follow_the_gas_law(exponent: float, pushes: bool) -> None:
-    """With damping of both kinds, solved by SciPy from the law itself."""
     damping, quadratic = 2e3, 3e3
     oil = {"exponent": exponent, "damping": damping, "quadratic_damping": quadratic}
     scene = hung(velocity=-2.0, **oil)

@@ -33,7 +33,6 @@ def crane(hydraulics: Any = BOTH, **more: Any) -> Scene:
 
 @pytest.mark.warns("PushingLinkWarning")
 def test_a_stroke_has_one_name_whatever_drives_it() -> None:
-    """Held, led by a driver or pushed by oil: counted from the described pose."""
     oil = simulate(crane(), 1.0, dt_out=0.5)
     moved = oil["hydraulic_stroke"] - oil["hydraulic_stroke"][0]
     assert oil["stroke"] == pytest.approx(moved, abs=1e-9)
@@ -127,7 +126,6 @@ FRAME_OIL: dict[str, Any] = {
 
 @pytest.mark.parametrize("tilt", [0.5, 2.6])
 def test_an_a_frame_starts_at_rest_on_its_oil(tilt: float) -> None:
-    """Its own statics are those of the engine, at the ends of the stroke too."""
     scene, load = Scene(name="A-frame"), Payload(mass=15e3, size=(2.0, 2.0, 2.0), link_length=3.0)
     scene.add_crane(
         load_crane("a_frame_40t"), base="ground", foot=(-50.0, 0.0, 10.0), coordinates={"tilt": tilt},

@@ -76,7 +76,6 @@ EVERYTHING: dict[str, Any] = LEAKS | {
 
 
 def test_oil_is_neither_lost_nor_made() -> None:
-    """Flows in and out are what both chambers take, by their strokes and pressures."""
     out = record(lifted(), 1.6, dt_out=0.002, rtol=1e-10)
     through, returned = out["hydraulic_pump_flow"][:, 0], out["hydraulic_tank_flow"][:, 0]
     ports = out["hydraulic_flow"][:, 0]
@@ -173,7 +172,6 @@ def test_a_burst_hose_lowers_the_load_as_fast_as_the_orifice_lets_oil_out() -> N
 
 
 def test_a_load_holding_valve_holds_when_the_hose_bursts() -> None:
-    """Lifting then only spills what the pump gives."""
     up = Curve.quintic(start_time=0.5, end_time=0.6, start=0.0, end=0.5)
     out = record(raised(command=up, **HOLDING_VALVE, **BURST), 1.5, rtol=1e-8)
     assert np.ptp(out["hydraulic_stroke"]) < 3e-4  # as the rod side lets its pressure go

@@ -122,7 +122,6 @@ def test_loops_of_a_frame_close_and_keep_the_triangle(a_frame: JointedCrane) -> 
 
 
 def test_statics_find_radii_by_luffing_and_a_heavier_boom(lattice: JointedCrane) -> None:
-    """A heavier boom takes more moment, by its weight's lever arm."""
     scene = fixed(lattice, Payload(mass=20e3, size=(2.0, 2.0, 2.0)), boom=1.0)
     found = seacrane.statics(scene, radius=[20.0, 40.0], slew=[0.0, 0.3])
     assert np.allclose(found["tip radius"], [[20.0, 40.0]] * 2, atol=1e-6)

@@ -39,7 +39,6 @@ def test_a_swing_beyond_20_deg_warns_on_a_rod_or_on_a_line(angle: float, warned:
 
 @pytest.mark.parametrize("scale", [0.99, 1.01])
 def test_a_load_above_the_table_at_the_radius_where_it_comes_to_hang_warns(scale: float) -> None:
-    """The tip comes in while the knuckle cylinder retracts: the largest radius is that of the start."""
     scene = Scene(name="quay")
     roles = scene.add_crane(base="ground", s1=1.0, s2=1.5, payload=Payload(mass=20e3))
     lower = Curve.quintic(start_time=0.0, end_time=8.0, start=0.0, end=-0.8)

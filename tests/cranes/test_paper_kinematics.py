@@ -57,7 +57,6 @@ def test_equation_20_against_a_numerical_derivative() -> None:
 
 
 def test_engines_euler_angle_rates_use_the_corrected_matrix() -> None:
-    """State derivative of a free body whose orientation is kept in the paper's angles."""
     scene = Scene(orientation="euler_xyz", gravity=0.0)
     scene.add_body(name="body", mass=1.0, inertia=(1.0, 2.0, 3.0))
     model = scene.compile()

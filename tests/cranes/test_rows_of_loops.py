@@ -26,7 +26,6 @@ def test_ten_four_bars_go_round_as_elliptic_functions_say(planar: bool, formulat
 
 
 def test_a_driver_of_one_post_leads_them_all() -> None:
-    """A driver's row is among those kept, and its power is what the energy takes."""
     scene: Scene = four_bars.scene(6)
     scene.add_driver("foot 3", curve=Curve.quintic(start_time=0.0, end_time=2.0, start=0.0, end=0.6))
     for name in list(scene.bodies):

@@ -38,7 +38,6 @@ def test_rebounds_that_a_fixed_step_cannot_resolve_come_to_rest() -> None:
 
 
 def test_a_heeled_vessel_loses_energy_and_never_gains_any() -> None:
-    """Memory and damping are passive: from rest at any heel it comes no further than it started."""
     for degrees in (20.0, 89.0, 120.0):
         scene = AXES["heel"].case(degrees).scene
         result = simulate(scene, t_end=120.0, dt_out=0.5, channels=["quaternion"])

@@ -50,7 +50,6 @@ def test_errors_of_ida_on_a_turning_body_fall_with_the_tolerance() -> None:
 
 
 def test_ida_where_its_steps_stay_at_order_1_and_fail_for_ever() -> None:
-    """Refused by name, what was reached is kept."""
     with pytest.raises(SimulationError, match=r"stay at order 1 and keep failing") as caught:
         simulate(pendulum(), 100.0, integrator="ida", rtol=1e-8)
     reached = caught.value.result
@@ -91,7 +90,6 @@ def test_steps_and_dense_output_equal_those_of_scipy(integrator: str, method: ty
 
 @pytest.mark.parametrize("orientation", ["quaternion", "euler_xyz"])
 def test_semi_implicit_euler_turns_by_the_exponential(orientation: str) -> None:
-    """At constant angular velocity about a principal axis the rotation is exact whatever the step."""
     scene = Scene(gravity=0.0, orientation=orientation)
     scene.add_body(name="top", mass=1.0, inertia=np.diag([1.0, 2.0, 3.0]), position=(0.0, 0.0, 0.0),
                    angular_velocity=(0.0, 0.0, 2.0))  # fmt: skip
@@ -119,7 +117,6 @@ def afloat(**settings: Any) -> np.ndarray:
     *((name, {"rtol": 1e-6}, 1e-5) for name in ("cvode-adams", "cvode-bdf", "ida")),
 ])  # fmt: skip
 def test_methods_agree_on_case_2_afloat(integrator: str, settings: dict[str, float], limit: float) -> None:
-    """Memory states, waves, controllers and constraints together."""
     assert np.linalg.norm(afloat(integrator=integrator, **settings) - afloat(rtol=1e-12)) < limit
 
 

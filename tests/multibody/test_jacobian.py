@@ -173,7 +173,6 @@ def test_eigenvalues_of_a_vessel_are_those_of_its_matrices_and_linearisation_tak
 
 
 def test_linear_model_agrees_with_differences(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The exact matrix, and the one that models without an exact Jacobian get."""
     scene = cases.case2(hs=0.0)
     rest = equilibrium(scene, time=50.0)
     exact = linear_model(scene, state=rest).a
@@ -187,7 +186,6 @@ def test_linear_model_agrees_with_differences(monkeypatch: pytest.MonkeyPatch) -
     [("rosenbrock", "recursive"), ("cvode-bdf", "redundant"), ("ark-dirk", "recursive"), ("ida", "redundant")]
 )  # fmt: skip
 def test_implicit_methods_use_it(integrator: str, formulation: str) -> None:
-    """No evaluations are spent on differences, and the motion is that of an explicit method."""
     scene = cases.case2(count=20)
     settings: dict[str, Any] = {"t_end": 2.0, "dt_out": 1.0, "formulation": formulation}
     run = simulate(scene, integrator=integrator, rtol=1e-5, **settings)

@@ -110,7 +110,6 @@ def test_an_impossible_pose_names_the_loop_and_its_gap_and_contradicting_joints_
 
 
 def test_joint_frames_may_lie_anywhere_on_their_bodies() -> None:
-    """A hinge described by frames swings like the same hinge described by point and axis."""
     q = quaternion_about((1, 1, 0), 0.7)
     runs = []
     for shift in (np.zeros(3), np.array([0.4, -0.3, 0.2])):

@@ -201,7 +201,6 @@ def test_a_winch_stops_at_its_minimum_length_by_every_method(name: str) -> None:
 @pytest.mark.parametrize("name", ["dopri5", "dop853", "rosenbrock"])
 @pytest.mark.parametrize("until", [-0.5, -1e-5, 0.0, 1e-7])
 def test_a_run_goes_on_bit_for_bit_about_a_located_bound(name: str, until: float, tmp_path: Path) -> None:
-    """At times about that at which the bound is met."""
     when = (10.0 / (1.0 + 1e4 * 9.80665 / 1e7) - 9.5) / 0.5
     until += when
     settings: dict[str, Any] = {"dt_out": 0.1, "integrator": name, "rtol": 1e-4}

@@ -80,7 +80,6 @@ def test_euler_angles_stop_at_their_singularity_and_name_the_body(integrator: st
 
 
 def test_momentum_of_a_thrown_crane_is_that_of_its_start() -> None:
-    """Every body starts with the twist of one rigid body; actuators swing the crane out."""
     scene, hull = Scene(gravity=0.0), {"mass": 4.0e6, "inertia": (4e8, 3e9, 3e9)}
     twist = {"velocity": (1.0, -2.0, 0.5), "angular_velocity": (0.0, 0.0, 0.05)}
     scene.add_body(name="vessel", center_of_mass=(0.0, 0.0, -2.0), **hull, **twist)

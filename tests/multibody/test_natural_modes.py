@@ -59,7 +59,6 @@ def test_equilibrium_of_a_pendulum_held_aside() -> None:
 
 @pytest.mark.parametrize("label", ["payload sway", "stiffest"])
 def test_free_decay_of_crane_and_payload(label: str) -> None:
-    """A run started in a mode shape decays as exp(eigenvalue t) in every pose, to 1 % of its size."""
     scene = crane_with_payload()
     linear = linear_model(scene)
     modes = natural_modes(linear)
@@ -78,7 +77,6 @@ def test_free_decay_of_crane_and_payload(label: str) -> None:
 
 
 def test_later_poses_are_reached_along_the_references() -> None:
-    """Rest after the swing-out of case 1 equals where a damped run of it comes to rest."""
     scene = cases.case1(hs=0.0)
     rest = equilibrium(scene, time=50.0)
     run = simulate(scene, t_end=400.0, dt_out=400.0, channels=["vessel_motion", "slew_angle"])

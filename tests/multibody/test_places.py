@@ -39,7 +39,6 @@ def test_a_point_is_recorded_where_it_was_described() -> None:
 
 
 def test_a_body_is_placed_below_the_tip() -> None:
-    """Its top, where it has a size and however it is turned; its origin, where it has none."""
     scene = Scene()
     scene.add_crane(base="ground", prefix="aft ", **POSE)
     tip, down = scene.place_of("aft tip"), np.array([0.0, 0.0, 1.0])

@@ -84,7 +84,6 @@ def check_balance(scene: Scene, out: dict[str, Any]) -> None:
 
 
 def test_every_body_of_a_moving_crane_is_in_balance() -> None:
-    """By its actuators, and by drivers in their place."""
     scene = runs.crane_scene(payload=True, references=runs.swing_out(6.0))
     for one in (scene, driven(scene)):
         out = record(one, 7.0, dt_out=0.25)

@@ -122,7 +122,6 @@ def test_a_planar_parallelogram_moves_like_its_spatial_twin(formulation: str) ->
 
 @pytest.mark.parametrize("ratio", [1e-10, pytest.param(1e-12, marks=pytest.mark.slow("short steps"))])
 def test_a_light_rod_is_not_taken_for_redundancy(ratio: float, formulation: str) -> None:
-    """A rod of this share of the coupler's mass in a loop that holds each motion once."""
     scene = bars(2, spatial=True)
     rod = scene.bodies.pop("crank 1")
     scene.add_body(name="crank 1", mass=2.0 * ratio, position=rod.position, inertia=np.full(3, 0.1 * ratio))

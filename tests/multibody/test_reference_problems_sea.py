@@ -20,6 +20,5 @@ def test_a_wave_from_rest_by_the_integral_over_the_past(memory: str, settings: d
 
 @pytest.mark.parametrize("motion", ["heave", "roll", "pitch"])
 def test_period_and_decrement_of_free_decay(motion: str) -> None:
-    """Counted from a run that starts in the mode's shape, against the roots of the equation."""
     for found in decays(f"vessel {motion}"):
         assert found.difference < 2e-6 * found.expected, found

@@ -93,7 +93,6 @@ def test_actuators_do_the_same_work_on_coordinates_as_on_bodies(swapped: bool, o
 
 
 def test_implicit_steps_know_the_actuators_on_the_tree() -> None:
-    """A wrong Jacobian would cost the order of a Rosenbrock method."""
     scene, errors = jib(), []
     settings: dict[str, Any] = {"t_end": 0.5, "dt_out": 0.5, "formulation": "recursive"}
     exact = simulate(scene, integrator="dop853", rtol=1e-12, **settings)["position"]

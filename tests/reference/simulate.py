@@ -36,7 +36,7 @@ def derivative(system: System, t: float, y: Array) -> Array:
     e = system.evaluate(t, motion, memory)
     a = e.acceleration.reshape(-1, 6)
     spin = skew(motion.w[:-1]) @ motion.rotation[:-1]
-    parts = (motion.v[:-1], spin, a[:, :3], a[:, 3:], e.memory_rate)
+    parts = (motion.v[:-1], spin, a[:, :3], a[:, 3:], e.vessel.memory_rate)
     return np.concatenate([np.ravel(part) for part in parts])
 
 
@@ -74,8 +74,7 @@ def simulate(
         motion, memory = unpack(system, solution.y[:, -1])
         y, begin = pack(system.project(end, motion, memory), memory), end
     out: dict[str, Any] = {key: np.array([row[key] for row in rows]) for key in rows[0]}
-    if "vessel_motion" in out:
-        out["vessel_motion"][:, 3:] = np.unwrap(out["vessel_motion"][:, 3:], axis=0)
+    out["vessel_motion"][:, 3:] = np.unwrap(out["vessel_motion"][:, 3:], axis=0)
     out["names"] = {"body": system.body_names, "joint": system.joint_names}
     out["stats"] = {"evaluations": evaluations}
     return out
@@ -87,14 +86,9 @@ def recorded(system: System, t: float, y: Array) -> dict[str, Any]:
     motion = system.project(t, raw, memory)
     e = system.evaluate(t, motion, memory)
     force, moment = system.reactions(e)
-    row: dict[str, Any] = {
+    return {
         "time": t, "position": motion.r[:-1], "velocity": motion.v[:-1], "angular_velocity": motion.w[:-1],
         "quaternion": quaternions_from_matrices(motion.rotation[:-1]), "reaction_force": force,
-        "reaction_moment": moment, "actuator_load": e.actuator_loads,
+        "reaction_moment": moment, "actuator_load": e.actuator_loads, "wave_force": e.vessel.wave,
+        "vessel_motion": system.vessel.displacement(e.vectors), "memory_force": e.vessel.memory_force,
     }  # fmt: skip
-    if system.vessel is not None and e.vessel is not None:
-        row |= {
-            "vessel_motion": system.vessel.displacement(e.vectors), "wave_force": e.vessel.wave,
-            "memory_force": e.vessel.memory_force,
-        }  # fmt: skip
-    return row
