@@ -33,14 +33,14 @@ def records(path: Path) -> list[dict[str, str]]:
 
 def mechanisms() -> Iterator[Row]:
     """Problems with published or independent solutions: the worse of both formulations."""
-    from reference_problems.table import mechanisms
+    from reference_problems.problems import mechanisms
 
     yield from _problems(mechanisms(), "Mechanisms", "multibody/test_reference_problems.py")
 
 
 def ships() -> Iterator[Row]:
     """A vessel against its linear equation."""
-    from reference_problems.table import ships
+    from reference_problems.problems import ships
 
     yield from _problems(ships(), "Vessel in waves", "multibody/test_reference_problems_sea.py")
 

@@ -1,5 +1,4 @@
-"""Bricard's loop of six perpendicular hinges along a cube's edges: mobile, though rows and bodies count
-otherwise.
+"""Bricard's loop of six perpendicular hinges along a cube's edges: mobile, though rows count otherwise.
 
 Data: IFToMM Library of Computational Benchmark Problems, A04 (Gonzalez et al., Multibody System Dynamics 16,
 2006): rods of 1 m, 1 kg and a section of 0.1 m x 0.1 m, let go from the cube. Its orientation to the weight

@@ -1,9 +1,8 @@
 """A ship in waves after Cummins: (M + A_inf) eta'' + B eta' + int_0^t K(s) eta'(t - s) ds + C eta = F(t).
 
-Three independent answers for the small motions of the shipped hull, moored, whose matrices and kernel K(t) =
-C exp(A t) B are data: the integral itself, as a sum over the whole past in NumPy (Cummins, Schiffstechnik 9,
-1962); the roots of the equation for free decay; and its solution in the frequency domain, in `test_vessel`.
-The engine has states for memory, or convolves by rules and steps of its own.
+For the small motions of the shipped hull, moored, whose matrices and kernel K(t) = C exp(A t) B are data: the
+integral itself, as a sum over the whole past in NumPy (Cummins, Schiffstechnik 9, 1962), and the roots of the
+equation for free decay; its solution in the frequency domain is in `test_vessel`.
 """
 
 from __future__ import annotations

@@ -1,11 +1,8 @@
-"""The stiff flyball governor: two rods hinged to a turning shaft, held to a slider by stiff springs and
-dampers.
+"""The stiff flyball governor: rods hinged to a turning shaft, held to a slider by stiff springs and dampers.
 
 Data: IFToMM Library of Computational Benchmark Problems, A05 (Gonzalez et al., Multibody System Dynamics 16,
-2006): steel-like prisms of 3000 kg/m3, balls of 5 kg at the rods' ends, springs of 8e5 N/m and 4e4 N s/m, 0.5
-m long, from the slider to the middles of the rods; 2 pi rad/s at the start. The solution here is that of
-Lagrange's equations in the angle of both rods and the slider's place, by SciPy; the momentum about the shaft
-is kept.
+2006): prisms, balls of 5 kg at the rods' ends, springs from the slider to the rods' middles. Solution:
+Lagrange's equations in the angle of both rods and the slider's place, by SciPy.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache, partial
 from typing import Any, NamedTuple
 
@@ -16,7 +16,7 @@ from seacrane import Result, Scene, simulate
 from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
 
-from . import andrews, andrews_equations, bricard, cummins, four_bars, governor, pendulums, tops
+from . import andrews, bricard, cummins, four_bars, governor, pendulums, tops
 from .planar import angles
 
 Array = NDArray[np.float64]
@@ -65,7 +65,7 @@ def four_bar_row(loops: int = 2, *, planar: bool = True, **settings: Any) -> Com
 def solution_of(name: str) -> Array:
     """Computed once for all settings: at the outputs of the runs."""
     if name == "squeezer":
-        return andrews_equations.solution([0.0, andrews.END_TIME])
+        return andrews.solution([0.0, andrews.END_TIME])
     if name == "governor":
         return governor.solution(np.linspace(0.0, 5.0, 51))[:, 1]
     mechanism, t_end, count, start = {
@@ -153,3 +153,26 @@ MECHANISMS: dict[str, Callable[..., Comparison]] = {
     "four-bars spatial": partial(four_bar_row, planar=False), "squeezer": squeezer, "bricard": bricard_loop,
     "governor": flyball_governor, "top": heavy_top, "nut": wing_nut, "crank": spatial_slider_crank,
 }  # fmt: skip
+
+
+def mechanisms() -> Iterator[Comparison]:
+    for formulation in ("redundant", "recursive"):
+        for problem, settings in (
+            (simple_pendulum, {"rtol": 1e-10}), (four_bar_row, {"integrator": "dop853", "rtol": 1e-10}),
+            (squeezer, {"integrator": "verner76", "rtol": 1e-8}),
+            (squeezer, {"published": True, "integrator": "verner76", "rtol": 1e-8}),
+            (bricard_loop, {"integrator": "dop853", "rtol": 1e-9}),
+            (flyball_governor, {"integrator": "dopri5", "rtol": 1e-6}),
+            (heavy_top, {"integrator": "dop853", "rtol": 1e-9}),
+            (heavy_top, {"published": True, "integrator": "dop853", "rtol": 1e-9}),
+            (wing_nut, {"rtol": 1e-10}), (spatial_slider_crank, {"integrator": "dop853", "rtol": 1e-10})
+        ):  # fmt: skip
+            yield problem(formulation=formulation, **settings)
+
+
+def ships() -> Iterator[Comparison]:
+    for memory in ("states", "convolution"):
+        yield ship_in_a_wave(memory, integrator="dop853", rtol=1e-11)
+    for motion in ("heave", "roll", "pitch"):
+        yield from decays(f"vessel {motion}")
+    yield from regular_wave_response()

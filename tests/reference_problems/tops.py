@@ -1,8 +1,8 @@
 """Bodies that turn freely about a point: the heavy top, and the wing nut of Dzhanibekov.
 
-Heavy top: data of Bruels, Cardona and Arnold (Mechanism and Machine Theory 48, 2012), a common benchmark of
-time integration on rotations. It is Lagrange's symmetric top: the cosine u of its nutation angle is an
-elliptic function, (u')^2 = a cubic of u, and its precession the integral of (p - s u) / (I (1 - u^2)).
+Heavy top: data of Bruels, Cardona and Arnold (Mechanism and Machine Theory 48, 2012). The cosine u of its
+nutation angle is an elliptic function, (u')^2 = a cubic of u, and its precession the integral of
+(p - s u) / (I (1 - u^2)).
 `PUBLISHED` is the place after 2 s in the verification tests of Kynema (github.com/kynema/kynema,
 dynamic_heavy_top.cpp), computed there by those authors' second-order method in steps of 2e-6 s. Wing nut:
 Euler's equations near the intermediate axis, by elliptic functions (`reference.classic`).
