@@ -78,7 +78,7 @@ SCENES = {
 def test_accelerations_and_a_run_at_a_fixed_step_are_those_of_rows(name: str) -> None:
     scene = SCENES[name]()
     model = scene.compile()
-    assert sorted(model.tree["driven"]) == sorted(f"{d.joint}.{d.coordinate}" for d in scene.drivers.values())
+    assert sorted(model.tree["driven"]) == sorted(scene.drivers)
     for t in (0.0, 1.7, 3.1):
         run = Run(scene, t_end=t + 1e-9, model=model, formulation="redundant", rtol=1e-9)
         run.advance(t + 1e-9)

@@ -31,7 +31,6 @@ def crane(hydraulics: Any = BOTH, **more: Any) -> Scene:
     return scene
 
 
-@pytest.mark.warns("PushingLinkWarning")
 def test_a_stroke_has_one_name_whatever_drives_it() -> None:
     oil = simulate(crane(), 1.0, dt_out=0.5)
     moved = oil["hydraulic_stroke"] - oil["hydraulic_stroke"][0]
