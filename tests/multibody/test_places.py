@@ -27,17 +27,6 @@ def test_the_tip_of_a_crane_on_a_turned_ship_is_where_its_geometry_says() -> Non
     np.testing.assert_allclose(simulate(scene, 0.1, dt_out=0.1).place_of("tip")[0], scene.place_of("tip"))
 
 
-def test_a_point_is_recorded_where_it_was_described() -> None:
-    scene, place = Scene(gravity=0.0), {"position": (1.0, 2.0, 3.0), "quaternion": (0.5, 0.5, -0.5, 0.5)}
-    scene.add_body("box", mass=1.0, inertia=(1.0, 1.0, 1.0), center_of_mass=(0.1, 0.2, 0.3), **place)
-    corner = (0.4, -0.5, 0.6)
-    scene.add_point(name="corner", body="box", point=corner)
-    recorded = simulate(scene, t_end=0.1)["point_position"][0, 0]
-    np.testing.assert_allclose(scene.place_of(body="box", point=corner), recorded, rtol=1e-12)
-    np.testing.assert_array_equal(scene.place_of(body="ground", point=corner), corner)
-    np.testing.assert_array_equal(scene.place_of(body="box"), (1.0, 2.0, 3.0))
-
-
 def test_a_body_is_placed_below_the_tip() -> None:
     scene = Scene()
     scene.add_crane(base="ground", prefix="aft ", **POSE)

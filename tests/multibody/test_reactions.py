@@ -91,12 +91,6 @@ def test_every_body_of_a_moving_crane_is_in_balance() -> None:
         check_balance(one, out)
 
 
-def test_every_body_of_a_slider_crank_is_in_balance() -> None:
-    scene = runs.slider_crank(runs.CRANK, 0.4, 6.0)
-    scene.add_actuator(joint="shaft", feed_forward=3.0)
-    check_balance(scene, record(scene, 1.0))
-
-
 def all_kinds() -> Scene:
     """A chain through every joint kind that carries load, hanging from the ground and swinging."""
     scene = Scene(gravity=G)
