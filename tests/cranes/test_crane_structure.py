@@ -1,4 +1,4 @@
-"""Cranes: one that gives, stiffness at the hook in series; two in one scene, roles of parts."""
+"""Cranes: one that gives, stiffness at the hook in series, snaps; two in one scene, roles of parts."""
 
 from __future__ import annotations
 
@@ -9,7 +9,20 @@ import numpy as np
 import pytest
 from named import on_joint
 
-from seacrane import Curve, Result, Scene, SceneError, balance, cases, shipped_database, simulate, statics
+from seacrane import (
+    Curve,
+    Result,
+    Scene,
+    SceneError,
+    Stage,
+    balance,
+    cases,
+    equilibrium,
+    shipped_database,
+    simulate,
+    simulate_stages,
+    statics,
+)
 from seacrane.crane import Payload, load_crane
 from seacrane.warnings import LargeSwingWarning
 
@@ -50,6 +63,29 @@ def test_n_falls_count_by_their_square_at_the_hook_and_a_floating_ship_is_held()
 def test_a_rod_and_a_rigid_wire_are_as_stiff_as_the_crane() -> None:
     assert statics(hung(None, rung="rigid", EA=None))["hook stiffness"] == np.inf
     assert statics(hung(rung="rigid", EA=None))["hook stiffness"] == pytest.approx(STIFFNESS, rel=0.02)
+
+
+def test_a_heavier_load_sags_by_what_the_stiffness_tells() -> None:
+    """Two rest states of their own against the slope at one: 1 t more sags by dW / k."""
+    heights = []
+    for mass in (20e3, 21e3):
+        scene = hung(mass=mass)
+        heights.append(simulate(scene, 0.1, start=equilibrium(scene)).curve("position[load, z]")[0])
+    assert heights[0] - heights[1] == pytest.approx(1e3 * G / statics(hung())["hook stiffness"], rel=2e-3)
+
+
+@pytest.mark.warns("LineLengthWarning")
+@pytest.mark.parametrize("stiffness", [None, STIFFNESS])
+def test_a_snap_follows_the_combined_stiffness(stiffness: float | None) -> None:
+    """W + v sqrt(k m) of a load snatched off the ground, to the dampers and the crane's own mass."""
+    mass, rate = 200e3, 0.3
+    load = {"mass": mass, "size": (6, 6, 4), "EA": 1e8, "on": "ground", "length": None}
+    scene = hung(stiffness, slack=0.3, winch={"lag": 0.0}, damping=False, **load)
+    lift = Stage(name="lift", duration=8.0, commands={"hoist.rate": -rate})
+    peak = simulate_stages(scene, [lift], dt_out=0.005).curve("line_tension[hoist]").max()
+    line = 1e8 / (float(scene.loads["hoist"].length.evaluate([0.0])[0, 0]) - 0.3)
+    series = line if stiffness is None else 1.0 / (1.0 / line + 1.0 / stiffness)
+    assert peak == pytest.approx(mass * G + rate * np.sqrt(series * mass), rel=0.02)
 
 
 def test_it_stands_as_described_under_its_weight_and_its_load() -> None:

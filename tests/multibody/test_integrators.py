@@ -101,9 +101,10 @@ def test_semi_implicit_euler_turns_by_the_exponential(orientation: str) -> None:
 
 
 @cache
-def afloat(**settings: Any) -> np.ndarray:
-    """Where the payload of case 2 is after 5 s, in waves by exact sum: the table's third derivative jumps."""
-    out = simulate(cases.case2(evaluation="exact"), 5.0, dt_out=5.0, channels=["position"], **settings)
+def afloat(t_end: float = 5.0, **settings: Any) -> np.ndarray:
+    """Where the payload of case 2 is at the end, in waves by exact sum: the table's third derivative jumps."""
+    how = {"dt_out": t_end, "channels": ["position"]} | settings
+    out = simulate(cases.case2(evaluation="exact"), t_end, **how)
     return np.asarray(out.select("position", body="payload")[-1])
 
 
@@ -118,6 +119,16 @@ def afloat(**settings: Any) -> np.ndarray:
 ])  # fmt: skip
 def test_methods_agree_on_case_2_afloat(integrator: str, settings: dict[str, float], limit: float) -> None:
     assert np.linalg.norm(afloat(integrator=integrator, **settings) - afloat(rtol=1e-12)) < limit
+
+
+@pytest.mark.parametrize("integrator, order", [("rk4", 4), ("tsit5", 5)])
+def test_one_step_methods_reach_their_order_on_case_2_afloat(integrator: str, order: int) -> None:
+    # A tolerance that never rejects leaves the step to maximum_step.
+    settings = [{"dt": h} if integrator == "rk4" else {"rtol": 0.1, "maximum_step": h} for h in (0.05, 0.025)]
+    truth = afloat(10.0, rtol=1e-12)
+    errors = [np.linalg.norm(afloat(10.0, integrator=integrator, **one) - truth) for one in settings]
+    # From above: the next term of the error is still felt at these steps.
+    assert order - 0.15 < np.log2(errors[0] / errors[1]) < order + 0.7, errors
 
 
 @pytest.mark.parametrize("radius", [0.9, 0.2])
