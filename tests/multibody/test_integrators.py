@@ -102,7 +102,7 @@ def test_semi_implicit_euler_turns_by_the_exponential(orientation: str) -> None:
 
 @cache
 def afloat(t_end: float = 5.0, **settings: Any) -> np.ndarray:
-    """Where the payload of case 2 is at the end, in waves by exact sum: the table's third derivative jumps."""
+    """Where the payload of case 2 ends, in waves by exact sum: the table's third derivative jumps."""
     how = {"dt_out": t_end, "channels": ["position"]} | settings
     out = simulate(cases.case2(evaluation="exact"), t_end, **how)
     return np.asarray(out.select("position", body="payload")[-1])
