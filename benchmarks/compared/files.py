@@ -33,14 +33,14 @@ def records(path: Path) -> list[dict[str, str]]:
 
 def mechanisms() -> Iterator[Row]:
     """Problems with published or independent solutions: the worse of both formulations."""
-    from reference_problems.table import mechanisms
+    from reference_problems.problems import mechanisms
 
     yield from _problems(mechanisms(), "Mechanisms", "multibody/test_reference_problems.py")
 
 
 def ships() -> Iterator[Row]:
     """A vessel against its linear equation."""
-    from reference_problems.table import ships
+    from reference_problems.problems import ships
 
     yield from _problems(ships(), "Vessel in waves", "multibody/test_reference_problems_sea.py")
 
@@ -48,10 +48,9 @@ def ships() -> Iterator[Row]:
 def _problems(comparisons: Iterable[Any], subject: str, test: str) -> Iterator[Row]:
     worst: dict[tuple[str, ...], tuple[float, str]] = {}
     for one in comparisons:
-        problem, compared, source, *_, largest = one.row()
-        value, _, unit = largest.partition(" ")
-        key = (problem, compared, source)
-        worst[key] = max(worst.get(key, (0.0, unit)), (float(value), unit))
+        key = (one.problem, one.quantity, one.source)
+        found = (float(f"{one.difference:.1e}"), one.unit)
+        worst[key] = max(worst.get(key, (0.0, one.unit)), found)
     for (problem, compared, source), (difference, unit) in worst.items():
         yield Row(
             subject=subject, compared=f"{problem}: {compared}", reference=source, difference=difference,

@@ -135,7 +135,7 @@ def numpy_points(scene: Scene, reference: Reference) -> Iterator[Point]:
     payload = list(scene.bodies).index("payload")
     times = DT_OUT * np.arange(round(T_END / DT_OUT) + 1)
     for method, rtol in NUMPY:
-        system = System.from_records(records)
+        system = System(records)
         start = time.thread_time()
         result = simulate(system, T_END, times, rtol, method=method)
         cpu, evaluations = time.thread_time() - start, result["stats"]["evaluations"]

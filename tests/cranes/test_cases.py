@@ -8,21 +8,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Curve, Result, Run, Scene, SceneError, balance, cases, simulate
+from seacrane import Curve, Run, Scene, SceneError, balance, cases, simulate
 from seacrane.analysis import Evaluator, driven, feed_forward, quasi_static_loads
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.scene import spline_curve
-from seacrane.warnings import LargeSwingWarning, UnstableRestWarning
+from seacrane.warnings import UnstableRestWarning
 
 Array = NDArray[np.float64]
 G = 9.80665
 CASES: dict[str, Callable[..., Scene]] = {"case1": cases.case1, "case2": cases.case2, "case3": cases.case3}
-
-
-@pytest.fixture(scope="module")
-def runs() -> dict[str, Result]:
-    with pytest.warns(LargeSwingWarning):  # of case 1
-        return {name: simulate(case()) for name, case in CASES.items()}
 
 
 def mass_scaled_singular_values(terms: dict[str, Array]) -> Array:
@@ -51,22 +44,6 @@ def test_case2_has_60_coordinates_46_constraints_and_14_freedoms_and_keeps_its_e
         load = terms["mass"] @ terms["acceleration"] - pull - terms["load"]
         assert np.max(np.abs(load)) < 1e-10 * np.max(np.abs(terms["load"]))
         assert np.max(np.abs(terms["jacobian"] @ terms["acceleration"] - terms["gamma"])) < 1e-10
-    scene.add_joint(kind="revolute", name="A again", first="tower", second="king",
-                    point=KnuckleBoomCrane.load().joints(foot=FOOT)[1].point)  # fmt: skip
-    with pytest.warns(UserWarning, match="A again"):
-        model = scene.compile()
-    assert (model.constraints, model.degrees_of_freedom) == (51, 14)
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_constraints_stay_closed_and_so_does_the_energy_balance(runs: dict[str, Result], name: str) -> None:
-    run = runs[name]
-    assert run.time[-1] == 100.0 and len(run.time) == 1001
-    assert np.max(run["constraint_error"]) < 1e-9
-    assert np.max(run["constraint_rate_error"]) < 1e-9
-    assert np.max(run["constraint_error_before_projection"]) == 0.0  # tree coordinates leave nothing open
-    assert np.max(np.abs(run["energy_balance"])) < 1e-6 * run["absolute_work"][-1]
-    assert run["absolute_work"][-1] > 1e8
 
 
 def test_projection_closes_what_steps_of_the_redundant_form_open() -> None:
@@ -86,20 +63,11 @@ def still(scene: Scene) -> Scene:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_at_rest_in_calm_water_it_stays_and_the_deck_carries_its_weight(name: str) -> None:
+def test_at_rest_in_calm_water_it_stays(name: str) -> None:
     run = simulate(still(CASES[name](hs=0.0)), rtol=1e-10)
     assert np.max(np.abs(run["vessel_motion"])) < 1e-10
     assert np.max(np.ptp(run["position"], axis=0)) < 1e-8
     assert np.max(np.abs(run["velocity"])) < 1e-8
-    if name != "case2":
-        return
-    crane = KnuckleBoomCrane.load()
-    tip = crane.geometry.tip(slew=0.0, s1=0.0, s2=0.0)
-    force, moment = (run.select(f"reaction_{what}", joint="deck")[0] for what in ("force", "moment"))
-    np.testing.assert_allclose(force, [0.0, 0.0, (crane.mass + 10e3) * G], atol=1e-3)
-    assert run["link_tension"][0] == pytest.approx(10e3 * G, rel=1e-9)
-    arm = (crane.center_of_mass() - np.array(FOOT)) * crane.mass + tip * 10e3
-    np.testing.assert_allclose(moment, [arm[1] * G, -arm[0] * G, 0.0], atol=1e-2)
 
 
 @pytest.mark.parametrize("payload", [None, Payload()])
@@ -122,25 +90,6 @@ def test_balance_equals_weight_and_moments_by_hand(payload: Payload | None) -> N
     assert abs(held.loads["slew"]) < 1e-3
 
 
-def test_driven_forces_put_back_return_the_motion() -> None:
-    """Forces that the motion needs in waves, fed forward at the same gains, give the same motion."""
-    scene = cases.case2(hs=4.0)
-    wanted = simulate(driven(scene), t_end=30.0, dt_out=0.02, rtol=1e-10)
-    loads = {"slew": wanted["slew_torque"], "main": wanted.select("cylinder_force", cylinder="main"),
-             "knuckle": wanted.select("cylinder_force", cylinder="knuckle")}  # fmt: skip
-    free = scene.copy(actuators={})
-    for name, a in scene.actuators.items():
-        free.add_actuator(
-            name=name, joint=a.joint, stiffness=a.stiffness, damping=a.damping, reference=a.reference,
-            feed_forward=spline_curve(times=wanted.time, values=loads[name]),
-        )  # fmt: skip
-    got = simulate(free, t_end=30.0, dt_out=0.02, rtol=1e-10)
-    assert np.max(np.abs(got["position"] - wanted["position"])) < 1e-6
-    assert np.max(np.abs(got["stroke"] - wanted["stroke"])) < 1e-7
-    plain = simulate(scene, t_end=30.0, dt_out=0.02)
-    assert np.max(np.abs(plain["stroke"] - wanted["stroke"])) > 1e-3
-
-
 STROKES = ("main", "knuckle")
 
 
@@ -159,7 +108,6 @@ def moves() -> dict[str, Curve]:
 
 @pytest.mark.parametrize("payload", [None, Payload(mass=15e3)])
 def test_on_a_fixed_base_they_are_the_cranes_static_forces(payload: Payload | None) -> None:
-    """Virtual work on the crane's geometry, at poses on the way; a level slew bearing carries nothing."""
     times = np.array([0.0, 6.0, 11.0, 15.0, 30.0])
     loads = quasi_static_loads(on_the_ground(payload), times=times, references=moves())
     for i, time in enumerate(times):
@@ -222,25 +170,14 @@ def test_what_makes_no_feed_forward_is_named() -> None:
     scene, wanted = on_the_ground(None), moves()
     for given, message in (
         ({"times": [2.0, 6.0, 10.0]}, "'slew' moves at t = 10 s"),
-        ({"times": [2.0]}, "one time makes no curve"),
-        ({"times": [2.0, 20.0, 20.0]}, "times do not increase"),
         ({"times": [2.0, 10.0, 16.0, 20.0], "period": 5.0}, "last period of 5 s holds 2"),
-        ({"times": [2.0, 20.0], "references": {"hoist": wanted["slew"]}}, "'hoist' does not exist"),
     ):
         with pytest.raises(SceneError, match=message):
             feed_forward(scene, **({"references": wanted} | given))
-    for times in ([-1.0, 20.0], [2.0, np.nan], [], [[2.0, 20.0]], "soon"):
-        with pytest.raises(SceneError, match=r"times|zero or later"):
-            quasi_static_loads(scene, references=wanted, times=times)
-    with pytest.raises(SceneError, match="no actuator to hold"):
-        quasi_static_loads(Scene(name="empty"), times=[0.0, 1.0])
 
 
 def test_a_load_that_the_vessel_cannot_carry_is_told_and_constant_loads_leave_strokes_short() -> None:
-    """A rest is found far over, at which no ship would float: the run says that it capsizes."""
     with pytest.warns(UnstableRestWarning, match="capsizes"):
         simulate(cases.case2(payload=Payload(mass=1.5e6)), t_end=0.1)
-    scene = cases.case2(payload=Payload(mass=1.5e6), feed_forward="start")
-    assert all(len(a.feed_forward.to_pieces()["starts"]) == 1 for a in scene.actuators.values())
     short = 2.0 - simulate(cases.case2(hs=0.0, feed_forward="start"))["stroke"][-1]
     np.testing.assert_allclose(short, [0.0151, 0.158], rtol=0.1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from hypothesis import strategies as st
 
 from seacrane import Scene
 from seacrane.crane import BODIES, FOOT, KnuckleBoomCrane, Payload
-from seacrane.crane.data_file import DEFAULT_PATH, load, parse
+from seacrane.crane.data_file import DEFAULT_PATH, parse
 from seacrane.crane.geometry import plane_axes
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.frames import rotation_matrix
@@ -25,15 +24,6 @@ CRANE = KnuckleBoomCrane.load()
 DATA, GEOMETRY = CRANE.data, CRANE.geometry
 STROKE = st.floats(0.0, 5.0)
 ANGLE = st.floats(-math.pi, math.pi)
-
-
-JOINT_ENDS = {  # first, second body of every joint, from the paper's topology
-    "deck": ("vessel", "tower"), "A": ("tower", "king"), "B": ("king", "main_barrel"),
-    "C": ("king", "main_jib"), "D": ("main_rod", "main_jib"), "E": ("main_jib", "knuckle_barrel"),
-    "F": ("main_jib", "knuckle_jib"), "G": ("knuckle_rod", "knuckle_jib"),
-    "main_cylinder": ("main_barrel", "main_rod"), "knuckle_cylinder": ("knuckle_barrel", "knuckle_rod"),
-    "link": ("knuckle_jib", "payload"),
-}  # fmt: skip
 
 
 def on_body(pose: dict[str, tuple[Array, Array]], name: str, point: tuple[float, float]) -> Array:
@@ -93,7 +83,7 @@ def test_lever_arms_are_distance_and_derivative(s: float) -> None:
 
 
 def test_directions_of_motion() -> None:
-    stowed = GEOMETRY.tip(slew=0.0, s1=0.0, s2=0.0)
+    stowed = GEOMETRY.tip(slew=0.0, s1=0.0, s2=0.0)  # aft
     assert stowed[0] < 0.0 and stowed[1] == 0.0
     out = GEOMETRY.tip(slew=-math.pi / 2.0, s1=0.0, s2=0.0)
     np.testing.assert_allclose(out, [0.0, -stowed[0], stowed[2]], atol=1e-12)  # to port
@@ -103,17 +93,12 @@ def test_directions_of_motion() -> None:
     assert GEOMETRY.jib_angles(s1=0.0, s2=1.0)[1] > GEOMETRY.jib_angles(s1=0.0, s2=0.0)[1]
 
 
-@pytest.mark.parametrize(
-    ("values", "message"),
-    [
-        ({"slew": 0.0, "s1": -0.1, "s2": 0.0}, "main_cylinder: stroke -0.1 m"),
-        ({"slew": 0.0, "s1": 0.0, "s2": 5.5}, "knuckle_cylinder: stroke 5.5 m"),
-        ({"slew": math.inf, "s1": 0.0, "s2": 0.0}, "slew is inf"),
-    ],
-)
-def test_poses_out_of_reach_name_the_item(values: dict[str, float], message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        GEOMETRY.pose(**values)
+def test_poses_out_of_reach_name_the_item() -> None:
+    for s1, s2, message in (
+        (-0.1, 0.0, "main_cylinder: stroke -0.1"), (0.0, 5.5, "knuckle_cylinder: stroke 5.5")
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=message):
+            GEOMETRY.pose(slew=0.0, s1=s1, s2=s2)
     for s1, beyond in ((0.0, -0.01), (5.0, 0.01), (5.0, math.pi)):
         main, knuckle = GEOMETRY.jib_angles(s1=s1, s2=2.0)
         with pytest.raises(SceneError, match=r"main_cylinder: jib angle .* out of reach"):
@@ -123,32 +108,7 @@ def test_poses_out_of_reach_name_the_item(values: dict[str, float], message: str
 PLACE: dict[str, Any] = {"slew": -0.6, "s1": 1.7, "s2": 2.9}
 
 
-def test_axes_and_points_of_joints() -> None:
-    joints = {joint.name: joint for joint in CRANE.joints(**PLACE, payload=Payload())}
-    slew = PLACE["slew"]
-    pivot = np.array([-math.sin(slew), math.cos(slew), 0.0])
-    for name in "BCEF":
-        axis = joints[name].axis
-        assert axis is not None
-        np.testing.assert_allclose(axis, pivot, atol=1e-15)
-    for name, cylinder, head in (("B", "main_cylinder", "D"), ("E", "knuckle_cylinder", "G")):
-        along, second = joints[cylinder].axis, joints[name].second_axis
-        assert along is not None and second is not None
-        assert abs(second @ pivot) < 1e-14 and abs(second @ along) < 1e-14
-        stretch = joints[head].point - joints[name].point
-        np.testing.assert_allclose(along, stretch / np.linalg.norm(stretch), atol=1e-13)
-    np.testing.assert_allclose(joints["deck"].point, FOOT)
-    link = joints["link"]
-    assert link.second_point is not None
-    np.testing.assert_allclose(link.point - link.second_point, [0.0, 0.0, 8.0], atol=1e-12)
-
-
 def test_a_crane_in_a_scene_has_its_bodies_joints_ranges_and_payload() -> None:
-    """The topology of the paper; a payload hangs by the centroid of its top."""
-    joints = CRANE.joints(payload=Payload())
-    assert [(j.name, (j.first, j.second)) for j in joints] == list(JOINT_ENDS.items())
-    assert [b.name for b in CRANE.bodies()] == list(BODIES)
-    assert [j.name for j in CRANE.joints()] == list(JOINT_ENDS)[:-1]
     pose = CRANE.geometry.pose(**PLACE)
     for body in CRANE.bodies(**PLACE):
         np.testing.assert_allclose(rotation_matrix(body.quaternion), pose[body.name][1], atol=1e-15)
@@ -166,49 +126,9 @@ def test_a_crane_in_a_scene_has_its_bodies_joints_ranges_and_payload() -> None:
     for cylinder, stroke in (("main_cylinder", PLACE["s1"]), ("knuckle_cylinder", PLACE["s2"])):
         limits = scene.ranges[cylinder]
         assert (limits.minimum, limits.maximum) == (-stroke, getattr(CRANE.data, cylinder).stroke - stroke)
-    for wrong, message in (
-        ({"mass": -1.0}, "mass is -1.0"), ({"link_length": math.nan}, "link_length is nan"),
-        ({"size": (6.0, 0.0, 4.0)}, r"size\[1\] is 0.0"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=f"payload: {message}"):
-            Payload(**wrong)
-    with pytest.raises(SceneError, match=r"crane: foot is \(33.0, nan, 10.0\)"):
-        CRANE.bodies(foot=(33.0, math.nan, 10.0))
 
 
 TEXT = DEFAULT_PATH.read_text(encoding="utf-8")
-
-
-def test_masses_lengths_and_clearances_are_those_of_the_paper() -> None:
-    mass = {name: body.mass for name, body in CRANE.mass_properties.items()}
-    assert len(mass) == 8 and CRANE.mass == 390.0e3
-    assert [mass["tower"], mass["king"]] == pytest.approx([100e3, 115e3], rel=0.02)
-    assert 75e3 <= mass["main_jib"] <= 80e3 and 45e3 <= mass["knuckle_jib"] <= 50e3
-    for cylinder in ("main", "knuckle"):
-        barrel, rod = mass[f"{cylinder}_barrel"], mass[f"{cylinder}_rod"]
-        assert 20e3 <= barrel + rod <= 26e3 and barrel / (barrel + rod) == pytest.approx(0.6, abs=1e-12)
-    stowed = CRANE.geometry.points(slew=0.0, s1=0.0, s2=0.0)
-    assert 22.0 <= np.linalg.norm(stowed["F"] - stowed["C"]) <= 24.0
-    assert 13.0 <= np.linalg.norm(stowed["tip"] - stowed["F"]) <= 16.0
-    assert 15.0 <= stowed["C"][2] <= 18.0 and stowed["tip"][2] >= 14.0
-    assert stowed["tip"][0] < 0.0  # the jib points aft
-    assert CRANE.geometry.largest_strokes == (5.0, 5.0)
-    assert 25.0 <= CRANE.geometry.outreach(s1=2.0, s2=2.0) <= 35.0
-    tip = CRANE.geometry.tip(slew=0.7, s1=2.0, s2=2.0)
-    assert math.hypot(tip[0], tip[1]) == pytest.approx(CRANE.geometry.outreach(s1=2.0, s2=2.0), abs=1e-12)
-    payload = Payload()
-    assert CRANE.payload_body(payload).position[2] - payload.size[2] / 2.0 > FOOT[2] + 2.0
-    for s1, s2 in itertools.product(range(6), range(6)):
-        body = CRANE.payload_body(payload, slew=-math.pi / 2.0, s1=float(s1), s2=float(s2))
-        assert body.position[1] - 3.0 > 12.5 + 1.0  # half its width, half the beam, a margin
-
-
-def test_lever_arms_stay_above_limit_over_all_strokes() -> None:
-    levers = np.array([CRANE.geometry.lever_arms(s1=s, s2=s) for s in np.linspace(0.0, 5.0, 2001)])
-    assert levers.min() >= 1.2
-    # No dead centre: the jib angles rise strictly with the strokes.
-    angles = np.array([CRANE.geometry.jib_angles(s1=s, s2=s) for s in np.linspace(0.0, 5.0, 2001)])
-    assert np.all(np.diff(angles, axis=0) > 0.0)
 
 
 def edit(old: str, new: str) -> str:
@@ -217,25 +137,13 @@ def edit(old: str, new: str) -> str:
 
 
 BAD = [
-    ("height = 6.5", "", r"tower\.height is missing"),
-    ("[knuckle_jib]\nlength", "[spare_jib]\nlength", r"knuckle_jib"),
     ("height = 6.5", "height = 6.5\nhieght = 1.0", r"unknown key tower\.hieght"),
-    ("mass = 80.0e3", "mass = -80.0e3", r"tower\.members\[0\] \(column\)\.mass is -80000"),
-    ("mass = 80.0e3", "mass = nan", r"\(column\)\.mass is nan"),
-    ("stroke = 5.0", 'stroke = "5 m"', r"main_cylinder\.stroke is '5 m'"),
-    ("mass = 80.0e3", "mass = 81.0e3", r"add up to 391000 kg"),
-    ("schema = 1", "schema = 7", r"schema is 7"),
-    ('\nshape = "tube"', '\nshape = "cone"', r"shape is 'cone'"),
-    ("main_jib_pivot = [1.0, 11.3]", "main_jib_pivot = [1.0, 0.0, 11.3]", r"king\.main_jib_pivot"),
+    ("mass = 80.0e3", "mass = 81.0e3", r"add up to 391000 kg"), ("schema = 1", "schema = 7", r"schema is 7"),
     ("wall = 0.03", "wall = 1.0", r"main_jib\.members\[0\] \(girder\)\.wall is 1 m"),
     ("inner_diameter = 4.4", "inner_diameter = 5.0", r"inner_diameter is 5 m, not below"),
-    ("end = [0.0, 6.0]", "end = [0.0, 0.0]", r"\(column\) has length 0"),
     ("stroke = 5.0", "stroke = 12.0", r"main_cylinder cannot reach stroke 12 m"),
-    ("retracted_length = 6.8", "retracted_length = 4.0", r"knuckle_cylinder cannot reach stroke 0 m"),
-    ("retracted_length = 6.8", "retracted_length = 7.3", r"lever arm of .* at stroke 5 m"),
-    ("main_cylinder_head = [7.3, -2.4]", "main_cylinder_head = [0.0, 0.0]", r"at its jib's own pivot"),
-    ("schema = 1", "schema = = 1", r"not valid TOML: .*line \d+"),
-]
+    ("retracted_length = 6.8", "retracted_length = 7.3", r"lever arm of .* at stroke 5 m")
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("old", "new", "message"), BAD)
@@ -244,14 +152,9 @@ def test_bad_data_names_item_and_fix(old: str, new: str, message: str) -> None:
         parse(edit(old, new), source="my_crane.toml")
 
 
-def test_own_file_is_used_and_a_truncated_or_absent_one_named(tmp_path: Path) -> None:
+def test_own_file_is_used(tmp_path: Path) -> None:
     path = tmp_path / "crane.toml"
     path.write_text(edit("height = 6.5", "height = 7.25"), encoding="utf-8")
     tall, shipped = KnuckleBoomCrane.load(path), KnuckleBoomCrane.load()
     rise = tall.geometry.tip(slew=0.0, s1=1.0, s2=1.0) - shipped.geometry.tip(slew=0.0, s1=1.0, s2=1.0)
     np.testing.assert_allclose(rise, [0.0, 0.0, 0.75], atol=1e-12)
-    path.write_text(TEXT[: TEXT.index("[knuckle_cylinder]")], encoding="utf-8")
-    with pytest.raises(FileFormatError, match=r"crane\.toml: knuckle_cylinder is missing"):
-        load(path)
-    with pytest.raises(FileFormatError, match=r"absent\.toml cannot be read"):
-        KnuckleBoomCrane.load(tmp_path / "absent.toml")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -68,34 +69,21 @@ def integrate(members: tuple[Tube | Box, ...], plane: Array) -> tuple[float, Arr
     return mass, centre, np.trace(second) * np.eye(3) - second
 
 
-SHAPES = {
-    "tube": Tube(
-        name="t", mass=7.0, start=(1.0, 2.0), end=(4.0, 3.0), outer_diameter=2.0, inner_diameter=1.2
-    ),
-    "solid cylinder": Tube(
-        name="c", mass=3.0, start=(0.0, 0.0), end=(0.0, 5.0), outer_diameter=0.6, inner_diameter=0.0
-    ),
-    "box": Box(name="b", mass=5.0, start=(-1.0, 0.5), end=(2.0, -3.0), width=1.5, depth=0.7, wall=0.0),
-    "hollow box": Box(name="h", mass=4.0, start=(0.0, 0.0), end=(6.0, 1.0), width=1.5, depth=2.5, wall=0.2),
-}
+CRANE = KnuckleBoomCrane.load()
+SHAPES = (
+    Tube(name="t", mass=7.0, start=(1.0, 2.0), end=(4.0, 3.0), outer_diameter=2.0, inner_diameter=1.2),
+    Box(name="b", mass=5.0, start=(-1.0, 0.5), end=(2.0, -3.0), width=1.5, depth=0.7, wall=0.0),
+    Box(name="h", mass=4.0, start=(0.0, 0.0), end=(6.0, 1.0), width=1.5, depth=2.5, wall=0.2),
+)
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("body", ["main_jib", "main_rod", "knuckle_jib"])
-def test_shape_against_quadrature(shape: str, body: str) -> None:
-    plane = plane_axes(body)
-    got = combine([SHAPES[shape]], plane)
-    mass, centre, inertia = integrate((SHAPES[shape],), plane)
-    assert got.mass == pytest.approx(mass, rel=1e-12)
-    np.testing.assert_allclose(got.center_of_mass, centre, atol=1e-12)
-    np.testing.assert_allclose(got.inertia, inertia, atol=1e-11)
+PARTS = [(combine([shape], plane_axes("main_rod")), (shape,), plane_axes("main_rod")) for shape in SHAPES]
+PARTS += [(CRANE.mass_properties[name], CRANE.data.members()[name], plane_axes(name)) for name in BODIES]
 
 
-@pytest.mark.parametrize("body", BODIES)
-def test_crane_bodies_against_quadrature(body: str) -> None:
-    crane = KnuckleBoomCrane.load()
-    got = crane.mass_properties[body]
-    mass, centre, inertia = integrate(crane.data.members()[body], plane_axes(body))
+@pytest.mark.parametrize(("got", "members", "plane"), PARTS)
+def test_shapes_and_bodies_of_the_crane_against_quadrature(got: Any, members: Any, plane: Array) -> None:
+    mass, centre, inertia = integrate(members, plane)
     assert got.mass == pytest.approx(mass, rel=1e-12)
     np.testing.assert_allclose(got.center_of_mass, centre, atol=1e-10)
     np.testing.assert_allclose(got.inertia, inertia, rtol=1e-10, atol=1e-9 * np.trace(inertia))

@@ -71,8 +71,6 @@ def forces_by_hand(s1: float, s2: float, payload_mass: float) -> Array:
 def test_virtual_work_equals_moments(s1: float, s2: float, payload_mass: float) -> None:
     got = CRANE.static_cylinder_forces(s1=s1, s2=s2, payload_mass=payload_mass)
     np.testing.assert_allclose(got, forces_by_hand(s1, s2, payload_mass), rtol=1e-11)
-    twice = CRANE.static_cylinder_forces(s1=s1, s2=s2, payload_mass=payload_mass, gravity=2.0 * G)
-    np.testing.assert_allclose(twice, 2.0 * got)
 
 
 def potential(s1: float, s2: float, payload: Payload) -> float:
@@ -81,7 +79,7 @@ def potential(s1: float, s2: float, payload: Payload) -> float:
     return G * sum(body.mass * float(centre(body)[2]) for body in bodies)
 
 
-@pytest.mark.parametrize(("s1", "s2"), [(1.0, 1.0), (2.0, 2.0), (1.3, 3.7), (4.5, 0.5)])
+@pytest.mark.parametrize(("s1", "s2"), [(1.3, 3.7), (4.5, 0.5)])
 def test_virtual_work_is_the_slope_of_potential_energy(s1: float, s2: float) -> None:
     load, h = Payload(), 1e-3
     slope = [

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from named import on_joint
 
 from seacrane import (
     Curve,
@@ -23,10 +24,10 @@ from seacrane import (
     statics,
 )
 from seacrane.crane import Payload, load_crane
-from seacrane.warnings import LargeSwingWarning, LineLengthWarning
+from seacrane.warnings import LargeSwingWarning
 
 G = 9.80665
-STIFFNESS, EA, MASS, RATE = 4e6, 3e7, 200e3, 0.3
+STIFFNESS, EA = 4e6, 3e7
 
 
 def hung(stiffness: float | None = STIFFNESS, **given: Any) -> Scene:
@@ -45,16 +46,13 @@ def test_hook_stiffness_is_that_of_rope_and_crane_in_series(rung: str, stiffness
     line = EA / float(told["line unstretched length hoist"])
     series = line if stiffness is None else 1.0 / (1.0 / line + 1.0 / stiffness)
     assert told["hook stiffness"] == pytest.approx(series, rel=1e-6 if stiffness is None else 0.01)
-    assert f"{1e6 / told['hook stiffness']:.4g}  mm/kN" in str(told)
 
 
-@pytest.mark.parametrize("base", ["ground", "vessel"])
-def test_n_falls_count_by_their_square_at_the_hook_and_a_floating_ship_is_held(base: str) -> None:
+def test_n_falls_count_by_their_square_at_the_hook_and_a_floating_ship_is_held() -> None:
     """n^2 EA / l0; the block is the hook, and what hangs below it on slings counts for nothing."""
     scene = Scene()
-    if base == "vessel":
-        scene.add_vessel(shipped_database(), memory="none")
-    scene.add_crane(base=base, s1=1.5, s2=1.0)
+    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_crane(s1=1.5, s2=1.0)
     slings = {"angle_deg": 60, "EA": 5e7}
     scene.add_hoist(mass=20e3, size=(4, 4, 3), length=10.0, EA=EA, falls=2, block_mass=1e3, slings=slings)
     told = statics(scene)
@@ -77,44 +75,32 @@ def test_a_heavier_load_sags_by_what_the_stiffness_tells() -> None:
     assert heights[0] - heights[1] == pytest.approx(1e3 * G / statics(hung())["hook stiffness"], rel=2e-3)
 
 
+@pytest.mark.warns("LineLengthWarning")
+@pytest.mark.parametrize("stiffness", [None, STIFFNESS])
+def test_a_snap_follows_the_combined_stiffness(stiffness: float | None) -> None:
+    """W + v sqrt(k m) of a load snatched off the ground, to the dampers and the crane's own mass."""
+    mass, rate = 200e3, 0.3
+    load = {"mass": mass, "size": (6, 6, 4), "EA": 1e8, "on": "ground", "length": None}
+    scene = hung(stiffness, slack=0.3, winch={"lag": 0.0}, damping=False, **load)
+    lift = Stage(name="lift", duration=8.0, commands={"hoist.rate": -rate})
+    peak = simulate_stages(scene, [lift], dt_out=0.005).curve("line_tension[hoist]").max()
+    line = 1e8 / (float(scene.loads["hoist"].length.evaluate([0.0])[0, 0]) - 0.3)
+    series = line if stiffness is None else 1.0 / (1.0 / line + 1.0 / stiffness)
+    assert peak == pytest.approx(mass * G + rate * np.sqrt(series * mass), rel=0.02)
+
+
 def test_it_stands_as_described_under_its_weight_and_its_load() -> None:
     scene = hung()
     whole = hung(None)
     assert np.ptp(simulate(scene, 5.0).curve("position[load, z]")) < 1e-4
     of_crane = [sum(b.mass for b in one.bodies.values()) for one in (scene, whole)]
     assert of_crane[0] == pytest.approx(of_crane[1], rel=1e-12)
-    rod = Scene()
-    rod.add_crane(base="ground", s1=1.5, s2=1.0, payload_mass=20e3, stiffness=STIFFNESS)
-    assert np.ptp(simulate(rod, 5.0).curve("position[payload, z]")) < 1e-4
 
 
-def snap(stiffness: float | None) -> tuple[float, float]:
-    """Largest tension of a load snatched off the ground at a constant rate, N; and the line's EA / l0."""
-    scene = Scene()
-    scene.add_crane(base="ground", s1=1.5, s2=1.0, stiffness=stiffness)
-    scene.add_hoist(
-        mass=MASS, size=(6, 6, 4), EA=1e8, on="ground", slack=0.3, winch={"lag": 0.0}, damping=False
-    )
-    lift = Stage(name="lift", duration=8.0, commands={"hoist.rate": -RATE})
-    with pytest.warns(LineLengthWarning):
-        result = simulate_stages(scene, [lift], dt_out=0.005)
-    length = float(scene.loads["hoist"].length.evaluate([0.0])[0, 0]) - 0.3
-    return float(result.curve("line_tension[hoist]").max()), 1e8 / length
-
-
-@pytest.mark.parametrize("stiffness", [None, STIFFNESS])
-def test_a_snap_follows_the_combined_stiffness(stiffness: float | None) -> None:
-    """W + v sqrt(k m), to the dampers and the crane's own mass; by two masses and springs closer."""
-    peak, line = snap(stiffness)
-    series = line if stiffness is None else 1.0 / (1.0 / line + 1.0 / stiffness)
-    assert peak == pytest.approx(MASS * G + RATE * np.sqrt(series * MASS), rel=0.02)
-
-
-@pytest.mark.parametrize("slew", [0.0, 1.2])
-def test_it_leans_in_the_plane_of_its_jib(slew: float) -> None:
+def test_it_leans_in_the_plane_of_its_jib() -> None:
     """The hinge is across the jib at any slew angle, so that a sag moves the tip along its radius alone."""
     scene = Scene()
-    roles = scene.add_crane(base="ground", slew=slew, s1=1.5, s2=1.0, stiffness=STIFFNESS, payload_mass=20e3)
+    roles = scene.add_crane(base="ground", slew=1.2, s1=1.5, s2=1.0, stiffness=STIFFNESS, payload_mass=20e3)
     joint = scene.joints[str(roles.structure)]
     foot = scene.bodies[joint.first]
     assert foot.mass < 0.01 * scene.bodies[joint.second].mass
@@ -195,51 +181,12 @@ def test_two_cranes_on_a_fixed_base_move_as_each_does_alone(both: Result, prefix
     assert alone["stroke"][-1, 0] == pytest.approx(ENDS[prefix][1], rel=0.2)
 
 
-def test_two_cranes_are_told_apart_in_files_too(both: Result, tmp_path: Path) -> None:
-    again = Result.load(both.save(tmp_path / "both.nc"))
-    for result in (both, again):
-        assert result.coords["cylinder"] == ("main", "knuckle", "aft main", "aft knuckle")
-        assert result.coords["slew"] == ("slew", "aft slew") and result.coords["hook"] == ("hook", "aft hook")
-        assert result.dims["slew_angle"] == ("time", "slew")
-    np.testing.assert_array_equal(again["slew_angle"], both["slew_angle"])
-    scene = cranes("", "aft ")
-    scene.save(tmp_path / "two.json")
-    back = Scene.load(tmp_path / "two.json")
-    assert back == scene and dict(back.roles) == dict(scene.roles)
-    aft = back.roles["aft "]
-    assert aft.payload == "aft payload" and aft.cylinders["knuckle"] == "aft knuckle_cylinder"
-    with pytest.raises(SceneError, match="there is one with prefix ''"):
-        scene.add_crane(base="ground")
-    scene.add_crane(base="tower", foot=(5.0, 0.0, 0.0), prefix="upper ")
-    assert (scene.joints["upper deck"].first, scene.joints["upper deck"].second) == ("tower", "upper tower")
-
-
-def test_the_tip_is_known_without_a_payload() -> None:
-    bare, loaded = Scene(), Scene()
-    pose: dict[str, Any] = {"base": "ground", "slew": 0.3, "s1": 1.0, "s2": 2.0}
-    told, known = bare.add_crane(**pose), loaded.add_crane(**pose, payload=Payload())
-    assert told.link is None and told.payload is None and known.link == "link"
-    assert told.tip is not None and known.tip is not None and told.tip[0] == known.tip[0]
-    np.testing.assert_allclose(told.tip[1], known.tip[1], atol=1e-12)
-
-
-def falling_slide(name: str) -> Scene:
-    scene = Scene(name="slide")
-    scene.add_body(name="box", mass=1.0, inertia=(1.0, 1.0, 1.0))
-    scene.add_joint(kind="prismatic", name=name, first="ground", second="box")
-    scene.record_coordinate(joint=name)
-    return scene
-
-
 @pytest.mark.warns("FreeCraneWarning")
 def test_roles_of_a_crane_by_hand() -> None:
     for name in ("A", "main_cylinder"):  # a name is no role
-        assert not {"slew_angle", "stroke"} & set(simulate(falling_slide(name), t_end=1.0))
-    scene = falling_slide("hoist")
-    with pytest.raises(SceneError, match="crane: its cylinder 'lift' is joint 'lost', which is not in"):
-        scene.add_roles(cylinders={"lift": "lost"})
-    with pytest.raises(SceneError, match="crane: link 'hoist' is a prismatic joint; give a distance joint"):
-        scene.add_roles(link="hoist")
+        slide = on_joint("box", axis=(0, 0, 1), joint=name)
+        assert not {"slew_angle", "stroke"} & set(simulate(slide, t_end=1.0))
+    scene = on_joint("box", axis=(0, 0, 1), joint="hoist")
     scene.add_roles(cylinders={"lift": "hoist"})
     result = simulate(scene, t_end=0.5)
     np.testing.assert_array_equal(result.select("stroke", cylinder="lift"), result["coordinate"][:, 0])

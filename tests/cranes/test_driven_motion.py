@@ -10,14 +10,11 @@ from element_runs import FORMULATIONS as FORMS
 from element_runs import goes_on
 from marks import needs_lanes
 from multibody_runs import ACTUATORS, crane_scene, ramp, record, swing_out
-from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SceneError, SeacraneError, _core, shipped_database, simulate
 from seacrane.analysis import driven, inverse_dynamics, reflected_inertia
 from seacrane.run.lanes import module_of
 
-Array = NDArray[np.float64]
-DRIVEN = ("A.angle", "main_cylinder.displacement", "knuckle_cylinder.displacement")
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 
 
@@ -71,44 +68,17 @@ def reversed_slide() -> Scene:
     return scene
 
 
-def four_bar() -> Scene:
-    """A crank that a driver turns round and round, in a loop of three spatial joints and a pin."""
-    scene = Scene(name="four bar")
-    corners = np.array([[0.0, 0.0], [0.907, 1.782], [4.62, 5.13], [6.0, 0.0]])
-    for name, a, b in zip(("crank", "coupler", "rocker"), corners, corners[1:], strict=False):
-        x, z = 0.5 * (a + b)
-        scene.add_body(name, mass=10.0, inertia=(1.0, 1.0, 1.0), position=(x, 0.0, z))
-    ends = ("ground", "crank", "coupler", "rocker", "ground")
-    for i, kind in enumerate(("revolute", "spherical", "universal", "revolute")):
-        axes = {"axis": (0.0, 1.0, 0.0)} if kind == "revolute" else {}
-        axes |= {"axis": (1.0, 0.0, 0.0), "second_axis": (0.0, 1.0, 0.0)} if kind == "universal" else {}
-        point = (corners[i][0], 0.0, corners[i][1])
-        scene.add_joint(f"pin {i}", kind=kind, first=ends[i], second=ends[i + 1], point=point, **axes)
-    scene.add_driver("pin 0", curve=Curve.quintic(start_time=0.0, end_time=6.0, start=0.0, end=5.0))
-    return scene
-
-
 SCENES = {
     "crane": lift, "crane on the rod's rung": lambda: lift(rung="quasi-static"), "given ship": given_ship,
-    "reversed": reversed_slide, "four bar": four_bar,
+    "reversed": reversed_slide,
 }  # fmt: skip
-
-
-def test_what_is_driven_is_told_and_chosen() -> None:
-    model = lift().compile()
-    assert sorted(model.tree["driven"]) == sorted(DRIVEN)
-    assert model.tree["loop_rows"] == 0
-    assert len(given_ship().compile().tree["driven"]) == 7
-    assert sorted(reversed_slide().compile().tree["driven"]) == ["axle.angle", "rail.displacement"]
-    assert four_bar().compile().tree["driven"] == ["pin 0.angle"]
-    assert simulate(lift(), 0.2).stats["formulation"] == "recursive"
-    assert "drivers whose coordinate is no unknown" in str(lift().report())
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_accelerations_and_a_run_at_a_fixed_step_are_those_of_rows(name: str) -> None:
     scene = SCENES[name]()
     model = scene.compile()
+    assert sorted(model.tree["driven"]) == sorted(scene.drivers)
     for t in (0.0, 1.7, 3.1):
         run = Run(scene, t_end=t + 1e-9, model=model, formulation="redundant", rtol=1e-9)
         run.advance(t + 1e-9)
@@ -131,22 +101,18 @@ def struck() -> Scene:
     scene = Scene(name="struck")
     scene.add_body("cart", mass=3.0, inertia=(1.0, 1.0, 1.0))
     scene.add_joint("rail", kind="prismatic", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
-    rest = Curve.constant(value=0.0)
     runs = Curve.table([1.0, 4.0], [0.0, 4.5], between="linear")
-    scene.add_driver("rail", curve=rest.then(time=1.0, curve=runs))
+    scene.add_driver("rail", curve=Curve.constant(value=0.0).then(time=1.0, curve=runs))
     scene.add_body("bob", mass=2.0, inertia=(0.3, 0.3, 0.3), position=(0.2, 0.0, -1.0))
-    scene.add_joint(
-        "pin", kind="revolute", first="cart", second="bob", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
-    )
+    scene.add_joint("pin", kind="revolute", first="cart", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
     return scene
 
 
 def test_a_stroke_beyond_its_hinge_is_refused_by_name() -> None:
     scene = Scene(name="far")
-    scene.add_vessel(shipped_database())
-    scene.add_crane(slew=-1.0, s1=1.5, s2=1.0, payload_mass=20e3, held=False)
+    scene.add_crane(base="ground", slew=-1.0, s1=1.5, s2=1.0, payload_mass=20e3, held=True)
+    scene.remove("main_cylinder.displacement")
     scene.add_driver("main_cylinder", curve=moved(0.0, 30.0))
-    scene.add_driver("knuckle_cylinder", curve=0.0)
     scene.ranges.clear()
     with pytest.raises(
         SeacraneError, match=r"driver 'main_cylinder.*asks for a stroke of .* its hinge allows"
@@ -162,10 +128,7 @@ def test_a_rate_that_jumps_strikes_the_others_by_its_impulse_and_once() -> None:
         assert np.abs(led[channel] - rows[channel]).max() < 1e-9, channel
     settings: dict[str, Any] = {"formulation": "recursive", "rtol": 1e-9, "dt_out": 0.25}
     whole = record(struck(), 2.0, **settings)["position"]
-    run, first = (Run(struck(), t_end=t_end, **settings) for t_end in (2.0, 1.0))
-    for stop in (0.5, 1.0, 1.0, 1.25, 2.0):
-        run.advance(stop)
-    assert np.abs(dict(run.core.channels())["position"] - whole).max() < 1e-7
+    first = Run(struck(), t_end=1.0, **settings)
     first.advance(1.0)
     second = Run(struck(), t_end=2.0, start=first.core.state, **settings)
     second.advance(2.0)
@@ -244,7 +207,6 @@ def test_inverse_dynamics_by_algebra_agrees_with_the_driven_simulation() -> None
 
 
 def test_reflected_inertia_by_hand() -> None:
-    """Two links in line on hinges about z: parallel axes, and a cart that carries a mass on a lever."""
     scene = Scene(gravity=9.81)
     scene.add_body(name="inner", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.5, 0.0, 0.0))
     scene.add_body(name="outer", mass=2.0, inertia=(0.2, 0.25, 0.4), position=(1.0, 0.6, 0.0))

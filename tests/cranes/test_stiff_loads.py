@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hydraulic_scenes import lifted, raised
+from hydraulic_scenes import raised
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
@@ -35,38 +35,18 @@ def end_of(scene: Scene, **settings: Any) -> np.ndarray:
 def test_its_order_is_four_in_stiff_directions(formulation: str) -> None:
     scene = moved(spool_lag=0.02)
     truth = end_of(scene, rtol=1e-11, formulation=formulation)
-    errors = [
-        np.linalg.norm(
-            end_of(scene, rtol=0.1, maximum_step=h, integrator=STIFF, formulation=formulation) - truth
-        )
-        for h in (2e-3, 1e-3, 5e-4)
-    ]
-    slopes = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
-    assert errors[0] < 1e-4
-    assert slopes[-1] > 3.6
+    how: dict[str, Any] = {"rtol": 0.1, "integrator": STIFF, "formulation": formulation}
+    errors = [np.linalg.norm(end_of(scene, maximum_step=h, **how) - truth) for h in (1e-3, 5e-4)]
+    assert errors[0] < 1e-4 and np.log2(errors[0] / errors[1]) > 3.6
 
 
 @pytest.mark.warns("AssemblyWarning", sometimes=["UnitWarning"])
-@pytest.mark.parametrize("lag", [1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("lag", [1e-3, 1e-5])
 def test_a_quick_spool_costs_no_steps(lag: float) -> None:
-    scene = moved(spool_lag=lag)
     truth = record(moved(spool_lag=0.0), 0.5, rtol=1e-9)
-    out = record(scene, 0.5, rtol=1e-3, integrator=STIFF)
-    explicit = record(scene, 0.5, rtol=1e-3, integrator="dopri5") if lag > 1e-5 else None
+    out = record(moved(spool_lag=lag), 0.5, rtol=1e-3, integrator=STIFF)
     assert_allclose(out["hydraulic_stroke"], truth["hydraulic_stroke"], atol=2.0 * lag * 0.1 + 1e-4)
-    assert out["stats"]["steps"] < 150
-    if explicit is not None:
-        assert explicit["stats"]["steps"] > 0.25 * 0.5 / lag
-
-
-def test_it_follows_the_tight_reference_and_its_ledger_closes() -> None:
-    scene = lifted()
-    truth = record(scene, 1.7, dt_out=0.02, rtol=1e-9)
-    for rtol, limit in ((1e-3, 2e-4), (1e-5, 3e-6)):
-        out = record(scene, 1.7, dt_out=0.02, rtol=rtol, integrator=STIFF)
-        assert np.max(np.abs(out["hydraulic_stroke"] - truth["hydraulic_stroke"])) < limit
-    tight = record(scene, 1.7, rtol=1e-8, integrator=STIFF)
-    assert np.max(np.abs(tight["energy_balance"])) < 1e-6 * tight["absolute_work"][-1]
+    assert out["stats"]["steps"] < 150  # an explicit pair takes 0.25 * 0.5 / lag or more
 
 
 def test_without_stiff_loads_it_is_the_pair_itself() -> None:
@@ -129,33 +109,16 @@ def deepest(stiffness: float) -> float:
 
 
 @pytest.mark.warns("UnitWarning")
-@pytest.mark.parametrize("stiffness", [1e6, 1e8, 1e10])
+@pytest.mark.parametrize("stiffness", [1e6, 1e10])
 @pytest.mark.parametrize(
     "integrator", [m.name for m in _core.integrators() if m.setting == "rtol" and not m.restarts]
 )
 def test_a_method_does_not_leap_through_a_stop(integrator: str, stiffness: float) -> None:
     for rtol in (1e-3, 1e-5, 1e-7):
-        how: dict[str, Any] = {
-            "t_end": 2.0, "dt_out": 0.02, "integrator": integrator, "channels": ["position"],
-        }  # fmt: skip
-        result = simulate(falling(stiffness), rtol=rtol, **how)
+        how: dict[str, Any] = {"dt_out": 0.02, "integrator": integrator, "channels": ["position"]}
+        result = simulate(falling(stiffness), 2.0, rtol=rtol, **how)
         height = result["position"][:, 0, 2]
         assert height.min() > -1.1 * deepest(stiffness)
         error = np.abs(height - exact(stiffness)).max()
         assert error < 0.3, (rtol, error)
     assert error < 1e-2
-
-
-@pytest.mark.warns(sometimes=["UnitWarning"])
-@pytest.mark.parametrize("stiffness", [1e5, 1e7, 1e9])
-def test_a_jacobian_of_the_stop_does_not_hold_the_flight_still(stiffness: float) -> None:
-    """Tighter tolerances are more accurate: no step is believed whose Jacobian is of the past."""
-    errors = []
-    for rtol in (1e-4, 1e-6, 1e-8):
-        result = simulate(
-            falling(stiffness), t_end=2.0, dt_out=0.02, rtol=rtol, integrator="rosenbrock",
-            channels=["position"],
-        )  # fmt: skip
-        errors.append(np.abs(result["position"][:, 0, 2] - exact(stiffness)).max())
-    assert errors[1] < 0.1 * errors[0]
-    assert errors[2] < 0.1 * errors[1]

@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import csv
-import json
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from seacrane import Method, cases
+from seacrane import Method
 from seacrane.accuracy.quantities import ErrorMeasures
 from seacrane.trading import row as rows
-from seacrane.trading.case import Case
-from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
-from seacrane.trading.row_file import RowFile
 from stability_atlas import committed, stability_atlas, workers
 from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES
-from stability_atlas.measure import measure, reference_of
-from stability_atlas.methods import DEFAULT, QUICK, every
-from stability_atlas.vessel_axes import _turn_of
+from stability_atlas.methods import DEFAULT, QUICK
 
 
 def rows_of(folder: Path, name: str = "extremes.csv") -> list[dict[str, str]]:
@@ -31,12 +25,9 @@ def rows_of(folder: Path, name: str = "extremes.csv") -> list[dict[str, str]]:
 
 
 @pytest.mark.slow("an atlas")
-def test_the_quick_atlas_keeps_every_promise_predicts_step_limits_draws_maps_and_goes_on(
+def test_the_quick_atlas_keeps_every_promise_predicts_step_limits_and_goes_on(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It fails where a promise of the committed list is broken."""
-    import matplotlib.image as mpimg
-
     assert main(["--out", str(tmp_path), "--quick"]) == 0
     found = rows_of(tmp_path)
     assert {row["axis"] for row in found} == set(AXES)
@@ -49,8 +40,6 @@ def test_the_quick_atlas_keeps_every_promise_predicts_step_limits_draws_maps_and
     assert len(limits) == 8
     for row in limits:
         assert float(row["found"]) == pytest.approx(float(row["predicted"]), rel=0.02)
-    for name in [*AXES, "step"]:
-        assert mpimg.imread(tmp_path / f"extremes_{name}.png").std() > 0.05, name
 
     def fail(groups: Any, jobs: int) -> Any:
         raise AssertionError(f"{len(groups)} groups are run again")
@@ -84,12 +73,9 @@ RK4 = Method(integrator="rk4", dt=0.02)
     ("row", "words"),
     [
         (replace(GOOD, left=1e-6), "constraint error"),
-        (replace(GOOD, left=float("nan")), "constraint error nan"),
         (replace(GOOD, energy=1e-3), "energy error"),
-        (replace(GOOD, **known(0.1)), "of the motion"),
         (replace(GOOD, **known(0.9, 1e-9)), "of the motion"),
         (replace(GOOD, verdict=rows.SLOW, message="granted 20 s"), "slow instead of completed: granted 20 s"),
-        (replace(STOPPED, message="something went wrong"), "says nothing of hinge, open by"),
         (replace(STOPPED, verdict=rows.COMPLETED), "completed instead of stopped"),
         *((replace(GOOD, case=HEEL, method=RK4, verdict=bad, message="x"), bad) for bad in rows.FORBIDDEN),
     ],
@@ -101,79 +87,9 @@ def test_a_broken_promise_is_told(row: Row, words: str) -> None:
     assert words in text
 
 
-def test_every_promise_is_on_an_axis_and_default_runs_cover_it() -> None:
-    for promise in committed.promises():
-        assert promise.axis in AXES
-        assert promise.verdict in (rows.COMPLETED, rows.REFUSED, rows.STOPPED)
-        assert (promise.verdict == rows.COMPLETED) == (not promise.words)
-    assert len({method.name for method in every()}) == len(list(every()))
-    assert DEFAULT in QUICK
-
-
-def short(t_end: float = 1.0) -> Case:
-    return Case(scene=cases.vessel(count=5), t_end=t_end, dt_out=0.5)
-
-
-def empty(method: Method) -> Row:
-    return workers.Group(axis="heel", value=0.0, methods=(method,), limit_s=1.0).empty(method)
-
-
-def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
-    def verdict(method: Method, case: Case | None = None, limit_s: float = 5.0) -> Row:
-        return measure(case or short(), method, Reference(), limit_s, empty(method))
-
-    done = verdict(DEFAULT)
-    assert (done.verdict, done.message) == (rows.COMPLETED, "") and done.energy < 1e-4
-    assert verdict(Method(formulation="recursive", integrator="ida")).verdict == rows.REFUSED
-    slow = verdict(Method(formulation="redundant", integrator="rk4", dt=1e-5), short(1e4), 0.05)
-    assert slow.verdict == rows.SLOW
-    assert 0 < slow.steps < 1e6 and slow.cpu_s < 10.0
-    stopped = verdict(Method(formulation="redundant", integrator="rk4", dt=0.02), AXES["memory"].case(-10.0))
-    assert stopped.verdict == rows.STOPPED and "vessel" in stopped.message
-
-    def fail(*_: Any) -> None:
-        raise RuntimeError("mystery")
-
-    monkeypatch.setattr("seacrane.run.run.Run.advance", fail)
-    assert verdict(DEFAULT).verdict == rows.UNNAMED
-
-
-def test_errors_are_against_a_reference_that_checks_itself() -> None:
-    case = short(10.0)
-    truth = reference_of(case, 5.0)
-    assert truth.uncertainty["points"] < 1e-9 * truth.motion["points"]
-    loose = Method(formulation="redundant", integrator="bs32", rtol=1e-3)
-    tight = Method(formulation="recursive", integrator="tsit5", rtol=1e-9)
-    found = [measure(case, method, truth, 5.0, empty(method)) for method in (loose, tight)]
-    errors = [row.relative_error("points") for row in found]
-    assert 1e-6 < errors[0] < 1e-1
-    assert errors[1] < 1e-7
-
-
 def test_a_scene_that_cannot_be_made_is_a_row_of_its_own() -> None:
-    groups = [
-        workers.Group(axis="wave-period", value=-1.0, methods=(DEFAULT,), limit_s=1.0),
-        workers.Group(axis="no such axis", value=1.0, methods=(DEFAULT,), limit_s=1.0),
-    ]
+    groups = [workers.Group(axis=axis, value=-1.0, methods=(DEFAULT,), limit_s=1.0)
+              for axis in ("wave-period", "no such axis")]  # fmt: skip
     refused, unnamed = list(workers.run_all(groups, 1))
-    assert refused.verdict == rows.REFUSED
-    assert "tp is -1" in refused.message
-    assert unnamed.verdict == rows.UNNAMED
-    assert "KeyError" in unnamed.message
-
-
-def test_phases_far_from_zero_are_known_exactly() -> None:
-    from fractions import Fraction
-
-    pi = Fraction(314159265358979323846264338327950288419716939937510, 10**50)
-    for numerator in (1, 12345678, 2**20 * 10**11):
-        exact = Fraction(numerator, 2**20)
-        expected = exact - int(exact / (2 * pi)) * 2 * pi
-        assert _turn_of(numerator) == pytest.approx(float(expected), abs=1e-15)
-
-
-def test_rows_survive_their_file(tmp_path: Path) -> None:
-    RowFile(tmp_path / "rows.jsonl", {"study": "test"}).add(GOOD.key, GOOD)
-    (again,) = RowFile(tmp_path / "rows.jsonl", {"study": "test"}).rows.values()
-    assert json.dumps(asdict(again)) == json.dumps(asdict(GOOD))
-    assert not RowFile(tmp_path / "rows.jsonl", {"study": "another"}).rows
+    assert refused.verdict == rows.REFUSED and "tp is -1" in refused.message
+    assert unnamed.verdict == rows.UNNAMED and "KeyError" in unnamed.message

@@ -29,7 +29,6 @@ NEARLY_DEPENDENT = (1e-10, 3e-3)  # smallest over largest singular value of the 
 
 
 def compiled(scene: Scene) -> Model:
-    """A scene drawn at random may hold a motion twice, or leave none: that is warned of."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         return scene.compile()
@@ -105,16 +104,13 @@ def test_random_scenes(family: str, seeds: range) -> None:
 
 
 @pytest.mark.parametrize("planar", [False, True])
-@pytest.mark.parametrize("turned", [1.0, 0.1, 0.01])
+@pytest.mark.parametrize("turned", [1.0, 0.01])
 def test_loops_close_to_where_they_fold_flat(turned: float, planar: bool) -> None:
     for seed in range(6):
         model = compiled(nearly_flat(seed, turned, planar=planar))
         found = Comparison(model, moving(model, seed))
         assert found.acceleration < (AGREEMENT if planar else found.bound), seed
         assert planar or found.reaction < found.bound, seed
-
-
-# Runs
 
 
 def door() -> Scene:
@@ -166,11 +162,14 @@ TIGHT: dict[str, dict[str, float]] = {
 METHODS = [m.name for m in _core.integrators() if m.order > 1 and not m.residual_form]
 
 
-@pytest.mark.parametrize("integrator", METHODS)
-@pytest.mark.parametrize("mechanism", MECHANISMS)
+# The crank has a loop, which cvode-adams cannot close.
+RUNS = [("afloat" if m == "cvode-adams" else "crank", m) for m in METHODS] + [
+    ("door", "dopri5"), ("afloat", "rk4")
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("mechanism", "integrator"), RUNS)
 def test_runs_agree_with_every_integrator(mechanism: str, integrator: str) -> None:
-    if mechanism == "crank" and integrator == "cvode-adams":
-        return  # has a loop, which this method cannot close
     low = integrator in ("bs32", "rosenbrock", "cvode-bdf")
     t_end = 0.1 if low else 1.0
     scene = MECHANISMS[mechanism]()
@@ -186,18 +185,8 @@ def reference(mechanism: str, t_end: float) -> dict[str, Any]:
     return run(MECHANISMS[mechanism](), t_end, "redundant", integrator="dop853", rtol=1e-12)
 
 
-def test_semi_implicit_euler_closes_in_on_the_redundant_run_with_its_order() -> None:
-    expected = reference("crank", 0.1)
-    errors = [
-        apart(run(crank(), 0.1, "recursive", integrator="semi-implicit-euler", dt=dt), expected)
-        for dt in (4e-4, 2e-4, 1e-4)
-    ]
-    assert errors[-1] < 1e-3
-    np.testing.assert_allclose(np.divide(errors[:-1], errors[1:]), 2.0, rtol=0.1)
-
-
 @pytest.mark.parametrize("order", [("redundant", "recursive"), ("recursive", "redundant")])
-@pytest.mark.parametrize("mechanism", MECHANISMS)
+@pytest.mark.parametrize("mechanism", ["crank", "afloat"])
 def test_a_state_hands_over_from_one_formulation_to_the_other(mechanism: str, order: tuple[str, str]) -> None:
     scene = MECHANISMS[mechanism]()
     first = run(scene, 0.5, order[0], rtol=1e-11)
@@ -234,20 +223,6 @@ def test_cases_agree_in_every_channel(case: Callable[[], Scene]) -> None:
         assert result["constraint_error"].max() < 1e-11
 
 
-# Drift
-
-
-@pytest.mark.parametrize("mechanism", MECHANISMS)
-def test_long_runs_stay_on_their_joints(mechanism: str) -> None:
-    """Branches hold by construction, loops by projection; coordinates are not steered to either."""
-    out = run(MECHANISMS[mechanism](), 60.0, "recursive", integrator="tsit5", rtol=1e-4)
-    assert out["constraint_error"].max() < 1e-10
-    np.testing.assert_allclose(np.linalg.norm(out["quaternion"], axis=-1), 1.0, atol=1e-13)
-
-
-# What does not exist, and what is chosen
-
-
 def welded() -> Scene:
     """Nothing in it can move."""
     scene = Scene(name="welded")
@@ -275,51 +250,26 @@ def test_combinations_that_do_not_exist_are_refused_and_never_replaced(
     assert simulate(scene(), t_end=0.1, integrator=integrator).stats["formulation"] == "redundant"
 
 
-def hanging_chain(links: int, *, door: bool = False, load: float = 0.0) -> Scene:
-    """A chain; a door on two hinges beside it, or a load on its last link and a rod to the ground."""
+def hanging_chain(links: int, load: float) -> Scene:
+    """A load on its last link, and a bob on a rod beside it."""
     scene = chain(links, lean=0.6)
-    if load:
-        end = links * np.array([np.sin(0.6), 0.0, -np.cos(0.6)])
-        scene.add_body(name="load", mass=load, inertia=[load] * 3, position=end)
-        scene.add_joint(kind="spherical", name="hook", first=f"link {links - 1}", second="load", point=end)
-        scene.add_body(name="bob", mass=1.0, inertia=[1.0] * 3, position=(50, 0, -3))
-        rod = {"first": "ground", "second": "bob", "point": (50, 0, 0), "second_point": (50, 0, -3)}
-        scene.add_joint(kind="distance", name="rod", **rod)
-    if door:
-        scene.add_body(name="door", mass=100.0, inertia=[10.0] * 3, position=(50, 0.5, 0))
-        for k in range(2):
-            side = {"first": "ground", "second": "door", "point": (50, 0, k), "axis": (0, 0, 1)}
-            scene.add_joint(kind="revolute", name=f"side {k}", **side)
+    end = links * np.array([np.sin(0.6), 0.0, -np.cos(0.6)])
+    scene.add_body(name="load", mass=load, inertia=[load] * 3, position=end)
+    scene.add_joint(kind="spherical", name="hook", first=f"link {links - 1}", second="load", point=end)
+    scene.add_body(name="bob", mass=1.0, inertia=[1.0] * 3, position=(50, 0, -3))
+    rod = {"first": "ground", "second": "bob", "point": (50, 0, 0), "second_point": (50, 0, -3)}
+    scene.add_joint(kind="distance", name="rod", **rod)
     return scene
 
 
-def chosen(scene: Scene) -> str:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)
-        return Run(scene, t_end=1.0).formulation
-
-
-@pytest.mark.warns("RedundantJointsWarning")
-def test_a_chain_beside_a_door_on_two_hinges_moves_as_it_does_alone() -> None:
-    """Of many rows those of the door that the others hold are left out: neither form is dense."""
-    alone, beside = hanging_chain(30), hanging_chain(30, door=True)
-    assert chosen(beside) == "redundant"
-    assert simulate(beside, 0.1).stats["dense_solves"] == 0
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)
-        runs = [simulate(s, t_end=0.3, rtol=1e-9, channels=["position"]) for s in (alone, beside)]
-    np.testing.assert_allclose(runs[1]["position"][:, :31], runs[0]["position"], atol=1e-7)
-
-
+# In the last the recursive form saves little in an evaluation, and takes many times the steps at a fold.
+@pytest.mark.filterwarnings("ignore::UserWarning")
 @pytest.mark.parametrize(
     ("scene", "expected"),
     [
-        (door(), "recursive"), (crank(), "redundant"),
-        (hanging_chain(30, load=2e6), "recursive"), (hanging_chain(30), "recursive"),
-        # There the recursive form saves little in an evaluation, and takes many times the steps at a fold.
-        (bars(2), "redundant"), (bars(3), "redundant"), (bricard.scene(), "redundant"),
-        (hanging_chain(1, door=True), "redundant"),
+        (door(), "recursive"), (crank(), "redundant"), (hanging_chain(30, 2e6), "recursive"),
+        (chain(30, lean=0.6), "recursive"), (bars(3), "redundant"), (bricard.scene(), "redundant"),
     ],
 )  # fmt: skip
 def test_auto_takes_the_formulation_that_the_scene_allows(scene: Scene, expected: str) -> None:
-    assert chosen(scene) == expected
+    assert Run(scene, t_end=1.0).formulation == expected

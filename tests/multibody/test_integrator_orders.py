@@ -96,7 +96,5 @@ def test_energy_balance_falls_at_the_methods_order() -> None:
     steps = [1 / 16, 1 / 32, 1 / 64]
     defects = [abs(float(run(integrator="rk4", dt=h)["energy_balance"][-1])) for h in steps]
     assert np.all(np.diff(np.log2(defects)) < -3.5), defects
-    coarse, default, fine = (run(rtol=rtol) for rtol in (1e-4, 1e-6, 1e-8))
+    default = run(rtol=1e-6)
     assert abs(default["energy_balance"][-1]) < 1e-6 * float(default["absolute_work"][-1])
-    assert abs(default["energy_balance"][-1]) < 0.2 * abs(coarse["energy_balance"][-1])
-    assert abs(fine["energy_balance"][-1]) < 0.2 * abs(default["energy_balance"][-1])

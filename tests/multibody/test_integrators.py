@@ -28,39 +28,28 @@ def test_error_falls_with_the_tolerance(integrator: str) -> None:
     assert errors[1] < 1e-4, errors
 
 
-def turning_about_a_ball(speed: float) -> Scene:
-    """A body without weight that turns about its ball joint: its centre stays on a circle, at 0.5 m."""
-    scene = Scene(name="ball", gravity=0.0)
-    scene.add_body(
-        name="body", mass=1.0, inertia=[1 / 12] * 3, center_of_mass=(0.5, 0, 0),
-        angular_velocity=(0, speed, 0)
-    )  # fmt: skip
-    scene.add_joint(kind="spherical", name="ball", first="ground", second="body", point=(0, 0, 0))
-    return scene
-
-
-def twice_on_balls() -> Scene:
-    scene = turning_about_a_ball(1.0)
-    scene.add_joint(kind="spherical", name="other", first="ground", second="body", point=(0, 0, 1))
+def on_balls(speed: float, *heights: float) -> Scene:
+    """A body without weight that turns about its ball joints: its centre stays on a circle, at 0.5 m."""
+    scene, spin = Scene(name="ball", gravity=0.0), {"angular_velocity": (0, speed, 0)}
+    scene.add_body(name="body", mass=1.0, inertia=[1 / 12] * 3, center_of_mass=(0.5, 0, 0), **spin)
+    for z in heights:
+        scene.add_joint(f"ball {z}", kind="spherical", first="ground", second="body", point=(0, 0, z))
     return scene
 
 
 def test_errors_of_ida_on_a_turning_body_fall_with_the_tolerance() -> None:
     """Order 1 damps a steady rotation by as much in every step, which its error estimate does not see."""
     errors, steps = [], []
-    for rtol in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8):
-        result = simulate(turning_about_a_ball(8.0), t_end=5.0, integrator="ida", rtol=rtol)
+    for rtol in (1e-4, 1e-6, 1e-8):
+        result = simulate(on_balls(8.0, 0), t_end=5.0, integrator="ida", rtol=rtol)
         errors.append(np.abs(result["position"][:, 0, 0] - 0.5 * np.cos(8.0 * result.time)).max())
         steps.append(int(result.stats["steps"]))
         assert np.abs(result["energy_balance"]).max() < 1e3 * rtol
-    assert errors[0] < 5e-3
-    assert errors[2] < 1e-4
-    assert errors[4] < 1e-6
+    assert errors[0] < 5e-3 and errors[1] < 1e-4 and errors[2] < 1e-6
     assert max(steps) < 10_000
 
 
 def test_ida_where_its_steps_stay_at_order_1_and_fail_for_ever() -> None:
-    """Refused by name, what was reached is kept."""
     with pytest.raises(SimulationError, match=r"stay at order 1 and keep failing") as caught:
         simulate(pendulum(), 100.0, integrator="ida", rtol=1e-8)
     reached = caught.value.result
@@ -69,20 +58,12 @@ def test_ida_where_its_steps_stay_at_order_1_and_fail_for_ever() -> None:
     np.testing.assert_allclose(reached["position"], right["position"][: len(reached.time)], atol=1e-3)
 
 
-def tumbling() -> Scene:
-    """A free body that tumbles: no constraint, no projection, an exact copy of SciPy's problem."""
-    scene = Scene(gravity=9.81)
-    scene.add_body(
-        name="block", mass=2.0, inertia=np.diag([1.0, 2.0, 2.5]), position=(0.0, 0.0, 0.0),
-        velocity=(1.0, 2.0, 3.0), angular_velocity=(0.3, 2.0, 0.2),
-    )  # fmt: skip
-    return scene
-
-
 @pytest.mark.parametrize("integrator, method", [("bs32", RK23), ("dopri5", RK45), ("dop853", DOP853)])
 def test_steps_and_dense_output_equal_those_of_scipy(integrator: str, method: type[RungeKutta]) -> None:
     """The same pair from SciPy's coefficients, on the same derivative: equal to rounding."""
-    scene = tumbling()
+    scene = Scene(gravity=9.81)  # a free body: no constraint, no projection
+    flight = {"velocity": (1.0, 2.0, 3.0), "angular_velocity": (0.3, 2.0, 0.2)}
+    scene.add_body(name="block", mass=2.0, inertia=np.diag([1.0, 2.0, 2.5]), **flight)
     model = scene.compile()
     h, steps, n = 1 / 64, 16, 5  # short enough for the choice of the first step to be maximum_step
     own = Run(scene, model=model, t_end=h * steps, dt_out=h / n, integrator=integrator, rtol=0.1,
@@ -109,7 +90,6 @@ def test_steps_and_dense_output_equal_those_of_scipy(integrator: str, method: ty
 
 @pytest.mark.parametrize("orientation", ["quaternion", "euler_xyz"])
 def test_semi_implicit_euler_turns_by_the_exponential(orientation: str) -> None:
-    """At constant angular velocity about a principal axis the rotation is exact whatever the step."""
     scene = Scene(gravity=0.0, orientation=orientation)
     scene.add_body(name="top", mass=1.0, inertia=np.diag([1.0, 2.0, 3.0]), position=(0.0, 0.0, 0.0),
                    angular_velocity=(0.0, 0.0, 2.0))  # fmt: skip
@@ -121,22 +101,11 @@ def test_semi_implicit_euler_turns_by_the_exponential(orientation: str) -> None:
 
 
 @cache
-def afloat() -> tuple[Scene, Any]:
-    """Waves by exact sum: the table is smooth to its second derivative only."""
-    scene = cases.case2(evaluation="exact")
-    return scene, scene.compile()
-
-
-def afloat_payload(t_end: float, **settings: Any) -> np.ndarray:
-    scene, model = afloat()
-    out = Run(scene, t_end=t_end, dt_out=t_end, model=model, channels=["position"], **settings)
-    out.advance(t_end)
-    return np.asarray(out.core.channels()["position"][-1, list(scene.bodies).index("payload")])
-
-
-@cache
-def afloat_truth(t_end: float) -> np.ndarray:
-    return afloat_payload(t_end, rtol=1e-12)
+def afloat(t_end: float = 5.0, **settings: Any) -> np.ndarray:
+    """Where the payload of case 2 ends, in waves by exact sum: the table's third derivative jumps."""
+    how = {"dt_out": t_end, "channels": ["position"]} | settings
+    out = simulate(cases.case2(evaluation="exact"), t_end, **how)
+    return np.asarray(out.select("position", body="payload")[-1])
 
 
 @pytest.mark.parametrize("integrator, settings, limit", [
@@ -144,36 +113,25 @@ def afloat_truth(t_end: float) -> np.ndarray:
     ("generalized-alpha", {"dt": 1e-2}, 2e-3),
     ("rk-low-storage", {"dt": 5e-2}, 1e-5),
     ("rosenbrock", {"rtol": 1e-5}, 1e-3),
-    ("tsit5", {"rtol": 1e-7}, 1e-6),
-    ("verner65", {"rtol": 1e-7}, 1e-6),
-    ("verner76", {"rtol": 1e-7}, 1e-6),
+    *((name, {"rtol": 1e-7}, 1e-6) for name in ("tsit5", "verner65", "verner76")),
     ("dop853", {"rtol": 1e-12}, 1e-11),
-    ("cvode-adams", {"rtol": 1e-6}, 1e-5),
-    ("cvode-bdf", {"rtol": 1e-6}, 1e-5),
-    ("ida", {"rtol": 1e-6}, 1e-5),
+    *((name, {"rtol": 1e-6}, 1e-5) for name in ("cvode-adams", "cvode-bdf", "ida")),
 ])  # fmt: skip
 def test_methods_agree_on_case_2_afloat(integrator: str, settings: dict[str, float], limit: float) -> None:
-    """Memory states, waves, controllers and constraints together."""
-    found = afloat_payload(5.0, integrator=integrator, **settings)
-    assert np.linalg.norm(found - afloat_truth(5.0)) < limit
+    assert np.linalg.norm(afloat(integrator=integrator, **settings) - afloat(rtol=1e-12)) < limit
 
 
 @pytest.mark.parametrize("integrator, order", [("rk4", 4), ("tsit5", 5)])
 def test_one_step_methods_reach_their_order_on_case_2_afloat(integrator: str, order: int) -> None:
-    steps = (0.1, 0.05, 0.025)  # shorter ones end in the rounding of the reference, 3e-13 m
     # A tolerance that never rejects leaves the step to maximum_step.
-    settings = [{"dt": h} if integrator == "rk4" else {"rtol": 0.1, "maximum_step": h} for h in steps]
-    errors = [
-        float(np.linalg.norm(afloat_payload(10.0, integrator=integrator, **one) - afloat_truth(10.0)))
-        for one in settings
-    ]
-    observed = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    settings = [{"dt": h} if integrator == "rk4" else {"rtol": 0.1, "maximum_step": h} for h in (0.05, 0.025)]
+    truth = afloat(10.0, rtol=1e-12)
+    errors = [np.linalg.norm(afloat(10.0, integrator=integrator, **one) - truth) for one in settings]
     # From above: the next term of the error is still felt at these steps.
-    assert order - 0.15 < observed[-1] < order + 0.7, (observed, errors)
-    assert np.all(observed > order - 0.15)
+    assert order - 0.15 < np.log2(errors[0] / errors[1]) < order + 0.7, errors
 
 
-@pytest.mark.parametrize("radius", [0.9, 0.5, 0.2])
+@pytest.mark.parametrize("radius", [0.9, 0.2])
 def test_spectral_radius_is_what_a_step_leaves_of_a_motion_far_too_fast(radius: float) -> None:
     """All three roots of the step tend to -radius [Chung, Hulbert 1993]: their product, of the recurrence."""
     step = 0.1
@@ -193,9 +151,8 @@ def test_spectral_radius_is_what_a_step_leaves_of_a_motion_far_too_fast(radius: 
     ("scene", "settings", "words"),
     [
         (sprung(1.0), {"integrator": "dopri5", "spectral_radius": 0.5}, "spectral_radius.*dopri5"),
-        *((sprung(1.0), {"integrator": "generalized-alpha", "spectral_radius": bad}, "spectral_radius is")
-          for bad in (1.5, float("nan"), "half")),
-        (twice_on_balls(), {"integrator": "ida"}, "'ida'.*ball, other are redundant"),
+        (sprung(1.0), {"integrator": "generalized-alpha", "spectral_radius": 1.5}, "spectral_radius is"),
+        (on_balls(1.0, 0, 1), {"integrator": "ida"}, "'ida'.*ball 0, ball 1 are redundant"),
     ],
 )  # fmt: skip
 @pytest.mark.filterwarnings("ignore:.*redundant")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kink_scenes import CART as MASS
-from kink_scenes import ELEMENTS, cart, random_curve, slewing
-from numpy.typing import NDArray
+from kink_scenes import ELEMENTS, cart, random_curve
+from named import on_wire
 
 from seacrane import Curve, Result, Run, Scene, State, integrator_names, simulate
 
@@ -30,31 +29,21 @@ def bent(*jumps: float, time: float = 2.0) -> Curve:
     )
 
 
-def worst(result: Result, reference: Result, body: str | None = None) -> float:
-    apart = result["position"] - reference["position"]
-    if body is not None:
-        apart = apart[:, [list(result.bodies).index(body)]]
-    return float(np.linalg.norm(apart, axis=-1).max())
-
-
-# What is offered
-
-
-def pieces(start: float, *powers: float) -> Curve:
-    return Curve.pieces(starts=[start], coefficients=[[*powers, *([0.0] * (6 - len(powers)))]])
+def worst(result: Result, reference: Result) -> float:
+    return float(np.linalg.norm(result["position"] - reference["position"], axis=-1).max())
 
 
 # What is added, the times of its kinks and, over the scale of tolerances, the jumps there of the state and of
 # its first three derivatives, loads over the mass.
 V, R, A = JUMPS
+CUBIC = Curve.pieces(starts=[1.0], coefficients=[[0.0, 0.0, 0.5 * 0.7, -0.3 / 6.0, 0.0, 0.0]])
 RAMPS = np.array([[f, 0.0, 0.0, 0.0, 0.0, 0.0] for f in (0.0, 1.0, 1.0, 3.0)])
 OFFERED: list[tuple[str, dict[str, Any], list[float], list[list[float]]]] = [
     ("actuator", {"joint": "rail", "feed_forward": bent(*JUMPS)}, [2.0],
      [[0.0, V / MASS, R / MASS, A / MASS]]),
     ("actuator", {"joint": "rail", "stiffness": 3.0, "damping": 0.5, "reference": bent(*JUMPS)}, [2.0],
      [[0.0, (3.0 * V + 0.5 * R) / MASS, (3.0 * R + 0.5 * A) / MASS, 3.0 * A / MASS]]),
-    ("driver", {"joint": "rail", "curve": pieces(1.0, 0.0, 0.0, 0.5 * 0.7, -0.3 / 6.0)}, [1.0],
-     [[0.0, 0.7, 0.3, 0.0]]),
+    ("driver", {"joint": "rail", "curve": CUBIC}, [1.0], [[0.0, 0.7, 0.3, 0.0]]),
     ("driver", {"joint": "rail", "curve": bent(0.0, 0.2, 0.0)}, [2.0], [[0.2, 0.0, 0.0, 0.0]]),
     ("force_table", {"name": "push", "body": "cart", "times": [1.0, 2.0, 4.0, 5.0], "loads": RAMPS},
      [1.0, 2.0, 4.0, 5.0], [[0.0, 0.0, slope / MASS, 0.0] for slope in (1.0, 1.0, 2.0, 2.0)]),
@@ -85,22 +74,7 @@ def test_every_element_that_takes_a_curve_offers_its_kinks(element: str) -> None
     assert not ELEMENTS[element](Curve.constant(value=0.0)).compile().breakpoints
 
 
-# What is done about them
-
-
-def test_a_kink_of_the_slew_torque_does_not_break_an_accuracy() -> None:
-    torque = Curve.harmonic(amplitude=4e6, omega=2.0 * np.pi / 12.0, phase=-0.5 * np.pi)
-    scene = slewing(torque.then(time=12.0, curve=Curve.constant(value=0.0)))
-    span: dict[str, Any] = {"t_end": 40.0, "dt_out": 0.5}
-    reference = simulate(scene, integrator="dop853", rtol=1e-11, **span)
-    for limit in (1e-1, 1e-2, 1e-3, 1e-4, 1e-6):
-        result = simulate(scene, accuracy={"position": limit}, **span)
-        assert worst(result, reference) <= result.stats["error_estimate_position"] <= limit
-
-
-@pytest.mark.parametrize(
-    "integrator", ["rk4", "dopri5", "dop853", "ark-dirk", "cvode-bdf", "generalized-alpha"]
-)
+@pytest.mark.parametrize("integrator", ["rk4", "dopri5", "cvode-bdf", "generalized-alpha"])
 def test_a_run_restarts_at_a_kink_that_matters_and_not_at_one_that_does_not(integrator: str) -> None:
     extra = []
     for size in (0.0, 1e-9, 5.0):
@@ -168,10 +142,7 @@ def test_random_curves_with_kinks_keep_an_accuracy_through_every_element(seed: i
     assert worst(result, reference) <= 3.0 * limit, (seed, element, limit)
 
 
-# Kinks in the state
-
-
-def bouncing(damping: float) -> Scene:
+def bouncing(damping: float = 0.8) -> Scene:
     scene = cart(speed=1.0)
     scene.add_soft_stop(joint="rail", minimum=-1.0, maximum=1.0, stiffness=400.0, damping=damping)
     return scene
@@ -187,7 +158,7 @@ def corners() -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("make", [lambda: bouncing(0.0), lambda: bouncing(0.8), corners])
+@pytest.mark.parametrize("make", [bouncing, corners])
 def test_a_fixed_step_keeps_its_order_over_kinks_in_the_state(make: Callable[[], Scene]) -> None:
     """Where a soft stop is touched and left, and at the corners of a table; without them the order is 2."""
     scene = make()
@@ -205,8 +176,6 @@ def test_every_integrator_passes_kinks_in_the_state(integrator: str) -> None:
     assert worst(result, reference) < (2e-2 if order_one else 1e-4)
 
 
-Array = NDArray[np.float64]
-G = 9.80665
 STEPPING = {"semi-implicit-euler": 1e-3, "rk4": 0.02, "rk-low-storage": 0.02}
 # Those that lose much by a restart go across by their step control; Newton of generalized-alpha finds no step
 # across a jump.
@@ -215,63 +184,24 @@ ACROSS = ("cvode-adams", "cvode-bdf", "ida", "ark-dirk", "generalized-alpha")
 
 def hoisted(*, rate: Curve | float = -0.5, minimum: float = 9.5, lag: float = 0.0) -> Scene:
     """A load of 10 t whose winch hauls in to its end."""
-    scene = Scene(name="hoist")
-    scene.add_body(name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
-    scene.add_line(
-        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7,
-        tension_at_start=1e4 * G, damping_ratio=0.0,
-    )  # fmt: skip
+    scene = on_wire(mass=1e4, EA=1e7, damping_ratio=0.0)
     scene.add_winch(line="hoist", rate=rate, minimum_length=minimum, lag=lag)
     return scene
 
 
-def lengths(scene: Scene, **settings: Any) -> Array:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return np.asarray(simulate(scene, 4.0, dt_out=0.1, **settings)["line_unstretched_length"])[:, 0]
-
-
 @pytest.mark.parametrize("name", [name for name in integrator_names() if name not in ACROSS])
-@pytest.mark.parametrize("rtol", [0.1, 1e-3, 1e-6])
-def test_a_winch_stops_at_its_minimum_length_by_every_method(name: str, rtol: float) -> None:
-    settings = {"dt": STEPPING[name]} if name in STEPPING else {"rtol": rtol}
-    for lag in (0.0, 0.2):
-        out = lengths(hoisted(lag=lag), integrator=name, **settings)
-        assert abs(float(out[-1]) - 9.5) < 1e-6
+@pytest.mark.filterwarnings("ignore")
+def test_a_winch_stops_at_its_minimum_length_by_every_method(name: str) -> None:
+    for rtol, lag in ((0.1, 0.2), (1e-6, 0.0)):
+        settings = {"dt": STEPPING[name]} if name in STEPPING else {"rtol": rtol}
+        out = simulate(hoisted(lag=lag), 4.0, dt_out=0.1, integrator=name, **settings)
+        assert abs(float(out["line_unstretched_length"][-1, 0]) - 9.5) < 1e-6
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-def test_random_hoists_stop_at_their_minimum_length(formulation: str) -> None:
-    for seed in range(15):
-        rng = np.random.default_rng(seed)
-        rate = (
-            -rng.uniform(0.1, 2.0)
-            if rng.random() < 0.5
-            else Curve.harmonic(
-                offset=-rng.uniform(0.2, 1.0), amplitude=rng.uniform(0.0, 1.0), omega=rng.uniform(0.3, 4.0)
-            )
-        )
-        scene = hoisted(rate=rate, minimum=rng.uniform(8.5, 9.9), lag=rng.choice([0.0, 0.1, 0.5]))
-        name = str(rng.choice(["tsit5", "dopri5", "dop853", "bs32", "verner76"]))
-        out = lengths(scene, integrator=name, rtol=10.0 ** rng.uniform(-5, -1), formulation=formulation)
-        assert out.min() > scene.loads["hoist"].minimum_length - 1e-6, seed
-
-
-@pytest.mark.warns("WinchLimitWarning")
-def test_accuracy_holds_where_a_winch_comes_to_its_end() -> None:
-    truth = simulate(hoisted(), 4.0, dt_out=0.1, integrator="dop853", rtol=1e-11, maximum_step=0.01)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        found = simulate(hoisted(), 4.0, dt_out=0.1, accuracy={"position": 1e-3})
-    error = np.linalg.norm(np.asarray(found["position"]) - np.asarray(truth["position"]), axis=-1).max()
-    assert error < 1e-3
-
-
-@pytest.mark.parametrize("name", ["dopri5", "tsit5", "dop853", "rosenbrock"])
-@pytest.mark.parametrize("until", [-0.5, -1e-5, 0.0, 1e-7, 0.2])
+@pytest.mark.parametrize("name", ["dopri5", "dop853", "rosenbrock"])
+@pytest.mark.parametrize("until", [-0.5, -1e-5, 0.0, 1e-7])
 def test_a_run_goes_on_bit_for_bit_about_a_located_bound(name: str, until: float, tmp_path: Path) -> None:
-    """At times about that at which the bound is met."""
-    when = (10.0 / (1.0 + 1e4 * G / 1e7) - 9.5) / 0.5
+    when = (10.0 / (1.0 + 1e4 * 9.80665 / 1e7) - 9.5) / 0.5
     until += when
     settings: dict[str, Any] = {"dt_out": 0.1, "integrator": name, "rtol": 1e-4}
     whole = Run(hoisted(), t_end=3.0, **settings)
@@ -286,11 +216,10 @@ def test_a_run_goes_on_bit_for_bit_about_a_located_bound(name: str, until: float
     assert sorted({*met} - {event.time for event in rest.events()}) == [t for t in met if t <= until]
 
 
+@pytest.mark.filterwarnings("ignore")
 def test_a_command_that_jumps_beyond_a_bound_is_told_as_it_jumps() -> None:
     jump = Curve.constant(value=-0.1).then(time=0.5, curve=Curve.constant(value=-0.6))
     scene = hoisted(rate=jump, lag=0.1, minimum=5.0)
     scene.replace("hoist", maximum_rate=0.4)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        result = simulate(scene, 1.0, dt_out=0.1)
+    result = simulate(scene, 1.0, dt_out=0.1)
     assert [(event.name, event.time) for event in result.events] == [("hoist.maximum_rate", 0.5)]

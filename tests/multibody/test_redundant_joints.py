@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from multibody_runs import ramp, record
+from named import pendulum
 from reference_problems import bricard, pendulums
 
-from seacrane import Result, Run, Scene, SceneError, simulate
+from seacrane import Result, Scene, simulate
 from seacrane.analysis import Evaluator
 from seacrane.warnings import NearSingularWarning
 
@@ -26,16 +25,13 @@ def formulation(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 
 
-def door(hinges: list[float], kinds: list[str] | None = None) -> Scene:
+def door(hinges: list[float]) -> Scene:
     """A door of 30 kg, 1 m wide, on hinges at these heights on a leaning post, which makes it swing."""
     scene = Scene(name="door")
     scene.add_body(name="door", mass=30.0, inertia=(10.0, 12.0, 3.0), position=(0.5, 0.0, 0.0))
     for i, height in enumerate(hinges):
-        kind = (kinds or ["revolute"] * len(hinges))[i]
-        extra = {} if kind == "spherical" else {"axis": (0.0, 0.0, 1.0)}
-        scene.add_joint(
-            kind=kind, name=f"hinge {i}", first="ground", second="door", point=(0.0, 0.0, height), **extra
-        )
+        pin = {"first": "ground", "second": "door", "point": (0.0, 0.0, height), "axis": (0.0, 0.0, 1.0)}
+        scene.add_joint(kind="revolute", name=f"hinge {i}", **pin)
     scene.add_point_force(
         name="draught", body="door", point=(0.5, 0.0, 0.0), force=(0.0, 20.0, 0.0), body_axes=True
     )
@@ -57,10 +53,6 @@ def test_two_hinges_warn_and_move_like_one(formulation: str) -> None:
     np.testing.assert_allclose(out["reaction_force"].sum(axis=1), one["reaction_force"][:, 0], atol=1e-6)
     # Alike hinges at the same distance from the middle share the weight.
     np.testing.assert_allclose(out["reaction_force"][:, :, 2], 15.0 * G, rtol=1e-7)
-    # A ball beside a hinge adds nothing: the hinge's moments hold the same two tilts as its forces across.
-    with pytest.warns(UserWarning, match=r"\(3 more than needed\)"):
-        out = record(door([-0.8, 0.8], ["revolute", "spherical"]), 1.0, formulation=formulation)
-    np.testing.assert_allclose(out["reaction_force"][:, :, 2].sum(axis=1), 30.0 * G, rtol=1e-9)
 
 
 def test_reactions_of_redundant_joints_are_marked() -> None:
@@ -73,18 +65,6 @@ def test_reactions_of_redundant_joints_are_marked() -> None:
     assert unique == {"hinge 0": False, "hinge 1": False, "screw": True}
     assert model.redundant == ["hinge 0", "hinge 1"]
     assert (model.constraints, model.assembly["rank"], model.degrees_of_freedom) == (16, 11, 1)
-
-
-def test_the_warning_names_the_users_line() -> None:
-    """However deep in the package the scene was compiled."""
-    scene = door([-0.8, 0.8])
-    ways: list[Callable[[], Any]] = [
-        scene.compile, scene.report, lambda: simulate(scene, t_end=0.01), lambda: Run(scene, t_end=0.01),
-    ]  # fmt: skip
-    for way in ways:
-        with pytest.warns(UserWarning, match="redundant") as caught:
-            way()
-        assert {Path(warning.filename) for warning in caught} == {Path(__file__)}
 
 
 def test_multipliers_are_the_shortest_of_all_that_balance() -> None:
@@ -140,9 +120,8 @@ def test_a_planar_parallelogram_moves_like_its_spatial_twin(formulation: str) ->
         assert np.max(planar["constraint_error"]) < 1e-9
 
 
-@pytest.mark.parametrize("ratio", [1e-6, 1e-10, pytest.param(1e-12, marks=pytest.mark.slow("short steps"))])
+@pytest.mark.parametrize("ratio", [1e-10, pytest.param(1e-12, marks=pytest.mark.slow("short steps"))])
 def test_a_light_rod_is_not_taken_for_redundancy(ratio: float, formulation: str) -> None:
-    """A rod of this share of the coupler's mass in a loop that holds each motion once."""
     scene = bars(2, spatial=True)
     rod = scene.bodies.pop("crank 1")
     scene.add_body(name="crank 1", mass=2.0 * ratio, position=rod.position, inertia=np.full(3, 0.1 * ratio))
@@ -154,39 +133,6 @@ def test_a_light_rod_is_not_taken_for_redundancy(ratio: float, formulation: str)
     assert np.abs(residual).max() < 1e-12 * np.abs(terms["load"]).max()
     assert np.abs(terms["jacobian"] @ terms["acceleration"] - terms["gamma"]).max() < 1e-12
     record(scene, 0.3, formulation=formulation)
-
-
-def chain_below_a_door(light: float) -> Scene:
-    """180 bodies, every other one of a mass of its own."""
-    scene = door([0.0, 1.0])
-    scene.name = "chain"
-    for i in range(1, 180):
-        mass = light if i % 2 else 1.0
-        inertia = (0.1 * mass, 0.1 * mass, 0.1 * mass)
-        scene.add_body(name=f"link {i}", mass=mass, inertia=inertia, position=(i + 1.0, 0.0, 0.0))
-        first = f"link {i - 1}" if i > 1 else "door"
-        scene.add_joint(
-            kind="spherical", name=f"ball {i}", first=first, second=f"link {i}", point=(i + 0.5, 0, 0)
-        )
-    return scene
-
-
-@pytest.mark.filterwarnings("ignore:.*redundant")
-def test_a_long_chain_on_a_door_with_two_hinges_leaves_five_rows_out() -> None:
-    """Refused where masses are too different for the sparse solution, and bodies too many for a dense one."""
-    scene = chain_below_a_door(1.0)
-    model = scene.compile()
-    assert model.redundant == ["hinge 0", "hinge 1"]
-    assert model.constraints - model.assembly["rank"] == model.merge["left_out"] == 5
-    two = simulate(scene, 0.2, formulation="redundant", dt_out=0.1)
-    del scene.joints["hinge 1"]
-    one = simulate(scene, 0.2, formulation="redundant", dt_out=0.1)
-    np.testing.assert_allclose(two["position"], one["position"], atol=1e-9)
-    light = chain_below_a_door(1e-7)
-    with pytest.raises(SceneError, match=r"'chain'.*redundant joints .* 180 bodies"):
-        light.compile()
-    del light.joints["hinge 1"]
-    light.compile()
 
 
 def folding(start: float, *, pins: int = 1, rate: float | None = None) -> Scene:
@@ -267,16 +213,15 @@ def test_a_singular_position_is_told(
         assert np.abs(result["energy_balance"]).max() > 1e-4
 
 
-def chain(links: int, *, hinges: int = 1, lean: float = 0.0) -> Scene:
-    """A beam on `hinges` hinges on one line, and links of 1 m and 20 kg from it, leaning by `lean` rad."""
+def chain(links: int, *, lean: float = 0.0) -> Scene:
+    """A beam on a hinge, and links of 1 m and 20 kg from it, leaning by `lean` rad."""
     scene = Scene(name="chain", gravity=G)
     scene.add_body(name="beam", mass=50.0, inertia=[5.0] * 3)
 
     def pin(name: str, first: str, second: str, point: Any) -> None:
         scene.add_joint(kind="revolute", name=name, first=first, second=second, point=point, axis=(0, 1, 0))
 
-    for i in range(hinges):
-        pin(f"hinge {i}", "ground", "beam", (0, i, 0))
+    pin("hinge", "ground", "beam", (0, 0, 0))
     along = np.array([np.sin(lean), 0.0, -np.cos(lean)])
     for i in range(links):
         scene.add_body(
@@ -295,29 +240,14 @@ def test_a_long_chain_at_rest_is_not_singular(formulation: str) -> None:
     assert result.stats["rank_changed"] == 0
 
 
-def test_a_long_chain_on_redundant_hinges_keeps_all_its_joints() -> None:
-    """Beside redundant rows the redundant form would leave out a combination of the chain's."""
-    places = []
-    for hinges in (1, 2):
-        result, near = told(chain(30, hinges=hinges, lean=0.5), t_end=0.2, rtol=1e-9)
-        assert not near and result.stats["formulation"] == "recursive"
-        places.append(result["position"][-1])
-    np.testing.assert_allclose(places[1], places[0], atol=1e-7)
-
-
-@pytest.mark.parametrize("inertia", [1e-4, 1e-10, 1e-20])
+@pytest.mark.parametrize("inertia", [1e-4, 1e-20])
 def test_a_body_of_next_to_no_inertia_hangs_on_a_hinge_that_is_not_redundant(
     inertia: float, formulation: str
 ) -> None:
-    scene = Scene(name="plumb", gravity=G)
-    scene.add_body(name="bob", mass=1.0, inertia=[inertia] * 3, position=(1, 0, 0))
-    scene.add_joint(
-        kind="revolute", name="hinge", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
-    result, near = told(scene, formulation, t_end=2.0, rtol=1e-10)
+    result, near = told(pendulum(inertia=inertia), formulation, t_end=2.0, rtol=1e-10)
     assert not near
     slower = np.sqrt(G / pendulums.GRAVITY / (1.0 + inertia))
-    ((x, z),) = pendulums.place([2.0 * slower])[0]  # let go on the other side
+    ((x, z),) = pendulums.place([2.0 * slower])  # let go on the other side
     assert np.abs(result["position"][-1, 0] - (-x, 0.0, z)).max() < 1e-8
     assert np.abs(result["constraint_error"]).max() < 1e-12
     assert np.abs(result["energy_balance"]).max() < 1e-8

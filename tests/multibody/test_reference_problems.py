@@ -10,10 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from multibody_runs import record
-from reference_problems import andrews, four_bars, pendulums
-from reference_problems.planar import angles
-from reference_problems.problems import MECHANISMS, four_bar_row, run, squeezer
+from reference_problems import four_bars
+from reference_problems.problems import MECHANISMS, run, squeezer
 
 BOTH = ("redundant", "recursive")
 LIMITS: dict[str, list[tuple[dict[str, Any], float]]] = {
@@ -26,7 +24,6 @@ LIMITS: dict[str, list[tuple[dict[str, Any], float]]] = {
         # Tolerances are absolute, 1e-13 of 1,000 rad/s below what evaluations and projections resolve.
         ({"integrator": "dop853", "rtol": 1e-13}, 1e-11),
         ({"integrator": "cvode-bdf", "rtol": 1e-8}, 1e-7),
-        ({"integrator": "cvode-bdf", "rtol": 1e-6}, 1e-6),
         ({"integrator": "rk4", "dt": 1e-5}, 1e-9),
         # Ten hinges: nine rows of fifty are more than needed.
         ({"planar": True, "integrator": "dop853", "rtol": 1e-6}, 1e-8),
@@ -35,7 +32,6 @@ LIMITS: dict[str, list[tuple[dict[str, Any], float]]] = {
     "governor": [({"integrator": "cvode-bdf", "rtol": 1e-7}, 1e-6), ({"rtol": 1e-6}, 1e-9)],
     "top": [
         ({"integrator": "dop853", "rtol": 1e-9}, 2e-8),
-        ({"integrator": "tsit5", "rtol": 1e-8}, 1e-7),
         # 1.2e-6 m from a second-order method's, 4e-9 m from the elliptic integrals.
         ({"published": True, "integrator": "dop853", "rtol": 1e-9}, 2e-6),
     ],
@@ -59,21 +55,6 @@ def test_the_published_squeezer_is_right_to_nine_digits() -> None:
     assert 1e-9 < squeezer(integrator="verner76", rtol=1e-8, published=True).difference < 2e-9
 
 
-@pytest.mark.parametrize("formulation", BOTH)
-def test_squeezer_starts_with_the_published_accelerations_and_ends_with_the_published_rates(
-    formulation: str,
-) -> None:
-    scene = andrews.scene()
-    channels = ("quaternion", "angular_velocity", "angular_acceleration")
-    settings = {"formulation": formulation, "rtol": 1e-7}
-    result = run(scene, andrews.END_TIME, 1e-4, settings, *channels)
-    acceleration = andrews.relative(result["angular_acceleration"][..., 2])
-    np.testing.assert_allclose(acceleration[0], andrews.START_ACCELERATION, rtol=0.0, atol=1e-7)
-    np.testing.assert_allclose(acceleration[-1], andrews.END_ACCELERATION, rtol=0.0, atol=0.2)  # of 5e5
-    rates = andrews.relative(result["angular_velocity"][..., 2])
-    np.testing.assert_allclose(rates[-1], andrews.END_RATES, rtol=0.0, atol=2e-6)  # of 1e3
-
-
 @pytest.mark.parametrize(
     ("loops", "formulation"),
     [(60, "redundant"), pytest.param(40, "recursive", marks=pytest.mark.slow("forty loops"))],
@@ -86,37 +67,3 @@ def test_many_loops_of_redundant_joints_move_as_one_pendulum(loops: int, formula
     angle, _ = four_bars.turned(loops, result.time)
     posts = result["position"][:, : loops + 1, 0] - np.arange(loops + 1.0)
     np.testing.assert_allclose(posts, np.outer(0.5 * np.sin(angle), np.ones(loops + 1)), atol=1e-7)
-
-
-@pytest.mark.slow("forty loops")
-@pytest.mark.parametrize(("loops", "formulation"), [(10, "redundant"), (10, "recursive"), (40, "recursive")])
-def test_many_four_bars(loops: int, formulation: str) -> None:
-    """Up to the library's own forty loops, 81 bodies, through the first flat position."""
-    found = four_bar_row(loops, planar=False, t_end=1.5, formulation=formulation, rtol=1e-8)
-    assert four_bars.turned(loops, [1.5])[0][0] > 0.5 * np.pi
-    assert found.difference < 1e-8, found
-
-
-@pytest.mark.parametrize("formulation", BOTH)
-@pytest.mark.parametrize(
-    "settings", [{"rtol": 1e-8}, {"integrator": "rk4", "dt": 1e-3}],
-    ids=lambda settings: str(settings.get("integrator", "dopri5")),
-)  # fmt: skip
-def test_errors_of_a_double_pendulum_grow_as_those_of_its_start(
-    settings: dict[str, Any], formulation: str
-) -> None:
-    """A million times in 9 s, at the exponent of two nearby motions of Lagrange's equations."""
-    out = record(pendulums.double_scene(), 10.0, dt_out=0.1, formulation=formulation, **settings)
-    times = out["time"]
-    error = np.linalg.norm(
-        angles("xz", out["quaternion"]) - pendulums.DOWN - pendulums.double_angles(times), axis=1
-    )
-    growth = pendulums.growth(times)
-    late = times >= 2.0
-    exponents = [np.polyfit(times[late], np.log(values[late]), 1)[0] for values in (error, growth)]
-    assert exponents[1] > 1.0  # 1/s: it is chaotic
-    assert exponents[0] == pytest.approx(exponents[1], rel=0.1)
-    # Made early, and grown since: an error beside it would show as a ratio of its own.
-    assert np.ptp(np.log(error[late] / growth[late])) < np.log(10.0)
-    assert error[-1] < 2e-3
-    assert np.max(np.abs(out["energy_balance"])) < 1e-6 * pendulums.GRAVITY

@@ -97,7 +97,6 @@ def test_energy_balance_is_1e_8_of_the_absolute_work(
 @pytest.mark.slow("long runs")
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_case2_keeps_its_joints_and_energy_for_three_hours(formulation: str) -> None:
-    """Default setting otherwise."""
     result = simulate(cases.case2(), t_end=10800.0, dt_out=1.0, formulation=formulation)
     assert np.max(result["constraint_error"]) < 1e-9
     assert np.max(result["constraint_error_before_projection"]) < 1e-5
@@ -106,7 +105,6 @@ def test_case2_keeps_its_joints_and_energy_for_three_hours(formulation: str) -> 
 
 @pytest.mark.slow("long runs")
 def test_a_vessel_does_not_grow_in_a_day() -> None:
-    """24 h: the default setting's error against a tight one is as large at the end as at the start."""
 
     def motion(**settings: Any) -> Result:
         channels = ["vessel_motion", "energy_balance", "absolute_work"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from math import factorial, inf, isnan
+from math import factorial
 from typing import Any
 
 import numpy as np
@@ -12,10 +12,8 @@ import pytest
 from kink_scenes import sprung
 from numpy.polynomial import Polynomial
 
-from seacrane import Curve, Scene, _core, integrator_names, simulate
+from seacrane import Scene, _core, integrator_names, simulate
 from seacrane.analysis.linear_system import linear_model
-from seacrane.run import modes
-from seacrane.scene import spline_curve
 from seacrane.warnings import GrowingModeWarning
 from stability_atlas.step_limit import found_limit, predicted_limit
 
@@ -36,26 +34,16 @@ def test_known_intervals_of_stability() -> None:
         polynomial = Polynomial(_core.stability_polynomial(name))
         assert abs(polynomial(-limit * 0.999)) < 1.0 < abs(polynomial(-limit * 1.001))
     assert _core.stability_polynomial("cvode-bdf") == []
-    assert _core.stability_polynomial("ark-dirk") == []
 
 
 @pytest.mark.parametrize("name", ["semi-implicit-euler", "rk4", "rk-low-storage", "bs32", "tsit5", "dop853"])
-@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
-def test_the_longest_stable_step_of_an_oscillator(name: str, formulation: str) -> None:
+def test_the_longest_stable_step_of_an_oscillator(name: str) -> None:
     scene = sprung(20.0, 0.2)
     linear = linear_model(scene)
     predicted = predicted_limit(name, linear, np.asarray(np.linalg.eigvals(linear.a), dtype=complex))
     if name == "semi-implicit-euler":  # h w = 2 sqrt(1 + z^2) - 2 z, by the characteristic polynomial
         assert predicted == pytest.approx((2.0 * np.sqrt(1.04) - 0.4) / 20.0, rel=0.03)
-    assert found_limit(scene, linear, formulation, name, predicted) == pytest.approx(predicted, rel=0.01)
-
-
-def test_methods_that_have_no_limit_or_no_prediction() -> None:
-    scene = sprung(20.0, 0.2)
-    linear = linear_model(scene)
-    eigenvalues = np.asarray(np.linalg.eigvals(linear.a), dtype=complex)
-    assert isnan(predicted_limit("generalized-alpha", linear, eigenvalues))
-    assert found_limit(scene, linear, "redundant", "generalized-alpha", float("nan")) == inf
+    assert found_limit(scene, linear, "recursive", name, predicted) == pytest.approx(predicted, rel=0.01)
 
 
 MODE, STEP = 2.2, 0.5  # rad/s, s
@@ -67,11 +55,6 @@ def run(scene: Scene, integrator: str = "tsit5", **settings: Any) -> Any:
     return simulate(scene, integrator=integrator, **given)
 
 
-def log_growth(integrator: str, step: float) -> float:
-    """Of the amplitude in one step, as the polynomial has it."""
-    return float(np.log(np.abs(Polynomial(_core.stability_polynomial(integrator))(1j * step * MODE))))
-
-
 @pytest.mark.parametrize("integrator", ["tsit5", "dopri5"])
 def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(integrator: str) -> None:
     with pytest.warns(GrowingModeWarning, match=f"{integrator} makes .* body 'cart' grow") as caught:
@@ -79,79 +62,25 @@ def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(i
     told = re.search(r"factor of (\S+) an hour: a mode of (\S+) rad/s", str(caught[0].message))
     assert told is not None
     assert float(told[2]) == pytest.approx(MODE, rel=1e-3)
-    assert float(told[1]) == pytest.approx(np.exp(3600.0 / STEP * log_growth(integrator, STEP)), rel=2e-3)
+    in_one_step = abs(Polynomial(_core.stability_polynomial(integrator))(1j * STEP * MODE))
+    assert float(told[1]) == pytest.approx(in_one_step ** (3600.0 / STEP), rel=2e-3)
     position = np.abs(result["position"][:, 0, 0])
     hours = (result.time[-1] - 20.0) / 3600.0
     assert position[-20:].max() / position[:20].max() == pytest.approx(float(told[1]) ** hours, rel=0.05)
-    assert "grow by a factor" in str(result.stats["validity"])
 
 
 @pytest.mark.parametrize(
     ("damping_ratio", "integrator", "settings"),
     [
         (0.0, "verner65", {}),  # damps up to 2.5
-        (0.0, "rk4", {"maximum_step": None, "rtol": None, "dt": STEP}),
         (0.0, "dopri5", {"maximum_step": 0.4}),
         (0.001, "tsit5", {}),  # outweighs the growth
         (0.0, "tsit5", {"t_end": 1000.0, "rtol": 1e-4}),  # too short for the growth to matter
     ],
 )
 def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, settings: Any) -> None:
-    given = {"t_end": 6000.0, "dt_out": 1.0, "maximum_step": STEP, "rtol": 1e-2} | settings
-    kept = {name: value for name, value in given.items() if value is not None}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        result = simulate(sprung(MODE, damping_ratio, speed=AMPLITUDE * MODE), integrator=integrator, **kept)
+        result = run(sprung(MODE, damping_ratio, speed=AMPLITUDE * MODE), integrator, **settings)
     start, end = np.abs(result["position"][:20, 0, 0]).max(), np.abs(result["position"][-20:, 0, 0]).max()
     assert end < 2.0 * start
-
-
-def test_a_short_run_pays_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(modes, "jacobian", None)
-    run(sprung(MODE, speed=AMPLITUDE * MODE), t_end=900.0)
-
-
-def hoisted(damping_ratio: float) -> Scene:
-    """A load on an elastic line below a point that heaves."""
-    scene = Scene(name="hoist")
-    time = np.linspace(0.0, 600.0, 2401)
-    heave = 0.5 * np.sin(0.7 * time) * np.minimum(1.0, time / 30.0)
-    scene.add_body(name="top", mass=1e3, inertia=[1e3] * 3)
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="top", axis=(0, 0, 1))
-    scene.add_driver(joint="rail", curve=spline_curve(times=time, values=heave))
-    scene.add_body(name="load", mass=20e3, inertia=[2e4] * 3, position=(0, 0, -30))
-    scene.add_line(
-        name="wire", bodies=["top", "load"], points=np.zeros((2, 3)), EA=1e8,
-        tension_at_start=20e3 * scene.gravity, damping_ratio=damping_ratio,
-    )  # fmt: skip
-    return scene
-
-
-def test_a_wire_that_rings_at_a_loose_tolerance_is_told_of() -> None:
-    """The tension's deviation is several times what a tight tolerance gives, and only then."""
-    told = {}
-    for rtol in (1e-2, 1e-6):
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            result = simulate(hoisted(0.02), t_end=500.0, integrator="tsit5", rtol=rtol)
-        ringing = [str(one.message) for one in caught if issubclass(one.category, GrowingModeWarning)]
-        told[rtol] = (float(result["line_tension"][1000:].std()), ringing)
-    assert told[1e-2][0] > 3.0 * told[1e-6][0]
-    assert "tsit5 at rtol 0.01 keeps an oscillation of body 'load' ringing" in told[1e-2][1][0]
-    assert not told[1e-6][1]
-
-
-def test_what_step_control_has_stopped_is_not_told_to_grow_on() -> None:
-    """By its mean step a mode would have grown beyond all bounds: step control held it at its tolerance."""
-    scene = Scene(name="two poses")
-    scene.add_body(name="load", mass=60e3, inertia=[1e5] * 3, position=(0, 0, -10))
-    scene.add_line(
-        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1.5e8,
-        tension_at_start=60e3 * scene.gravity,
-    )  # fmt: skip
-    scene.add_winch(line="wire", rate=Curve.quintic(start_time=50, end_time=60, start=0.0, end=0.1))
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        result = simulate(scene, t_end=700.0, dt_out=0.5, rtol=1e-4, integrator="dopri5")
-    assert not [one for one in caught if issubclass(one.category, GrowingModeWarning)]
-    assert np.ptp(result["line_tension"][-200:]) < 1e-3 * 60e3 * scene.gravity

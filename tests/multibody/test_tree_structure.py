@@ -3,23 +3,20 @@ actuators on coordinates of the tree, and outputs of kinematics alone."""
 
 from __future__ import annotations
 
-import itertools
 from typing import Any
 
 import numpy as np
 import pytest
+from multibody_runs import ramp
 from numpy.typing import NDArray
-from random_scenes import moving
-from test_formulations import Comparison
 
-from seacrane import Curve, Run, Scene, cases, simulate
+from seacrane import Scene, cases, simulate
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 ROD = np.diag([0.3, 0.3, 0.02])  # about z
 PLATE = np.array([[2.0, 0.3, 0.1], [0.3, 1.5, 0.2], [0.1, 0.2, 2.2]])
 TILT = np.array([np.cos(0.3), 0.6 * np.sin(0.3), 0.8 * np.sin(0.3), 0.0])  # of all that is built
-WAYS = list(itertools.product([False, True], [0.0, 0.2], [False, True]))
 
 
 def turned(vector: Any) -> Array:
@@ -27,15 +24,11 @@ def turned(vector: Any) -> Array:
     return np.asarray(rotation_matrix(TILT) @ np.asarray(vector, dtype=float))
 
 
-def curve(slope: float) -> Curve:
-    return Curve.pieces(starts=[-1.0], coefficients=[[0.3, slope, 0.0, 0.0, 0.0, 0.0]])
-
-
 def add_body(scene: Scene, name: str, at: Any, inertia: Array) -> None:
     scene.add_body(name=name, mass=3.0, inertia=inertia, position=turned(at), quaternion=TILT)
 
 
-def jib(*, off_line: float = 0.0, swapped: bool = False, at_base: bool = True, carried: bool = True) -> Scene:
+def jib(*, off_line: float = 0.0, swapped: bool = False) -> Scene:
     """A jib on a turning column, a cylinder across its hinge in the x-z plane, and a load on a link.
 
     `off_line` moves the cylinder's upper end out of that plane; `swapped` writes all joints the other way."""
@@ -66,43 +59,26 @@ def jib(*, off_line: float = 0.0, swapped: bool = False, at_base: bool = True, c
     join("revolute", "slew", "ground", "column", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     join("revolute", "luff", "column", "jib", (0.0, 0.0, 2.0), (0.0, 1.0, 0.0))
     join("prismatic", "cylinder", "barrel", "rod", 0.5 * (lower + upper), line)
-    held, free = (("column", "barrel", lower), ("jib", "rod", upper))[:: 1 if at_base else -1]
-    join("universal", "cross", *held, (0.0, 1.0, 0.0), second_axis=across)
-    join("spherical", "ball", *free, (0.0, 0.0, 1.0))
+    join("universal", "cross", "column", "barrel", lower, (0.0, 1.0, 0.0), second_axis=across)
+    join("spherical", "ball", "jib", "rod", upper, (0.0, 0.0, 1.0))
     join("distance", "link", "jib", "load", (4.0, 0.0, 3.5), (0.0, 0.0, 1.0), second_point=(4.0, 0.1, 2.3))
-    if carried:
-        join(
-            "universal", "hook", "load", "tail", (4.0, 0.0, 1.8), (1.0, 0.0, 0.0), second_axis=(0.0, 1.0, 0.0)
-        )
+    if not swapped:
+        across = (0.0, 1.0, 0.0)
+        join("universal", "hook", "load", "tail", (4.0, 0.0, 1.8), (1.0, 0.0, 0.0), second_axis=across)
     else:
         join("prismatic", "way", "ground", "tail", (4.2, 0.1, 1.5), (0.2, 0.3, 1.0))
-        scene.add_actuator(name="push", joint="way", stiffness=50.0, damping=4.0, reference=curve(0.1))
-    scene.add_actuator(name="turn", joint="slew", stiffness=30.0, damping=5.0, feed_forward=curve(2.0))
-    scene.add_actuator(name="lift", joint="cylinder", stiffness=400.0, damping=20.0, reference=curve(-0.2))
+        scene.add_actuator(name="push", joint="way", stiffness=50.0, damping=4.0, reference=ramp(0.1, 0.4))
+    scene.add_actuator(name="turn", joint="slew", stiffness=30.0, damping=5.0, feed_forward=ramp(2.0, 2.3))
+    scene.add_actuator(
+        name="lift", joint="cylinder", stiffness=400.0, damping=20.0, reference=ramp(-0.2, 0.1)
+    )
     return scene
 
 
-@pytest.mark.parametrize("at_base", [False, True])
-@pytest.mark.parametrize(("swapped", "off_line", "carried"), WAYS)
-def test_structure_changes_no_acceleration(
-    swapped: bool, off_line: float, carried: bool, at_base: bool
-) -> None:
-    """A slender cylinder and one that is not; a load alone on its link, and with more behind it."""
-    scene = jib(off_line=off_line, swapped=swapped, at_base=at_base, carried=carried)
-    model = scene.compile()
-    assert Run(scene, t_end=1.0, model=model).formulation == "recursive"
-    for seed in range(3):
-        found = Comparison(model, moving(model, seed))
-        assert found.acceleration < 1e-12
-        assert found.reaction < 1e-11
-
-
 @pytest.mark.warns(sometimes=["PushingLinkWarning"])
-@pytest.mark.parametrize(("swapped", "off_line", "carried"), WAYS)
-def test_actuators_do_the_same_work_on_coordinates_as_on_bodies(
-    swapped: bool, off_line: float, carried: bool
-) -> None:
-    scene = jib(off_line=off_line, swapped=swapped, carried=carried)
+@pytest.mark.parametrize(("swapped", "off_line"), [(False, 0.0), (True, 0.2)])
+def test_actuators_do_the_same_work_on_coordinates_as_on_bodies(swapped: bool, off_line: float) -> None:
+    scene = jib(off_line=off_line, swapped=swapped)
     tree, bodies = (
         simulate(scene, t_end=1.0, dt_out=0.25, rtol=1e-10, integrator="dop853", formulation=kind)
         for kind in ("recursive", "redundant")
@@ -116,10 +92,8 @@ def test_actuators_do_the_same_work_on_coordinates_as_on_bodies(
     assert tree["absolute_work"][-1] > 1.0
 
 
-@pytest.mark.parametrize("off_line", [0.0, 0.2])
-def test_implicit_steps_know_the_actuators_on_the_tree(off_line: float) -> None:
-    """A wrong Jacobian would cost the order of a Rosenbrock method."""
-    scene, errors = jib(off_line=off_line), []
+def test_implicit_steps_know_the_actuators_on_the_tree() -> None:
+    scene, errors = jib(), []
     settings: dict[str, Any] = {"t_end": 0.5, "dt_out": 0.5, "formulation": "recursive"}
     exact = simulate(scene, integrator="dop853", rtol=1e-12, **settings)["position"]
     for rtol in (1e-4, 1e-7):

@@ -17,11 +17,8 @@ def differences(
     reference: Mapping[str, Any], other: Mapping[str, Any], *, bodies: Sequence[str],
     joints: Sequence[str] = (),
 ) -> dict[str, float]:  # fmt: skip
-    """Largest absolute difference of every quantity that `other` holds beside the result of `simulate`.
-
-    On the same times; bodies and joints, given in `other`'s order, are matched by name. `attitude` is the
-    angle between the orientations, rad.
-    """
+    """Of every quantity that `other` holds; bodies and joints, in `other`'s order, are matched by name.
+    `attitude` is the angle between the orientations, rad."""
     np.testing.assert_allclose(other["time"], reference["time"], rtol=0.0, atol=1e-9)
     out: dict[str, float] = {}
     for kind, names, order in (("body", BY_BODY, bodies), ("joint", BY_JOINT, joints)):

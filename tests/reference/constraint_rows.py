@@ -1,40 +1,28 @@
 """Constraint equations by kind, each vectorised over its instances.
 
-Every row is c(q) - nu(t) = 0 with D v = nudot and D a = gamma + nuddot, v stacked as (velocity of the centre
-of mass, angular velocity), both inertial, body after body (paper eqs. 3, 7, 8). Kinds: `coincide` (two
-points, three rows), `perpendicular` (two body-fixed vectors), `slide` (distance along a vector fixed in
-the first body), `distance` (between two points), `spin` (angle about an axis).
+Every row is c(q) = 0 with D v = 0 and D a = gamma, v stacked as (velocity of the centre of mass, angular
+velocity), both inertial, body after body (paper eqs. 3, 7, 8). Kinds: `coincide` (two points, three rows),
+`perpendicular` (two body-fixed vectors), `slide` (distance along a vector fixed in the first body),
+`distance` (between two points).
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from .kinematics import BodyVectors, Indices, VectorMotion
-from .reference_curves import ReferenceCurve
+from .kinematics import Indices, VectorMotion
 from .rotation import Array, cross, dot, skew
 
 
 @dataclass
 class RowValues:
-    """Residual (m), rate residual (m), matrix D (m, n + 1, 6) with the ground last, right side gamma (m)."""
+    """Residual (m), matrix D (m, n + 1, 6) with the ground last, right side gamma (m)."""
 
     residual: Array
-    rate: Array
     matrix: Array
     gamma: Array
-
-
-@dataclass
-class Driver:
-    """Row whose coordinate follows a curve."""
-
-    row: int
-    curve: ReferenceCurve
-    is_angle: bool
 
 
 @dataclass
@@ -42,26 +30,18 @@ class ConstraintRows:
     """All rows of a system. Add them joint by joint, then `freeze`."""
 
     bodies: int
-    vectors: BodyVectors
     count: int = 0
     row_joint: list[int] = field(default_factory=list)
     row_second: list[int] = field(default_factory=list)
-    drivers: list[Driver] = field(default_factory=list)
     entries: dict[str, list[tuple[float, ...]]] = field(default_factory=lambda: {kind: [] for kind in FILL})
 
-    def add(self, kind: str, joint: int, first: int, second: int, *data: float) -> int:
-        """Append an instance; `data` are vector indices, then a constant. Returns its first row."""
-        row, height = self.count, 3 if kind == "coincide" else 1
-        self.entries[kind].append((row, first, second, *data))
+    def add(self, kind: str, joint: int, first: int, second: int, *data: float) -> None:
+        """Append an instance; `data` are vector indices, then a constant."""
+        height = 3 if kind == "coincide" else 1
+        self.entries[kind].append((self.count, first, second, *data))
         self.row_joint += [joint] * height
         self.row_second += [second] * height
         self.count += height
-        return row
-
-    def drive(self, row: int, curve: ReferenceCurve, *, is_angle: bool) -> None:
-        """Let the coordinate of a row follow a curve; the row then belongs to no joint's reaction."""
-        self.row_joint[row] = -1
-        self.drivers.append(Driver(row, curve, is_angle))
 
     def freeze(self) -> None:
         """Turn the lists into index arrays."""
@@ -73,27 +53,14 @@ class ConstraintRows:
         self.joint_of_row = np.array(self.row_joint, dtype=int)
         self.second_of_row = np.array(self.row_second, dtype=int)
 
-    def evaluate(self, t: float, x: VectorMotion) -> RowValues:
-        """All rows at time t."""
+    def evaluate(self, x: VectorMotion) -> RowValues:
         n = self.count
-        out = RowValues(np.zeros(n), np.zeros(n), np.zeros((n, self.bodies + 1, 6)), np.zeros(n))
+        out = RowValues(np.zeros(n), np.zeros((n, self.bodies + 1, 6)), np.zeros(n))
         for kind, fill in FILL.items():
             index = self.index[kind]
             if index is not None:
                 fill(out, x, index, self.constant[kind])
-        for driver in self.drivers:
-            value, rate, acceleration = driver.curve(t)
-            residual = out.residual[driver.row] - value
-            out.residual[driver.row] = wrap(residual) if driver.is_angle else residual
-            out.rate[driver.row] -= rate
-            out.gamma[driver.row] += acceleration
-        out.rate += out.matrix[:, :-1].reshape(n, 6 * self.bodies) @ x.motion.twists()
         return out
-
-
-def wrap(angle: float) -> float:
-    """The same angle within (-pi, pi]."""
-    return math.remainder(angle, 2.0 * math.pi)
 
 
 def _coincide(out: RowValues, x: VectorMotion, index: Indices, _: Array) -> None:
@@ -141,16 +108,4 @@ def _distance(out: RowValues, x: VectorMotion, index: Indices, length: Array) ->
     out.gamma[row] = -dot(rate, rate) / length - dot(e, x.bias[i2] - x.bias[i1])
 
 
-def _spin(out: RowValues, x: VectorMotion, index: Indices, _: Array) -> None:
-    row, first, second, axis, t1, t2 = index
-    a = x.g[axis]
-    out.residual[row] = np.arctan2(dot(a, cross(x.g[t1], x.g[t2])), dot(x.g[t1], x.g[t2]))
-    out.matrix[row, first, 3:] = -a
-    out.matrix[row, second, 3:] = a
-    out.gamma[row] = -dot(x.motion.w[second] - x.motion.w[first], x.rate[axis])
-
-
-FILL = {
-    "coincide": _coincide, "perpendicular": _perpendicular, "slide": _slide, "distance": _distance,
-    "spin": _spin,
-}  # fmt: skip
+FILL = {"coincide": _coincide, "perpendicular": _perpendicular, "slide": _slide, "distance": _distance}

@@ -1,5 +1,4 @@
-"""State feedback on joint coordinates and forces at points: wrenches (force; moment about the centre of mass,
-inertial frame) added to an array (n + 1, 6)."""
+"""State feedback on joint coordinates, and forces at points, added to wrenches (n + 1, 6), inertial frame."""
 
 from __future__ import annotations
 
@@ -9,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from . import reference_curves
-from .constraint_rows import wrap
 from .joints import JointCoordinates, body_index
 from .kinematics import BodyVectors, Motion, VectorMotion
 from .rotation import Array, cross
@@ -36,9 +34,9 @@ class Actuators:
         """Signed actuator loads, N or N m."""
         if not self.curves:
             return np.zeros(0)
-        reference = np.array([curve(t)[:2] for curve in self.curves])
+        reference = np.array([curve(t) for curve in self.curves])
         error = reference[:, 0] - s[self.slot]
-        error = np.where(self.is_angle, [wrap(e) for e in error], error)
+        error = np.where(self.is_angle, np.remainder(error + np.pi, 2.0 * np.pi) - np.pi, error)
         error_rate = reference[:, 1] - s_rate[self.slot]
         forward = np.array([curve(t)[0] for curve in self.feedforward])
         return np.asarray(self.stiffness * error + self.damping * error_rate + forward)
@@ -57,8 +55,6 @@ class Actuators:
 
 
 class PointForces:
-    """Constant forces in the inertial frame at body-fixed points."""
-
     def __init__(
         self, records: Sequence[Mapping[str, Any]], bodies: Mapping[str, int], start: Motion,
         vectors: BodyVectors,

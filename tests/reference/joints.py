@@ -10,19 +10,13 @@ import numpy as np
 
 from .constraint_rows import ConstraintRows
 from .kinematics import BodyVectors, Motion, VectorMotion
-from .reference_curves import ReferenceCurve
 from .rotation import Array, cross, dot
-
-KINDS = ("weld", "revolute", "prismatic", "universal", "spherical", "distance")
 
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint of the compiled system.
-
-    `p1`, `p2` are the body-vector indices of its point on either body, `axis` that of its axis on the first
-    body, `t1`, `t2` those of the perpendicular vectors on either body that measure its angle; -1: none.
-    """
+    """Indices of body vectors: its point on either body, its axis on the first, and the vectors across that
+    measure its angle; -1: none. `offset` is how far apart its points are along the axis at the start."""
 
     name: str
     kind: str
@@ -34,6 +28,7 @@ class Joint:
     axis: int
     t1: int
     t2: int
+    offset: float
 
     @property
     def reaction_point(self) -> int:
@@ -47,8 +42,6 @@ def add_joint(
 ) -> Joint:  # fmt: skip
     """Register the vectors and rows of one joint record (schema: `system` module)."""
     name, kind = str(record["name"]), str(record["kind"])
-    if kind not in KINDS:
-        raise ValueError(f"joint {name!r}: kind {kind!r} is unknown; use one of {KINDS}")
     first, second = body_index(record.get("first"), bodies), body_index(record["second"], bodies)
     point = np.asarray(record["point"], dtype=float)
     other = np.asarray(record.get("second_point", point), dtype=float)
@@ -58,6 +51,7 @@ def add_joint(
 
     p1, p2 = on(first, point - start.r[first]), on(second, other - start.r[second])
     axis = t1 = t2 = -1
+    offset = 0.0
     if kind in ("weld", "spherical", "universal", "revolute"):
         rows.add("coincide", index, first, second, p1, p2)
     if kind == "weld":
@@ -80,10 +74,11 @@ def add_joint(
         rows.add("perpendicular", index, first, second, t1, along)
         rows.add("perpendicular", index, first, second, u2, along)
         if kind == "prismatic":
+            offset = float(a @ (other - point))
             rows.add("perpendicular", index, first, second, u2, t2)
             for across, direction in ((t1, b1), (u2, b2)):
                 rows.add("slide", index, first, second, p1, p2, across, float(direction @ (other - point)))
-    return Joint(name, kind, index, first, second, p1, p2, axis, t1, t2)
+    return Joint(name, kind, index, first, second, p1, p2, axis, t1, t2, offset)
 
 
 def unit(values: Any) -> Array:
@@ -96,33 +91,10 @@ def body_index(name: Any, bodies: Mapping[str, int]) -> int:
     return len(bodies) if name in (None, "ground") else bodies[name]
 
 
-def add_driver(
-    joint: Joint, curve: ReferenceCurve, start: Motion, vectors: BodyVectors, rows: ConstraintRows
-) -> None:
-    """Prescribe the coordinate of a revolute or prismatic joint, from zero at the start."""
-    ends = (joint.index, joint.first, joint.second)
-    if joint.kind == "revolute":
-        row = rows.add("spin", *ends, joint.axis, joint.t1, joint.t2)
-    elif joint.kind == "prismatic":
-        offset = start_extension(joint, start, vectors)
-        row = rows.add("slide", *ends, joint.p1, joint.p2, joint.axis, offset)
-    else:
-        raise ValueError(f"driver of {joint.name!r}: a {joint.kind} joint cannot be driven")
-    rows.drive(row, curve, is_angle=joint.kind == "revolute")
-
-
-def start_extension(joint: Joint, start: Motion, vectors: BodyVectors) -> float:
-    """Distance along the axis between the joint's points in the start pose."""
-    p1, p2, a = (
-        start.rotation[vectors.owners[i]] @ vectors.local[i] for i in (joint.p1, joint.p2, joint.axis)
-    )
-    return float(a @ (start.r[joint.second] + p2 - start.r[joint.first] - p1))
-
-
 class JointCoordinates:
     """Coordinates and rates of revolute (angle) and prismatic (distance) joints, zero at the start."""
 
-    def __init__(self, joints: list[Joint], start: Motion, vectors: BodyVectors) -> None:
+    def __init__(self, joints: list[Joint]) -> None:
         self.joints = [j for j in joints if j.kind in ("revolute", "prismatic")]
         self.names = [j.name for j in self.joints]
         self.is_angle = np.array([j.kind == "revolute" for j in self.joints], dtype=bool)
@@ -130,9 +102,7 @@ class JointCoordinates:
             np.array([getattr(j, key) for j in self.joints], dtype=int)
             for key in ("first", "second", "p1", "p2", "axis", "t1", "t2")
         )
-        self.offset = np.array(
-            [0.0 if j.kind == "revolute" else start_extension(j, start, vectors) for j in self.joints]
-        )
+        self.offset = np.array([j.offset for j in self.joints])
 
     def evaluate(self, x: VectorMotion) -> tuple[Array, Array]:
         """Coordinates (angles within pi) and rates, one per joint in `names`."""
@@ -143,8 +113,6 @@ class JointCoordinates:
         angle_rate = dot(a, x.motion.w[self.second] - x.motion.w[self.first])
         d = x.point(self.p2) - x.point(self.p1)
         d_rate = x.point_velocity(self.p2) - x.point_velocity(self.p1)
-        distance, distance_rate = dot(a, d), dot(a, d_rate) + dot(x.rate[self.axis], d)
-        return (
-            np.where(self.is_angle, angle, distance) - self.offset,
-            np.where(self.is_angle, angle_rate, distance_rate),
-        )
+        distance_rate = dot(a, d_rate) + dot(x.rate[self.axis], d)
+        coordinate = np.where(self.is_angle, angle, dot(a, d)) - self.offset
+        return coordinate, np.where(self.is_angle, angle_rate, distance_rate)

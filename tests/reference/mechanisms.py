@@ -1,4 +1,4 @@
-"""Mechanisms with one degree of freedom in one coordinate: 3D slider-crank and planar four-bar.
+"""Mechanisms with one degree of freedom in one coordinate, and the 3D slider-crank.
 
 With generalised inertia m(q) = sum m p'.p' + w'.J w' (' by q) the motion obeys m q'' + 1/2 dm/dq qdot^2 =
 Q - dV/dq.
@@ -6,7 +6,6 @@ Q - dV/dq.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -22,7 +21,7 @@ JetVector = list[Jet]
 
 @dataclass(frozen=True)
 class Moving:
-    """Kinematics of one body along q: centre of mass p, and rotation by the body's axes."""
+    """One body along q: centre of mass p, and rotation by the body's axes."""
 
     mass: float
     inertia: Array
@@ -44,16 +43,11 @@ class Moving:
         )  # fmt: skip
 
 
-Kinematics = Callable[[Jet], list[Moving]]
-
-
 @dataclass(frozen=True)
 class SingleCoordinate:
-    """Mechanism given by the motion of its bodies along one coordinate, under gravity and a constant load
-    on it.
-    """
+    """Given by the motion of its bodies along one coordinate, under gravity and a constant load on it."""
 
-    kinematics: Kinematics
+    kinematics: Callable[[Jet], list[Moving]]
     gravity: Array
     load: float = 0.0
 
@@ -91,7 +85,6 @@ def inner(a: JetVector, b: JetVector) -> Jet:
 
 
 def outer_product(a: JetVector, b: JetVector) -> JetVector:
-    """Vector (cross) product."""
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
@@ -101,13 +94,11 @@ def fixed(values: Sequence[float] | Array) -> JetVector:
 
 @dataclass(frozen=True)
 class SliderCrank:
-    """Spatial slider-crank: crank on the x axis, rod on a spherical joint, universal joint on a slider
-    along x.
+    """Crank on the x axis, rod on a spherical joint, universal joint on a slider along x.
 
-    The crank pin is at (0, a cos q, a sin q) + pivot; the slider's point at (s, 0, 0). The rod's body axes
-    are its direction e from pin to slider, then n = (y axis x e)/|.|, then e x n; the universal joint's
-    axes are the y axis (on the slider) and n (on the rod), so n stays perpendicular to y. Rod centre of
-    mass: midpoint.
+    The crank pin is at (0, a cos q, a sin q) + pivot; the slider's point at (s, 0, 0). The rod's body axes:
+    its direction e from pin to slider, n = (y axis x e)/|.|, e x n. The universal joint's axes are the y axis
+    (on the slider) and n (on the rod). Rod centre of mass: midpoint.
     """
 
     crank: Link
@@ -139,52 +130,3 @@ class SliderCrank:
 
     def mechanism(self, gravity: Sequence[float] = (0.0, 0.0, -9.81), load: float = 0.0) -> SingleCoordinate:
         return SingleCoordinate(self.kinematics, np.asarray(gravity, dtype=float), load)
-
-
-@dataclass(frozen=True)
-class ChangePointFourBar:
-    """Planar four-bar in the x-y plane with a + d = b + c, through its flat (singular) position at q = pi.
-
-    Crank a at the origin, coupler b, rocker c at (d, 0, 0). With f^2 = a^2 + d^2 - 2 a d cos q the elbow
-    height h obeys 4 f^2 h^2 = [(b+c)^2 - f^2] [f^2 - (b-c)^2], whose first factor is exactly 4 a d
-    cos^2(q/2): taking the signed root 2 sqrt(a d) cos(q/2) gives the branch that is smooth through the
-    flat position, period 4 pi. The second factor stays positive for |a - d| > |b - c|.
-    """
-
-    crank: Link
-    coupler: Link
-    rocker: Link
-    ground: float
-
-    def kinematics(self, q: Jet) -> list[Moving]:
-        """Crank, coupler, rocker, each with its first body axis along the link."""
-        a, b, c, d = self.crank.length, self.coupler.length, self.rocker.length, self.ground
-        zero = Jet(0.0)
-        crank = [q.cos(), q.sin(), zero]
-        pin = scale(crank, a)
-        to_pivot = add(fixed([d, 0.0, 0.0]), scale(pin, -1.0))
-        square = inner(to_pivot, to_pivot)
-        first = (q * 0.5).cos() * (2.0 * math.sqrt(a * d))
-        second = (square - (b - c) ** 2).sqrt()
-        along = (square + b * b - c * c) / (2.0 * square)
-        height = first * second / (2.0 * square)
-        # elbow = pin + along (pivot - pin) + height (pivot - pin) turned by a quarter
-        turned = [-to_pivot[1], to_pivot[0], zero]
-        elbow = add(pin, add(scale(to_pivot, along), scale(turned, height)))
-        coupler = scale(add(elbow, scale(pin, -1.0)), 1.0 / b)
-        rocker = scale(add(elbow, fixed([-d, 0.0, 0.0])), 1.0 / c)
-        return [
-            planar(self.crank, fixed([0.0, 0.0, 0.0]), crank), planar(self.coupler, pin, coupler),
-            planar(self.rocker, fixed([d, 0.0, 0.0]), rocker)
-        ]  # fmt: skip
-
-    def mechanism(self, gravity: Sequence[float] = (0.0, 0.0, 0.0), load: float = 0.0) -> SingleCoordinate:
-        return SingleCoordinate(self.kinematics, np.asarray(gravity, dtype=float), load)
-
-
-def planar(link: Link, pivot: JetVector, along: JetVector) -> Moving:
-    """A link turning in the x-y plane."""
-    across = [-along[1], along[0], Jet(0.0)]
-    inertia = np.diag([link.inertia, link.inertia, link.inertia])
-    axes = [along, across, fixed([0.0, 0.0, 1.0])]
-    return Moving(link.mass, inertia, add(pivot, scale(along, link.center)), axes)

@@ -88,9 +88,3 @@ def angle_rate_matrix(pitch: float, yaw: float) -> Array:
     """Matrix G (3, 3): rates of roll, pitch, yaw = G omega, with omega in the inertial frame."""
     c, s, t = math.cos(yaw), math.sin(yaw), math.tan(pitch)
     return np.array([[c / math.cos(pitch), s / math.cos(pitch), 0.0], [-s, c, 0.0], [t * c, t * s, 1.0]])
-
-
-def yaw_matrix(yaw: float) -> Array:
-    """Rz(yaw)."""
-    c, s = math.cos(yaw), math.sin(yaw)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -1,21 +1,17 @@
 """Rigid bodies, joints, forces and one vessel from plain records; accelerations and multipliers by eq. (35).
 
-Schema of `System.from_records` (JSON types; SI, radians; every point and axis is given in the inertial
-frame in the start pose; "ground" or null is the fixed ground):
+Schema of the records (SI, radians; points and axes in the inertial frame in the start pose; "ground" or null
+is the fixed ground):
 
 ``gravity``        [gx, gy, gz]; not applied to the vessel's body
-``bodies``         list of {name, mass, inertia (3x3 about the centre of mass, body axes), position (centre of
-                   mass), quaternion (w, x, y, z, body to inertial), gravity? (false: no weight)}, at rest
-``joints``         list of {kind, name, first, second, point, axis?, second_axis?, second_point?, length?};
-                   kinds: weld revolute prismatic universal spherical distance. `point` is the point on the
-                   first body and, unless `second_point` is given, on the second too. universal: `axis` is
-                   fixed on the first body, `second_axis` on the second. distance: from `point` to
-                   `second_point`, `length` defaulting to their distance at the start
-``drivers``        list of {joint (revolute or prismatic), reference (curve)}
-``actuators``      list of {joint, stiffness, damping, feedforward, reference (curve)}; the load on the
-                   second body along (about) the axis is stiffness (ref - s) + damping (refdot - sdot) +
-                   feedforward
-``point_forces``   list of {body, point, force ([fx, fy, fz] in the inertial frame)}
+``bodies``         {name, mass, inertia (3x3 about the centre of mass, body axes), position (centre of mass),
+                   quaternion (w, x, y, z, body to inertial), gravity? (false: no weight)}, at rest
+``joints``         {kind, name, first, second, point, axis?, second_axis?, second_point?, length?}: weld,
+                   revolute, prismatic, universal (`second_axis` is fixed on the second body), spherical,
+                   distance (from `point` to `second_point`, `length` defaulting to their distance)
+``actuators``      {joint, stiffness, damping, feedforward, reference (curve)}; load on the second body along
+                   (about) the axis: stiffness (ref - s) + damping (refdot - sdot) + feedforward
+``point_forces``   {body, point, force ([fx, fy, fz] in the inertial frame)}
 ``vessel``         {body, reference_point, added_mass, damping, restoring (6x6 at the reference point,
                    yaw-following frame), quadratic_roll_damping, station_keeping {stiffness [kx, ky, kpsi],
                    damping [...]}, memory {blocks: [{inputs, outputs, A, B, C, D}]} (0-based motions),
@@ -32,10 +28,9 @@ from typing import Any
 
 import numpy as np
 
-from . import reference_curves
 from .constraint_rows import ConstraintRows, RowValues
 from .forces import Actuators, PointForces
-from .joints import JointCoordinates, add_driver, add_joint, body_index
+from .joints import JointCoordinates, add_joint
 from .kinematics import BodyVectors, Motion, VectorMotion
 from .rotation import Array, cross, matrix_from_quaternion, nearest_rotation, rotation_exponential
 from .vessel import Vessel, VesselLoads, WaveLoads
@@ -48,14 +43,13 @@ class Evaluation:
     acceleration: Array
     multipliers: Array
     rows: RowValues
-    memory_rate: Array
     actuator_loads: Array
     vectors: VectorMotion
-    vessel: VesselLoads | None
+    vessel: VesselLoads
 
 
 class System:
-    """Compiled system; build it with `from_records`."""
+    """Compiled from the records of the module's description; `wave_loads` (t -> 6) replaces vessel.waves."""
 
     def __init__(self, records: Mapping[str, Any], wave_loads: WaveLoads | None = None) -> None:
         bodies = list(records["bodies"])
@@ -70,63 +64,40 @@ class System:
             at_rest, at_rest.copy(),
         )  # fmt: skip
         self.vectors = BodyVectors()
-        self.rows = ConstraintRows(len(bodies), self.vectors)
+        self.rows = ConstraintRows(len(bodies))
         self.joints = [
             add_joint(record, k, index, self.start, self.vectors, self.rows)
             for k, record in enumerate(records["joints"])
         ]
         self.joint_names = [j.name for j in self.joints]
-        for record in records.get("drivers", []):
-            joint = self.joints[self.joint_names.index(record["joint"])]
-            curve = reference_curves.from_record(record["reference"])
-            add_driver(joint, curve, self.start, self.vectors, self.rows)
-        self.coordinates = JointCoordinates(self.joints, self.start, self.vectors)
+        self.coordinates = JointCoordinates(self.joints)
         self.actuators = Actuators(records.get("actuators", []), self.coordinates)
         self.point_forces = PointForces(records.get("point_forces", []), index, self.start, self.vectors)
-        self.vessel = None
-        weighing = np.array([bool(b.get("gravity", True)) for b in bodies])
-        if (vessel := records.get("vessel")) is not None:
-            at = body_index(vessel["body"], index)
-            self.vessel = Vessel(vessel, at, self.start, self.vectors, wave_loads)
-            weighing[at] = False
+        weighing, at = (
+            np.array([bool(b.get("gravity", True)) for b in bodies]), index[records["vessel"]["body"]]
+        )  # fmt: skip
+        self.vessel = Vessel(records["vessel"], at, self.start, self.vectors, wave_loads)
+        weighing[at] = False
         self.weight = np.outer(self.mass * weighing, np.asarray(records["gravity"], dtype=float))
-        self._finish()
-
-    @classmethod
-    def from_records(cls, records: Mapping[str, Any], *, wave_loads: WaveLoads | None = None) -> System:
-        """Build from the records of the module's description; `wave_loads` (t -> 6) replaces vessel.waves."""
-        return cls(records, wave_loads)
-
-    def _finish(self) -> None:
         self.rows.freeze()
         self.vectors.freeze()
-        self.memory_states = 0 if self.vessel is None else len(self.vessel.memory.a)
-        curves = [*self.actuators.curves, *(d.curve for d in self.rows.drivers)]
-        self.breaks = sorted({b for curve in curves for b in curve.breaks})
+        self.memory_states = len(self.vessel.memory.a)
+        self.breaks = sorted({b for curve in self.actuators.curves for b in curve.breaks})
         linear = 6 * np.arange(len(self.mass))[:, None] + np.arange(3)
         self._linear_diagonal = (linear.ravel(), linear.ravel())
         self._angular = ((linear + 3)[:, :, None], (linear + 3)[:, None, :])
         x = self.vectors.evaluate(self.start)
-        mass, _ = self._mass_matrix(self.start, self._vessel_loads(0.0, x, np.zeros(self.memory_states)))
-        whitened = np.linalg.solve(
-            np.linalg.cholesky(mass), self.matrix(self.rows.evaluate(0.0, x)).T
-        )  # rank counts in the mass metric
+        mass, _ = self._mass_matrix(self.start, self.vessel.loads(0.0, x, np.zeros(self.memory_states)))
+        # rank counts in the mass metric
+        whitened = np.linalg.solve(np.linalg.cholesky(mass), self.matrix(self.rows.evaluate(x)).T)
         sigma = np.linalg.svd(whitened / np.linalg.norm(whitened, axis=0), compute_uv=False)
         self.rank = int(np.sum(sigma > 1e-10 * sigma[0]))
-
-    @property
-    def degrees_of_freedom(self) -> int:
-        """Velocities minus independent constraints (drivers count as constraints)."""
-        return 6 * len(self.mass) - self.rank
 
     def matrix(self, values: RowValues) -> Array:
         """D (m, 6 n) without the ground's columns."""
         return values.matrix[:, :-1].reshape(self.rows.count, 6 * len(self.mass))
 
-    def _vessel_loads(self, t: float, x: VectorMotion, memory: Array) -> VesselLoads | None:
-        return None if self.vessel is None else self.vessel.loads(t, x, memory)
-
-    def _mass_matrix(self, motion: Motion, vessel: VesselLoads | None) -> tuple[Array, Array]:
+    def _mass_matrix(self, motion: Motion, vessel: VesselLoads) -> tuple[Array, Array]:
         """Mass matrix (6 n, 6 n) with the added mass, and inertias J (n, 3, 3) in the inertial frame."""
         n = len(self.mass)
         mass = np.zeros((6 * n, 6 * n))
@@ -134,18 +105,16 @@ class System:
         rotation = motion.rotation[:-1]
         j = rotation @ self.inertia @ rotation.transpose(0, 2, 1)
         mass[self._angular] = j
-        if self.vessel is not None and vessel is not None:
-            k = 6 * self.vessel.body
-            mass[k : k + 6, k : k + 6] += vessel.inertia
+        k = 6 * self.vessel.body
+        mass[k : k + 6, k : k + 6] += vessel.inertia
         return mass, j
 
     def evaluate(self, t: float, motion: Motion, memory: Array) -> Evaluation:
         """Accelerations and multipliers at one state."""
         x = self.vectors.evaluate(motion)
-        values = self.rows.evaluate(t, x)
-        vessel = self._vessel_loads(t, x, memory)
+        values = self.rows.evaluate(x)
+        vessel = self.vessel.loads(t, x, memory)
         mass, j = self._mass_matrix(motion, vessel)
-
         w = motion.w[:-1]
         wrench = np.zeros((len(self.mass) + 1, 6))
         wrench[:-1, :3] = self.weight
@@ -153,12 +122,9 @@ class System:
         loads = self.actuators.loads(t, *self.coordinates.evaluate(x))
         self.actuators.apply(loads, x, wrench)
         self.point_forces.apply(x, wrench)
-        memory_rate = np.zeros(0)
-        if self.vessel is not None and vessel is not None:
-            wrench[self.vessel.body] += vessel.wrench
-            memory_rate = vessel.memory_rate
+        wrench[self.vessel.body] += vessel.wrench
         acceleration, multipliers = self.solve(mass, values, wrench[:-1].ravel(), values.gamma)
-        return Evaluation(acceleration, multipliers, values, memory_rate, loads, x, vessel)
+        return Evaluation(acceleration, multipliers, values, loads, x, vessel)
 
     def solve(self, mass: Array, values: RowValues, force: Array, gamma: Array) -> tuple[Array, Array]:
         """[M, -D^T; D, 0] [a; lambda] = [f; gamma], eqs. (9) and (35): pivoted LU of the whole system after
@@ -178,18 +144,14 @@ class System:
     def reactions(self, e: Evaluation) -> tuple[Array, Array]:
         """Force and moment (joints, 3) on the second body, inertial frame, at the joint's point."""
         count = len(self.joints)
-        wrench = np.zeros((count + 1, 6))
+        wrench = np.zeros((count, 6))
         rows = np.arange(self.rows.count)
         loads = e.rows.matrix[rows, self.rows.second_of_row] * e.multipliers[:, None]
         np.add.at(wrench, self.rows.joint_of_row, loads)
-        force, moment = wrench[:count, :3], wrench[:count, 3:]
+        force, moment = wrench[:, :3], wrench[:, 3:]
         points = np.array([j.reaction_point for j in self.joints])
         second = np.array([j.second for j in self.joints])
         return force, moment + cross(e.vectors.motion.r[second] - e.vectors.point(points), force)
-
-    def driver_loads(self, e: Evaluation) -> Array:
-        """Loads of the drivers on the second body along their coordinates."""
-        return np.array([e.multipliers[d.row] for d in self.rows.drivers])
 
     def project(self, t: float, motion: Motion, memory: Array) -> Motion:
         """Nearest motion, in the mass metric, that satisfies the constraints on position and velocity."""
@@ -198,8 +160,8 @@ class System:
         best, zero = np.inf, np.zeros(6 * len(self.mass))
         for _ in range(12):
             x = self.vectors.evaluate(out)
-            values = self.rows.evaluate(t, x)
-            mass, _j = self._mass_matrix(out, self._vessel_loads(t, x, memory))
+            values = self.rows.evaluate(x)
+            mass, _j = self._mass_matrix(out, self.vessel.loads(t, x, memory))
             error = float(np.max(np.abs(values.residual)))
             if error < 1e-13 or error > 0.5 * best:
                 break
@@ -209,7 +171,7 @@ class System:
             out.rotation[:-1] = rotation_exponential(steps[:, 3:]) @ out.rotation[:-1]
         if not error < 1e-7:
             raise ValueError(f"the joints do not close at t = {t} s: residual {error:.3g} m or rad")
-        step = self.solve(mass, values, zero, -values.rate)[0].reshape(-1, 6)
+        step = self.solve(mass, values, zero, -self.matrix(values) @ out.twists())[0].reshape(-1, 6)
         out.v[:-1] += step[:, :3]
         out.w[:-1] += step[:, 3:]
         return out

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from .kinematics import BodyVectors, Motion, VectorMotion
-from .rotation import Array, angle_rate_matrix, cross, skew, yaw_matrix, yaw_pitch_roll
+from .rotation import Array, angle_rate_matrix, cross, rotation_exponential, skew, yaw_pitch_roll
 
 WaveLoads = Callable[[float], Array]
 UP = np.array([0.0, 0.0, 1.0])
@@ -81,8 +81,6 @@ class VesselLoads:
 
 
 class Vessel:
-    """Compiled hydrodynamics of one body."""
-
     def __init__(
         self, record: Mapping[str, Any], body: int, start: Motion, vectors: BodyVectors,
         wave_loads: WaveLoads | None,
@@ -106,11 +104,11 @@ class Vessel:
         return np.concatenate([x.point(self.point) - self.rest, angles])
 
     def loads(self, t: float, x: VectorMotion, memory: Array) -> VesselLoads:
-        """Evaluate; the added-mass inertia is returned, its velocity terms are part of the wrench."""
+        """The added-mass inertia is returned, its velocity terms are part of the wrench."""
         lever, w = x.g[self.point], x.motion.w[self.body]
         eta = self.displacement(x)
         rates = angle_rate_matrix(eta[4], eta[5])
-        yaw = np.kron(np.eye(2), yaw_matrix(eta[5]))
+        yaw = np.kron(np.eye(2), rotation_exponential(eta[5] * UP))
         twist = np.concatenate([x.point_velocity(self.point), w])
         angle_rates = rates @ w
         u = yaw.T @ twist

@@ -1,5 +1,4 @@
-"""Bricard's loop of six perpendicular hinges along a cube's edges: mobile, though rows and bodies count
-otherwise.
+"""Bricard's loop of six perpendicular hinges along a cube's edges: mobile, though rows count otherwise.
 
 Data: IFToMM Library of Computational Benchmark Problems, A04 (Gonzalez et al., Multibody System Dynamics 16,
 2006): rods of 1 m, 1 kg and a section of 0.1 m x 0.1 m, let go from the cube. Its orientation to the weight
@@ -11,6 +10,8 @@ the origin, of which the polar angle is a coordinate without singular positions.
 """
 
 from __future__ import annotations
+
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,31 +25,27 @@ GRAVITY = 9.81
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1], [0, 0, 1]], dtype=float)
 AXES = np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], dtype=float)
 CUBE = 0.25 * np.pi  # polar angle of the cube
-# How a hinge's turning (of the later rod over the earlier one, about its axis in AXES) goes with theta or
-# phi.
+# How a hinge's turning (of the later rod over the earlier one) goes with theta or phi.
 SIGNS = (-1.0, 1.0, 1.0, -1.0, 1.0, 1.0)
 
 
-def inertia(i: int, section: float) -> Array:
+def inertia(i: int) -> Array:
     """About its middle of the rod from vertex i on, axes of the cube."""
     along = np.abs(VERTICES[(i + 1) % 6] - VERTICES[i])
-    return np.diag(along * section**2 / 6.0 + (1.0 - along) * (1.0 + section**2) / 12.0)
+    return np.diag(along * 0.1**2 / 6.0 + (1.0 - along) * (1.0 + 0.1**2) / 12.0)
 
 
-def scene(*, last: str = "revolute", section: float = 0.1) -> Scene:
+def scene(*, last: str = "revolute") -> Scene:
     """Rods 1 to 5; the edge from vertex 0 to 1 is the ground's. `last` is the kind of hinge 0."""
     out = Scene(name="bricard", gravity=GRAVITY)
     bodies = ["ground"]
     for i in range(1, 6):
         middle = 0.5 * (VERTICES[i] + VERTICES[(i + 1) % 6])
-        out.add_body(name=f"rod {i}", mass=1.0, inertia=inertia(i, section), position=middle)
+        out.add_body(name=f"rod {i}", mass=1.0, inertia=inertia(i), position=middle)
         bodies.append(f"rod {i}")
     for i in range(6):
-        kind = last if i == 0 else "revolute"
-        out.add_joint(
-            kind=kind, name=f"hinge {i}", first=bodies[i - 1], second=bodies[i], point=VERTICES[i],
-            axis=AXES[i]
-        )  # fmt: skip
+        ends = {"first": bodies[i - 1], "second": bodies[i], "point": VERTICES[i], "axis": AXES[i]}
+        out.add_joint(kind=last if i == 0 else "revolute", name=f"hinge {i}", **ends)
     return out
 
 
@@ -96,17 +93,11 @@ def chain(psi: Jet) -> tuple[list[list[JetVector]], list[JetVector]]:
     return rotations, places
 
 
-def mechanism(section: float = 0.1) -> SingleCoordinate:
+def mechanism() -> SingleCoordinate:
     def kinematics(psi: Jet) -> list[Moving]:
         rotations, places = chain(psi)
-        return [
-            Moving(
-                1.0,
-                inertia(i, section),
-                scale(add(places[i - 1], places[i]), 0.5),
-                [list(column) for column in zip(*rotations[i - 1], strict=True)],
-            )
-            for i in range(1, 6)
-        ]
+        middles = [scale(add(a, b), 0.5) for a, b in pairwise(places)]
+        axes = [[list(column) for column in zip(*rotation, strict=True)] for rotation in rotations]
+        return [Moving(1.0, inertia(i), middles[i - 1], axes[i - 1]) for i in range(1, 6)]
 
     return SingleCoordinate(kinematics, np.array([0.0, 0.0, -GRAVITY]))

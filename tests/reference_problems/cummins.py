@@ -1,9 +1,8 @@
 """A ship in waves after Cummins: (M + A_inf) eta'' + B eta' + int_0^t K(s) eta'(t - s) ds + C eta = F(t).
 
-Three independent answers for the small motions of the shipped hull, moored, whose matrices and kernel K(t) =
-C exp(A t) B are data: the integral itself, as a sum over the whole past in NumPy (Cummins, Schiffstechnik 9,
-1962); the roots of the equation for free decay; and its solution in the frequency domain, in `test_vessel`.
-The engine has states for memory, or convolves by rules and steps of its own.
+For the small motions of the shipped hull, moored, whose matrices and kernel K(t) = C exp(A t) B are data: the
+integral itself, as a sum over the whole past in NumPy (Cummins, Schiffstechnik 9, 1962), and the roots of the
+equation for free decay; its solution in the frequency domain is in `test_vessel`.
 """
 
 from __future__ import annotations
@@ -23,18 +22,15 @@ from seacrane.hydro import shipped_database
 from seacrane.scene import Waves
 
 Array = NDArray[np.float64]
-AMPLITUDE, OMEGA, HEADING_DEG = 1e-5, 0.7, 135.0
+AMPLITUDE, OMEGA = 1e-5, 0.7
 
 
 def waves() -> Waves:
-    return regular_wave(
-        shipped_database(), omega=OMEGA, heading_deg=HEADING_DEG, amplitude=AMPLITUDE, phase=0.4
-    )
+    return regular_wave(shipped_database(), omega=OMEGA, heading_deg=135.0, amplitude=AMPLITUDE, phase=0.4)
 
 
 def scene(memory: str = "states") -> Scene:
-    """At rest in a regular wave that is there at once: memory by states, or by convolution in steps of 0.05
-    s."""
+    """At rest in a regular wave that is there at once: memory by states, or convolved in steps of 0.05 s."""
     out = moored(shipped_database())
     if memory == "convolution":
         by_convolution = convolved(0.05).vessels["vessel"]
@@ -47,8 +43,7 @@ def scene(memory: str = "states") -> Scene:
 
 
 def trapezoidal(step: float, t_end: float) -> Array:
-    """Motions (k, 6) by the trapezoidal rule, in time and in the integral: errors in even powers of the
-    step."""
+    """Motions (k, 6) by the trapezoidal rule, in time and integral: errors in even powers of the step."""
     from scipy.linalg import expm
 
     linear = reference_vessel(moored(shipped_database()))
@@ -59,11 +54,8 @@ def trapezoidal(step: float, t_end: float) -> Array:
         kernel[k] = linear.memory.c @ states
         states = ahead @ states
     sea = waves()
-    force = (
-        sea.hull().transfer[0]
-        * AMPLITUDE
-        * np.exp(1j * (sea.phase[0] + OMEGA * step * np.arange(count + 1)[:, None]))
-    )
+    phase = sea.phase[0] + OMEGA * step * np.arange(count + 1)[:, None]
+    force = sea.hull().transfer[0] * AMPLITUDE * np.exp(1j * phase)
     damping = linear.damping + linear.memory.d
     flat = kernel[::-1].transpose(1, 0, 2).reshape(6, -1)  # newest last, to meet the oldest velocity first
     # Unknown: the rate at the end of a step; everything it multiplies goes to the left.
@@ -72,20 +64,13 @@ def trapezoidal(step: float, t_end: float) -> Array:
     eta, rate = np.zeros((count + 1, 6)), np.zeros((count + 1, 6))
     acceleration = np.linalg.solve(linear.mass, force[0].real)
     for n in range(1, count + 1):
-        past = flat[:, 6 * (count + 1 - n - 1) :][:, : 6 * n] @ _weighted(rate[:n]) * step
+        past = flat[:, 6 * (count - n) : 6 * count] @ rate[:n].ravel() * step  # the first rate is zero
         drifted = eta[n - 1] + 0.5 * step * rate[n - 1]
         load = force[n].real - linear.restoring @ drifted - past
         rate[n] = inverse @ (linear.mass @ (rate[n - 1] + 0.5 * step * acceleration) + 0.5 * step * load)
         eta[n] = drifted + 0.5 * step * rate[n]
         acceleration = (rate[n] - rate[n - 1]) * 2.0 / step - acceleration
     return eta
-
-
-def _weighted(rates: Array) -> Array:
-    """Trapezoidal weights of the past; the newest rate, not among them, stands on the left side."""
-    out = rates.copy()
-    out[0] *= 0.5
-    return out.ravel()
 
 
 @cache
@@ -96,7 +81,7 @@ def by_convolution(t_end: float = 60.0, every: float = 1.0) -> Array:
     return np.asarray(second + (second - first) / 15.0)
 
 
-def decay(label: str, **settings: Any) -> tuple[complex, complex]:
+def decay(label: str) -> tuple[complex, complex]:
     """Eigenvalue found from a run that starts in a mode's shape, and that of the vessel's matrices.
 
     The period is twice the mean distance of zero crossings, the logarithmic decrement the mean over half
@@ -107,17 +92,12 @@ def decay(label: str, **settings: Any) -> tuple[complex, complex]:
     mode = modes.find(label)
     start: State = linear_model(calm).full_state(1e-4 * modes.state_vectors[mode].real)
     period = 2.0 * np.pi / modes.eigenvalues[mode].imag
-    result = simulate(
-        calm, t_end=4.0 * period, dt_out=period / 4000.0, start=start, channels=["vessel_motion"],
-        **{"rtol": 1e-11, **settings},
-    )  # fmt: skip
-    signal = result["vessel_motion"][
-        :, ("surge", "sway", "heave", "roll", "pitch", "yaw").index(label.split()[1])
-    ]
+    how = {"dt_out": period / 4000.0, "rtol": 1e-11, "channels": ["vessel_motion"]}
+    result = simulate(calm, 4.0 * period, start=start, **how)
+    signal = result.select("vessel_motion", motion=label.split()[1])
     change = np.flatnonzero(signal[:-1] * signal[1:] < 0.0)
-    crossings = result.time[change] + np.diff(result.time)[0] * signal[change] / (
-        signal[change] - signal[change + 1]
-    )
+    before, after = signal[change], signal[change + 1]
+    crossings = result.time[change] + np.diff(result.time)[0] * before / (before - after)
     half = np.diff(crossings).mean()
     extremes = np.array([_extreme(np.abs(signal[a + 1 : b + 1])) for a, b in itertools.pairwise(change)])
     rate = np.log(extremes[1:] / extremes[:-1]).mean() / half

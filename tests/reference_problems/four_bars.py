@@ -20,20 +20,13 @@ GRAVITY, SPEED = 9.81, 1.0
 
 
 def scene(loops: int, *, planar: bool = True) -> Scene:
-    """Hinges throughout (`planar`, three rows too many in each loop), or joints that hold each motion
-    once."""
+    """Hinges throughout (`planar`, three rows too many in each loop), or joints that hold a motion once."""
     out = Scene(name=f"{loops} four-bars", gravity=GRAVITY)
-    upright = 0.5 * np.pi
+    rod = {"mass": 1.0, "inertia": 1.0 / 12.0, "center": (0.5, 0.0)}
     for i in range(loops + 1):
-        add_body(
-            out, "xz", f"post {i}", mass=1.0, inertia=1.0 / 12.0, origin=(i, 0.0), angle=upright,
-            center=(0.5, 0.0), rate=-SPEED,
-        )  # fmt: skip
+        add_body(out, "xz", f"post {i}", origin=(i, 0.0), angle=0.5 * np.pi, rate=-SPEED, **rod)
     for i in range(loops):
-        add_body(
-            out, "xz", f"coupler {i}", mass=1.0, inertia=1.0 / 12.0, origin=(i, 1.0), angle=0.0,
-            center=(0.5, 0.0), velocity=(SPEED, 0.0),
-        )  # fmt: skip
+        add_body(out, "xz", f"coupler {i}", origin=(i, 1.0), angle=0.0, velocity=(SPEED, 0.0), **rod)
     for i in range(loops + 1):
         once = not planar and i > 0
         kind = "cylindrical" if once else "revolute"

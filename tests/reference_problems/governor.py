@@ -1,11 +1,8 @@
-"""The stiff flyball governor: two rods hinged to a turning shaft, held to a slider by stiff springs and
-dampers.
+"""The stiff flyball governor: rods hinged to a turning shaft, held to a slider by stiff springs and dampers.
 
 Data: IFToMM Library of Computational Benchmark Problems, A05 (Gonzalez et al., Multibody System Dynamics 16,
-2006): steel-like prisms of 3000 kg/m3, balls of 5 kg at the rods' ends, springs of 8e5 N/m and 4e4 N s/m, 0.5
-m long, from the slider to the middles of the rods; 2 pi rad/s at the start. The solution here is that of
-Lagrange's equations in the angle of both rods and the slider's place, by SciPy; the momentum about the shaft
-is kept.
+2006): prisms, balls of 5 kg at the rods' ends, springs from the slider to the rods' middles. Solution:
+Lagrange's equations in the angle of both rods and the slider's place, by SciPy.
 """
 
 from __future__ import annotations
@@ -19,18 +16,13 @@ Array = NDArray[np.float64]
 GRAVITY, DENSITY, BALL = 9.81, 3000.0, 5.0
 LENGTH, WIDTH, BLOCK, OFFSET = 1.0, 0.01, 0.1, 0.05  # rods and shaft, slider, hinges and springs off the axis
 STIFFNESS, DAMPING, NATURAL_LENGTH = 8.0e5, 4.0e4, 0.5
-HANGING, SLIDER, SPIN = (
-    np.pi / 6.0,
-    0.5,
-    2.0 * np.pi,
-)  # rods below the horizontal, slider's height, at the start
+HANGING, SLIDER, SPIN = np.pi / 6.0, 0.5, 2.0 * np.pi  # rods below level, slider's height, at the start
 ROD = DENSITY * LENGTH * WIDTH**2
 RAISED = ROD + BALL
 CENTER = (0.5 * ROD + BALL) * LENGTH / RAISED  # from the hinge, along the rod
 AXIAL = ROD * WIDTH**2 / 6.0
-ACROSS = (
-    ROD * (LENGTH**2 + WIDTH**2) / 12.0 + ROD * (CENTER - 0.5 * LENGTH) ** 2 + BALL * (LENGTH - CENTER) ** 2
-)
+SLIM = ROD * (LENGTH**2 + WIDTH**2) / 12.0
+ACROSS = SLIM + ROD * (CENTER - 0.5 * LENGTH) ** 2 + BALL * (LENGTH - CENTER) ** 2
 SLIDING = DENSITY * BLOCK**3
 TURNING = AXIAL + SLIDING * BLOCK**2 / 6.0  # shaft and slider
 
@@ -38,18 +30,12 @@ TURNING = AXIAL + SLIDING * BLOCK**2 / 6.0  # shaft and slider
 def scene() -> Scene:
     out = Scene(name="flyball governor", gravity=GRAVITY)
     spin = (0.0, 0.0, SPIN)
-    slim = ROD * (LENGTH**2 + WIDTH**2) / 12.0
-    out.add_body(
-        name="shaft", mass=ROD, inertia=(slim, slim, AXIAL), position=(0, 0, 0.5 * LENGTH),
-        angular_velocity=spin
-    )  # fmt: skip
-    out.add_body(
-        name="slider", mass=SLIDING, inertia=[SLIDING * BLOCK**2 / 6.0] * 3, position=(0, 0, SLIDER),
-        angular_velocity=spin,
-    )  # fmt: skip
-    out.add_joint(
-        kind="revolute", name="bearing", first="ground", second="shaft", point=(0, 0, 0), axis=(0, 0, 1)
-    )
+    for name, mass, inertia, height in (
+        ("shaft", ROD, (SLIM, SLIM, AXIAL), 0.5 * LENGTH),
+        ("slider", SLIDING, [SLIDING * BLOCK**2 / 6.0] * 3, SLIDER),
+    ):
+        out.add_body(name, mass=mass, inertia=inertia, position=(0, 0, height), angular_velocity=spin)
+    out.add_joint("bearing", kind="revolute", first="ground", second="shaft", point=(0, 0, 0), axis=(0, 0, 1))
     out.add_joint(kind="prismatic", name="sleeve", first="shaft", second="slider", axis=(0, 0, 1))
     for name, side in (("right", 1.0), ("left", -1.0)):
         hinge = np.array([side * OFFSET, 0.0, LENGTH])
@@ -60,9 +46,8 @@ def scene() -> Scene:
             center_of_mass=(CENTER, 0.0, 0.0), quaternion=(np.cos(half), 0.0, np.sin(half), 0.0),
             velocity=np.cross(spin, hinge), angular_velocity=spin,
         )  # fmt: skip
-        out.add_joint(
-            kind="revolute", name=f"{name} hinge", first="shaft", second=name, point=hinge, axis=(0, 1, 0)
-        )
+        pin = {"first": "shaft", "second": name, "point": hinge, "axis": (0, 1, 0)}
+        out.add_joint(kind="revolute", name=f"{name} hinge", **pin)
         out.add_spring(
             name=f"{name} coupler", first="slider", second=name, first_point=(side * OFFSET, 0.0, 0.0),
             second_point=(0.5 * LENGTH, 0.0, 0.0), stiffness=STIFFNESS, damping=DAMPING,
@@ -90,9 +75,8 @@ def rate(_: float, y: Array, momentum: float) -> list[float]:
     by_beta, by_height = (-across * s - drop * c) * 0.5 * LENGTH / length, -drop / length
     tension = STIFFNESS * (length - NATURAL_LENGTH) + DAMPING * (by_beta * beta_rate + by_height * speed)
     push = 0.5 * slope * spin**2 + RAISED * GRAVITY * CENTER * c - tension * by_beta
-    return [
-        beta_rate, speed, push / (RAISED * CENTER**2 + ACROSS), -GRAVITY - 2.0 * tension * by_height / SLIDING
-    ]  # fmt: skip
+    fall = -GRAVITY - 2.0 * tension * by_height / SLIDING
+    return [beta_rate, speed, push / (RAISED * CENTER**2 + ACROSS), fall]
 
 
 def solution(times: ArrayLike) -> Array:

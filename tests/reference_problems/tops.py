@@ -1,8 +1,8 @@
 """Bodies that turn freely about a point: the heavy top, and the wing nut of Dzhanibekov.
 
-Heavy top: data of Bruels, Cardona and Arnold (Mechanism and Machine Theory 48, 2012), a common benchmark of
-time integration on rotations. It is Lagrange's symmetric top: the cosine u of its nutation angle is an
-elliptic function, (u')^2 = a cubic of u, and its precession the integral of (p - s u) / (I (1 - u^2)).
+Heavy top: data of Bruels, Cardona and Arnold (Mechanism and Machine Theory 48, 2012). The cosine u of its
+nutation angle is an elliptic function, (u')^2 = a cubic of u, and its precession the integral of
+(p - s u) / (I (1 - u^2)).
 `PUBLISHED` is the place after 2 s in the verification tests of Kynema (github.com/kynema/kynema,
 dynamic_heavy_top.cpp), computed there by those authors' second-order method in steps of 2e-6 s. Wing nut:
 Euler's equations near the intermediate axis, by elliptic functions (`reference.classic`).
@@ -22,14 +22,15 @@ INERTIA = np.array([0.234375, 0.46875, 0.234375])  # about the centre, 1 m from 
 RATE = np.array([0.0, 150.0, -4.61538])  # rad/s, body axes, the top's axis level at the start
 PUBLISHED = np.array([-0.150416985652933, 1.0 - 1.724164450779749, -0.673023460701136])
 WING = (3.0, 2.0, 1.0)  # kg m2
-FLICK = 1e-3  # relative distance from the motion that never flips
+# At the start, 1e-3 beside those whose motion would end on the intermediate axis and never flip.
+WING_RATES = (
+    np.sqrt(WING[2] * (WING[1] - WING[2]) / (WING[0] * (WING[0] - WING[1]))) * (1.0 + 1e-3), 0.0, 1.0
+)  # fmt: skip
 
 
 def scene() -> Scene:
-    out = Scene(name="heavy top", gravity=GRAVITY)
-    out.add_body(
-        name="top", mass=MASS, inertia=INERTIA, center_of_mass=(0.0, 1.0, 0.0), angular_velocity=RATE
-    )
+    out, state = Scene(name="heavy top", gravity=GRAVITY), {"angular_velocity": RATE}
+    out.add_body(name="top", mass=MASS, inertia=INERTIA, center_of_mass=(0.0, 1.0, 0.0), **state)
     out.add_joint(kind="spherical", name="tip", first="ground", second="top", point=(0, 0, 0))
     return out
 
@@ -50,8 +51,7 @@ def nutation() -> tuple[float, float, float]:
 
 
 def momenta() -> tuple[float, float, float]:
-    """About the vertical and about the top's axis, and twice the weight's moment, all over the transverse
-    inertia."""
+    """About the vertical and the top's axis, and twice the weight's moment, over the transverse inertia."""
     across = INERTIA[0] + MASS
     return RATE[2], INERTIA[1] * RATE[1] / across, 2.0 * MASS * GRAVITY / across
 
@@ -96,16 +96,10 @@ def center(times: ArrayLike) -> Array:
 
 def wing_nut() -> Scene:
     out = Scene(name="wing nut", gravity=0.0)
-    out.add_body(name="nut", mass=1.0, inertia=WING, angular_velocity=wing_rates())
+    out.add_body(name="nut", mass=1.0, inertia=WING, angular_velocity=WING_RATES)
     return out
 
 
-def wing_rates() -> Array:
-    """Rates at the start (w1, 0, w3): next to those whose motion would end on the intermediate axis."""
-    i1, i2, i3 = WING
-    return np.array([np.sqrt(i3 * (i2 - i3) / (i1 * (i1 - i2))) * (1.0 + FLICK), 0.0, 1.0])
-
-
-def wing_solution(times: ArrayLike) -> Array:
+def wing(times: ArrayLike) -> Array:
     """Body rates (k, 3)."""
-    return free_rotation(times, WING, tuple(wing_rates()))
+    return free_rotation(times, WING, WING_RATES)
