@@ -279,3 +279,46 @@ def test_a_load_rests_on_the_deck_of_a_ship() -> None:
     assert not still.events
     press = np.asarray(still["contact_press"])
     assert press.sum(axis=1) == pytest.approx(50e3 * scene.gravity, rel=1e-3)
+
+
+@pytest.mark.warns("UnitWarning")
+def test_a_load_lifts_off_a_heaving_barge_and_hits_it_again() -> None:
+    from scipy.integrate import solve_ivp
+    from scipy.optimize import brentq
+
+    heave, omega, stretch, rate = 1.0, 2.0 * np.pi / 7.0, 4.0e5, 0.1
+
+    def pressed(t: float) -> float:
+        z = heave * np.sin(omega * t)
+        return MASS * (GRAVITY - omega**2 * z) - max(stretch * (rate * t - z), 0.0)
+
+    time = np.linspace(0.0, 10.0, 10001)
+    first = int(np.flatnonzero(np.array([pressed(t) for t in time]) < 0.0)[0])
+    off = brentq(pressed, time[first - 1], time[first])
+
+    def free(t: float, y: Any) -> list[float]:
+        return [y[1], max(stretch * (rate * t - y[0]), 0.0) / MASS - GRAVITY]
+
+    def hit(t: float, y: Any) -> float:
+        return float(y[0] - heave * np.sin(omega * t))
+
+    hit.terminal, hit.direction = True, -1.0  # type: ignore[attr-defined]
+    start = [heave * np.sin(omega * off), heave * omega * np.cos(omega * off)]
+    path = solve_ivp(free, (off + 1e-9, 20.0), start, rtol=1e-10, atol=1e-12, events=hit)
+    again = float(path.t_events[0][0])
+    speed = heave * omega * np.cos(omega * again) - float(path.y_events[0][0][1])
+
+    late = []
+    for stiffness in (STIFFNESS, 16.0 * STIFFNESS):
+        scene = made.lifted(heave, omega, stretch, rate, stiffness)
+        result = simulate(scene, t_end=again + 0.2, dt_out=0.001, rtol=1e-9)
+        lift = [e for e in result.events if e.name == "feet.1" and e.kind == "release"]
+        touch = [e for e in result.events if e.name == "feet.1" and e.kind == "contact"]
+        late.append([lift[0].time - off, touch[0].time - again, touch[0].speed / speed - 1.0])
+    late = np.abs(late)
+    assert late[0].max() < 0.02
+    assert np.all(late[1] < 0.5 * late[0])
+    hits = [one for one in contact_hits(result, "feet") if one.point == "feet.1"]
+    assert [one.number for one in hits][:2] == [0, 1]
+    assert hits[1].speed == touch[0].speed
+    assert hits[1].peak == pytest.approx(hits[1].undamped, rel=0.1)
