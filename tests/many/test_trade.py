@@ -70,53 +70,22 @@ def test_a_row_holds_what_its_settings_give(case2: sc.Scene, measured: Trade) ->
     assert row.evaluations == run.stats["evaluations"]
 
 
-def test_the_front_is_shown(measured: Trade) -> None:
-    """No row beats one on it; drawn over either time, in text and in notebooks."""
-    front = measured.front("roll")
-    assert front
-    for row in measured.rows:
-        assert not any(row.cpu_s < f.cpu_s and row.error("roll") < f.error("roll") for f in front)
-    for over in ("wall_s", "cpu_s"):
-        axes = measured.plot(over=over).axes[0]
-        (step,) = [line for line in axes.lines if line.get_label() == "Pareto front"]
-        cost, error = step.get_xdata(), step.get_ydata()
-        assert np.all(np.diff(cost) >= 0.0) and np.all(np.diff(error) < 0.0)
-        lines = {line.get_label(): line.get_xdata() for line in axes.lines}
-        rk4 = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
-        assert 1e3 * getattr(rk4, over) / rk4.simulated_s in lines["rk4"]
-        full = {r.method.integrator for r in measured.rows if r.case == measured.full_case and r.stable}
-        assert lines.keys() == full | {"Pareto front"}
-    with pytest.raises(sc.SceneError, match="over is 'cpu'"):
-        measured.plot(over="cpu")
-    *_, default, _ = str(measured).splitlines()
-    assert default.startswith("the default (dopri5 rtol=1e-06)") and "payload_position" in default
-    html = replace(measured, metadata={**measured.metadata, "scene": "<i>lift</i>"})._repr_html_()
-    assert html.count("<tr>") == 1 + len(measured.pareto) and "<i>" not in html
-
-
-def test_the_cheapest_setting_meets_its_limit_when_run(case2: sc.Scene, measured: Trade) -> None:
+def test_the_cheapest_setting_meets_its_limit_when_run(case2: Any, measured: Trade, folder: Path) -> None:
     run = sc.simulate(case2, t_end=T_END, method=measured.cheapest(payload_position=1e-4, roll=1e-6))
     tight = sc.simulate(case2, t_end=T_END, **TIGHT)
     own, true = (one.select("position", body="payload")[:, None] for one in (run, tight))
     assert compare(true, own).largest <= 1e-4
-    for accuracy, says in (
-        ({"payload_position": 1e-16}, "rounding"), ({"payload_position": 1e-11}, "beyond this grid"),
-        ({"pitch": 1.0}, "'pitch'"), ({"roll": -1.0}, "roll is -1.0"), ({}, "accuracy is empty"),
-    ):  # fmt: skip
+    for accuracy, says in (({"payload_position": 1e-16}, "rounding"), ({"pitch": 1.0}, "'pitch'")):
         with pytest.raises(sc.SceneError, match=says):
             measured.cheapest(**accuracy)
-
-
-def test_files_and_table_hold_every_row(measured: Trade, folder: Path) -> None:
-    with (folder / "trade.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) == len(measured.rows) == measured.table.sizes["row"]
-    assert {*(f"error_{name}" for name in measured.quantities), "wall_s", "drift", "pareto"} <= {*rows[0]}
-    assert (folder / "trade.png").read_bytes()[:4] == b"\x89PNG"
+    front = measured.front("roll")
+    assert front
+    for row in measured.rows:
+        assert not any(row.cpu_s < f.cpu_s and row.error("roll") < f.error("roll") for f in front)
     error = measured.table["error"].sel(quantity="roll").to_numpy()
-    assert float(rows[0]["error_roll"]) == pytest.approx(error[0], rel=1e-5)
-    rungs = ("LOCKED", "PRESCRIBED", "WEIGHT", "LINEAR")
-    assert {row["rung"] for row in rows} >= {getattr(simpler_scenes, rung) for rung in rungs}
+    assert error[0] == measured.rows[0].error("roll")
+    with (folder / "trade.csv").open() as file:
+        assert [float(row["error_roll"]) for row in csv.DictReader(file)] == pytest.approx(error, rel=1e-5)
 
 
 def test_a_later_call_goes_on_another_scene_anew(
@@ -154,14 +123,6 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
     assert known.name in {method.integrator for method in methods.measured_methods()}
 
 
-def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_its_reason() -> None:
-    chosen = [sc.Method(integrator="rk4", dt=0.01), sc.Method(integrator="not-yet", rtol=1e-3)]
-    rows = sc.trade(pendulum(), t_end=1.0, methods=chosen, progress=False).rows
-    assert [row.method for row in rows] == chosen
-    assert rows[0].stable and not rows[1].stable
-    assert "unknown integrator" in rows[1].message
-
-
 def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
     names = [v.memory for v in simpler_scenes.variants(case2, quick=False) if v.memory.startswith("passive")]
     assert names == [f"passive r2={r2:g}" for r2 in simpler_scenes.R2_LEVELS.all]
@@ -176,15 +137,6 @@ def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None
     one, other = (sc.simulate(scene, t_end=T_END, **TIGHT) for scene in (built, changed))
     assert np.abs(one["position"] - other["position"]).max() < 1e-10  # feed-forward loads differ by rounding
     assert case2.provenance["vessel"].memory == "per-pair"
-
-
-def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: sc.Scene) -> None:
-    full = sc.simulate(case2, t_end=T_END, **TIGHT)
-    driven = simpler_scenes.with_prescribed_vessel(case2, full.time, full["vessel_motion"])
-    alone = sc.simulate(driven, t_end=T_END, **TIGHT)
-    assert np.abs(alone["vessel_motion"] - full["vessel_motion"]).max() < 1e-10
-    assert np.abs(alone["position"] - full["position"]).max() < 1e-4  # the spline between samples of 0.1 s
-    assert np.abs(full["vessel_motion"]).max() > 0.1
 
 
 def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -> None:
@@ -213,16 +165,6 @@ def test_the_strongest_components_carry_the_load(case2: sc.Scene) -> None:
     assert np.array_equal(simpler_scenes.strongest(waves, 200).phase, waves.phase)
 
 
-def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:
-    found = sc.trade(pendulum(), t_end=2.0, progress=False)
-    assert list(found.quantities) == ["position", "velocity"]
-    assert {row.case["rung"] for row in found.rows} == {"full"}
-    for given, says in (({"quantities": ["depth"]}, "'depth'"), ({"out": tmp_path / "absent"}, "no folder")):
-        with pytest.raises(sc.SceneError, match=says):
-            sc.trade(pendulum(), t_end=2.0, progress=False, **given)
-    assert replace(found.rows[0], verdict="stopped").key == found.rows[0].key
-
-
 def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
     measures = {name: ErrorMeasures(largest=value, rms=value, std=value) for name, value in errors.items()}
     case = {"memory": "none", "waves": "none", "rung": "full"}
@@ -230,9 +172,13 @@ def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
 
 
 def test_all_default_quantities_are_held_and_error_control_is_preferred_where_costs_are_alike() -> None:
-    fixed = sc.Method(integrator="semi-implicit-euler", dt=0.02)
     rows = (
-        row_of(fixed, 1.0, payload_position=0.005, hook_load=3400.0),
+        row_of(
+            sc.Method(integrator="semi-implicit-euler", dt=0.02),
+            1.0,
+            payload_position=0.005,
+            hook_load=3400.0,
+        ),
         row_of(sc.Method(integrator="rk4", dt=0.05), 1.0, payload_position=0.005, hook_load=500.0),
         row_of(sc.Method(integrator="tsit5", rtol=1e-2), 1.05, payload_position=0.008, hook_load=570.0),
         row_of(sc.Method(integrator="dop853", rtol=1e-4), 2.0, payload_position=1e-4, hook_load=1.0),
@@ -247,8 +193,6 @@ def test_all_default_quantities_are_held_and_error_control_is_preferred_where_co
     )
     assert found.cheapest(payload_position=0.01).integrator == "tsit5"
     assert found.cheapest(others=1e-4, payload_position=0.01).integrator == "dop853"
-    with pytest.raises(sc.SceneError, match="give others=None"):
-        found.cheapest(others=1e-9, payload_position=0.01)
 
 
 def test_what_cannot_change_the_front_is_not_measured() -> None:
@@ -273,16 +217,16 @@ def test_a_budget_ends_a_trade_and_it_says_so(case2: sc.Scene, monkeypatch: Any)
     monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.0))
     found = sc.trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
     assert len(units) == len(found.rows) == 3
-    assert found.told_s == trade_study.REFERENCE + 3.0
-    assert found.not_measured > 0 and "The budget ended before" in found.price
+    assert found.told_s == trade_study.REFERENCE + 3.0 and found.not_measured > 0
 
 
 def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
+    """And a method that does not exist is a row with its reason."""
     stages = [sc.Stage(name="first", duration=1.0), sc.Stage(name="second", duration=1.0)]
-    chosen = [sc.Method(integrator="tsit5", rtol=1e-3)]
+    chosen = [sc.Method(integrator="tsit5", rtol=1e-3), sc.Method(integrator="not-yet", rtol=1e-3)]
     found = sc.trade(pendulum(), stages=stages, methods=chosen, quantities=["position"], progress=False)
-    (row,) = found.rows
-    assert found.metadata["t_end"] == 2.0 and "errors are those of the extremes of each stage" in str(found)
+    row, other = found.rows
+    assert found.metadata["t_end"] == 2.0 and not other.stable and "unknown integrator" in other.message
     staged = sc.simulate_stages(pendulum(), stages, integrator="tsit5", rtol=1e-3)
     tight = sc.simulate_stages(pendulum(), stages, integrator="verner76", rtol=1e-12)
     worst = 0.0

@@ -51,9 +51,9 @@ def four_bar_error(limit: float) -> tuple[float, float]:
     result = simulate(four_bars.scene(2, planar=False), t_end=10.0, dt_out=0.05, accuracy={"position": limit})
     angle, _ = four_bars.turned(2, result.time)
     middle = 0.5 * np.column_stack([np.sin(angle), np.cos(angle)])
-    found = result.select("position", body="post 0")[:, [0, 2]], result.select("position", body="coupler 1")
-    coupler = found[1][:, [0, 2]] - [1.5, 0.0] - 2.0 * middle
-    error = max(np.linalg.norm(part, axis=1).max() for part in (found[0] - middle, coupler))
+    post, coupler = (result.select("position", body=name)[:, [0, 2]] for name in ("post 0", "coupler 1"))
+    parts = (post - middle, coupler - [1.5, 0.0] - 2.0 * middle)
+    error = max(np.linalg.norm(part, axis=1).max() for part in parts)
     return float(error), float(result.stats["error_estimate_position"])
 
 
@@ -87,21 +87,14 @@ def test_a_tighter_limit_gives_a_smaller_error_and_states_its_estimate() -> None
     assert errors[0] > errors[1] > errors[2] > 0.0
 
 
-TICK = [SampledController(period=0.1, function=lambda t, m: {})]
-
-
 @pytest.mark.parametrize(
     ("accuracy", "also", "says"),
     [
         ({}, {}, "accuracy is empty"),
-        ({"position": 0.0}, {}, "position is 0.0"),
         ({"roll": 0.1}, {}, "'roll' is unknown"),
-        (0.01, {}, "mapping"),
         ({"position": 1e-17}, {}, "set by rounding"),
         ({"position": 1e-3}, {"rtol": 1e-6}, "rtol=1e-06"),  # the default itself is a choice where written
-        ({"position": 1e-3}, {"integrator": "dopri5"}, "integrator='dopri5'"),
-        ({"position": 1e-3}, {"dt": 0.0, "rtol": 1e-3}, "rtol=0.001, dt=0.0"),
-        ({"position": 1e-3}, {"controllers": TICK}, "leave out controllers"),
+        ({"position": 1e-3}, {"controllers": [SampledController(period=0.1, function=dict)]}, "controllers"),
     ],
 )
 def test_impossible_accuracies_are_refused(accuracy: Any, also: dict[str, Any], says: str) -> None:

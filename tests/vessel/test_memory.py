@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -21,21 +21,6 @@ CHANNELS = ["velocity", "angular_velocity", "quaternion", "acceleration", "angul
             "vessel_motion", "wave_force"]  # fmt: skip
 
 
-@dataclass(frozen=True, kw_only=True)
-class VesselRun:
-    """A vessel in the paper's sea: motion, twist u and u' in the yaw-following frame, wave load (n, 6);
-    deck: other loads on the vessel about its reference point, yaw-following frame."""
-
-    time: Array
-    motion: Array
-    twist: Array
-    twist_rate: Array
-    rotation: Array
-    yaw: Array
-    wave: Array
-    deck: Array
-
-
 def yaw_matrices(yaw: Array) -> Array:
     c, s, zero, one = np.cos(yaw), np.sin(yaw), np.zeros_like(yaw), np.ones_like(yaw)
     return np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]]).transpose(2, 0, 1)
@@ -45,8 +30,9 @@ def rotate_back(matrix: Array, vectors: Array) -> Array:
     return np.asarray(np.einsum("tji,tj->ti", matrix, vectors))
 
 
-def run(scene: Scene, t_end: float) -> VesselRun:
-    """Run, and move the recorded motion of the centre of mass to the reference point."""
+def run(scene: Scene, t_end: float) -> SimpleNamespace:
+    """Motion, twist u and u' of the reference point in the yaw-following frame, wave load, all (n, 6), and
+    `deck`: other loads on the vessel about that point in that frame."""
     lifts = "deck" in scene.joints
     channels = [*CHANNELS, "reaction_force", "reaction_moment"] if lifts else CHANNELS
     result = simulate(scene, t_end=t_end, dt_out=STEP, rtol=1e-10, channels=channels)
@@ -62,7 +48,7 @@ def run(scene: Scene, t_end: float) -> VesselRun:
     turn = np.column_stack([0.0 * yaw_rate, 0.0 * yaw_rate, yaw_rate])
     rate = np.hstack([rotate_back(yaw, acceleration), rotate_back(yaw, alpha)])
     rate -= np.hstack([np.cross(turn, twist[:, :3]), np.cross(turn, twist[:, 3:])])
-    return VesselRun(
+    return SimpleNamespace(
         time=result.time, motion=result["vessel_motion"], twist=twist, twist_rate=rate, rotation=rotation,
         yaw=yaw, wave=result["wave_force"],
         deck=crane_loads(scene, result, rotation, yaw) if lifts else np.zeros_like(result["wave_force"]),
@@ -96,7 +82,7 @@ def kernel_on_grid(count: int) -> Array:
     return out
 
 
-def radiation_from_balance(waves: VesselRun) -> Array:
+def radiation_from_balance(waves: Any) -> Array:
     """Load -(A_inf u' + mu) on the vessel, as what the rigid-body equations leave of the recorded motion."""
     p = vessel_parameters(shipped_database())
     center = rotate_back(waves.yaw, waves.rotation @ p.center_of_mass)
@@ -119,7 +105,7 @@ def radiation_from_balance(waves: VesselRun) -> Array:
     return np.asarray(rigid - waves.wave - waves.deck + restoring + waves.twist @ p.linear_damping.T)
 
 
-def memory_error(waves: VesselRun) -> Array:
+def memory_error(waves: Any) -> Array:
     """Difference (6) between the memory load in a run and the convolution, over the load's largest value."""
     mu = memory_force(waves.twist, kernel_on_grid(len(waves.time)), STEP)
     added_mass = vessel_parameters(shipped_database()).added_mass

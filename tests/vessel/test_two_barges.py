@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Outputs, Result, Scene, SceneError, Stage, Until, simulate_stages
+from seacrane import Outputs, Scene, Stage, Until, simulate_stages
 from seacrane.answers import contact_hits
 from seacrane.crane import load_crane
 from seacrane.errors import FileFormatError
@@ -21,13 +21,8 @@ from seacrane.validity.left_range import findings
 
 MASS, DECK, SLACK, RATE = 60e3, 2.5, 0.3, 0.4  # kg, m, m, m/s
 FEET = [(x, y, -2.5) for x in (-3.5, 3.5) for y in (-2.5, 2.5)]
-LIFT = [
-    Stage(name="wait", duration=2.0),
-    Stage(
-        name="lift off", until=Until.clear("feet", minimum=1.0), maximum_duration=30.0,
-        commands={"hoist.rate": -RATE},
-    ),
-]  # fmt: skip
+OFF = {"until": Until.clear("feet", minimum=1.0), "maximum_duration": 30.0}
+LIFT = [Stage(name="wait", duration=2.0), Stage(name="lift off", commands={"hoist.rate": -RATE}, **OFF)]
 RECORDED = Outputs(dt_out=0.02, channels=("contact_press", "line_tension", "position"))
 
 
@@ -53,11 +48,7 @@ def feeder_lift(lid_damping: float | None, hs: float) -> Scene:
     return scene
 
 
-def rehits(result: Result) -> int:
-    return sum(hit.number > 0 for hit in contact_hits(result, "feet"))
-
-
-@pytest.mark.parametrize("lid", [None, 0.01, 0.03])
+@pytest.mark.parametrize("lid", [None, 0.03])
 def test_their_memory_is_passive_and_near_their_matrices(lid: float | None) -> None:
     group = two_barges(lid_damping=lid)
     assert passivity_certificate(group.memory).passive
@@ -72,47 +63,31 @@ def test_their_memory_is_passive_and_near_their_matrices(lid: float | None) -> N
 
 
 @pytest.mark.parametrize(
-    ("damage", "message"),
-    [
-        (lambda data: b"", "no group"),
-        (lambda data: data[:-20], "damaged group"),
-        (lambda data: data[:200] + bytes(50) + data[250:], "damaged group"),
-        (lambda data: data.replace(b"group 1\n", b"group 2\n", 1), "version '2'"),
-    ],
+    ("old", "new", "message"),
+    [(b"group 1\n", b"group 2\n", "version '2'"), (b"\0" * 9, b"", "damaged group")],
 )
-def test_a_group_is_kept_and_a_file_of_none_refused(damage: Any, message: str, tmp_path: Path) -> None:
+def test_a_group_is_kept_and_a_file_of_none_refused(
+    old: bytes, new: bytes, message: str, tmp_path: Path
+) -> None:
     path, group = tmp_path / "pair.hydro", two_barges(lid_damping=0.01)
     group.save(path)
     again = HydroGroup.load(path)
     assert again.digest == group.digest
     assert replace(again, rho=1000.0).digest != group.digest
-    path.write_bytes(damage(path.read_bytes()))
+    path.write_bytes(path.read_bytes().replace(old, new, 1))
     with pytest.raises(FileFormatError, match=f"pair.hydro.*{message}"):
         HydroGroup.load(path)
-    with pytest.raises(SceneError, match=r"lid_damping is 0\.02"):
-        two_barges(lid_damping=0.02)
 
 
 def test_a_lift_in_still_water_is_that_by_hand() -> None:
     """The feet leave in the second in which the wire has taken the weight; no foot comes back."""
-    scene = feeder_lift(0.03, 0.0)
-    result = simulate_stages(scene, LIFT, start=None, outputs=RECORDED, rtol=1e-5)
-    weight = MASS * 9.81
+    result = simulate_stages(feeder_lift(0.03, 0.0), LIFT, start=None, outputs=RECORDED, rtol=1e-5)
     hook = np.asarray(result.select("line_tension", line="hoist"))
     off = [event.time for event in result.events if event.kind == "release"]
     at = np.searchsorted(result.time, max(off))
-    assert hook[at] == pytest.approx(weight, rel=0.1)
-    assert rehits(result) == 0
+    assert hook[at] == pytest.approx(MASS * 9.81, rel=0.1)
+    assert all(hit.number == 0 for hit in contact_hits(result, "feet"))
     assert result.stages[1].ended_by.startswith("contact_least_gap")
-
-
-def test_both_formulations_lift_alike() -> None:
-    one, other = (
-        simulate_stages(feeder_lift(0.03, 1.5), LIFT, outputs=RECORDED, rtol=1e-7, formulation=form)
-        for form in ("recursive", "redundant")
-    )
-    assert one.stages[1].end == pytest.approx(other.stages[1].end, abs=1e-3)
-    assert one["line_tension"].max() == pytest.approx(other["line_tension"].max(), rel=1e-3)
 
 
 def test_a_second_of_a_run_does_not_tell_a_mean_place_or_a_frequency() -> None:

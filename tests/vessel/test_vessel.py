@@ -80,9 +80,8 @@ def steady_state(
     database: HydroDatabase, scene: Scene, waves: Waves, *, t_end: float
 ) -> tuple[Complex, Complex]:
     """Simulated and expected complex motions in one regular wave."""
-    omega = waves.omega[0]
+    omega, scene.waves = waves.omega[0], waves
     period = 2.0 * np.pi / omega
-    scene.waves = waves
     result = simulate(scene, t_end=t_end, dt_out=period / 16.0, rtol=1e-10, channels=["vessel_motion"])
     found = complex_amplitude(result, omega, start=t_end - 4.0 * period)
     force = waves.hull().transfer[0] * waves.amplitude[0] * np.exp(1j * waves.phase[0])
@@ -141,7 +140,7 @@ def test_a_vessel_described_above_its_rest_starts_there_and_heaves_about_it(kine
     np.testing.assert_allclose(motion, twin, atol=1e-9)
 
 
-@pytest.mark.parametrize(("y", "z"), [(10.0, 0.0), (-8.0, 0.0), (12.0, 15.0)])
+@pytest.mark.parametrize(("y", "z"), [(-8.0, 0.0), (12.0, 15.0)])
 def test_heel_from_a_known_moment(y: float, z: float) -> None:
     """200 t pushing down off the centre line: C44 phi = moment, exactly with the height's part."""
     database = damped(shipped_database(), 0.5)

@@ -62,15 +62,12 @@ def test_a_fixed_vessel_gets_the_mean_load_of_its_place_and_heading(x: float, y:
         assert np.all(drift == 0.0)
 
 
-SIX = ("x", "y", "z", "roll", "pitch", "yaw")
-
-
 def driven(*, cutoff: float = CUTOFF, phase: str | None = None, **curves: Curve) -> Scene:
     """A hull whose six coordinates are given; in a short-crested sea where a phase is asked for."""
     scene = Scene(name="driven")
     scene.add_vessel(database(), mooring_period=None, memory="none")
     scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
-    for name in SIX:
+    for name in ("x", "y", "z", "roll", "pitch", "yaw"):
         scene.add_driver(joint="tow", coordinate=name, curve=curves.get(name, Curve.constant(value=0.0)))
     if phase:
         scene.add_sea(hs=2.0, tp=8.0, count=12)
@@ -141,39 +138,24 @@ def test_far_beyond_the_fast_sines_the_load_is_still_right() -> None:
 
 def test_what_makes_no_sense_is_refused_by_name() -> None:
     force = actual_scene().waves.hull().force_by_heading
-    broken = np.array(force.values)
-    broken[1, 2, 3] = np.nan
     gaps = Scene()
     gaps.add_vessel(replace(database(), name="beam only").select(heading=(1.0, 2.0)), memory="none")
     gaps.add_sea(hs=3.0, tp=8.0, direction_deg=90.0, count=40)
     paper = Scene(name="paper")
     paper.add_vessel(database(), kinematics="paper")
     paper.waves = afloat("slow").waves
-    slow = afloat("slow")
-    slow.waves = replace(slow.waves, evaluation="fft")
-
-    def headings(heading: Array, values: Array) -> Scene:
-        return actual_scene(force_by_heading=ByHeading(heading=heading, values=values))
-
+    turned = actual_scene(force_by_heading=ByHeading(heading=force.heading[::-1], values=force.values))
     for call, message in (
-        (Scene(name="calm").use_actual_position, "needs a sea"),
         (Scene(name="calm").use_slow_position, "needs a sea"),
         (actual_scene(evaluation="fft").compile, "evaluation='exact'"),
-        (slow.compile, "evaluation='exact'"),
-        (headings(force.heading, force.values[:, :3]).compile, r"shape \(\d+, 40, 6\)"),
-        (headings(force.heading[::-1], force.values).compile, "45 deg"),
-        (headings(force.heading, broken).compile, "component 2 is nan"),
+        (turned.compile, "45 deg"),
         (gaps.use_actual_position, "'beam only': headings.*45 deg"),
         (actual_scene(drift=np.zeros((40, 6))).compile, "drift_by_heading"),
         (paper.compile, "yaw_following"),
-        (lambda: afloat("mean").use_slow_position(cutoff=float("nan")), "frequency"),
         (lambda: afloat("mean").waves.changed(cutoff=0.1), "no force_by_heading"),
-        (lambda: afloat("mean").waves.changed(cutoff=-1.0), "cutoff is -1"),
     ):
         with pytest.raises(SceneError, match=message):
             call()
-    with pytest.raises(ValueError, match="not finite"):
-        positioned(spread_sea()).evaluate(float("nan"))
 
 
 def slow_gain(omega: float, cutoff: float) -> complex:
@@ -248,8 +230,9 @@ def test_formulations_and_merging_agree() -> None:
     scene.waves = replace(scene.waves, negligible=0.0)
     found = []
     for formulation, merge in (("redundant", True), ("redundant", False), ("recursive", True)):
-        model = scene.compile(merge=merge)
-        run = Run(scene, t_end=4.0, dt_out=0.5, model=model, rtol=1e-9, formulation=formulation)
+        run = Run(
+            scene, 4.0, dt_out=0.5, model=scene.compile(merge=merge), rtol=1e-9, formulation=formulation
+        )
         run.advance(4.0)
         channels = run.core.channels()
         found.append(np.column_stack([channels["vessel_motion"], channels["wave_force"]]))
@@ -257,8 +240,9 @@ def test_formulations_and_merging_agree() -> None:
         assert np.all(np.abs(other - found[0]) < 1e-6 * np.abs(found[0]).max(axis=0))
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-@pytest.mark.parametrize("integrator", ["dopri5", "rosenbrock"])
+@pytest.mark.parametrize(
+    ("integrator", "formulation"), [("dopri5", "recursive"), ("rosenbrock", "redundant")]
+)
 def test_a_run_goes_on_bit_for_bit(integrator: str, formulation: str) -> None:
     settings: dict[str, Any] = {"integrator": integrator, "formulation": formulation, "dt_out": 0.5}
     whole = Run(afloat("slow"), t_end=8.0, **settings)
@@ -272,23 +256,18 @@ def test_a_run_goes_on_bit_for_bit(integrator: str, formulation: str) -> None:
     np.testing.assert_array_equal(one, other)
 
 
-@pytest.mark.parametrize("memory", ["none", "passive", "convolution"])
-def test_any_memory_goes_with_it(memory: str) -> None:
+def test_a_convolution_goes_with_it() -> None:
     motions = [
         simulate(afloat("slow", memory=kind), t_end=20.0, dt_out=0.5)["vessel_motion"]
-        for kind in (memory, "per-pair")
+        for kind in ("convolution", "per-pair")
     ]
-    limit = 0.5 if memory == "none" else 0.05
-    assert np.abs(motions[0] - motions[1]).max() < limit * np.abs(motions[1]).max()
+    assert np.abs(motions[0] - motions[1]).max() < 0.05 * np.abs(motions[1]).max()
 
 
 def test_files_keep_positions_and_actual_ones_have_no_filter_left(tmp_path: Path) -> None:
     scene = afloat("slow")
     scene.save(tmp_path / "scene.json")
     again = Scene.load(tmp_path / "scene.json")
-    one, other = scene.waves.hull(), again.waves.hull()
-    assert other.cutoff == one.cutoff > 0.0
-    np.testing.assert_array_equal(other.force_by_heading.values, one.force_by_heading.values)
     first, second = (simulate(s, t_end=3.0, dt_out=1.0)["vessel_motion"] for s in (scene, again))
     np.testing.assert_array_equal(first, second)
     states = scene.compile().memory_states
