@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -33,6 +34,7 @@ from seacrane.description.file import described
 from seacrane.ensembles import Ensemble, LatinHypercube
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.errors import WorkerVersionError
+from seacrane.warnings import AccuracyNotHeldWarning
 
 GRID = {"start": [1.0, 2.0, 3.0], "mass": [2.0, 5.0]}
 
@@ -125,9 +127,8 @@ def test_a_member_that_fails_is_recorded(stored: bool, tmp_path: Path) -> None:
     assert there.failures == {2: told}
     assert np.isnan(there.dataset.lowest.to_numpy()).tolist() == [False, False, True, False]
     assert there.dataset.failure.sel(start=3.0) == told
-    for _ in range(2):
-        with pytest.raises(SimulationError, match=rf"member 2 \(start=3.0\) failed: {told}"):
-            ensemble(fails_in_the_middle, store=tmp_path / "other", on_error="raise", **given)
+    with pytest.raises(SimulationError, match=rf"member 2 \(start=3.0\) failed: {told}"):
+        ensemble(fails_in_the_middle, store=tmp_path / "other", on_error="raise", **given)
     left = Ensemble.load(tmp_path / "other")
     assert left.dataset.failure.to_numpy().tolist() == ["", "", told, "not run"]
     unlike = ensemble(short_or_long, **given | {"keep": {"numbers": two_numbers_or_three}})
@@ -254,3 +255,44 @@ def test_members_begin_where_they_are_told(tmp_path: Path) -> None:
     for given in ({"store": tmp_path / "later"}, {"start": 1.0}):
         with pytest.raises(SceneError, match="start"):
             ensemble(pendulum, **asked, **given)
+
+
+LIMIT = 1e-4
+TRACK = {"track": Kept(channel="position", names={"body": "bob"})}
+SWUNG = {"keep": TRACK, "t_end": 3.0, "dt_out": 0.1}
+STARTS = {"start": [1.0 + 0.02 * place for place in range(40)]}
+
+
+@pytest.fixture(scope="module")
+def chosen() -> Ensemble:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return ensemble(pendulum, over=STARTS, accuracy={"position": LIMIT}, **SWUNG)
+
+
+def test_every_member_is_as_accurate_as_asked(chosen: Ensemble) -> None:
+    for start in STARTS["start"]:
+        truth = simulate(pendulum(start=start), 3.0, dt_out=0.1, integrator="verner76", rtol=1e-12)
+        error = chosen.dataset.track.sel(start=start).to_numpy() - truth.select("position", body="bob")
+        assert np.linalg.norm(error, axis=-1).max() < LIMIT
+
+
+def test_one_method_is_chosen_at_little_cost(chosen: Ensemble, tmp_path: Path) -> None:
+    """And alike on threads and resumed."""
+    told = chosen.accuracy
+    assert told is not None and told.held and told.cost < 1.2
+    assert (len(told.probes), len(told.checks)) == (1, 2) and not set(told.probes) & set(told.checks)
+    method = {"integrator": told.method.integrator, "rtol": told.method.used_rtol}
+    assert ensemble(pendulum, over=STARTS, **method, **SWUNG).dataset.identical(chosen.dataset)
+    asked = {"over": STARTS, "accuracy": {"position": LIMIT}, "store": tmp_path / "s", **SWUNG}
+    with ThreadPoolExecutor(2) as executor:
+        there = ensemble(pendulum, executor=executor, **asked)
+    for one in (there, ensemble(pendulum, **asked)):
+        assert one.dataset.identical(chosen.dataset) and one.accuracy == told
+
+
+def test_members_wilder_than_their_probes_are_found() -> None:
+    rows = [{"gravity": 1e-3 if place == 15 else 1e5} for place in range(30)]
+    with pytest.warns(AccuracyNotHeldWarning, match=r"1 of 1 members .*worst is member \d+ \(grav"):
+        found = ensemble(pendulum(), over=rows, accuracy={"position": LIMIT}, **SWUNG)
+    assert found.accuracy is not None and not found.accuracy.held

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -28,7 +27,7 @@ def wind_sea_and_swell(seed: int) -> Scene:
         WaveSystem(spectrum=jonswap(hs=1.5, tp=6.0), direction_deg=120.0, spreading=cos_2s(6.0), count=60),
         WaveSystem(spectrum=jonswap(hs=1.0, tp=13.0), direction_deg=40.0, count=40, name="swell"),
     ]
-    return cases.vessel(database=DATABASE, sea=SeaState(systems=systems, seed=seed))
+    return vessel(sea=SeaState(systems=systems, seed=seed))
 
 
 def slowly(seed: int) -> Scene:
@@ -63,8 +62,9 @@ def case2(seed: int, **sea: Any) -> Scene:
     return cases.case2(database=DATABASE, seed=seed, **sea)
 
 
-def vessel(seed: int, **how: Any) -> Scene:
-    return cases.vessel(database=DATABASE, seed=seed, **how)
+def vessel(seed: int | None = None, **how: Any) -> Scene:
+    words = {} if seed is None else {"seed": seed}
+    return cases.vessel(database=DATABASE, **words, **how)
 
 
 SLOW = {"phase": "slow", "spreading": 3.0, "count": 20}
@@ -173,28 +173,11 @@ def test_a_run_in_no_sea_or_a_sea_on_others_is_refused() -> None:
 
 def test_a_sea_that_repeats_is_told_again() -> None:
     system = WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=90.0, count=8)
-    sea = SeaState(systems=[system], placement="uniform")
-    scene = cases.vessel(database=DATABASE, sea=sea, evaluation="fft")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    scene = vessel(sea=SeaState(systems=[system], placement="uniform"), evaluation="fft")
+    with pytest.warns(UserWarning, match="repeat after"):
         run = Run(scene, 100.0)
     with pytest.warns(UserWarning, match="repeat after"):
         run.in_sea(scene.waves)
-
-
-def test_a_growing_mode_is_told_of_in_every_sea() -> None:
-    scene = cases.vessel(database=DATABASE, count=10)
-    scene.add_body(name="box", mass=1.0, inertia=(1, 1, 1), velocity=(1e-6, 0, 0))
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
-    scene.add_actuator(name="hold", joint="rail", stiffness=2.2**2)
-    given = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "maximum_step": 0.5}
-    given |= {"integrator": "tsit5", "channels": ["position"]}
-    there = ensemble(scene, over={"seed": [5]}, keep=PATH, **given)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        alone = simulate(with_sea(scene, {"seed": 5}), **given)
-    assert "makes an oscillation of body 'box' grow" in str(alone.stats["validity"])
-    assert there.dataset.validity.sel(seed=5).item() == alone.stats["validity"]
 
 
 @pytest.mark.parametrize(("count", "heading"), [(1, 0.0), (7, 0.3), (311, -2.5)])

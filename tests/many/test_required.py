@@ -37,15 +37,15 @@ def pendulum() -> sc.Scene:
     return scene
 
 
-def held(name: str, **crane: Any) -> sc.Scene:
-    scene = sc.Scene(name=name)
+def held(**crane: Any) -> sc.Scene:
+    scene = sc.Scene(name="held")
     scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True, **crane)
     return scene
 
 
 def slung(**more: Any) -> sc.Scene:
     """A load on four slings below a block, whose hoist is shaken by nothing but its own start."""
-    scene = held("slung")
+    scene = held()
     rig = {"block_mass": 1e3, "winch": {"lag": 0.2}, "slings": {"angle_deg": 60, "EA": 5e7}}
     scene.add_hoist(mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7, **rig, **more)
     return scene
@@ -74,7 +74,7 @@ def on_deck() -> sc.Scene:
 def on_oil() -> sc.Scene:
     """A crane that stands on the oil of two cylinders."""
     oil = {"pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "gain": 0.8}
-    scene = held("on oil", hydraulics={"main": oil, "knuckle": oil})
+    scene = held(hydraulics={"main": oil, "knuckle": oil})
     scene.add_hoist(mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7)
     return scene
 
@@ -89,7 +89,7 @@ def drifting(*, drift: bool = True) -> sc.Scene:
 
 def heavy(segments: int = 4, **more: Any) -> sc.Scene:
     """A load on a wire with mass in water, off a winch."""
-    scene = held("heavy")
+    scene = held()
     wire = {"segments": segments, "medium": "sea", "diameter": 0.05, **more}
     line = {"length": 50.0, "EA": 6e7, "rung": "with mass", "mass_per_length": 20.0, "wire": wire}
     scene.add_hoist(mass=35e3, size=(6, 4, 4), winch={"lag": 0.2}, **line)
@@ -229,14 +229,6 @@ def test_a_line_in_other_segments_is_as_described_with_them(segments: int, aroun
         assert {*getattr(found, table)} == {*getattr(described, table)}
     run, right = (sc.simulate(scene, 1.0)["hook_load"] for scene in (found, described))
     np.testing.assert_allclose(run, right, rtol=1e-12)
-
-
-def test_a_line_that_is_held_between_its_ends_keeps_its_segments() -> None:
-    scene = heavy()
-    scene.add_spring("stay", first="ground", second="hoist.2", stiffness=1.0, damping=0.0, natural_length=1.0)
-    assert not any("segments" in choice.name for choice in choices_of(scene))
-    with pytest.raises(sc.SceneError, match="stay"):
-        needs.with_segments(scene, "hoist", 2)
 
 
 @pytest.mark.slow("fits memories")

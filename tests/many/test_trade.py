@@ -10,10 +10,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from line_scenes import G, reeved
+from numpy.testing import assert_allclose
 from trade_scenes import a_run_each, pendulum
 
 import seacrane as sc
-from seacrane import cases
+from seacrane import Scene, SceneError, cases, simulate, trade
 from seacrane._core import Integrator, integrators
 from seacrane.accuracy import Trade
 from seacrane.accuracy.quantities import ErrorMeasures, compare, quantities_of
@@ -22,6 +24,7 @@ from seacrane.trading import methods, simpler_scenes, trade_rows, trade_study
 from seacrane.trading.budget import Spending
 from seacrane.trading.case import Case
 from seacrane.trading.ladders import Ladders
+from seacrane.trading.lines_on_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
 from seacrane.trading.row_file import RowFile
@@ -88,28 +91,16 @@ def test_the_cheapest_setting_meets_its_limit_when_run(case2: Any, measured: Tra
         assert [float(row["error_roll"]) for row in csv.DictReader(file)] == pytest.approx(error, rel=1e-5)
 
 
-def test_a_later_call_goes_on_another_scene_anew(
-    case2: Any, measured: Any, folder: Path, monkeypatch: Any
-) -> None:
+def test_rows_of_an_earlier_call_are_kept_and_those_of_another_scene_not(measured: Any, folder: Path) -> None:
+    """But for the line that an interrupted call was writing."""
     path = folder / "trade_rows.jsonl"
     lines = path.read_text().splitlines()
-    path.write_text("\n".join(lines[:-1]) + "\n" + lines[-1][:40])  # as if stopped while writing
-    called = []
-
-    def filled(*arguments: object, **given: object) -> Row:
-        called.append("one")
-        return measured.rows[-1]
-
-    monkeypatch.setattr(trade_study, "measure", filled)
-    monkeypatch.setattr(trade_study, "measure_variant", filled)
-    monkeypatch.setattr(trade_study, "frequency_domain", filled)
-    unit = next(row.cpu_s for row in measured.rows if row.method.name == "recursive dopri5 rtol=0.001")
-    monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (unit, unit))
-    again = sc.trade(case2, t_end=T_END, budget=100.0 * BUDGET, progress=False, out=folder)
-    kept = {json.loads(line)["row"]["wall_s"] for line in lines[1:-1]}
-    assert called and kept <= {row.wall_s for row in again.rows}
-    other = RowFile(path, {"scene": "another"})
-    assert not other.rows and len(path.read_text().splitlines()) == 1
+    path.write_text("\n".join(lines[:-1]) + "\n" + lines[-1][:40])
+    experiment = json.loads(lines[0])
+    again = RowFile(path, {name: value for name, value in experiment.items() if name != "columns"})
+    assert len(again.rows) == len(lines) - 2
+    assert {*again.rows.values()} <= {*measured.rows}
+    assert not RowFile(path, {"scene": "another"}).rows and len(path.read_text().splitlines()) == 1
 
 
 @pytest.mark.parametrize("known", integrators(), ids=lambda known: known.name)
@@ -154,15 +145,6 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
     assert done.stable, done.message
     assert done.error("payload_position") < 1e-6 and done.error("hook_load") < 1.0
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
-
-
-def test_the_strongest_components_carry_the_load(case2: sc.Scene) -> None:
-    waves = case2.waves
-    half = simpler_scenes.strongest(waves, 100)
-    assert set(half.omega) < set(waves.omega) and len(half.omega) == 100
-    load = [np.sum(np.abs(w.hull().transfer[:, 3] * w.amplitude) ** 2) for w in (half, waves)]
-    assert load[0] > 0.95 * load[1]
-    assert np.array_equal(simpler_scenes.strongest(waves, 200).phase, waves.phase)
 
 
 def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
@@ -235,3 +217,51 @@ def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
         for extreme in (np.min, np.max):
             worst = max(worst, float(np.linalg.norm(extreme(own, axis=0) - extreme(true, axis=0))))
     assert row.error("position") == pytest.approx(worst, rel=1e-6)
+
+
+def hung(rung: str) -> Scene:
+    """2 t that swing on 8 m of stiff line below an arm that is not at the origin."""
+    scene = Scene(name="pendulum")
+    scene.add_body(name="arm", mass=5e3, inertia=(50, 50, 50), position=(1, 2, 3), quaternion=(0, 0, 0, 1))
+    scene.add_joint(kind="prismatic", name="guide", first="ground", second="arm", point=(1, 2, 3))
+    scene.add_actuator(joint="guide", stiffness=1e6, damping=5e4)
+    place = np.array([1.0, 2.0, 3.0]) + 8.0 * np.array([np.sin(0.3), 0.0, -np.cos(0.3)]) + (0.5, 0, 0)
+    scene.add_body(name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=place)
+    length, ends = 8.0 / (1.0 + 2e3 * G * np.cos(0.3) / 1e10), [(-0.5, 0, 0), (0, 0, 0)]
+    scene.add_line("hoist", bodies=["arm", "load"], points=ends, EA=1e10, length=length, rung=rung)
+    return scene
+
+
+def test_the_rungs_that_a_scene_does_not_have_are_tried() -> None:
+    kept = (RIGID_LINES, LINE_RUNGS[2])
+    for rung, others in (("elastic", LINE_RUNGS[:2]), ("auto", LINE_RUNGS[:2]), ("quasi-static", kept)):
+        made = {name: build() for name, build in line_variants(hung(rung))}
+        assert tuple(made) == others
+        assert not made[RIGID_LINES].loads.keys() & {"hoist"}
+        assert made[RIGID_LINES].joints["hoist"].length == pytest.approx(8.0, rel=1e-12)
+        assert f"lines {made[others[1]].loads['hoist'].rung}" == others[1]
+    assert not list(line_variants(Scene(name="without")))
+    runs = [simulate(one, 2.0, dt_out=0.1) for one in (hung("elastic"), with_rigid_lines(hung("elastic")))]
+    assert_allclose(runs[0]["position"], runs[1]["position"], atol=2e-3)  # a rigid link as the stiff line
+
+
+def test_each_rung_is_a_line_with_its_cost_and_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Spending, "spend", a_run_each)
+    found = trade(hung("elastic"), t_end=2.0, progress=False)
+    rows = {name: [row for row in found.rows if row.case["rung"] == name] for name in LINE_RUNGS}
+    assert [len(rows[name]) for name in LINE_RUNGS] == [2, 2, 0]
+    elastic = min(row.evaluations for row in found.rows if row.stable and row.case["rung"] == "full")
+    for name in LINE_RUNGS[:2]:
+        assert all(row.stable for row in rows[name])
+        assert rows[name][-1].error("position") < 2e-3
+        assert rows[name][0].evaluations < elastic
+
+
+def test_what_has_no_rigid_rung_is_a_row_with_its_reason() -> None:
+    with pytest.raises(SceneError, match="'hoist': runs over 4 points"):
+        with_rigid_lines(reeved())
+    scene = hung("elastic")
+    scene.add_winch(line="hoist", lag=0.2)
+    found = trade(scene, t_end=0.5, progress=False)
+    (row, _) = [row for row in found.rows if row.case["rung"] == RIGID_LINES]
+    assert row.verdict == "refused" and "its length changes" in row.message

@@ -96,11 +96,8 @@ def test_a_box_in_shallow_water_follows_its_closed_form_below_the_table() -> Non
 def sea_above(high: float, tp: float, heading: float) -> tuple[HydroDatabase, dict[str, Array]]:
     """A table that ends early, and the components of a sea that the shipped one holds in full."""
     waves = realise_waves(jonswap(hs=2.0, tp=tp), seed=1, direction=heading, count=200, maximum_omega=3.1)
-    parts = {name: np.array(getattr(waves, name)) for name in ("omega", "amplitude", "direction")}
-    return loaded(cut(0.1, high), parts)
-
-
-def loaded(part: HydroDatabase, sea: dict[str, Array]) -> tuple[HydroDatabase, dict[str, Array]]:
+    sea = {name: np.array(getattr(waves, name)) for name in ("omega", "amplitude", "direction")}
+    part = cut(0.1, high)
     return part, sea | {"force": part.force_at(sea["omega"], sea["direction"], outside="limits")}
 
 
@@ -121,13 +118,9 @@ def test_what_carries_no_load_is_estimated_within_a_factor_of_three(high: float,
     assert found.load in MOTIONS
 
 
-def test_a_sea_within_the_band_leaves_nothing_out_and_one_above_it_everything() -> None:
+def test_a_sea_within_the_band_leaves_nothing_out() -> None:
     part, sea = sea_above(3.1, 6.0, 1.0)
     assert without_load(part, **sea).energy == without_load(part, **sea).variance == 0.0
-    above = sea["omega"] > 0.4
-    part, sea = loaded(cut(0.1, 0.4), {n: sea[n][above] for n in ("omega", "amplitude", "direction")})
-    everything = without_load(part, **sea)
-    assert everything.energy == pytest.approx(1.0) and everything.variance == pytest.approx(1.0)
     part, sea = sea_above(2.0, 6.0, np.pi)
     assert without_load(part, **sea).load in ("surge", "heave", "pitch")  # of a head sea, not roll
 

@@ -131,33 +131,29 @@ def two_hulls(**options: Any) -> Scene:
     return scene
 
 
-def test_a_load_is_the_sum_over_components_at_the_place_and_heading_of_the_hull() -> None:
+@pytest.mark.parametrize("given", [False, True])
+def test_a_load_is_the_sum_over_components_at_the_place_and_heading_of_the_hull(given: bool) -> None:
+    """Of the start, or of a pose that is given instead."""
     scene = two_hulls()
+    if given:
+        scene.waves = None
+        scene.add_sea(vessel="ship", hs=2.0, count=20, direction_deg=0.0)
+        scene.add_sea(vessel="barge", position=(12.0, -7.0), heading_deg=30.0)
+    barge = ((12.0, -7.0), np.radians(30.0)) if given else ((60.0, 40.0), np.pi / 2.0)
     waves = scene.waves
     result = simulate(scene, t_end=10.0, dt_out=0.5)
-    for name, (x, y), heading in (("ship", (0.0, 0.0), 0.0), ("barge", (60.0, 40.0), np.pi / 2.0)):
-        wavenumber = waves.omega**2 / G
+    for name, (x, y), heading in (("ship", (0.0, 0.0), 0.0), ("barge", *barge)):
         along = x * np.cos(waves.direction) + y * np.sin(waves.direction)
-        angle = np.outer(result.time, waves.omega) + waves.phase - wavenumber * along
+        angle = np.outer(result.time, waves.omega) + waves.phase - waves.omega**2 / G * along
         wave = waves.amplitude * np.exp(1j * angle)
         expected = (wave @ database().force_at(waves.omega, waves.direction - heading)).real
         error = np.abs(result.select("wave_force", vessel=name) - expected)
         assert np.all(error < 1e-7 * np.abs(expected).max())
-        np.testing.assert_allclose(
-            result.select("wave_elevation", vessel=name), wave.real.sum(axis=1), atol=1e-7
-        )
-    surge, sway = np.abs(result.select("wave_force", vessel="barge"))[:, :2].max(axis=0)
-    assert sway > 10.0 * surge  # beam seas: what follows the ship comes from the side of the barge
-
-
-def test_loads_are_taken_at_a_pose_given_instead_of_the_start() -> None:
-    scene = Scene(name="given")
-    scene.add_vessel(database(), position=(5.0, 0.0, 0.0))
-    scene.add_sea(hs=2.0, count=20, position=(12.0, -7.0), heading_deg=30.0)
-    hull, turn = scene.waves.hull(), np.radians(30.0)
-    assert hull.position == (12.0, -7.0) and hull.heading == pytest.approx(turn)
-    expected = database().force_at(scene.waves.omega, scene.waves.direction - turn)
-    np.testing.assert_array_equal(hull.transfer, expected)
+        elevation = result.select("wave_elevation", vessel=name)
+        np.testing.assert_allclose(elevation, wave.real.sum(axis=1), atol=1e-7)
+    if not given:
+        surge, sway = np.abs(result.select("wave_force", vessel="barge"))[:, :2].max(axis=0)
+        assert sway > 10.0 * surge  # beam seas: what follows the ship comes from the side of the barge
 
 
 def test_a_second_sea_is_refused_and_the_same_one_is_not() -> None:
@@ -180,25 +176,25 @@ def test_a_second_sea_is_refused_and_the_same_one_is_not() -> None:
 
 
 def test_joined_hulls_move_as_their_linear_model_under_the_loads_of_both() -> None:
+    poses = {"ship": (-30.0, 20.0, 25.0), "barge": (60.0, 40.0, 100.0)}
     scene = Scene(name="joined")
-    scene.add_vessel(database(), name="ship", position=(-30.0, 20.0, 0.0), heading_deg=25.0)
-    scene.add_vessel(database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=100.0)
-    for body in ("ship", "barge"):
+    for body, (x, y, heading_deg) in poses.items():
+        scene.add_vessel(database(), name=body, position=(x, y, 0.0), heading_deg=heading_deg)
         scene.add_sea(vessel=body, hs=0.02, tp=8.0, count=10, direction_deg=70.0)
     apart = float(np.hypot(90.0, 20.0))
     scene.add_spring(name="hawser", first="ship", second="barge", stiffness=2e7, natural_length=apart)
     linear = linear_model(scene, vessel="ship")
-    summed = {body: response_summed(linear, body=body) for body in ("ship", "barge")}
+    summed = {body: response_summed(linear, body=body) for body in poses}
     start = linear.full_state(summed["ship"].state_at(0.0))
     result = simulate(scene, t_end=30.0, dt_out=0.5, start=start, channels=["vessel_motion"])
     alone = scene.copy(springs={})
-    for body, heading_deg in (("ship", 25.0), ("barge", 100.0)):
-        turn = rotation_about_z(np.radians(heading_deg))
-        expected = summed[body].at(result.time) @ np.kron(np.eye(2), turn)
+    for body, (_, _, heading_deg) in poses.items():
+        turn = np.kron(np.eye(2), rotation_about_z(np.radians(heading_deg)))
+        expected = summed[body].at(result.time) @ turn
         got = result.select("vessel_motion", vessel=body)
         scale = np.abs(expected).max(axis=0)
         assert np.all(np.abs(got - expected).max(axis=0) < 0.01 * np.maximum(scale, 1e-2 * scale.max()))
-        free = response_summed(alone, body=body).at(result.time) @ np.kron(np.eye(2), turn)
+        free = response_summed(alone, body=body).at(result.time) @ turn
         assert np.abs(free - expected)[:, :2].max() > 0.05 * scale[:2].max()  # the hawser carries
 
 

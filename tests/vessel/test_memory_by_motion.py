@@ -201,35 +201,12 @@ def test_the_shipped_model_is_a_fresh_fit() -> None:
     assert np.abs(one - other).max(axis=0) == pytest.approx(0.0, abs=1e-2 * np.abs(one).max())
 
 
-def test_it_is_taken_where_nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of these data and this fit alone."""
-    monkeypatch.setattr(fitting, "fit_by_motion", never)
-    monkeypatch.setattr(kept, "_of_process", {})
-    assert fit_memory(database=shipped_database()).states == fitted().states
-    with pytest.raises(AssertionError, match="fitted again"):
-        fit_memory(database=hull(damping=1.01 * shipped_database().damping))
-    monkeypatch.setattr(kept, "_of_process", {})
-    monkeypatch.setattr(kept, "VERSION", kept.VERSION + 1)
-    with pytest.raises(AssertionError, match="fitted again"):
-        fit_memory(database=shipped_database())
-
-
 def test_the_databases_band_is_that_of_the_fit_and_without_one_the_whole_table() -> None:
     """As of a panel code that states none: 0.1 to 3.1 rad/s."""
     assert fit_memory(database=hull(trusted_band=(0.45, 0.9)), limit=0.2).band == (0.45, 0.9)
     model = fit_memory(database=hull(trusted_band=None))
     assert model.band == (0.1, 3.1)
     assert model.motion.reached
-
-
-def test_few_frequencies_are_named() -> None:
-    """No other fit takes its place: the number reached is told, with the motion and what stops it."""
-    data = shipped_database()
-    at = np.searchsorted(data.omega, np.linspace(0.3, 2.5, 8))
-    tables = {name: getattr(data, name)[at] for name in ("omega", "added_mass", "damping")}
-    with pytest.warns(MemoryFitWarning, match=r"errs by 0\.\d+ of \w+.*0\.01.*Kramers"):
-        scene = afloat(hull(force=data.force[:, at], **tables))
-    assert scene.provenance["vessel"].memory_error > LIMIT
 
 
 def test_a_motion_without_damping_has_no_memory() -> None:

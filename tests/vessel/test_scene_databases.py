@@ -26,7 +26,6 @@ from seacrane import (
     linear_model,
     motion_rao,
     natural_modes,
-    response_statistics,
     shipped_database,
     simulate,
 )
@@ -35,7 +34,6 @@ from seacrane.description.file import scene_digest
 from seacrane.hydro import HydroDatabase, VesselHydrodynamics, fit_memory
 from seacrane.hydro.data.hydro_data import AdditionalMatrices
 from seacrane.hydro.data.packed import packed
-from seacrane.sea import jonswap
 
 DRIFTING = drifting_hull()
 SEA: dict[str, Any] = {"hs": 1.0, "tp": 8.0, "direction_deg": 150.0, "count": 30}
@@ -109,24 +107,6 @@ def test_digests_vessels_and_copies_know_their_database() -> None:
     again = pickle.loads(pickle.dumps(vessel))
     assert again == vessel and again.database.digest == one.digest
     assert VesselHydrodynamics(**vessel.__getstate__() | {"database": None}) != vessel
-
-
-@pytest.mark.filterwarnings("ignore:.*damping ratio")  # the fluid memory is left out
-def test_answers_take_the_database_of_the_scene() -> None:
-    scene, asked = afloat(DRIFTING), {"omega": 0.7, "direction": np.pi, "body": "vessel"}
-    rao = motion_rao(scene, **asked)
-    assert np.abs(rao[2]) > 0.01
-    np.testing.assert_array_equal(rao, motion_rao(scene, database=replace(DRIFTING), **asked))
-    sea = {"spectrum": jonswap(hs=1.0, tp=8.0), "direction": np.pi, "body": "vessel"}
-    assert response_statistics(scene, **sea).std[2] > 0.0
-    assert linear_model(scene, memory="database").memories[0].database is DRIFTING
-    assert len(natural_modes(scene, memory="database").eigenvalues)
-    scene.add_drift(outside="hold")
-    scene.use_actual_position()
-    assert scene.waves.hull().drift is not None and scene.waves.hull().force_by_heading is not None
-    scene.use_slow_position()
-    at_once = afloat(DRIFTING, phase="slow", drift=True).waves
-    np.testing.assert_array_equal(scene.waves.hull().drift, at_once.hull().drift)
 
 
 def test_a_vessel_without_its_database_and_one_of_another_are_told() -> None:
