@@ -185,15 +185,6 @@ def test_the_order_of_names_changes_nothing(given: Any) -> None:
     assert all((one.kept_apart == "").all() for one in found)
 
 
-def test_kinds_that_cannot_share_are_no_neighbours() -> None:
-    """With a seed of one value, neighbours by mass would be of both kinds."""
-    over = {"kind": ["prismatic", "cylindrical"], "mass": [4.0, 5.0, 6.0, 7.0], "seed": [1]}
-    for names in (["kind", "mass", "seed"], ["mass", "kind", "seed"]):
-        ordered = {name: over[name] for name in names}
-        told = ensemble(cart, over=ordered, keep=CART, lanes=4, t_end=1.0, dt_out=0.1).dataset
-        assert told.attrs["side_by_side"] == "8 in 4 lanes"
-
-
 def test_lifts_on_different_sides_go_beside_those_on_their_own() -> None:
     """Their models share what lanes share: where their cylinders stand is seen in the runs alone."""
     turn = Kept(channel="quaternion", names={"body": "rod"}, interval=0.1)

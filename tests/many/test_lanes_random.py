@@ -80,11 +80,9 @@ def one_number_off(scene: Scene, rng: np.random.Generator) -> Scene:
     table, rest = path.split(".", 1)
     name, attribute = rest.rsplit(".", 1)
     was = getattr(getattr(scene, table)[name], attribute)
-    if isinstance(was, bool | str) or not isinstance(was, float | np.ndarray):
+    if isinstance(was, bool) or not isinstance(was, float | np.ndarray) or not np.size(was):
         return scene
     now = np.array(was, dtype=float)
-    if not now.size:
-        return scene
     now.flat[int(rng.integers(now.size))] += 1e-3 * max(1.0, float(np.abs(now).max()))
     try:
         out = with_values(scene, {path: now if isinstance(was, np.ndarray) else float(now)})

@@ -27,7 +27,7 @@ def wind_sea_and_swell(seed: int) -> Scene:
         WaveSystem(spectrum=jonswap(hs=1.5, tp=6.0), direction_deg=120.0, spreading=cos_2s(6.0), count=60),
         WaveSystem(spectrum=jonswap(hs=1.0, tp=13.0), direction_deg=40.0, count=40, name="swell"),
     ]
-    return vessel(sea=SeaState(systems=systems, seed=seed))
+    return cases.vessel(database=DATABASE, sea=SeaState(systems=systems, seed=seed))
 
 
 def slowly(seed: int) -> Scene:
@@ -62,9 +62,8 @@ def case2(seed: int, **sea: Any) -> Scene:
     return cases.case2(database=DATABASE, seed=seed, **sea)
 
 
-def vessel(seed: int | None = None, **how: Any) -> Scene:
-    words = {} if seed is None else {"seed": seed}
-    return cases.vessel(database=DATABASE, **words, **how)
+def vessel(seed: int, **how: Any) -> Scene:
+    return cases.vessel(database=DATABASE, seed=seed, **how)
 
 
 SLOW = {"phase": "slow", "spreading": 3.0, "count": 20}
@@ -169,15 +168,6 @@ def test_a_run_in_no_sea_or_a_sea_on_others_is_refused() -> None:
                             (run, scene.waves, "another kind of position")):  # fmt: skip
         with pytest.raises(SceneError, match=words):
             one.in_sea(sea)
-
-
-def test_a_sea_that_repeats_is_told_again() -> None:
-    system = WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=90.0, count=8)
-    scene = vessel(sea=SeaState(systems=[system], placement="uniform"), evaluation="fft")
-    with pytest.warns(UserWarning, match="repeat after"):
-        run = Run(scene, 100.0)
-    with pytest.warns(UserWarning, match="repeat after"):
-        run.in_sea(scene.waves)
 
 
 @pytest.mark.parametrize(("count", "heading"), [(1, 0.0), (7, 0.3), (311, -2.5)])

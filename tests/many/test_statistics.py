@@ -14,7 +14,6 @@ from scipy.stats import gumbel_r
 import seacrane as sc
 from seacrane import Result, SceneError
 from seacrane.result.checked_parts import ALWAYS_STATED
-from seacrane.statistics.extremes_figure import extremes_sheet
 from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.judged import start_differs
 from seacrane.statistics.tail import Tail, extremal_index, peaks_over_threshold
@@ -253,12 +252,3 @@ CASES: list[tuple[Any, Any, dict[str, Any], str]] = [
 def test_bad_input_is_named(call: Any, values: Any, given: dict[str, Any], words: str) -> None:
     with pytest.raises(SceneError, match=words):
         call(records(400)[0] if values is None else values, **given)
-
-
-def test_figures_hold_the_numbers_they_show() -> None:
-    one = sc.statistics.record_extremes(records(400)[2], interval=STEP)
-    sheet = extremes_sheet(one)
-    assert sheet.marks["most probable maximum"][0] == one.maximum.mpm.value
-    _, gaussian, *_ = sheet.panels[0].lines
-    at_one = np.interp(0.0, -np.log(gaussian.values[:-1]), sheet.abscissa[:-1])
-    assert at_one == pytest.approx(one.gaussian.mpm.value, abs=0.02)

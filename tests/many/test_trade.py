@@ -188,18 +188,15 @@ def test_what_cannot_change_the_front_is_not_measured() -> None:
         assert ladders.next() == following and ladders.open == (following is not None)
 
 
-def test_a_budget_ends_a_trade_and_it_says_so(case2: sc.Scene, monkeypatch: Any) -> None:
-    units = []
-
+def test_a_budget_ends_a_trade(monkeypatch: Any) -> None:
     def counted(bench: object, row: Row, **given: object) -> Row:
-        units.append(row.key)
         return replace(row, verdict="completed", cpu_s=1.0, wall_s=1.0)
 
     monkeypatch.setattr(trade_study, "measure", counted)
     monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.0))
     found = sc.trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
-    assert len(units) == len(found.rows) == 3
-    assert found.told_s == trade_study.REFERENCE + 3.0 and found.not_measured > 0
+    assert len(found.rows) == 3 and found.not_measured > 0
+    assert found.told_s == trade_study.REFERENCE + 3.0
 
 
 def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:

@@ -21,7 +21,6 @@ from seacrane.hydro import (
     vessel_parameters,
 )
 from seacrane.hydro.memory.retardation import cosine_transform
-from seacrane.warnings import MemoryFitWarning
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
@@ -254,10 +253,3 @@ def test_database_comes_back_from_its_retardation_functions() -> None:
         assert np.abs(added_mass[inside, j, j] - true).max() < 0.05 * np.ptp(true)
     ratio = np.diag(model.added_mass) / np.diag(database.infinite_frequency_added_mass)
     np.testing.assert_allclose(ratio[1:], 1.0, atol=0.02)
-
-
-def test_a_kernel_cut_too_short_is_warned_about() -> None:
-    database = shipped_database()
-    short = retardation_functions(database=database, duration=6.0)
-    with pytest.warns(MemoryFitWarning, match=r"of 6 s .* with an error of 0\.\d+ of its standard deviation"):
-        vessel_parameters(database, memory=short)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from group_cases import bemio_file, written_pair
+from group_cases import written_pair
 
 from seacrane import MotionRaos
-from seacrane.hydro import HydroGroup, fit_memory, load_database, shipped_database
+from seacrane.hydro import HydroGroup, fit_memory, shipped_database
 from seacrane.hydro.data.excitation import force_on_grid
 from seacrane.hydro.memory.motion_judge import peak_periods
 
@@ -65,17 +64,6 @@ def test_a_group_is_moved_as_its_hulls_are() -> None:
     aside = line.at({"b": (0.0, 5.0, 0.0)})
     assert line.port_starboard_symmetric and not aside.port_starboard_symmetric
     assert aside.heading.size == 2 * (line.heading.size - 1)
-
-
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.AssumedInertiaWarning")
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.RoughDataWarning")
-def test_a_group_about_centres_of_gravity_is_loaded_about_the_still_water(tmp_path: Path) -> None:
-    pair = written_pair().at({"crane": (0.0, 0.0, 1.5), "feeder": (0.0, 0.0, -2.5)})
-    loaded = load_database(bemio_file(pair, tmp_path))
-    assert isinstance(loaded, HydroGroup)
-    assert [body.position[2] for body in loaded.bodies] == [0.0, 0.0]
-    again = loaded.at({body.name: (0.0, 0.0, body.position[2]) for body in pair.bodies})
-    assert np.abs(again.force - pair.force).max() <= 1e-9 * np.abs(pair.force).max()
 
 
 def test_a_small_hull_is_judged_in_its_own_seas() -> None:

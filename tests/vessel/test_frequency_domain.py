@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from linear_scenes import crane_with_payload, reference_vessel, rod
+from linear_scenes import reference_vessel, rod
 from numpy.typing import NDArray
 from test_vessel import complex_amplitude, regular_wave
 
@@ -144,10 +144,8 @@ def test_what_cannot_be_linearised_says_why() -> None:
         (lambda: equilibrium(falling), r"'stone' still accelerates by -9\.81"),
         (lambda: linear_model(swinging, state=state), "'rod': accelerates.*seacrane.equilibrium"),
         (lambda: linear_model(still, state=state), "values, scene .* finite ones"),
-        (lambda: motion_rao(crane_with_payload(), omega=0.5, direction=0.0, body="payload"), "no vessel"),
         (lambda: motion_rao(linear, omega=50.0, direction=0.0, body="vessel"), "outside"),
         (lambda: linear.full_state(np.zeros(len(linear.a))), "past is not in x"),
-        (lambda: motion_rao(linear, omega=0.5, direction=0.0, body="vessel", **given), "memory already"),
     ):
         with pytest.raises((SceneError, ValueError), match=message):
             call()
@@ -218,15 +216,3 @@ def test_modes_have_the_matrices_of_their_own_frequency() -> None:
         size = np.sqrt(np.abs(np.diag(inner)) * abs(value) ** 2)
         singular = np.linalg.svd(matrix / np.outer(size, size))[1]
         assert singular[-1] < 1e-6 * singular[0]
-
-
-def test_modes_of_a_lift_are_all_there() -> None:
-    """Modes of crane and payload hardly know of the memory; those of the springs, below the table, stay."""
-    database, scene = shipped_database(), cases.case2(hs=0.0)
-    fitted = natural_modes(scene)
-    found = natural_modes(scene, memory="database", database=database)
-    mechanical = np.count_nonzero(fitted.mechanical_share > 0.5)
-    assert len(found.eigenvalues) == mechanical
-    for label in ("payload surge", "payload sway", "knuckle_jib surge"):
-        mine, other = (modes.natural_period[modes.find(label)] for modes in (found, fitted))
-        assert mine == pytest.approx(other, rel=1e-3)

@@ -159,18 +159,13 @@ def test_a_load_is_the_sum_over_components_at_the_place_and_heading_of_the_hull(
 def test_a_second_sea_is_refused_and_the_same_one_is_not() -> None:
     scene = two_hulls(hs=3.0)
     before = scene.waves
-    same = {"hs": 3.0, "count": 20, "direction_deg": 0.0}
-    scene.add_sea(vessel="barge", **same)
+    scene.add_sea(vessel="barge", hs=3.0, count=20, direction_deg=0.0)
     assert list(before.hulls) == ["ship", "barge"] and scene.waves.phase is before.phase
-    paper = Scene(name="paper")
-    paper.add_vessel(database(), kinematics="paper", heading_deg=20.0)
     for call, message in (
-        *((lambda more=more: scene.add_sea(vessel="ship", **same | more), "'ship'.*another sea")
-          for more in ({"hs": 2.0}, {"seed": 2}, {"direction_deg": 5.0})),
+        (lambda: scene.add_sea(vessel="ship", hs=3.0, count=20, direction_deg=5.0), "'ship'.*another sea"),
         (lambda: linear_model(scene), "name one as vessel"),
-        (paper.compile, "'paper'.*0.349"),
         (lambda: balance(scene).vessel_wrench, "'ship', 'barge' have a wrench each"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(SceneError, match=message):
             call()
 

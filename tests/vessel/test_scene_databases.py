@@ -73,9 +73,6 @@ def test_a_database_comes_back_to_the_bit(make: Callable[[], HydroDatabase], tmp
     assert packed(again) == packed(make())
     assert again.memory.states == make().memory.states
     np.testing.assert_array_equal(again.force, make().force)
-    scene.replace("vessel", kind="vessel", mooring_damping=(1.0, 2.0, 3.0))
-    scene.add_slack_tank(moment=1e6)
-    assert scene.vessels["vessel"].database is make()
 
 
 def test_a_file_holds_a_database_once_for_two_vessels(tmp_path: Path) -> None:
@@ -134,16 +131,6 @@ def test_a_vessel_without_its_database_and_one_of_another_are_told() -> None:
             call()
     bare.replace("vessel", kind="vessel", database=shipped_database())
     assert bare == scene
-
-
-def test_a_vessel_of_matrices_takes_a_database_for_its_waves() -> None:
-    whole, scene = afloat(), Scene()
-    matrices = whole.vessels["vessel"].__getstate__()
-    given = matrices.pop("database")
-    scene.bodies["vessel"] = whole.bodies["vessel"]
-    scene.add_vessel(given, **{name: value for name, value in matrices.items() if name != "name"})
-    scene.add_sea(**SEA)
-    np.testing.assert_array_equal(scene.waves.hull().transfer, whole.waves.hull().transfer)
 
 
 @pytest.mark.parametrize(

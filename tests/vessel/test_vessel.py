@@ -184,7 +184,6 @@ def test_restoring_makes_no_energy_in_a_loop_of_finite_angles() -> None:
 LOAD, DEPTH, EA = 100e3, 500.0, 4e8
 WATER = np.diag([80e3] * 3 + [1e5] * 3)
 DRAG = np.diag([0, 0, 2e5, 0, 0, 0])
-AFLOAT = np.diag([0, 0, 2e6, 4e7, 4e7, 0])
 
 
 def submerged(**hydrodynamics: object) -> Scene:
@@ -193,13 +192,6 @@ def submerged(**hydrodynamics: object) -> Scene:
     scene.add_vessel(body="load", **{"added_mass": WATER, "linear_damping": DRAG} | hydrodynamics)
     scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=EA, length=DEPTH)
     return scene
-
-
-def test_it_accelerates_with_its_added_mass() -> None:
-    scene = submerged()
-    scene.remove("wire")
-    fall = simulate(scene, t_end=0.1).select("velocity", body="load", axis="z")[-1]
-    assert fall == pytest.approx(-0.1 * LOAD * scene.gravity / (LOAD + WATER[2, 2]), rel=0.1)
 
 
 @pytest.mark.parametrize("floats", [None, True, False])
@@ -217,19 +209,6 @@ def test_statics_and_balance_know_its_weight_and_files_it(floats: bool | None, t
     )  # fmt: skip
     if not floats:
         assert balance(scene).weight == pytest.approx(weight)
-
-
-def heaved(**hydrodynamics: object) -> np.ndarray:
-    scene = Scene(name="buoy")
-    scene.add_body(name="buoy", mass=LOAD, inertia=(4e5, 4e5, 4e5), position=(0, 0, 0.5))
-    scene.add_vessel(body="buoy", **{"added_mass": WATER, "restoring": AFLOAT} | hydrodynamics)
-    return np.asarray(simulate(scene, t_end=10.0).select("position", body="buoy", axis="z"))
-
-
-def test_what_heave_restores_floats_as_before() -> None:
-    np.testing.assert_array_equal(heaved(), heaved(floats=True))
-    assert abs(heaved()).max() <= 0.5 + 1e-6
-    assert heaved(floats=False).min() < -0.5  # its weight comes on top
 
 
 @pytest.fixture(scope="module")

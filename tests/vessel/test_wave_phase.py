@@ -237,14 +237,6 @@ def test_a_run_goes_on_bit_for_bit(integrator: str, formulation: str) -> None:
     np.testing.assert_array_equal(one, other)
 
 
-def test_a_convolution_goes_with_it() -> None:
-    motions = [
-        simulate(afloat("slow", memory=kind), t_end=20.0, dt_out=0.5)["vessel_motion"]
-        for kind in ("convolution", "per-pair")
-    ]
-    assert np.abs(motions[0] - motions[1]).max() < 0.05 * np.abs(motions[1]).max()
-
-
 def test_files_keep_positions_and_actual_ones_have_no_filter_left(tmp_path: Path) -> None:
     scene = afloat("slow")
     scene.save(tmp_path / "scene.json")
