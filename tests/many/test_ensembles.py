@@ -1,4 +1,4 @@
-"""Ensembles: the same numbers whatever runs them, nothing lost, and refusals by name."""
+"""Ensembles: the same numbers whatever runs them, nothing lost, a method by an accuracy, refusals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Allowable Hs: closed forms, both domains against each other, and what each cell says of itself."""
+"""Allowable Hs: closed forms, both domains against each other, given ships and lifts in stages."""
 
 from __future__ import annotations
 

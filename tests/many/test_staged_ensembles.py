@@ -1,4 +1,4 @@
-"""Ensembles of lifts in stages: each member is the staged run of its own scene, to the bit."""
+"""Ensembles of lifts in stages, also from several times in one sea: each is its own run, to the bit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""trade(): its reference, rows, front, choice and file; and the scenes with less physics in them."""
+"""trade(): its reference, rows, front, choice and file; less physics, and lines on other rungs."""
 
 from __future__ import annotations
 

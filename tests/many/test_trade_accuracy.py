@@ -1,4 +1,4 @@
-"""simulate(accuracy=...): what it promises against tight runs, and what it refuses."""
+"""simulate(accuracy=...): what it promises against tight runs, on random scenes and lifts, and refuses."""
 
 from __future__ import annotations
 

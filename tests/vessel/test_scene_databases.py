@@ -25,7 +25,6 @@ from seacrane import (
     ensemble,
     linear_model,
     motion_rao,
-    natural_modes,
     shipped_database,
     simulate,
 )
@@ -125,7 +124,6 @@ def test_a_vessel_without_its_database_and_one_of_another_are_told() -> None:
         (lambda: scene.replace("vessel", kind="vessel", database=other), both),
         (lambda: motion_rao(scene, database=other, **asked), both),
         (lambda: linear_model(scene, **given), both),
-        (lambda: natural_modes(scene, **given), both),
     ):
         with pytest.raises(SceneError, match=told):
             call()

@@ -1,4 +1,4 @@
-"""The vessel alone against closed forms and against the frequency-domain solution with the fitted memory."""
+"""The vessel alone against closed forms, its frequency-domain solution and the motions in ships' files."""
 
 from __future__ import annotations
 
