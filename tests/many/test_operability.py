@@ -120,12 +120,12 @@ def test_a_steady_start_is_that_of_the_linear_model(monkeypatch: Any) -> None:
     """And turns no body by more than that model may."""
     scene = vessel(hs=0.5)
     rest = sc.equilibrium(scene)
-    start = pickle.loads(pickle.dumps(steady_start(scene, rest)))
+    here = pickle.loads(pickle.dumps(steady_start(scene, rest)))(scene)
     monkeypatch.setattr("seacrane.operability.allowable.LARGEST_TURN", 1e-4)
     limited = steady_start(scene, rest)
     moved, turned, still = (
         sc.simulate(scene, t_end=0.0, start=one, channels=["vessel_motion"])["vessel_motion"][0]
-        for one in (start(scene), limited(scene), rest)
+        for one in (here, limited(scene), rest)
     )
     told = response_summed(sc.linear_model(scene), body="vessel")
     assert moved - still == pytest.approx(told.at(0.0), rel=2e-3, abs=1e-4)

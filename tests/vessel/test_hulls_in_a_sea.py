@@ -131,18 +131,11 @@ def two_hulls(**options: Any) -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("given", [False, True])
-def test_a_load_is_the_sum_over_components_at_the_place_and_heading_of_the_hull(given: bool) -> None:
-    """Of the start, or of a pose that is given instead."""
+def test_a_load_is_the_sum_over_components_at_the_place_and_heading_of_the_hull() -> None:
     scene = two_hulls()
-    if given:
-        scene.waves = None
-        scene.add_sea(vessel="ship", hs=2.0, count=20, direction_deg=0.0)
-        scene.add_sea(vessel="barge", position=(12.0, -7.0), heading_deg=30.0)
-    barge = ((12.0, -7.0), np.radians(30.0)) if given else ((60.0, 40.0), np.pi / 2.0)
     waves = scene.waves
     result = simulate(scene, t_end=10.0, dt_out=0.5)
-    for name, (x, y), heading in (("ship", (0.0, 0.0), 0.0), ("barge", *barge)):
+    for name, (x, y), heading in (("ship", (0.0, 0.0), 0.0), ("barge", (60.0, 40.0), np.pi / 2.0)):
         along = x * np.cos(waves.direction) + y * np.sin(waves.direction)
         angle = np.outer(result.time, waves.omega) + waves.phase - waves.omega**2 / G * along
         wave = waves.amplitude * np.exp(1j * angle)
@@ -151,9 +144,18 @@ def test_a_load_is_the_sum_over_components_at_the_place_and_heading_of_the_hull(
         assert np.all(error < 1e-7 * np.abs(expected).max())
         elevation = result.select("wave_elevation", vessel=name)
         np.testing.assert_allclose(elevation, wave.real.sum(axis=1), atol=1e-7)
-    if not given:
-        surge, sway = np.abs(result.select("wave_force", vessel="barge"))[:, :2].max(axis=0)
-        assert sway > 10.0 * surge  # beam seas: what follows the ship comes from the side of the barge
+    surge, sway = np.abs(result.select("wave_force", vessel="barge"))[:, :2].max(axis=0)
+    assert sway > 10.0 * surge  # beam seas: what follows the ship comes from the side of the barge
+
+
+def test_loads_are_taken_at_a_pose_given_instead_of_the_start() -> None:
+    scene = Scene(name="given")
+    scene.add_vessel(database(), position=(5.0, 0.0, 0.0))
+    scene.add_sea(hs=2.0, count=20, position=(12.0, -7.0), heading_deg=30.0)
+    hull, turn = scene.waves.hull(), np.radians(30.0)
+    assert hull.position == (12.0, -7.0) and hull.heading == pytest.approx(turn)
+    expected = database().force_at(scene.waves.omega, scene.waves.direction - turn)
+    np.testing.assert_array_equal(hull.transfer, expected)
 
 
 def test_a_second_sea_is_refused_and_the_same_one_is_not() -> None:

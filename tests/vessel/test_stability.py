@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from test_statics import C33, C44, C55, LOAD, MASS, G, barge, hanging, on_deck
 
-from seacrane import Scene, SceneError, equilibrium, natural_modes, statics
+from seacrane import Scene, SceneError, equilibrium, natural_modes, simulate, statics
 from seacrane.crane import Payload
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
 from seacrane.scene import Tank
@@ -77,8 +77,9 @@ def test_statics_tells_a_ship_that_capsizes_and_how_fast() -> None:
     scene, light = (hanging(barge(), y=0.0, mass=share * C44 / (G * 20.0)) for share in (1.1, 0.9))
     with pytest.warns(UnstableRestWarning, match=r"GM -\S+ m: .* grows, doubling in"):
         assert statics(scene)["GM"] < 0.0
-    with pytest.warns(UnstableRestWarning, match="grows|'hull': has a GM of about -0"):
-        scene.compile()
+    for call in (scene.compile, lambda: simulate(scene, 0.1)):
+        with pytest.warns(UnstableRestWarning, match="grows|'hull': has a GM of about -0"):
+            call()
     with warnings.catch_warnings():
         warnings.simplefilter("error", UnstableRestWarning)
         light.compile()
