@@ -245,7 +245,6 @@ def test_their_memory_is_passive_and_near_their_matrices(lid: float | None) -> N
     assert group.lid_damping == lid
     coupling = np.abs(group.damping[:, :6, 6:]).max()
     assert coupling == 0.0 if lid is None else coupling > 0.02 * np.abs(group.damping[:, :6, :6]).max()
-    assert group.names == ("crane vessel", "feeder")
     for body, volume in zip(group.bodies, (100.0 * 25.0 * 5.5, 60.0 * 18.0 * 3.5), strict=True):
         assert body.mass_matrix[0, 0] == pytest.approx(1025.0 * volume, rel=1e-12)
         assert body.restoring[2, 2] * body.draught == pytest.approx(1025.0 * 9.81 * volume, rel=1e-6)
