@@ -212,7 +212,7 @@ def test_availability_by_ranges_tends_to_that_of_the_series(table: AllowableHs) 
 def test_what_makes_no_sense_is_refused() -> None:
     for call, message in (
         (lambda: series([1.0] * 3, time=START + np.array([0, 60, 150], dtype="m8[m]")), "no multiple"),
-        (lambda: weather_windows(series([1.0]), -1.0, hours=6.0), "allowable is -1.0 m"),
+        (lambda: weather_windows(series([1.0] * 9), -1.0, hours=6.0), "allowable is -1.0 m"),
         (lambda: ScatterDiagram(hs=[0, 1, 2], tp=[4, 8, 12], counts=[[1.0, 2.0]]), r"counts have shape"),
         (lambda: ScatterDiagram.of(series([1.0, 9.0]), hs=[0, 5], tp=[4, 12]), "1 to 9.* 0 to 5"),
     ):
