@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import Any
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, SceneError, ensemble, equilibrium, simulate
+from seacrane import Scene, SceneError, equilibrium, simulate
 from seacrane.cases import vessel
 from seacrane.crane import Payload
 from seacrane.ensembles import HookLoadControl, LinearControl
@@ -46,34 +43,35 @@ def test_the_mean_is_unbiased_and_the_gain_that_of_theory(correlation: float) ->
     assert 0.92 < inside < 0.98
 
 
-def test_a_loose_control_is_left_out_and_it_says_so() -> None:
+def test_a_loose_control_is_left_out() -> None:
     values, controls = pairs(np.random.default_rng(5), 0.2, 60)
     found = controlled_mean(values, controls=controls, many_controls=np.tile(controls, 20))
-    assert not found.used
-    assert found.estimate == found.plain
-    assert found.gain == 1.0
-    assert "no control, for its correlation is below 0.5" in str(found)
+    assert not found.used and found.estimate == found.plain and found.gain == 1.0
     values, controls = pairs(np.random.default_rng(5), 0.95, 60)
     opposite = controlled_mean(values, controls=-controls, many_controls=-np.tile(controls, 20))
-    assert opposite.used
-    assert opposite.correlation < -0.8
-    assert f"gain {opposite.gain:.2g}" in str(opposite)
+    assert opposite.used and opposite.correlation < -0.8
 
 
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
 @pytest.mark.parametrize(
-    "channel", ["position[vessel, z]", "velocity[vessel, y]", "acceleration[vessel, x]", "heel[vessel]"]
-)
-def test_the_control_is_the_run_in_small_waves(channel: str) -> None:
-    """From rest on, with the transient of the start."""
-    scene = vessel(hs=0.02, memory="passive", mooring_period=None)
-    control = LinearControl(scene, channel, t_end=40.0, after=3.0)
+    ("channel", "within"),
+    [("position[vessel, z]", 0.01), ("velocity[vessel, y]", 0.01), ("acceleration[vessel, x]", 0.01),
+     ("heel[vessel]", 0.01), ("position[box, z]", 0.02)],
+)  # fmt: skip
+def test_the_control_is_the_run_in_small_waves(channel: str, within: float) -> None:
+    """From rest on, with the transient of the start; of a load in water with the waves on it."""
+    wet = "box" in channel
+    scene = lowered_load(drag=0.0) if wet else vessel(hs=0.02, memory="passive", mooring_period=None)
+    state = equilibrium(scene) if wet else None
+    control = LinearControl(scene, channel, t_end=30.0, after=3.0, state=state)
     name = channel.partition("[")[0]
-    run = simulate(with_sea(scene, {"seed": 5}), 40.0, rtol=1e-7, dt_out=0.1, channels=[name])
+    sea = with_sea(scene, {"seed": 5})
+    run = simulate(sea, 30.0, rtol=1e-7, dt_out=0.1, channels=[name], start=state)
     late = run.time >= 3.0
     motion = run.curve(channel)
-    moved = motion[late] - (motion[0] if channel.startswith("position") else 0.0)
+    moved = motion[late] - (motion[0] if name == "position" else 0.0)
     assert np.allclose(control.times, run.time[late])
-    assert np.abs(control.series(5) - moved).max() < 0.01 * moved.std()
+    assert np.abs(control.series(5) - moved).max() < within * moved.std()
     largest, smallest = (control.extremes([5], what=what)[0] for what in ("maximum", "minimum"))
     assert (largest, smallest) == (control.series(5).max(), control.series(5).min())
 
@@ -87,20 +85,6 @@ def lifted() -> Scene:
     scene.add_crane(foot=(33.0, 10.0, 10.0), slew=-1.0, s1=1.0, s2=1.5, held=True, payload=load)
     scene.add_ballast(heel_deg=0.0)
     return scene
-
-
-def test_a_swing_of_a_crane_load_is_known_better() -> None:
-    """With 20 seeds and the control as well as with three times as many."""
-    scene, swing = lifted(), "position[payload, y]"
-    keep = {"swing": f"{swing[:-1]}, after=10].max"}
-    runs = ensemble(scene, over={"seed": range(1, 21)}, keep=keep, t_end=60.0, rtol=1e-2, dt_out=0.5)
-    control = LinearControl(scene, swing, t_end=60.0, after=10.0, dt_out=0.5)
-    own, many = (control.extremes(range(start, stop)) for start, stop in ((1, 21), (1001, 1201)))
-    found = controlled_mean(runs.dataset.swing, controls=own, many_controls=many)
-    assert found.used
-    assert found.correlation > 0.9
-    assert found.gain > 3.0
-    assert found.estimate.low < found.plain.high and found.plain.low < found.estimate.high
 
 
 def test_a_hook_load_follows_the_square_of_the_swing() -> None:
@@ -119,48 +103,21 @@ def test_a_hook_load_follows_the_square_of_the_swing() -> None:
     assert (control.series(2) - load).std() < 0.5 * (plain - load).std()
 
 
-def mean_of(**given: Any) -> Any:
-    usual = {"values": np.arange(12.0), "controls": np.arange(12.0)}
-    return controlled_mean(**{**usual, "many_controls": np.arange(50.0), **given})
-
-
-def control_of(**given: Any) -> Any:
-    usual = {"channel": "position[vessel, z]", "t_end": 40.0}
-    return LinearControl(given.pop("make", partial(vessel, memory="none"))(), **usual | given)
-
-
-def hooked(make: Any = lifted, **given: Any) -> Any:
-    return HookLoadControl(make(), t_end=10.0, **given)
-
-
-def wet() -> Scene:
-    scene = lifted()
-    scene.add_immersed("payload", parts=[BoxPart(size=(1.0, 1.0, 1.0))])
-    return scene
-
-
-@pytest.mark.parametrize(
-    ("make", "given", "message"),
-    [
-        (mean_of, {"values": np.arange(9.0)}, r"values of shape \(9,\)"),
-        (mean_of, {"controls": np.arange(11.0)}, "controls: are 11 for 12"),
-        (mean_of, {"controls": [1.0] * 12}, "controls: all are 1"),
-        (control_of, {"channel": "position[vessel]"}, "axis"),
-        (control_of, {"channel": "hook_load"}, "hook_load is no motion"),
-        (control_of, {"words": {"seed": 3}}, "'seed'"),
-        (control_of, {"after": 50.0}, "t_end is 40 s, after 50 s"),
-        (control_of, {"channel": "heel"}, "heel: name its body"),
-        (control_of, {"channel": "heel[vesel]"}, "'vesel'"),
-        (control_of, {"make": partial(Scene, name="dry")}, "'dry' has no sea"),
-        (control_of, {"make": partial(vessel, memory="convolution")}, "is a convolution"),
-        (hooked, {"make": partial(vessel, memory="none")}, "link is None"),
-        (hooked, {"link": "lnk"}, "link is 'lnk'"),
-        (hooked, {"make": wet}, "'payload' is in water"),
-    ],
-)
-def test_what_makes_no_sense_is_refused(make: Any, given: dict[str, Any], message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        make(**given)
+def test_what_makes_no_sense_is_refused() -> None:
+    wet = lifted()
+    wet.add_immersed("payload", parts=[BoxPart(size=(1.0, 1.0, 1.0))])
+    heave = {"channel": "position[vessel, z]", "t_end": 10.0}
+    for call, message in (
+        (
+            lambda: controlled_mean(np.arange(12.0), controls=[1.0] * 12, many_controls=np.arange(50.0)),
+            "all are",
+        ),
+        (lambda: LinearControl(vessel(memory="convolution"), **heave), "is a convolution"),
+        (lambda: LinearControl(lowered_load(1.0, depth=0.2), **heave), "crosses the surface at rest"),
+        (lambda: HookLoadControl(wet, t_end=10.0), "'payload' is in water"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            call()
 
 
 def lowered_load(drag: float, *, depth: float = 12.0, EA: float = 1e7) -> Scene:
@@ -178,25 +135,8 @@ def lowered_load(drag: float, *, depth: float = 12.0, EA: float = 1e7) -> Scene:
 
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
-def test_the_control_of_a_load_in_water_is_the_run_in_small_waves() -> None:
-    """With the waves on it: without them it is another motion."""
-    scene = lowered_load(drag=0.0)
-    state = equilibrium(scene)
-    control = LinearControl(scene, "position[box, z]", t_end=30.0, after=3.0, state=state)
-    run = simulate(
-        with_sea(scene, {"seed": 5}), 30.0, rtol=1e-7, dt_out=0.1, channels=["position"], start=state
-    )
-    late = run.time >= 3.0
-    motion = run.curve("position[box, z]")
-    moved = motion[late] - motion[0]
-    assert np.abs(control.series(5) - moved).max() < 0.02 * moved.std()
-
-
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.ScatteredWavesWarning")
 def test_drag_in_the_sea_as_described_damps_a_control() -> None:
     how = {"channel": "position[box, z]", "t_end": 100.0, "after": 20.0, "words": {"hs": 2.0}}
     free, braked = (LinearControl(lowered_load(drag, EA=2e6), **how) for drag in (0.0, 5.0))
     seeds = range(1, 5)
     assert braked.extremes(seeds).mean() < 0.98 * free.extremes(seeds).mean()
-    with pytest.raises(SceneError, match="crosses the surface at rest"):
-        LinearControl(lowered_load(1.0, depth=0.2), "position[box, z]", t_end=10.0)

@@ -2,52 +2,43 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
+from ensemble_studies import drifting_hull
 
 from seacrane import FlowCoefficients, Kept, Run, Scene, SceneError, _core, cases, ensemble, simulate
 from seacrane.ensembles import job
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.paths import with_values
-from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.hydro.data import excitation
 from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, torsethaugen
 
+DATABASE = drifting_hull()
 PATH = {"track": Kept(channel="position", names={"body": "vessel"})}
 
 
-@pytest.fixture(scope="module")
-def database() -> HydroDatabase:
-    omega, heading = np.array([0.3, 0.9, 2.0]), np.linspace(0.0, np.pi, 13)
-    values = np.zeros((13, 3, 6))
-    values[..., 0], values[..., 1] = (turn(heading)[:, None] * omega for turn in (np.cos, np.sin))
-    drift = DriftCoefficients(heading=heading, omega=omega, coefficient=1e4 * values)
-    return replace(shipped_database(), drift=drift)
-
-
-def wind_sea_and_swell(database: HydroDatabase, seed: int) -> Scene:
+def wind_sea_and_swell(seed: int) -> Scene:
     systems = [
         WaveSystem(spectrum=jonswap(hs=1.5, tp=6.0), direction_deg=120.0, spreading=cos_2s(6.0), count=60),
         WaveSystem(spectrum=jonswap(hs=1.0, tp=13.0), direction_deg=40.0, count=40, name="swell"),
     ]
-    return cases.vessel(database=database, sea=SeaState(systems=systems, seed=seed))
+    return cases.vessel(database=DATABASE, sea=SeaState(systems=systems, seed=seed))
 
 
-def slowly(database: HydroDatabase, seed: int) -> Scene:
+def slowly(seed: int) -> Scene:
     """A hull with way, whose slow position has another cut-off in each sea."""
-    scene = cases.vessel(database=database, seed=seed, tp=6.0 + seed, phase="slow", drift=True, count=20)
+    scene = vessel(seed, tp=6.0 + seed, phase="slow", drift=True, count=20)
     scene.replace("vessel", kind="body", velocity=(0.5, 0.1, 0.0))
     return scene
 
 
-def in_a_current(database: HydroDatabase, seed: int) -> Scene:
-    scene = cases.vessel(database=database, seed=seed, evaluation="exact", count=20)
+def in_a_current(seed: int) -> Scene:
+    scene = vessel(seed, evaluation="exact", count=20)
     angle = np.radians([0.0, 90.0, 180.0])
     rows = FlowCoefficients(angle=angle, x=[0.1, 0.0, -0.1], y=[0.0, 0.6, 0.0], yaw=[0.0, 0.05, 0.0])
     scene.add_current(
@@ -57,9 +48,9 @@ def in_a_current(database: HydroDatabase, seed: int) -> Scene:
     return scene
 
 
-def on_a_wire(database: HydroDatabase, seed: int) -> Scene:
+def on_a_wire(seed: int) -> Scene:
     """Events take the model of other sets of limits."""
-    scene = cases.vessel(database=database, seed=seed, hs=4.0)
+    scene = vessel(seed, hs=4.0)
     low, high = (0.0, 25.0, 10.0), (0.0, 25.0, 20.0)
     scene.add_body(name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=low, velocity=(0.0, 0.0, 3.0))
     scene.add_joint(kind="distance", name="wire", first="vessel", second="load", point=high, second_point=low)
@@ -67,44 +58,33 @@ def on_a_wire(database: HydroDatabase, seed: int) -> Scene:
     return scene
 
 
-def case2(database: HydroDatabase, seed: int) -> Scene:
-    return cases.case2(database=database, seed=seed)
+def case2(seed: int, **sea: Any) -> Scene:
+    return cases.case2(database=DATABASE, seed=seed, **sea)
 
 
-def case1(database: HydroDatabase, seed: int) -> Scene:
-    return cases.case1(database=database, seed=seed)
+def vessel(seed: int, **how: Any) -> Scene:
+    return cases.vessel(database=DATABASE, seed=seed, **how)
 
 
-def slow_case2(database: HydroDatabase, seed: int) -> Scene:
-    return cases.case2(database=database, seed=seed, tp=6.0 + seed, phase="slow", spreading=3.0, count=20)
-
-
-def paper(database: HydroDatabase, seed: int) -> Scene:
-    return cases.vessel(database=database, kinematics="paper", seed=seed)
-
-
-def convolution(database: HydroDatabase, seed: int) -> Scene:
-    return cases.vessel(database=database, memory="convolution", seed=seed)
-
-
-SCENES: dict[str, tuple[Callable[[HydroDatabase, int], Scene], dict[str, Any]]] = {
+SLOW = {"phase": "slow", "spreading": 3.0, "count": 20}
+SCENES: dict[str, tuple[Callable[[int], Scene], dict[str, Any]]] = {
     "crane with actuators": (case2, {}),
-    "crane, stabilised": (case1, {"formulation": "redundant", "integrator": "cvode-adams", "t_end": 1.0}),
+    "crane, stabilised": (case2, {"formulation": "redundant", "integrator": "cvode-adams", "t_end": 1.0}),
     "wind sea and swell": (wind_sea_and_swell, {}),
     "slow position": (slowly, {}),
-    "crane at a slow position": (slow_case2, {"t_end": 2.0}),
+    "crane at a slow position": (lambda seed: case2(seed, tp=6.0 + seed, **SLOW), {"t_end": 2.0}),
     "current": (in_a_current, {"integrator": "rk4", "dt": 0.05}),
     "wire": (on_a_wire, {}),
-    "paper": (paper, {}),
-    "convolution": (convolution, {}),
+    "paper": (partial(vessel, kinematics="paper"), {}),
+    "convolution": (partial(vessel, memory="convolution"), {}),
 }
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_a_run_in_another_sea_is_that_of_the_scene_in_it(name: str, database: HydroDatabase) -> None:
+def test_a_run_in_another_sea_is_that_of_the_scene_in_it(name: str) -> None:
     made, settings = SCENES[name]
     given = {"t_end": 5.0, "dt_out": 0.5} | ({} if "dt" in settings else {"rtol": 1e-4}) | settings
-    first, other = made(database, 1), made(database, 2)
+    first, other = made(1), made(2)
     alone, again = Run(other, **given), Run(first, **given).in_sea(other.waves)
     for run in (alone, again):
         run.advance(given["t_end"])
@@ -126,24 +106,24 @@ WORDS: dict[str, list[Any]] = {
 
 
 @pytest.mark.parametrize("word", WORDS)
-def test_members_are_what_simulate_gives_in_their_sea(word: str, database: HydroDatabase) -> None:
-    scene = cases.case2(database=database, spreading=4.0 if word == "seed" else None)
+def test_members_are_what_simulate_gives_in_their_sea(word: str) -> None:
+    scene = cases.case2(database=DATABASE, spreading=4.0 if word == "seed" else None)
     given = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
     there = ensemble(scene, over={word: WORDS[word]}, lanes=1, keep=PATH, **given)
     for value in WORDS[word]:
         alone = simulate(with_sea(scene, {word: value}), **given)
         assert np.array_equal(there.dataset.track.sel({word: value}), alone.select("position", body="vessel"))
     if word == "seed":
-        scene = wind_sea_and_swell(database, 1)
+        scene = wind_sea_and_swell(1)
         there = ensemble(scene, over={"seed": [1, 2]}, lanes=1, keep=PATH, **given)
         for seed in (1, 2):
-            alone = simulate(wind_sea_and_swell(database, seed), **given).select("position", body="vessel")
+            alone = simulate(wind_sea_and_swell(seed), **given).select("position", body="vessel")
             assert np.array_equal(there.dataset.track.sel(seed=seed), alone)
         with pytest.raises(SceneError, match=r"SeaState.* not hs, tp"):
             ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, **given)
 
 
-def test_a_sea_that_cannot_be_made_again_is_refused(database: HydroDatabase) -> None:
+def test_a_sea_that_cannot_be_made_again_is_refused() -> None:
     time = np.arange(20.0)
     for system, message in (
         (WaveSystem(spectrum=torsethaugen(hs=2.0, tp=9.0), direction_deg=0.0), "'waves' .*Torse"),
@@ -151,30 +131,23 @@ def test_a_sea_that_cannot_be_made_again_is_refused(database: HydroDatabase) -> 
         (WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, maximum_omega=1.5, count=20),
          "its record describes"),
     ):  # fmt: skip
-        scene = cases.vessel(database=database, sea=SeaState(systems=[system]))
+        scene = cases.vessel(database=DATABASE, sea=SeaState(systems=[system]))
         with pytest.raises(SceneError, match=message):
             ensemble(scene, over={"seed": [1, 2]}, keep=PATH)
 
 
-def counted(monkeypatch: Any) -> list[str]:
-    """Names of what is compiled from now on."""
-    names = []
-    compile_scene = _core.compile
-
-    def counting(**given: Any) -> _core.Model:
-        names.append(given["name"])
-        return compile_scene(**given)
-
-    monkeypatch.setattr(_core, "compile", counting)
-    return names
-
-
-def test_a_scene_is_compiled_once_for_all_its_seas(database: HydroDatabase, monkeypatch: Any) -> None:
-    scene = cases.vessel(database=database)
+def test_a_scene_is_compiled_once_for_all_its_seas(monkeypatch: Any) -> None:
+    scene = cases.vessel(database=DATABASE)
     path, given = "bodies.vessel.mass", {"t_end": 1.0, "rtol": 1e-3}
     masses = [float(scene.bodies["vessel"].mass) * share for share in (1.0, 1.01)]
     over = {path: masses, "seed": range(4)}
-    compiled = counted(monkeypatch)
+    compiled, compile_scene = [], _core.compile
+
+    def counting(**given: Any) -> _core.Model:
+        compiled.append(given["name"])
+        return compile_scene(**given)
+
+    monkeypatch.setattr(_core, "compile", counting)
     there = ensemble(scene, over=over, lanes=1, keep=PATH, **given)
     assert len(compiled) == len(masses)
     monkeypatch.setattr(job, "MOST_HELD", 1)
@@ -187,29 +160,9 @@ def test_a_scene_is_compiled_once_for_all_its_seas(database: HydroDatabase, monk
     assert np.array_equal(there.dataset.track.sel({path: masses[1], "seed": 2}), alone)
 
 
-@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
-def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: HydroDatabase) -> None:
-    scene = cases.vessel(database=database, spreading=3.0)
-    mass = float(scene.bodies["vessel"].mass)
-    over = {"bodies.vessel.mass": [mass, 1.01 * mass], "seed": range(4), "hs": [1.0, 2.0]}
-    given = {"over": over, "keep": PATH, "lanes": 1, "t_end": 1.0, "rtol": 1e-3}
-    with pool(2) as executor:
-        there = ensemble(scene, executor=executor, pack=3, **given)
-    assert there.failures == {}
-    assert there.dataset.identical(ensemble(scene, **given).dataset)
-
-
-@pytest.mark.warns("FailedMembersWarning")
-def test_a_member_that_cannot_be_prepared_is_a_failure_of_its_own(database: HydroDatabase) -> None:
-    over = [{"bodies.vessel.mass": mass, "seed": 1} for mass in (-1.0, 2e7)]
-    there = ensemble(cases.vessel(database=database), over=over, keep=PATH, t_end=1.0)
-    assert list(there.failures) == [0]
-    assert "mass" in there.failures[0]
-
-
-def test_a_run_in_no_sea_or_a_sea_on_others_is_refused(database: HydroDatabase) -> None:
-    scene = cases.vessel(database=database)
-    waves, run, calm = scene.waves, Run(scene, 1.0), Run(cases.vessel(database=database, hs=0.0), 1.0)
+def test_a_run_in_no_sea_or_a_sea_on_others_is_refused() -> None:
+    scene = cases.vessel(database=DATABASE)
+    waves, run, calm = scene.waves, Run(scene, 1.0), Run(cases.vessel(database=DATABASE, hs=0.0), 1.0)
     scene.use_actual_position()
     for one, sea, words in ((calm, waves, "no sea"), (run, replace(waves, hulls={}), "other vessels"),
                             (run, scene.waves, "another kind of position")):  # fmt: skip
@@ -217,42 +170,13 @@ def test_a_run_in_no_sea_or_a_sea_on_others_is_refused(database: HydroDatabase) 
             one.in_sea(sea)
 
 
-def test_a_sea_that_repeats_is_told_again(database: HydroDatabase) -> None:
-    system = WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=90.0, count=8)
-    sea = SeaState(systems=[system], placement="uniform")
-    scene = cases.vessel(database=database, sea=sea, evaluation="fft")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        run = Run(scene, 100.0)
-    with pytest.warns(UserWarning, match="repeat after"):
-        run.in_sea(scene.waves)
-
-
-def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None:
-    scene = cases.vessel(database=database, count=10)
-    scene.add_body(name="box", mass=1.0, inertia=(1, 1, 1), velocity=(1e-6, 0, 0))
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
-    scene.add_actuator(name="hold", joint="rail", stiffness=2.2**2)
-    given = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "maximum_step": 0.5}
-    given |= {"integrator": "tsit5", "channels": ["position"]}
-    there = ensemble(scene, over={"seed": [5]}, keep=PATH, **given)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        alone = simulate(with_sea(scene, {"seed": 5}), **given)
-    assert "makes an oscillation of body 'box' grow" in str(alone.stats["validity"])
-    assert there.dataset.validity.sel(seed=5).item() == alone.stats["validity"]
-
-
-@pytest.mark.parametrize("count", [1, 7, 311])
-@pytest.mark.parametrize("heading", [0.0, 0.3, -2.5])
-def test_forces_of_one_heading_are_those_of_any_headings(heading: float, count: int, database: Any) -> None:
-    one = excitation._by_heading(database, np.full(count, heading))
-    every = excitation._interpolated_in_heading(database, np.full(count, heading))
+@pytest.mark.parametrize(("count", "heading"), [(1, 0.0), (7, 0.3), (311, -2.5)])
+def test_forces_of_one_heading_are_those_of_any_headings(heading: float, count: int) -> None:
+    one = excitation._by_heading(DATABASE, np.full(count, heading))
+    every = excitation._interpolated_in_heading(DATABASE, np.full(count, heading))
     assert np.array_equal(np.broadcast_to(one, every.shape), every)
     weights = np.random.default_rng(count).normal(size=(count, every.shape[1]))
     sums = _core.weighted_sums(weights, every)
     assert np.array_equal(_core.weighted_sums(weights, one), sums)
     expected = np.einsum("qn,qnd->qd", weights, every)
     assert np.allclose(sums, expected, rtol=0.0, atol=1e-13 * np.abs(every).max() * np.abs(weights).sum())
-    with pytest.raises(ValueError, match=r"weights \(q, n\)"):
-        _core.weighted_sums(np.zeros((2, 3)), np.zeros((2, 4, 6)))

@@ -1,22 +1,21 @@
-"""Ensembles of lifts in stages: each member is the staged run of its own scene, to the bit."""
+"""Ensembles of lifts in stages, also from several times in one sea: each is its own run, to the bit."""
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from lift_examples import ON_DECK
+from scipy.stats import norm
 
 import seacrane as sc
+from seacrane import SceneError, ensemble, simulate, simulate_stages
 from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.lift.shown_study import shown_study
-from seacrane.lift.study_run import run_study
 from seacrane.operability import Criterion, allowable_hs
-from seacrane.statistics import seed_extremes
+from seacrane.statistics import distribution, seed_extremes
 
 G = 9.80665
 MASS, EA = 40e3, 2e8
@@ -44,12 +43,8 @@ def lift_at(rate: float, most: float = 30.0) -> list[sc.Stage]:
 
 
 STAGES = lift_at(-0.5)
-KEEP = {
-    "peak": "hook_load[stage=up].max",
-    "whole": "hook_load.max",
-    "lifted": "stage[lift].end",
-    "took": "stage[lift].duration",
-}
+KEEP = {"peak": "hook_load[stage=up].max", "whole": "hook_load.max",
+        "lifted": "stage[lift].end", "took": "stage[lift].duration"}  # fmt: skip
 HOW = {"dt_out": 0.02, "rtol": 1e-5}
 
 
@@ -123,55 +118,16 @@ def test_a_member_that_never_reaches_a_stage_says_so() -> None:
     told = sc.ensemble(feeder(), stages=lift_at(-0.5, 0.5), over=over, keep=KEEP, **HOW)
     assert list(told.failures) == [0]
     assert "stage 'lift'" in told.failures[0] and "SimulationError" in told.failures[0]
-    with pytest.raises(sc.SimulationError, match="stage 'lift'"):
-        sc.ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, on_error="raise", **HOW)
 
 
-def test_a_store_goes_on_and_tells_other_stages_apart(tmp_path: Path, lifts: Any, monkeypatch: Any) -> None:
-    """Stopped in the third member: the first two are read, the others run; another rate is another study."""
-    asked = {"over": {"seed": [1, 2, 3]}, "keep": KEEP, "store": tmp_path / "s", "pack": 1}
-    steps = iter(range(1000))
-
-    def stopping(run: Any) -> Any:
-        if next(steps) == 2:
-            raise KeyboardInterrupt
-        while run.advance():
-            pass
-        return run
-
-    with monkeypatch.context() as patched:
-        patched.setattr("seacrane.ensembles.job.stepped", stopping)
-        with pytest.raises(KeyboardInterrupt):
-            sc.ensemble(feeder(), stages=STAGES, **asked, **HOW)
-    assert np.isfinite(Ensemble.load(tmp_path / "s").dataset.peak.to_numpy()).sum() == 2
-    with ThreadPoolExecutor(2) as executor:
-        told = sc.ensemble(feeder(), stages=STAGES, executor=executor, **asked, **HOW)
-    assert told.dataset.peak.to_numpy().tolist() == lifts.dataset.peak.to_numpy().tolist()
-    with pytest.raises(sc.SceneError, match="another study"):
-        sc.ensemble(feeder(), stages=lift_at(-0.6), **asked, **HOW)
-    made = sc.ensemble(feeder(), stages=lambda scene: STAGES, over={"seed": [1]}, keep=KEEP, **HOW)
+def test_a_store_tells_other_stages_apart(tmp_path: Path, lifts: Ensemble) -> None:
+    """Another rate is another study; stages that are a function of the scene are those of a list."""
+    asked = {"over": {"seed": [1]}, "keep": KEEP, **HOW}
+    made = sc.ensemble(feeder(), stages=lambda scene: STAGES, **asked)
     assert made.dataset.peak.to_numpy().ravel()[0] == lifts.dataset.peak.to_numpy().ravel()[0]
-
-
-def test_seeds_are_added_until_the_peak_is_known() -> None:
-    keep = {"peak": "hook_load[hoist, stage=up].max"}
-    how = {"over": {"seed": range(60)}, "until": {"peak.mean": 0.1}, "keep": keep, **HOW}
-    (one,) = sc.ensemble(feeder(hs=0.5), stages=STAGES, **how).certainty
-    assert one.seeds in (20, 40, 60)
-
-
-@pytest.mark.warns("FailedMembersWarning")
-def test_what_contradicts_is_refused_by_name() -> None:
-    usual = {"stages": STAGES, "over": {"seed": [1]}, "keep": KEEP}
-    for given, words in (
-        ({"t_end": 10.0}, r"t_end is 10\.0"), ({"stages": "lift"}, "stages is 'lift'"),
-        ({"lanes": 4, "over": {"seed": [1], "start_time": [1.0]}}, "lanes is 4.* start_time"),
-        ({"over": {"stages.lift.commands.hoist.rat": [1.0]}}, "hoist.rat'.*hoist.rate'"),
-    ):  # fmt: skip
-        with pytest.raises(sc.SceneError, match=words):
-            sc.ensemble(feeder(), **usual | given)
-    told = sc.ensemble(feeder(), **usual | {"keep": {"x": "hook_load[stage=down].max"}}, **HOW)
-    assert "no stage 'down'" in told.failures[0]
+    sc.ensemble(feeder(), stages=STAGES, store=tmp_path / "s", **asked)
+    with pytest.raises(sc.SceneError, match="another study"):
+        sc.ensemble(feeder(), stages=lift_at(-0.6), store=tmp_path / "s", **asked)
 
 
 @pytest.mark.warns("FewSeedsWarning")
@@ -205,64 +161,85 @@ def _reached(run: Any, stage: str) -> float:
 
 @pytest.mark.parametrize(
     ("criterion", "given", "message"),
-    [
-        ({"channel": "hook_load[stage=down]"}, {}, "'down'; the lift has wait, lift, up"),
-        ({"channel": "hook_load[stage=up]"}, {"stages": ()}, "stage 'up'.*none"),
-        ({"exposure": 900.0}, {}, "exposure"),
-        ({"statistic": "significant"}, {}, "'significant'"),
-        ({"motion": True}, {}, "motion=True"),
-        ({}, {"duration": 900.0}, "leave duration out"),
-        ({}, {"start_up": 9.0}, "leave start_up out"),
-        ({}, {"domain": "frequency"}, "leave domain out"),
-        ({}, {"stages": [1]}, "stages is .1."),
-    ],
-)
+    [({"channel": "hook_load[stage=down]"}, {}, "'down'; the lift has wait, lift, up"),
+     ({"exposure": 900.0}, {}, "exposure"), ({"motion": True}, {}, "motion=True"),
+     ({}, {"duration": 900.0}, "leave duration out")],
+)  # fmt: skip
 def test_what_lifts_in_stages_do_not_take(criterion: Any, given: dict[str, Any], message: str) -> None:
     asked = Criterion(**{"channel": "hook_load", "maximum": 1e6, **criterion})
+    sea = {"tp": [8.0], "direction_deg": [180.0], "stages": STAGES}
     with pytest.raises(sc.SceneError, match=message):
-        allowable_hs(
-            feeder(), criteria=[asked], tp=[8.0], direction_deg=[180.0], **{"stages": STAGES, **given}
-        )
+        allowable_hs(feeder(), criteria=[asked], **sea | given)
 
 
-STUDY = """format = "seacrane study"
-version = 2
-lift = "my_lift.toml"
-
-[over]
-"line.EA_N" = [4e7, 5e7]
-"stages.lift off.commands.hoist.rate" = [-0.05, -0.1]
-
-[[keep]]
-name = "peak"
-channel = "hook_load[stage=raise]"
-what = "maximum"
-
-[[keep]]
-name = "lifted"
-channel = "stage[lift off].end"
-"""
+STARTS = {"start_time": [40.0, 0.0, 12.5], "seed": [3, 5]}
 
 
-@pytest.mark.warns("ThroughSeatWarning")
-def test_a_study_file_of_a_lift_in_stages(tmp_path: Path) -> None:
-    (tmp_path / "my_lift.toml").write_text(ON_DECK, encoding="utf-8")
-    study = tmp_path / "study.toml"
-    study.write_text(STUDY, encoding="utf-8")
-    done = run_study(study, tmp_path / "out").dataset
-    for EA in (4e7, 5e7):
-        text = ON_DECK.replace("EA_N = 5e7", f"EA_N = {EA:g}").replace("m_per_s = -0.05", "m_per_s = -0.1")
-        (tmp_path / "other.toml").write_text(text, encoding="utf-8")
-        run = sc.Lift.load(tmp_path / "other.toml").simulate()
-        told = done.sel({"line.EA_N": EA, "stages.lift off.commands.hoist.rate": -0.1})
-        assert float(told.peak.squeeze()) == _reached(run, "raise")
-        assert float(told.lifted) == run.stages[1].end
-    assert "end of stage lift off" in str(shown_study(tmp_path / "out"))
-    for old, new, message in (
-        ("lift off.commands.hoist.rate", "lift of.commands.hoist.rate", "'stages.lift off.comm"),
-        ("[over]", "[run]\nt_end_s = 3\n\n[over]", "line 6: t_end_s"),
-        ("[over]", "[statistics]\nexposure_s = 3\n\n[over]", "exposure_s"),
+@pytest.fixture(scope="module")
+def waiting() -> Ensemble:
+    return ensemble(feeder(), stages=STAGES, over=STARTS, keep=KEEP, **HOW)
+
+
+@pytest.mark.warns("LineLengthWarning")
+def test_each_begins_in_the_state_of_its_sea_to_the_bit(waiting: Ensemble) -> None:
+    for seed in STARTS["seed"]:
+        scene = with_sea(feeder(), {"seed": seed})
+        state = None
+        for begin in sorted(STARTS["start_time"]):
+            state = simulate(scene, begin, start=state, **HOW).state if begin else state
+            run = simulate_stages(scene, STAGES, start=state, **HOW)
+            member = waiting.dataset.sel(seed=seed, start_time=begin)
+            up = run.reached("hook_load", suspension="hoist", part=run.stage("up"))[1]
+            assert float(member.peak.squeeze()) == up.max()
+            assert float(member.lifted) == run.stages[1].end
+            assert run.stages[0].start == begin
+    assert len(np.unique(waiting.dataset.peak)) == 6
+
+
+@pytest.mark.parametrize("pack", [1, 4])
+def test_packs_pools_and_a_resumed_store_give_the_same(pack: int, waiting: Ensemble, tmp_path: Path) -> None:
+    same = {"stages": STAGES, "over": STARTS, "keep": KEEP, "pack": pack, **HOW}
+    for pool, given in ((ThreadPoolExecutor, {}), (ProcessPoolExecutor, {"store": tmp_path / "s"})):
+        with pool(2) as executor:
+            assert ensemble(feeder(), executor=executor, **given, **same).dataset.identical(waiting.dataset)
+    for gone in sorted((tmp_path / "s").glob("pack_*.nc"))[::2]:
+        gone.unlink()
+    assert ensemble(feeder(), store=tmp_path / "s", **same).dataset.identical(waiting.dataset)
+
+
+def test_bad_start_times_are_named() -> None:
+    for over, given, message in (
+        ([{"start_time": 1.0}], {}, "start_time is of grids"), ({"start_time": [-1.0]}, {}, "is -1"),
+        ({"start_time": [1.0]}, {"stages": ()}, "start_time is of lifts in stages"),
     ):  # fmt: skip
-        study.write_text(STUDY.replace(old, new), encoding="utf-8")
-        with pytest.raises(sc.FileFormatError, match=message):
-            run_study(study, tmp_path / "other")
+        with pytest.raises(SceneError, match=message):
+            ensemble(feeder(), over=over, keep=KEEP, **{"stages": STAGES, **given})
+
+
+@pytest.mark.warns("FewSeedsWarning")
+def test_a_distribution_of_an_ensemble(waiting: Ensemble) -> None:
+    found = waiting.distribution("lifted")
+    every = waiting.dataset.lifted.to_numpy().ravel()
+    assert found.count == 6 and found.failed == 0
+    assert found.mean.value == pytest.approx(every.mean())
+    assert found.quantile(0.5).value == np.sort(every)[2]
+    assert found.exceedance(np.sort(every)[2]).value == 0.5
+    some = distribution([[1.0, np.nan], [2.0, 3.0]])
+    assert (some.count, some.failed) == (3, 1)
+    assert np.isnan(distribution([[1.0, 2.0]]).mean.low)
+
+
+@pytest.mark.slow("hundreds of members")
+def test_intervals_hold_for_values_that_depend_on_their_seed() -> None:
+    """Of 400 draws of 20 seeds with 10 values each, 95 % intervals hold the truth as often as they say."""
+    random, size, naive = np.random.default_rng(1), 400, 0
+    spread, inside = np.sqrt(1.0 + 0.5**2), np.zeros(3)
+    truths = np.array([0.0, spread * norm.ppf(0.9), norm.sf(1.0 / spread)])
+    for _ in range(size):
+        values = random.normal(size=(20, 1)) + 0.5 * random.normal(size=(20, 10))
+        found = distribution(values)
+        intervals = (found.mean, found.quantile(0.9), found.exceedance(1.0))
+        inside += [one.low <= truth <= one.high for one, truth in zip(intervals, truths, strict=True)]
+        naive += abs(values.mean()) < 1.96 * values.std() / np.sqrt(values.size)
+    assert np.all(inside / size > 0.90) and inside[0] / size < 0.985
+    assert naive / size < 0.7  # what independent values would give

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.stats import gumbel_r
 
 import seacrane as sc
 from seacrane import Result, SceneError
 from seacrane.result.checked_parts import ALWAYS_STATED
-from seacrane.statistics.extremes_figure import extremes_sheet
 from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.judged import start_differs
 from seacrane.statistics.tail import Tail, extremal_index, peaks_over_threshold
@@ -43,9 +43,6 @@ def result_of(values: Array, **stats: Any) -> Result:
 
 def gumbel(count: int, size: int, seed: int = 3) -> Array:
     return np.random.default_rng(seed).gumbel(loc=10.0, scale=0.7, size=(size, count))
-
-
-# Gaussian processes
 
 
 @pytest.mark.parametrize("cycles", [20.0, 1375.0])
@@ -83,7 +80,6 @@ def test_a_broad_band_agrees_with_its_closed_forms() -> None:
     assert found.significant == pytest.approx(2.0, rel=0.05)
     mean = sc.statistics.gaussian_maximum(std=1.0, rate=rate, bandwidth=width).mean.value
     assert runs.max(axis=1).mean() == pytest.approx(mean, abs=3.0 * 0.33 / np.sqrt(60))
-    assert "Rayleigh" in str(found) and "Vanmarcke" in str(found)
     found = sc.statistics.record_extremes(records(8, (0.8, 0.02)).ravel()[: 4 * 21600], interval=STEP)
     levels = np.array([0.5, 1.0, 2.0])
     np.testing.assert_allclose(found.exceedance(levels), np.exp(-0.5 * levels**2), atol=0.03)
@@ -99,9 +95,6 @@ def test_intervals_of_one_gaussian_record_cover_its_level() -> None:
             mpm = sc.statistics.record_extremes(values, interval=STEP, tail="exponential").gaussian.mpm
         inside += mpm.low < 3.80 < mpm.high
     assert inside >= 53  # of 60; 57 expected
-
-
-# Spectra
 
 
 def test_the_spectrum_of_white_noise_is_flat_within_its_interval() -> None:
@@ -124,25 +117,15 @@ def test_degrees_of_freedom_of_the_variance() -> None:
     assert found == pytest.approx(2.0 / runs.var(axis=1).var(), rel=0.2)
 
 
-# Maxima of seeds
-
-
-def test_likelihood_has_its_maximum_there() -> None:
-    from scipy.stats import gumbel_r
-
-    sample = gumbel(25, 1)[0]
-    location, scale = gumbel_fit(sample)
-    reference = gumbel_r.fit(sample)
-    assert (float(location), float(scale)) == pytest.approx(reference, rel=1e-5)
-
-
-def test_the_fit_test_rejects_as_often_as_it_says() -> None:
+def test_the_fit_is_of_largest_likelihood_and_its_test_rejects_as_often_as_it_says() -> None:
+    (one,) = gumbel(25, 1)
+    assert tuple(map(float, gumbel_fit(one))) == pytest.approx(gumbel_r.fit(one), rel=1e-5)
     for sample, low, high in ((gumbel(30, 400), 0.02, 0.09), (-gumbel(30, 400), 0.5, 1.0)):
         worse = standard_fits(30)[2][None, :] > anderson_darling(sample, *gumbel_fit(sample))[:, None]
         assert low <= (worse.mean(axis=1) < 0.05).mean() <= high
 
 
-@pytest.mark.parametrize("count", [5, 10, 20])
+@pytest.mark.parametrize("count", [5, 20])
 @pytest.mark.parametrize(("number", "reduced"), [("mpm", 0.0), ("mean", np.euler_gamma), ("p90", 2.2504)])
 def test_intervals_cover_what_they_say(count: int, number: str, reduced: float) -> None:
     inside = []
@@ -179,9 +162,6 @@ def test_another_exposure_is_the_maximum_of_so_many_records() -> None:
     assert few.mean.low < few.mean.value < few.mean.high
 
 
-# Peaks over a threshold
-
-
 @pytest.mark.parametrize(("kind", "shape"), [("exponential", 0.0), ("pareto", -0.15)])
 def test_a_known_tail_is_found(kind: str, shape: float) -> None:
     excess = np.random.default_rng(4).exponential(size=4000)
@@ -214,9 +194,6 @@ def test_good_fits_are_accepted_nine_times_of_ten() -> None:
         tails = [peaks_over_threshold(one, duration=60.0, threshold=0.0, kind=kind) for one in samples]
         accepted = [tail.accepted for tail in tails if isinstance(tail, Tail)]
         assert np.mean(accepted) == pytest.approx(0.9, abs=0.06)
-
-
-# Results, warnings, figures
 
 
 def test_extremes_of_a_result_and_of_several() -> None:
@@ -254,48 +231,24 @@ def test_a_sea_that_repeats_is_named() -> None:
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always", RepeatingSeaWarning)
             sc.extremes(result, channel="link_tension")
-        assert [("600 s" in str(one.message)) for one in told if one.category is RepeatingSeaWarning] == [
-            True
-        ] * found
+        assert sum(one.category is RepeatingSeaWarning for one in told) == found
 
 
 record = partial(sc.statistics.record_extremes, interval=0.5)
 seeds = partial(sc.statistics.seed_extremes, duration=1.0)
 CASES: list[tuple[Any, Any, dict[str, Any], str]] = [
     (record, np.ones(100), {}, "does not vary"),
-    (record, np.arange(100.0), {}, "crosses its mean"),
     (record, [*range(99), np.nan], {}, "finite"),
     (record, None, {"threshold": 9.0}, "threshold=9"),
-    (sc.statistics.gaussian_maximum, (), {"std": 1.0, "rate": 0.1, "bandwidth": 2.0}, "bandwidth=2"),
     (seeds, [1.0, 2.0], {}, "at least 3"),
     (seeds, [1.0, 1.0, 1.0], {}, "different"),
     (seeds, [1.0, np.inf, 2.0], {}, "failed seeds"),
-    (seeds, [1.0, 2.0, 3.0], {"number": "median"}, "median"),
-    (sc.pictures.plot_extremes, 3, {}, "extremes"),
-    (sc.extremes, [], {"channel": "time"}, "none is given"),
-    (sc.extremes, Result, {"channel": "hook"}, "link_tension"),
-    (sc.extremes, Result, {"channel": "link_tension", "after": 1e5}, "64"),
+    (sc.extremes, result_of(np.ones(500)), {"channel": "link_tension", "after": 1e5}, "64"),
 ]
 
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.SceneWarning")
 @pytest.mark.parametrize(("call", "values", "given", "words"), CASES)
 def test_bad_input_is_named(call: Any, values: Any, given: dict[str, Any], words: str) -> None:
-    if values is None or values is Result:
-        values = records(400)[0] if values is None else result_of(records(400)[0])
     with pytest.raises(SceneError, match=words):
-        call(*([] if isinstance(values, tuple) else [values]), **given)
-
-
-def test_figures_hold_the_numbers_they_show() -> None:
-    one = sc.statistics.record_extremes(records(400)[2], interval=STEP)
-    sheet = extremes_sheet(one)
-    assert sheet.marks["most probable maximum"][0] == one.maximum.mpm.value
-    counted, gaussian, *_ = sheet.panels[0].lines
-    assert counted.values[0] == pytest.approx(one.crests.size, rel=0.02)
-    at_one = np.interp(0.0, -np.log(gaussian.values[:-1]), sheet.abscissa[:-1])
-    assert at_one == pytest.approx(one.gaussian.mpm.value, abs=0.02)
-    several = sc.statistics.seed_extremes(gumbel(20, 1)[0], duration=1.0)
-    fitted = extremes_sheet(several).panels[0].lines[1].values
-    assert np.interp(0.0, fitted, several.maxima) == pytest.approx(several.location, abs=1e-9)
-    assert sc.pictures.plot_extremes(several).axes
+        call(records(400)[0] if values is None else values, **given)

@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lift_examples import ON_DECK
 
-from seacrane import FileFormatError, Lift, SceneError, simulate
-from seacrane.cli.command_line import main
-from seacrane.ensembles import Ensemble
+from seacrane import Lift, SceneError, simulate
 from seacrane.lift.lift import LIFTS
-from seacrane.lift.study_run import MEMBERS, run_study
-from seacrane.lift.varied_keys import KeyPlace, keys_in, with_keys
+from seacrane.lift.study_run import run_study
+from seacrane.lift.varied_keys import keys_in, with_keys
 
 BALANCED = """format = "seacrane lift"
 version = 2
@@ -30,43 +29,13 @@ held = true
 STUDY = """format = "seacrane study"
 version = 2
 lift = "held.toml"
-
-[over]
-crane.payload.mass_kg = [20e3, 100e3]
-seed = [7, 8]
-
+over = { "crane.payload.mass_kg" = [20e3, 100e3], seed = [7, 8] }
+run = { t_end_s = 2 }
 [[keep]]
 name = "heave"
 channel = "position"
 names = { body = "vessel", axis = "z" }
 what = "mean"
-
-[run]
-t_end_s = 2
-"""
-SWING = """format = "seacrane study"
-version = 2
-over = { "body.position_m.1" = [1, 1.5] }
-accuracy = { position = 1e-3 }
-run = { t_end_s = 2 }
-
-[lift]
-body = { name = "bob", mass_kg = 2, inertia_kg_m2 = [0.1, 0.1, 0.1], position_m = [1, 0, 0] }
-method = { integrator = "rk4", dt_s = 0.1 }
-
-[lift.joint]
-kind = "revolute"
-name = "pin"
-first = "ground"
-second = "bob"
-point_m = [0, 0, 0]
-axis = [0, 1, 0]
-
-[[keep]]
-name = "lowest"
-channel = "position"
-names = { body = "bob", axis = "z" }
-what = "minimum"
 """
 
 
@@ -121,39 +90,27 @@ def test_paths_go_by_names_numbers_and_units() -> None:
         "method": {"tolerance": 1e-3},
     }
     places = keys_in(tables)
-    assert places["crane.foot_m.2"] == KeyPlace(("crane", "foot_m", 1))
-    assert places["actuator.2.stiffness_N_per_m"].place == ("actuator", 1, "stiffness_N_per_m")
-    assert places["sea.systems.swell.hs_m"].place == ("sea", "systems", 0, "hs_m")
+    found = with_keys(
+        tables, places,
+        {"crane.slew_rad": 0.1, "crane.foot_m.2": 9.0, "actuator.2.stiffness_N_per_m": 6.0,
+         "sea.systems.swell.hs_m": 2.0},
+    )  # fmt: skip
+    assert found["crane"] == {"foot_m": [1.0, 9.0, 3.0], "slew_rad": 0.1}
+    assert found["actuator"][1]["stiffness_N_per_m"] == 6.0 and found["sea"]["systems"][0]["hs_m"] == 2.0
+    assert tables["crane"] == {"foot_m": [1.0, 2.0, 3.0], "slew_deg": 3.0}
     assert "command.reference_deg" not in places  # a curve
     assert not [path for path in places if path.startswith("method")]
-    radians = with_keys(tables, places, {"crane.slew_rad": 0.1, "crane.foot_m.2": 9.0})
-    assert radians["crane"] == {"foot_m": [1.0, 9.0, 3.0], "slew_rad": 0.1}
-    assert tables["crane"] == {"foot_m": [1.0, 2.0, 3.0], "slew_deg": 3.0}
 
 
-def test_bad_input_is_named_with_its_line(study: Path) -> None:
-    for old, new, message in (
-        ("payload.mass_kg", "payload.mas_kg", "line 6: .*'crane.payload.mass_kg'"),
-        ("payload.mass_kg", "payload.mass_t", "line 6: .*'crane.payload.mass_kg'"),
-        ("20e3, 100e3", "'heavy', 100e3", "line 6: .*mass_kg in .* is 'heavy'"),
-        ("crane.payload.mass_kg = [20e3, 100e3]", "method.dt_s = [1e-3, 1e-4]", "line 6: .* no parameter"),
-        ("[run]", "[accuracy]\nheve = 0.1\n[run]", "line 16: .* 'heve'.*'heave'"),
-        ("[run]", "[accuracy]\nroll = -0.1\n[run]", "line 16: accuracy: roll is -0.1"),
-        ("[run]", "[accuracy]\n[run]", r"line 15: \[accuracy\] is empty"),
-        ("[run]", "[method]\nrtol = 1e-4\n[accuracy]\nroll = 1e-3\n[run]", "line 15: accuracy chooses"),
-    ):
-        study.write_text(STUDY.replace(old, new, 1))
-        with pytest.raises((FileFormatError, SceneError), match=f"masses.toml {message}"):
-            run_study(study, study.parent / "out")
-        assert not (study.parent / "out").exists()
-
-
-def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: Any) -> None:
-    path = tmp_path / "swing.toml"
-    path.write_text(SWING)
-    assert main(["study", str(path), "--out", str(tmp_path / "out")]) == 0
-    assert "by accuracy: " in capsys.readouterr().out
-    found = Ensemble.load(tmp_path / "out" / MEMBERS).dataset.lowest
-    for start in (1.0, 1.5):
-        lowest = float(found.sel({"body.position_m.1": start}))
-        assert lowest == pytest.approx(-start, abs=1e-3), "at the bottom"
+@pytest.mark.warns("ThroughSeatWarning")
+def test_a_study_file_of_a_lift_in_stages(tmp_path: Path) -> None:
+    (tmp_path / "my_lift.toml").write_text(ON_DECK)
+    head = STUDY.replace("held.toml", "my_lift.toml").partition("over")[0]
+    over = 'over = { "stages.lift off.commands.hoist.rate" = [-0.1] }'
+    (tmp_path / "study.toml").write_text(
+        f'{head}{over}\n[[keep]]\nname = "lifted"\nchannel = "stage[lift off].end"\n'
+    )
+    done = run_study(tmp_path / "study.toml", tmp_path / "out").dataset
+    (tmp_path / "other.toml").write_text(ON_DECK.replace("m_per_s = -0.05", "m_per_s = -0.1"))
+    run = Lift.load(tmp_path / "other.toml").simulate()
+    assert float(done.lifted.squeeze()) == run.stages[1].end

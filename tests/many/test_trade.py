@@ -1,4 +1,4 @@
-"""trade(): its reference, rows, front, choice and file; and the scenes with less physics in them."""
+"""trade(): its reference, rows, front, choice and file; less physics, and lines on other rungs."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from line_scenes import G, reeved
+from numpy.testing import assert_allclose
 from trade_scenes import a_run_each, pendulum
 
 import seacrane as sc
-from seacrane import cases
+from seacrane import Scene, SceneError, cases, simulate, trade
 from seacrane._core import Integrator, integrators
 from seacrane.accuracy import Trade
 from seacrane.accuracy.quantities import ErrorMeasures, compare, quantities_of
@@ -22,6 +24,7 @@ from seacrane.trading import methods, simpler_scenes, trade_rows, trade_study
 from seacrane.trading.budget import Spending
 from seacrane.trading.case import Case
 from seacrane.trading.ladders import Ladders
+from seacrane.trading.lines_on_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
 from seacrane.trading.row_file import RowFile
@@ -70,77 +73,34 @@ def test_a_row_holds_what_its_settings_give(case2: sc.Scene, measured: Trade) ->
     assert row.evaluations == run.stats["evaluations"]
 
 
-def test_the_front_is_shown(measured: Trade) -> None:
-    """No row beats one on it; drawn over either time, in text and in notebooks."""
-    front = measured.front("roll")
-    assert front
-    for row in measured.rows:
-        assert not any(row.cpu_s < f.cpu_s and row.error("roll") < f.error("roll") for f in front)
-    for over in ("wall_s", "cpu_s"):
-        axes = measured.plot(over=over).axes[0]
-        (step,) = [line for line in axes.lines if line.get_label() == "Pareto front"]
-        cost, error = step.get_xdata(), step.get_ydata()
-        assert np.all(np.diff(cost) >= 0.0) and np.all(np.diff(error) < 0.0)
-        lines = {line.get_label(): line.get_xdata() for line in axes.lines}
-        rk4 = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
-        assert 1e3 * getattr(rk4, over) / rk4.simulated_s in lines["rk4"]
-        full = {r.method.integrator for r in measured.rows if r.case == measured.full_case and r.stable}
-        assert lines.keys() == full | {"Pareto front"}
-    with pytest.raises(sc.SceneError, match="over is 'cpu'"):
-        measured.plot(over="cpu")
-    *_, default, _ = str(measured).splitlines()
-    assert default.startswith("the default (dopri5 rtol=1e-06)") and "payload_position" in default
-    html = replace(measured, metadata={**measured.metadata, "scene": "<i>lift</i>"})._repr_html_()
-    assert html.count("<tr>") == 1 + len(measured.pareto) and "<i>" not in html
-
-
-def test_the_cheapest_setting_meets_its_limit_when_run(case2: sc.Scene, measured: Trade) -> None:
+def test_the_cheapest_setting_meets_its_limit_when_run(case2: Any, measured: Trade, folder: Path) -> None:
     run = sc.simulate(case2, t_end=T_END, method=measured.cheapest(payload_position=1e-4, roll=1e-6))
     tight = sc.simulate(case2, t_end=T_END, **TIGHT)
     own, true = (one.select("position", body="payload")[:, None] for one in (run, tight))
     assert compare(true, own).largest <= 1e-4
-    for accuracy, says in (
-        ({"payload_position": 1e-16}, "rounding"), ({"payload_position": 1e-11}, "beyond this grid"),
-        ({"pitch": 1.0}, "'pitch'"), ({"roll": -1.0}, "roll is -1.0"), ({}, "accuracy is empty"),
-    ):  # fmt: skip
+    for accuracy, says in (({"payload_position": 1e-16}, "rounding"), ({"pitch": 1.0}, "'pitch'")):
         with pytest.raises(sc.SceneError, match=says):
             measured.cheapest(**accuracy)
-
-
-def test_files_and_table_hold_every_row(measured: Trade, folder: Path) -> None:
-    with (folder / "trade.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) == len(measured.rows) == measured.table.sizes["row"]
-    assert {*(f"error_{name}" for name in measured.quantities), "wall_s", "drift", "pareto"} <= {*rows[0]}
-    assert (folder / "trade.png").read_bytes()[:4] == b"\x89PNG"
+    front = measured.front("roll")
+    assert front
+    for row in measured.rows:
+        assert not any(row.cpu_s < f.cpu_s and row.error("roll") < f.error("roll") for f in front)
     error = measured.table["error"].sel(quantity="roll").to_numpy()
-    assert float(rows[0]["error_roll"]) == pytest.approx(error[0], rel=1e-5)
-    rungs = ("LOCKED", "PRESCRIBED", "WEIGHT", "LINEAR")
-    assert {row["rung"] for row in rows} >= {getattr(simpler_scenes, rung) for rung in rungs}
+    assert error[0] == measured.rows[0].error("roll")
+    with (folder / "trade.csv").open() as file:
+        assert [float(row["error_roll"]) for row in csv.DictReader(file)] == pytest.approx(error, rel=1e-5)
 
 
-def test_a_later_call_goes_on_another_scene_anew(
-    case2: Any, measured: Any, folder: Path, monkeypatch: Any
-) -> None:
+def test_rows_of_an_earlier_call_are_kept_and_those_of_another_scene_not(measured: Any, folder: Path) -> None:
+    """But for the line that an interrupted call was writing."""
     path = folder / "trade_rows.jsonl"
     lines = path.read_text().splitlines()
-    path.write_text("\n".join(lines[:-1]) + "\n" + lines[-1][:40])  # as if stopped while writing
-    called = []
-
-    def filled(*arguments: object, **given: object) -> Row:
-        called.append("one")
-        return measured.rows[-1]
-
-    monkeypatch.setattr(trade_study, "measure", filled)
-    monkeypatch.setattr(trade_study, "measure_variant", filled)
-    monkeypatch.setattr(trade_study, "frequency_domain", filled)
-    unit = next(row.cpu_s for row in measured.rows if row.method.name == "recursive dopri5 rtol=0.001")
-    monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (unit, unit))
-    again = sc.trade(case2, t_end=T_END, budget=100.0 * BUDGET, progress=False, out=folder)
-    kept = {json.loads(line)["row"]["wall_s"] for line in lines[1:-1]}
-    assert called and kept <= {row.wall_s for row in again.rows}
-    other = RowFile(path, {"scene": "another"})
-    assert not other.rows and len(path.read_text().splitlines()) == 1
+    path.write_text("\n".join(lines[:-1]) + "\n" + lines[-1][:40])
+    experiment = json.loads(lines[0])
+    again = RowFile(path, {name: value for name, value in experiment.items() if name != "columns"})
+    assert len(again.rows) == len(lines) - 2
+    assert {row.wall_s for row in again.rows.values()} <= {row.wall_s for row in measured.rows}
+    assert not RowFile(path, {"scene": "another"}).rows and len(path.read_text().splitlines()) == 1
 
 
 @pytest.mark.parametrize("known", integrators(), ids=lambda known: known.name)
@@ -152,14 +112,6 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
     few, many = (run.core.statistics()["steps"] for run in runs)
     assert (few != many) == (known.setting == "dt") == (not runs[0].core.adaptive)
     assert known.name in {method.integrator for method in methods.measured_methods()}
-
-
-def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_its_reason() -> None:
-    chosen = [sc.Method(integrator="rk4", dt=0.01), sc.Method(integrator="not-yet", rtol=1e-3)]
-    rows = sc.trade(pendulum(), t_end=1.0, methods=chosen, progress=False).rows
-    assert [row.method for row in rows] == chosen
-    assert rows[0].stable and not rows[1].stable
-    assert "unknown integrator" in rows[1].message
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
@@ -176,15 +128,6 @@ def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None
     one, other = (sc.simulate(scene, t_end=T_END, **TIGHT) for scene in (built, changed))
     assert np.abs(one["position"] - other["position"]).max() < 1e-10  # feed-forward loads differ by rounding
     assert case2.provenance["vessel"].memory == "per-pair"
-
-
-def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: sc.Scene) -> None:
-    full = sc.simulate(case2, t_end=T_END, **TIGHT)
-    driven = simpler_scenes.with_prescribed_vessel(case2, full.time, full["vessel_motion"])
-    alone = sc.simulate(driven, t_end=T_END, **TIGHT)
-    assert np.abs(alone["vessel_motion"] - full["vessel_motion"]).max() < 1e-10
-    assert np.abs(alone["position"] - full["position"]).max() < 1e-4  # the spline between samples of 0.1 s
-    assert np.abs(full["vessel_motion"]).max() > 0.1
 
 
 def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -> None:
@@ -204,25 +147,6 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
 
 
-def test_the_strongest_components_carry_the_load(case2: sc.Scene) -> None:
-    waves = case2.waves
-    half = simpler_scenes.strongest(waves, 100)
-    assert set(half.omega) < set(waves.omega) and len(half.omega) == 100
-    load = [np.sum(np.abs(w.hull().transfer[:, 3] * w.amplitude) ** 2) for w in (half, waves)]
-    assert load[0] > 0.95 * load[1]
-    assert np.array_equal(simpler_scenes.strongest(waves, 200).phase, waves.phase)
-
-
-def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:
-    found = sc.trade(pendulum(), t_end=2.0, progress=False)
-    assert list(found.quantities) == ["position", "velocity"]
-    assert {row.case["rung"] for row in found.rows} == {"full"}
-    for given, says in (({"quantities": ["depth"]}, "'depth'"), ({"out": tmp_path / "absent"}, "no folder")):
-        with pytest.raises(sc.SceneError, match=says):
-            sc.trade(pendulum(), t_end=2.0, progress=False, **given)
-    assert replace(found.rows[0], verdict="stopped").key == found.rows[0].key
-
-
 def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
     measures = {name: ErrorMeasures(largest=value, rms=value, std=value) for name, value in errors.items()}
     case = {"memory": "none", "waves": "none", "rung": "full"}
@@ -230,9 +154,13 @@ def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
 
 
 def test_all_default_quantities_are_held_and_error_control_is_preferred_where_costs_are_alike() -> None:
-    fixed = sc.Method(integrator="semi-implicit-euler", dt=0.02)
     rows = (
-        row_of(fixed, 1.0, payload_position=0.005, hook_load=3400.0),
+        row_of(
+            sc.Method(integrator="semi-implicit-euler", dt=0.02),
+            1.0,
+            payload_position=0.005,
+            hook_load=3400.0,
+        ),
         row_of(sc.Method(integrator="rk4", dt=0.05), 1.0, payload_position=0.005, hook_load=500.0),
         row_of(sc.Method(integrator="tsit5", rtol=1e-2), 1.05, payload_position=0.008, hook_load=570.0),
         row_of(sc.Method(integrator="dop853", rtol=1e-4), 2.0, payload_position=1e-4, hook_load=1.0),
@@ -247,8 +175,6 @@ def test_all_default_quantities_are_held_and_error_control_is_preferred_where_co
     )
     assert found.cheapest(payload_position=0.01).integrator == "tsit5"
     assert found.cheapest(others=1e-4, payload_position=0.01).integrator == "dop853"
-    with pytest.raises(sc.SceneError, match="give others=None"):
-        found.cheapest(others=1e-9, payload_position=0.01)
 
 
 def test_what_cannot_change_the_front_is_not_measured() -> None:
@@ -262,27 +188,24 @@ def test_what_cannot_change_the_front_is_not_measured() -> None:
         assert ladders.next() == following and ladders.open == (following is not None)
 
 
-def test_a_budget_ends_a_trade_and_it_says_so(case2: sc.Scene, monkeypatch: Any) -> None:
-    units = []
-
+def test_a_budget_ends_a_trade(monkeypatch: Any) -> None:
     def counted(bench: object, row: Row, **given: object) -> Row:
-        units.append(row.key)
         return replace(row, verdict="completed", cpu_s=1.0, wall_s=1.0)
 
     monkeypatch.setattr(trade_study, "measure", counted)
     monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.0))
     found = sc.trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
-    assert len(units) == len(found.rows) == 3
+    assert len(found.rows) == 3 and found.not_measured > 0
     assert found.told_s == trade_study.REFERENCE + 3.0
-    assert found.not_measured > 0 and "The budget ended before" in found.price
 
 
 def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
+    """And a method that does not exist is a row with its reason."""
     stages = [sc.Stage(name="first", duration=1.0), sc.Stage(name="second", duration=1.0)]
-    chosen = [sc.Method(integrator="tsit5", rtol=1e-3)]
+    chosen = [sc.Method(integrator="tsit5", rtol=1e-3), sc.Method(integrator="not-yet", rtol=1e-3)]
     found = sc.trade(pendulum(), stages=stages, methods=chosen, quantities=["position"], progress=False)
-    (row,) = found.rows
-    assert found.metadata["t_end"] == 2.0 and "errors are those of the extremes of each stage" in str(found)
+    row, other = found.rows
+    assert found.metadata["t_end"] == 2.0 and not other.stable and "unknown integrator" in other.message
     staged = sc.simulate_stages(pendulum(), stages, integrator="tsit5", rtol=1e-3)
     tight = sc.simulate_stages(pendulum(), stages, integrator="verner76", rtol=1e-12)
     worst = 0.0
@@ -291,3 +214,51 @@ def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
         for extreme in (np.min, np.max):
             worst = max(worst, float(np.linalg.norm(extreme(own, axis=0) - extreme(true, axis=0))))
     assert row.error("position") == pytest.approx(worst, rel=1e-6)
+
+
+def hung(rung: str) -> Scene:
+    """2 t that swing on 8 m of stiff line below an arm that is not at the origin."""
+    scene = Scene(name="pendulum")
+    scene.add_body(name="arm", mass=5e3, inertia=(50, 50, 50), position=(1, 2, 3), quaternion=(0, 0, 0, 1))
+    scene.add_joint(kind="prismatic", name="guide", first="ground", second="arm", point=(1, 2, 3))
+    scene.add_actuator(joint="guide", stiffness=1e6, damping=5e4)
+    place = np.array([1.0, 2.0, 3.0]) + 8.0 * np.array([np.sin(0.3), 0.0, -np.cos(0.3)]) + (0.5, 0, 0)
+    scene.add_body(name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=place)
+    length, ends = 8.0 / (1.0 + 2e3 * G * np.cos(0.3) / 1e10), [(-0.5, 0, 0), (0, 0, 0)]
+    scene.add_line("hoist", bodies=["arm", "load"], points=ends, EA=1e10, length=length, rung=rung)
+    return scene
+
+
+def test_the_rungs_that_a_scene_does_not_have_are_tried() -> None:
+    kept = (RIGID_LINES, LINE_RUNGS[2])
+    for rung, others in (("elastic", LINE_RUNGS[:2]), ("auto", LINE_RUNGS[:2]), ("quasi-static", kept)):
+        made = {name: build() for name, build in line_variants(hung(rung))}
+        assert tuple(made) == others
+        assert not made[RIGID_LINES].loads.keys() & {"hoist"}
+        assert made[RIGID_LINES].joints["hoist"].length == pytest.approx(8.0, rel=1e-12)
+        assert f"lines {made[others[1]].loads['hoist'].rung}" == others[1]
+    assert not list(line_variants(Scene(name="without")))
+    runs = [simulate(one, 2.0, dt_out=0.1) for one in (hung("elastic"), with_rigid_lines(hung("elastic")))]
+    assert_allclose(runs[0]["position"], runs[1]["position"], atol=2e-3)  # a rigid link as the stiff line
+
+
+def test_each_rung_is_a_line_with_its_cost_and_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Spending, "spend", a_run_each)
+    found = trade(hung("elastic"), t_end=2.0, progress=False)
+    rows = {name: [row for row in found.rows if row.case["rung"] == name] for name in LINE_RUNGS}
+    assert [len(rows[name]) for name in LINE_RUNGS] == [2, 2, 0]
+    elastic = min(row.evaluations for row in found.rows if row.stable and row.case["rung"] == "full")
+    for name in LINE_RUNGS[:2]:
+        assert all(row.stable for row in rows[name])
+        assert rows[name][-1].error("position") < 2e-3
+        assert rows[name][0].evaluations < elastic
+
+
+def test_what_has_no_rigid_rung_is_a_row_with_its_reason() -> None:
+    with pytest.raises(SceneError, match="'hoist': runs over 4 points"):
+        with_rigid_lines(reeved())
+    scene = hung("elastic")
+    scene.add_winch(line="hoist", lag=0.2)
+    found = trade(scene, t_end=0.5, progress=False)
+    (row, _) = [row for row in found.rows if row.case["rung"] == RIGID_LINES]
+    assert row.verdict == "refused" and "its length changes" in row.message

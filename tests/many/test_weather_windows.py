@@ -12,7 +12,6 @@ from operability_scenes import HEAVE, PITCH, vessel
 
 from seacrane import FileFormatError, SceneError, allowable_hs, availability, weather_windows
 from seacrane.operability import AllowableHs, AlphaFactor, ScatterDiagram, WaveHindcast
-from seacrane.pictures import plot_weather_windows
 
 HOUR = np.timedelta64(1, "h")
 START = np.datetime64("2019-01-01T00:00")
@@ -34,7 +33,7 @@ def series(hs: Any, *, step: float = 1.0, **given: Any) -> WaveHindcast:
 
 
 def brute_force(workable: Any, *, step: float, hours: float) -> tuple[list[Any], ...]:
-    """The same numbers by looking at every time, one by one: whether one may start, the wait, the lengths."""
+    """Whether one may start, the wait and the lengths by looking at every time, one by one."""
     may_start = []
     for first in range(len(workable)):
         covered, place = 0.0, first
@@ -53,8 +52,9 @@ def brute_force(workable: Any, *, step: float, hours: float) -> tuple[list[Any],
     return may_start, waiting, lengths
 
 
-@pytest.mark.parametrize("hours", [0.5, 1.0, 5.0, 6.5, 24.0, 300.0])
-@pytest.mark.parametrize("step", [0.5, 1.0, 3.0])
+@pytest.mark.parametrize(
+    ("hours", "step"), [(0.5, 1.0), (1.0, 1.0), (5.0, 0.5), (6.5, 1.0), (6.5, 3.0), (24.0, 3.0), (300.0, 1.0)]
+)
 def test_windows_are_those_of_brute_force(hours: float, step: float) -> None:
     random = np.random.default_rng(int(10 * hours + step))
     smooth = np.convolve(random.normal(size=900), np.ones(12) / 12.0**0.5, mode="same")
@@ -109,7 +109,6 @@ def test_months_are_those_of_the_calendar() -> None:
     assert workable.sel(month=7) == 100.0 and float(workable.sum()) == 100.0
     assert found.dataset["waiting_mean"].sel(month=6) == pytest.approx((720.0 + 1.0) / 2.0)
     assert np.isnan(found.dataset["waiting_mean"].sel(month=8))  # no July comes any more
-    assert "Jul         100.0" in str(found)
 
 
 def test_the_limit_is_that_of_the_table_with_alpha(table: AllowableHs) -> None:
@@ -120,7 +119,6 @@ def test_the_limit_is_that_of_the_table_with_alpha(table: AllowableHs) -> None:
     travel = (30.0 - from_deg - 180.0) % 360.0
     assert found.hours == 6.0
     assert found.dataset["hs_limit"].to_numpy() == pytest.approx(0.8 * table.at(np.full(48, 9.0), travel))
-    assert "alpha factor 0.8 (source: made up)" in str(found)
     worst = weather_windows(hindcast, table)
     assert worst.dataset["hs_limit"].to_numpy() == pytest.approx(0.8 * table.at(9.0))
     certain = weather_windows(hindcast, table, alpha=1.0)
@@ -129,14 +127,7 @@ def test_the_limit_is_that_of_the_table_with_alpha(table: AllowableHs) -> None:
 
 def test_directions_seen_from_the_vessel() -> None:
     """Waves from the east push a vessel that heads north to port: 90."""
-    table = [
-        (0.0, 0.0, 180.0),
-        (90.0, 0.0, 90.0),
-        (180.0, 0.0, 0.0),
-        (270.0, 270.0, 180.0),
-        (0.0, 90.0, 270.0),
-    ]
-    for from_deg, heading, travel in table:
+    for from_deg, heading, travel in ((0, 0, 180), (90, 0, 90), (180, 0, 0), (270, 270, 180), (0, 90, 270)):
         assert series([1.0, 1.0], direction_from_deg=[from_deg] * 2).travel_deg(heading)[0] == travel
 
 
@@ -156,26 +147,24 @@ def test_missing_times_are_not_known() -> None:
     assert weather_windows(hindcast, 2.0, hours=3.0).dataset.sizes["window"] == 1
 
 
-def dataset() -> xarray.Dataset:
+def test_a_file_of_wavespectra_is_read(tmp_path: Path) -> None:
     times = (START + np.arange(5) * HOUR).astype("datetime64[ns]")
     numbers = {"hs": [1.0, 2.0, np.nan, 1.5, 1.0], "tp": [8.0, 9.0, 9.0, 9.0, 8.0], "dpm": [10.0] * 5}
     columns = {name: (("time", "site"), np.array(values)[:, None]) for name, values in numbers.items()}
-    return xarray.Dataset(columns, {"time": times, "site": [0]})
-
-
-def test_a_file_of_wavespectra_is_read(tmp_path: Path) -> None:
+    dataset = xarray.Dataset(columns, {"time": times, "site": [0]})
     packed = {name: {"dtype": "int16", "scale_factor": 0.01, "_FillValue": -32768} for name in ("hs", "tp")}
-    dataset().to_netcdf(tmp_path / "site.nc", encoding=packed)
+    dataset.to_netcdf(tmp_path / "site.nc", encoding=packed)
     hindcast = WaveHindcast.load(tmp_path / "site.nc")
     assert hindcast.hs == pytest.approx([1.0, 2.0, np.nan, 1.5, 1.0], nan_ok=True)
     assert hindcast.time[1] - hindcast.time[0] == HOUR
     assert hindcast.direction_from_deg == pytest.approx([10.0] * 5)
-    assert hindcast.source == "site.nc"
-    assert "5 sea states of 1 h" in repr(hindcast) and "1 not known" in repr(hindcast)
-    era = dataset().rename({"hs": "swh", "tp": "pp1d", "dpm": "mwd"})
+    era = dataset.rename({"hs": "swh", "tp": "pp1d", "dpm": "mwd"})
     assert np.array_equal(WaveHindcast.from_xarray(era).tp, hindcast.tp)
-    own = dataset().rename({"hs": "height"})
+    own = dataset.rename({"hs": "height"})
     assert np.array_equal(WaveHindcast.from_xarray(own, names={"hs": "height"}).tp, hindcast.tp)
+    xarray.concat([dataset, dataset.assign_coords(site=[1])], dim="site").to_netcdf(tmp_path / "two.nc")
+    with pytest.raises(FileFormatError, match=r"hs lies over site \(2\)"):
+        WaveHindcast.load(tmp_path / "two.nc")
 
 
 def test_a_csv_is_read(tmp_path: Path) -> None:
@@ -184,29 +173,9 @@ def test_a_csv_is_read(tmp_path: Path) -> None:
     hindcast = WaveHindcast.load(path)
     assert hindcast.step_hours == 3.0
     assert hindcast.known.tolist() == [True, False]
-    for text, message in (
-        ("time,hs\n2019-01-01,1\n", "no tp"), ("", "no time"),
-        ("time,hs,tp\n2019-01-01,one,8\n", "line 2: 'one'"),
-        ("time,hs,tp\nyesterday,1,8\n", "line 2: 'yesterday'"),
-        ("time,hs,tp\n2019-01-01,1\n2019-01-02,1,8\n2019-01-02,1,8\n", "comes after"),
-    ):  # fmt: skip
-        path.write_text(text)
-        with pytest.raises((FileFormatError, SceneError), match=message):
-            WaveHindcast.load(path)
-
-
-def test_files_that_are_none_are_refused(tmp_path: Path) -> None:
-    path = tmp_path / "site.nc"
-    path.write_bytes(b"no NetCDF at all")
-    with pytest.raises(FileFormatError, match=r"site\.nc"):
+    path.write_text("time,hs,tp\n2019-01-01,1\n2019-01-02,1,8\n2019-01-02,1,8\n")
+    with pytest.raises(SceneError, match="comes after"):
         WaveHindcast.load(path)
-    with pytest.raises(FileNotFoundError):
-        WaveHindcast.load(tmp_path / "absent.nc")
-    xarray.concat([dataset(), dataset().assign_coords(site=[1])], dim="site").to_netcdf(path)
-    with pytest.raises(FileFormatError, match=r"hs lies over site \(2\)"):
-        WaveHindcast.load(path)
-    with pytest.raises(SceneError, match="names has 'height'"):
-        WaveHindcast.load(path, names={"height": "hs"})
 
 
 def test_availability_is_the_sum_over_ranges(table: AllowableHs) -> None:
@@ -223,7 +192,6 @@ def test_availability_is_the_sum_over_ranges(table: AllowableHs) -> None:
     assert found.percent == pytest.approx(100.0 * total / counts.sum())
     assert found.outside_percent == pytest.approx(100.0 * 6.0 / counts.sum())  # 15 s is beyond 14 s
     assert availability(table, ScatterDiagram(hs=hs, tp=tp, counts=counts)).percent < found.percent
-    assert "without an alpha factor" in str(found) and "22.2 % beyond the table" in str(found)
 
 
 def test_availability_by_ranges_tends_to_that_of_the_series(table: AllowableHs) -> None:
@@ -241,52 +209,12 @@ def test_availability_by_ranges_tends_to_that_of_the_series(table: AllowableHs) 
     assert availability(table, scatter).percent == pytest.approx(windows.workable_percent, abs=0.5)
 
 
-UNEVEN = START + np.array([0, 60, 150]) * np.timedelta64(1, "m")
-
-
-def hindcast(**given: Any) -> WaveHindcast:
-    return WaveHindcast(**{"time": START + np.arange(2) * HOUR, "hs": [1.0, 1.0], "tp": [8.0, 8.0]} | given)
-
-
-def scatter(**given: Any) -> ScatterDiagram:
-    usual = {"hs": [0.0, 1.0, 2.0], "tp": [4.0, 8.0, 12.0], "counts": [[1.0, 2.0], [3.0, 4.0]]}
-    return ScatterDiagram(**usual | given)
-
-
-def windows(allowable: Any = 1.0, **given: Any) -> Any:
-    return weather_windows(given.pop("hindcast", series([1.0] * 9)), allowable, **given)
-
-
-@pytest.mark.parametrize(
-    ("make", "given", "message"),
-    [
-        (hindcast, {"hs": [1.0, -1.0]}, "hs is -1 m at 2019-01-01T01:00:00"),
-        (hindcast, {"time": ["2019-01-01", "2018-01-01"]}, "2018-01-01T00:00:00 comes after"),
-        (hindcast, {"time": ["now", "then"]}, "time is"),
-        (hindcast, {"time": UNEVEN, "hs": [1] * 3, "tp": [8] * 3}, "T02:30:00 is no multiple"),
-        (windows, {"hours": 0.0}, "hours is 0.0"),
-        (windows, {"allowable": -1.0, "hours": 6.0}, "allowable is -1.0 m"),
-        (windows, {"hours": 6.0, "heading_deg": 10.0}, "heading_deg"),
-        (windows, {"allowable": True, "heading_deg": 0.0}, "no directions of waves"),
-        (windows, {"allowable": True, "hindcast": 1}, "hindcast is 1"),
-        (scatter, {"counts": [[1.0, 2.0]]}, r"counts have shape \(1, 2\)"),
-        (scatter, {"counts": [[1.0, -2.0], [0.0, 0.0]]}, r"counts\[0, 1\] is -2.0"),
-        (scatter, {"hs": [0.0, 2.0, 1.0]}, "hs is .*ascending"),
-        (scatter, {"direction_deg": [0.0, 90.0]}, "counts have shape"),
-        (ScatterDiagram.of, {"hindcast": series([1.0, 9.0]), "hs": [0, 5], "tp": [4, 12]}, "1 to 9.* 0 to 5"),
-        (availability, {"allowable": True, "scatter": 1}, "scatter is 1"),
-        (availability, {"allowable": 1, "scatter": scatter()}, "allowable is 1"),
-    ],
-)  # fmt: skip
-def test_what_makes_no_sense_is_refused(table: Any, make: Any, given: Any, message: str) -> None:
-    given = given | ({"allowable": table} if given.get("allowable") is True else {})
-    with pytest.raises(SceneError, match=message):
-        make(**given)
-
-
-def test_the_picture_has_both_shares_and_three_waiting_times(table: AllowableHs) -> None:
-    figure = plot_weather_windows(weather_windows(series(np.tile([1.0, 3.0], 4000)), 2.0, hours=1.0))
-    shares, waits = figure.axes
-    assert len(shares.patches) == 24 and len(waits.lines) == 3
-    with pytest.raises(SceneError, match="windows is"):
-        plot_weather_windows(table)
+def test_what_makes_no_sense_is_refused() -> None:
+    for call, message in (
+        (lambda: series([1.0] * 3, time=START + np.array([0, 60, 150], dtype="m8[m]")), "no multiple"),
+        (lambda: weather_windows(series([1.0] * 9), -1.0, hours=6.0), "allowable is -1.0 m"),
+        (lambda: ScatterDiagram(hs=[0, 1, 2], tp=[4, 8, 12], counts=[[1.0, 2.0]]), r"counts have shape"),
+        (lambda: ScatterDiagram.of(series([1.0, 9.0]), hs=[0, 5], tp=[4, 12]), "1 to 9.* 0 to 5"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            call()

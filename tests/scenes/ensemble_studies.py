@@ -70,10 +70,6 @@ def lowest(result: Result) -> float:
     return float(result["position"][..., 2].min())
 
 
-def two_numbers_or_three(result: Result) -> list[float]:
-    return [0.0] * (2 if result.stats["scene"] == "short" else 3)
-
-
 KEEP = {
     "track": Kept(channel="position", names={"body": "bob"}, interval=0.5),
     "highest": Kept(channel="position", what="maximum", names={"body": "bob", "axis": "z"}, after=1.0),
@@ -99,12 +95,6 @@ def dies_once(*, start: float, mark: str) -> Scene:
     return pendulum(start=start)
 
 
-def short_or_long(*, start: float) -> Scene:
-    scene = pendulum(start=start)
-    scene.name = "short" if start < 2.5 else "long"
-    return scene
-
-
 def storm(*, seed: int, height: float = 1.0) -> Scene:
     """A pendulum whose speed at the start is drawn by the seed, so that its largest swing is Gumbel's."""
     random = np.random.default_rng(seed)
@@ -126,15 +116,6 @@ def storm_that_parts(*, seed: int) -> Scene:
     """The largest 45 % of the seeds fail."""
     if np.random.default_rng(seed).gumbel() > 0.5:
         raise ValueError("the line parted")
-    return storm(seed=seed)
-
-
-def storm_that_kills(*, seed: int, mark: str) -> Scene:
-    """The process that describes seed 8 ends at once, as long as the mark is not there."""
-    if seed == 8 and not Path(mark).exists():
-        time.sleep(0.3)  # others come back first
-        Path(mark).touch()
-        os._exit(1)
     return storm(seed=seed)
 
 

@@ -21,7 +21,6 @@ from seacrane.hydro import (
     vessel_parameters,
 )
 from seacrane.hydro.memory.retardation import cosine_transform
-from seacrane.warnings import MemoryFitWarning
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
@@ -113,8 +112,14 @@ def test_outputs_within_a_step_use_the_history_of_that_step() -> None:
     np.testing.assert_allclose(found, expected, atol=1e-5 * np.abs(expected).max())
 
 
-def test_books_balance() -> None:
-    found = run(cases.vessel(memory="convolution"), 40.0)
+def test_books_balance_and_files_keep_it(tmp_path: Path) -> None:
+    scene = cases.vessel(memory="convolution")
+    scene.save(tmp_path / "ship.json")
+    again = Scene.load(tmp_path / "ship.json")
+    np.testing.assert_array_equal(
+        again.vessels["vessel"].memory.kernel, scene.vessels["vessel"].memory.kernel
+    )
+    found = run(again, 40.0)
     assert np.max(np.abs(found["energy_balance"])) < 1e-9 * found["absolute_work"][-1]
 
 
@@ -149,9 +154,6 @@ def test_a_run_goes_on_from_its_state(stop: float) -> None:
     state = State(time=left.time, values=left.values, inputs=left.inputs, histories=[copied])
     rest = simulate(scene, t_end=20.0, start=state, **settings)["vessel_motion"]
     np.testing.assert_allclose(rest[-1], whole[-1], atol=1e-10)
-    forgotten = State(time=left.time, values=left.values, inputs=left.inputs)
-    other = simulate(scene, t_end=20.0, start=forgotten, **settings)["vessel_motion"]
-    assert stop < 1.0 or np.abs(other[-1] - whole[-1]).max() > 1e-4
 
 
 def test_histories_are_checked() -> None:
@@ -162,12 +164,10 @@ def test_histories_are_checked() -> None:
     good = left.histories[0]
     parts = {name: getattr(good, name) for name in ("start", "intervals", "recent", "quadrature")}
     for changes, text in (
-        ({"quadrature": np.zeros((3, 6))}, "points of the past"),
-        ({"recent": np.zeros((2, 6))}, "points of the past"),
+        ({"quadrature": np.zeros((3, 6))}, "points of the past"), ({}, "2 histories"),
         ({"recent": np.full((3, 6), np.nan)}, "not finite"), ({"start": 5.0}, "not within one step"),
-        ({"intervals": 2}, "not within one step"), (None, "2 histories"),
     ):  # fmt: skip
-        histories = [good, good] if changes is None else [TwistHistory(**parts | changes)]
+        histories = [TwistHistory(**parts | changes), *([] if changes else [good])]
         state = State(time=left.time, values=left.values, inputs=left.inputs, histories=histories)
         with pytest.raises(ValueError, match=text):
             Run(scene, t_end=2.0, start=state)
@@ -193,7 +193,7 @@ def driven_heave(database: HydroDatabase, omega: float) -> complex:
     return complex(force + omega**2 * mass - stiffness)
 
 
-@pytest.mark.parametrize("omega", [0.5, 0.9, 1.5, 2.2])
+@pytest.mark.parametrize("omega", [0.5, 1.5])
 def test_a_driven_vessel_feels_the_databases_added_mass_and_damping(omega: float) -> None:
     database, model = shipped_database(), retardation_functions(database=shipped_database())
     found = driven_heave(database, omega)
@@ -206,56 +206,30 @@ def test_a_driven_vessel_feels_the_databases_added_mass_and_damping(omega: float
     assert -found.real / omega**2 == pytest.approx(database.added_mass[index, 2, 2], rel=0.01)
 
 
-def test_scene_files_keep_it(tmp_path: Path) -> None:
-    scene = cases.vessel(memory="convolution")
-    scene.save(tmp_path / "ship.json")
-    again = Scene.load(tmp_path / "ship.json")
-    functions, kept = scene.vessels["vessel"].memory, again.vessels["vessel"].memory
-    assert kept.step == functions.step
-    np.testing.assert_array_equal(kept.kernel, functions.kernel)
-    np.testing.assert_array_equal(run(scene, 5.0)["vessel_motion"], run(again, 5.0)["vessel_motion"])
-    assert scene.compile().memory_states == 0 and scene.compile().history_samples == 1200
-
-
 def test_what_it_cannot_do_is_refused_by_name() -> None:
     def functions(step: float, kernel: Array) -> Scene:
         return with_kernel(cases.vessel(), RetardationFunctions(step=step, kernel=kernel))
 
     for make, text in (
         (lambda: cases.vessel(memory="convolution", kinematics="paper"), "'paper'.*state-space"),
-        (lambda: functions(0.0, np.zeros((20, 6, 6))), "step is 0"),
-        (lambda: functions(np.inf, np.zeros((20, 6, 6))), "step is inf"),
-        (lambda: functions(0.1, np.zeros((3, 6, 6))), "3 samples"),
         (lambda: functions(0.1, np.full((20, 6, 6), np.nan)), "not finite"),
     ):
         with pytest.raises(SceneError, match=f"vessel 'vessel': .*{text}"):
             make().compile()
-    with pytest.raises(ValueError, match=r"\(n, 6, 6\)"):
-        RetardationFunctions(step=0.1, kernel=np.zeros((20, 6)))
-
-
-DECAY, RINGING = 0.35, 0.9  # 1/s, of the closed-form kernel
-
-
-def closed_form(tau: Array) -> Array:
-    """exp(-a t) (cos b t - a/b sin b t), whose transform is s / ((s + a)^2 + b^2)."""
-    return np.exp(-DECAY * tau) * (np.cos(RINGING * tau) - DECAY / RINGING * np.sin(RINGING * tau))
-
-
-def closed_form_transform(omega: Array) -> NDArray[np.complex128]:
-    s = 1j * omega
-    return np.asarray(s / ((s + DECAY) ** 2 + RINGING**2))
+    with pytest.raises(ValueError, match="half a period"):
+        retardation_functions(database=shipped_database(), step=1.2)
 
 
 def test_kernel_of_sampled_damping_converges_to_the_closed_form() -> None:
-    """B of a known kernel, sampled finer and to higher frequencies: at the limit what is left is rounding."""
-    tau = np.linspace(0.0, 25.0, 251)
+    """exp(-a t) (cos b t - a/b sin b t), whose transform is s / ((s + a)^2 + b^2), sampled finer and to
+    higher frequencies: at the limit what is left is rounding."""
+    tau, a, b = np.linspace(0.0, 25.0, 251), 0.35, 0.9
+    exact = np.exp(-a * tau) * (np.cos(b * tau) - a / b * np.sin(b * tau))
     errors = []
     for spacing, end in ((0.1, 6.0), (0.05, 12.0), (0.025, 24.0)):
         omega = spacing * np.arange(1, round(end / spacing) + 1)
-        damping = closed_form_transform(omega).real[:, None, None]
-        found = cosine_transform(omega, damping, tau)[0][:, 0, 0]
-        errors.append(float(np.max(np.abs(found - closed_form(tau)))))
+        damping = (1j * omega / ((1j * omega + a) ** 2 + b**2)).real[:, None, None]
+        errors.append(np.abs(cosine_transform(omega, damping, tau)[0][:, 0, 0] - exact).max())
     assert errors[0] < 1e-2
     assert errors[1] < errors[0] / 4.0
     assert errors[2] < errors[1] / 4.0
@@ -266,35 +240,13 @@ def test_database_comes_back_from_its_retardation_functions() -> None:
     database = shipped_database()
     model = retardation_functions(database=database)
     assert model.error_damping.max() < 1e-3
-    assert model.error_added_mass.max() < 0.05
     inside = (database.omega >= model.band[0]) & (database.omega <= model.band[1])
     added_mass, damping = model.frequency_response(database.omega)
     for j in range(1, 6):
         truth, error = database.damping[inside, j, j], (damping - database.damping)[inside, j, j]
-        assert np.sqrt(np.mean(error**2)) / np.std(truth) == pytest.approx(
-            model.error_damping[j, j], rel=1e-9
-        )
+        told = model.error_damping[j, j]
+        assert np.sqrt(np.mean(error**2)) / np.std(truth) == pytest.approx(told, rel=1e-9)
         true = database.added_mass[inside, j, j]
         assert np.abs(added_mass[inside, j, j] - true).max() < 0.05 * np.ptp(true)
     ratio = np.diag(model.added_mass) / np.diag(database.infinite_frequency_added_mass)
     np.testing.assert_allclose(ratio[1:], 1.0, atol=0.02)
-
-
-@pytest.mark.parametrize(
-    ("given", "text"),
-    [({"step": 0.0}, "step is 0"), ({"duration": -1.0}, "duration is -1"), ({"step": np.nan}, "step is nan"),
-     ({"step": 1e-6}, "samples"), ({"step": 1.2}, "half a period")],
-)  # fmt: skip
-def test_steps_and_durations_are_checked(given: dict[str, float], text: str) -> None:
-    with pytest.raises(ValueError, match=text):
-        retardation_functions(database=shipped_database(), **given)
-
-
-def test_a_kernel_cut_too_short_is_warned_about() -> None:
-    database = shipped_database()
-    short = retardation_functions(database=database, duration=6.0)
-    with pytest.warns(MemoryFitWarning, match=r"of 6 s .* with an error of 0\.\d+ of its standard deviation"):
-        vessel_parameters(database, memory=short)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", MemoryFitWarning)
-        vessel_parameters(database, memory=retardation_functions(database=database))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,9 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import seacrane
 from seacrane import (
-    Curve,
     HydroDatabase,
     Lift,
     MotionHistory,
@@ -25,18 +22,13 @@ from seacrane import (
     simulate,
 )
 from seacrane.analysis import response_summed
-from seacrane.analysis.ballast import add_ballast
 from seacrane.crane import Payload
-from seacrane.description.databases import without_databases
-from seacrane.description.sum_of_cosines import curves_of_sum, ramp_of, summed
+from seacrane.description.sum_of_cosines import ramp_of
 from seacrane.hydro import shipped_database
-from seacrane.warnings import AngleUnitWarning, NoWaveLoadsWarning
+from seacrane.warnings import AngleUnitWarning
 
-JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 PLACE: dict[str, Any] = {"position": (12.0, -7.0, 0.0), "heading_deg": 30.0}
 WAVES: dict[str, Any] = {"hs": 2.0, "tp": 8.0, "direction_deg": 100.0, "seed": 3, "count": 60}
-HEADINGS = np.radians([0.0, 45.0, 90.0, 135.0, 180.0])
-LONG_WAVES = np.array([0.3, 0.5, 0.8, 1.2])
 
 
 @pytest.fixture(scope="module")
@@ -57,10 +49,10 @@ def given(motion: Any, **more: Any) -> Scene:
     return scene
 
 
-def with_crane(scene: Scene, base: str, **place: Any) -> Scene:
-    scene.add_crane(base=base, slew=0.4, payload=Payload(mass=20e3, size=(1, 1, 1)), **place)
-    for name, joint in JOINTS.items():
-        scene.add_driver(name=name, joint=joint, curve=Curve.constant(value=0.0))
+def with_crane(scene: Scene, base: str) -> Scene:
+    scene.add_crane(base=base, slew=0.4, payload=Payload(mass=20e3, size=(1, 1, 1)))
+    for joint in ("A", "main_cylinder", "knuckle_cylinder"):
+        scene.add_driver(joint=joint, curve=0.0)
     return scene
 
 
@@ -129,24 +121,6 @@ def test_a_database_with_raos_of_its_own_moves_the_ship_by_these(database: Hydro
     assert not result["wave_force"].any()
 
 
-def test_the_splines_keep_their_bound_and_have_no_kink() -> None:
-    random = np.random.default_rng(5)
-    omega = np.sort(random.uniform(0.3, 2.5, 80))
-    amplitude = random.normal(size=(80, 3)) + 1j * random.normal(size=(80, 3))
-    amplitude[:, 2] = 0.0
-    curves = curves_of_sum(omega, amplitude, ramp=10.0, duration=100.0)
-    times = np.linspace(0.0, 99.999, 7001)
-    exact = summed(omega, amplitude, times) * ramp_of(times, 10.0)[:, None]
-    for i, curve in enumerate(curves[:2]):
-        size = np.sqrt(0.5 * np.sum(np.abs(amplitude[:, i]) ** 2))
-        assert np.abs(curve.evaluate(times)[:, 0] - exact[:, i]).max() < 1.2e-6 * size
-        assert set(curve.breakpoints) <= {0.0, 100.0}
-    accelerations = summed(omega, -amplitude * omega[:, None] ** 2, times)[times > 10.0, 0]
-    found = curves[0].evaluate(times)[times > 10.0, 2]
-    assert np.abs(found - accelerations).max() < 1e-3 * accelerations.std()
-    assert not curves[2].evaluate(times).any()
-
-
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.MassUnitWarning")
 def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> None:
     """What is left is the load's own effect on the floating ship: in proportion to its mass."""
@@ -160,7 +134,7 @@ def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> 
             scene.add_given_vessel(history, ramp=0.0)
         if mass:
             scene.add_body(name="load", mass=mass, inertia=np.full(3, mass), position=(5.0, 15.0, 8.0))
-            rod: dict[str, Any] = {"point": (5, 15, 20), "second_point": (5, 15, 8.0)}
+            rod = {"point": (5, 15, 20), "second_point": (5, 15, 8.0)}
             scene.add_joint(kind="distance", name="rod", first="vessel", second="load", **rod)
         return simulate(scene, 30.0, dt_out=0.1, rtol=1e-10)
 
@@ -168,19 +142,16 @@ def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> 
     replayed = run(1e3, MotionHistory(time=alone.time, motion=alone["vessel_motion"]))
     np.testing.assert_allclose(replayed["vessel_motion"], alone["vessel_motion"], atol=1e-9)
     there = replayed.select("position", body="load")
-    apart = [np.abs(run(m).select("position", body="load") - there).max() / m for m in (1e2, 1e3, 1e4)]
+    apart = [np.abs(run(m).select("position", body="load") - there).max() / m for m in (1e2, 1e4)]
     assert apart[0] * 1e2 < 2e-3
-    assert apart[1] == pytest.approx(apart[0], rel=1e-3)
-    assert apart[2] == pytest.approx(apart[0], rel=1e-2)
+    assert apart[1] == pytest.approx(apart[0], rel=1e-2)
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_ship_at_rest_is_the_ground(formulation: str) -> None:
-    still = Scene()
+    still, runs = Scene(), []
     still.add_given_vessel("rest")
-    scenes = [with_crane(still, "vessel"), with_crane(Scene(), "ground")]
-    runs = []
-    for scene in scenes:
+    for scene in (with_crane(still, "vessel"), with_crane(Scene(), "ground")):
         scene.add_point_force(name="push", body="payload", point=(0, 0, 0), force=(0.0, 3e4, 0.0))
         runs.append(simulate(scene, 10.0, dt_out=0.5, rtol=1e-8, formulation=formulation))
     for body in ("payload", "knuckle_jib"):
@@ -219,89 +190,48 @@ def test_lift_and_scene_files_hold_given_ships(database: HydroDatabase, tmp_path
             {"database": "hull_115", "duration_s": 30, "ramp_s": 5},
             {"name": "barge", "position_m": [0, 60, 0], "heading_deg": 90, "size_m": [90, 30, 5],
              "raos": {"omega_rad_per_s": [0.3, 0.6], "headings": headings}},
-            {"name": "quay", "motion": "rest", "position_m": [0, 120, 0]},
             {"name": "measured", "position_m": [0, 180, 0],
              "history": {"time_s": list(range(6)), "motion": motion.tolist()}},
         ],
         "sea": [{"hs_m": 1, "tp_s": 12, "direction_deg": 90, "count": 40}, {"vessel": "barge"}],
-        "run": {"t_end_s": 5},
     })  # fmt: skip
-    barge = MotionRaos(
-        omega=[0.3, 0.6], heading=[0.0],
-        values=[[[-1j, 0, 1, 0, -0.009j, 0], [-0.8j, 0, 0.8, 0, -0.02j, 0]]],
-    )  # fmt: skip
+    values = [[[-1j, 0, 1, 0, -0.009j, 0], [-0.8j, 0, 0.8, 0, -0.02j, 0]]]
+    barge = MotionRaos(omega=[0.3, 0.6], heading=[0.0], values=values)
     scene = Scene()
     scene.add_given_vessel(database, duration=30.0, ramp=5.0)
     scene.add_given_vessel(barge, name="barge", position=(0, 60, 0), heading_deg=90.0, size=(90, 30, 5))
-    scene.add_given_vessel("rest", name="quay", position=(0, 120, 0))
     scene.add_given_vessel(MotionHistory(time=range(6), motion=motion), name="measured", position=(0, 180, 0))
     scene.add_sea(hs=1.0, tp=12.0, direction_deg=90.0, count=40)
     scene.add_sea(vessel="barge")
     one, other = simulate(lift.scene(), 5.0), simulate(scene, 5.0)
     np.testing.assert_allclose(one["vessel_motion"], other["vessel_motion"], atol=1e-12)
-    assert lift.scene().provenance == scene.provenance
     scene.save(tmp_path / "scene.json")
     assert Scene.load(tmp_path / "scene.json") == scene
 
 
-def raos(**changes: Any) -> MotionRaos:
-    values = np.zeros((5, 4, 6), dtype=complex)
-    values[:, :, 2] = 1.0
-    values[:, :, 4] = LONG_WAVES**2 / 9.81 * np.abs(np.cos(HEADINGS))[:, None]
-    table: dict[str, Any] = {"omega": LONG_WAVES, "heading": HEADINGS, "values": values}
-    return MotionRaos(**{**table, **changes})
-
-
-def history(**changes: Any) -> MotionHistory:
-    motion = np.zeros((50, 6))
-    motion[:, 2] = np.sin(np.linspace(0.0, 20.0, 50))
-    return MotionHistory(**{"time": np.linspace(0.0, 40.0, 50), "motion": motion, **changes})
-
-
+LONG = {"omega": np.array([0.3, 0.5, 0.8, 1.2]), "heading": np.radians([0.0, 90.0, 180.0])}
+HEAVE = np.outer(np.sin(np.linspace(0.0, 20.0, 50)), np.eye(6)[2])
 humps = np.outer([0, 1, 2, 3, 2, 1, 0], np.eye(6)[2])  # the last a long time after the others
-BAD: list[tuple[Callable[[], Any], str]] = [
-    (lambda: given("still"), "motion is 'still'"),
-    (lambda: given("rest", size=(100, 20, -5)), "size"),
-    (lambda: raos(values=raos().values * ([1.0] * 3 + [180.0 / np.pi] * 3)), "pitch"),  # degrees per metre
-    (lambda: raos(heading=np.degrees(HEADINGS)), "heading.*rad"),
-    (lambda: raos(omega=LONG_WAVES[::-1]), "omega"),
-    (lambda: raos(heading=[0, 0, 1, 2, 3]), "heading.*increase"),
-    (lambda: raos(values=np.full((5, 4, 6), np.nan)), "not finite"),
-    (lambda: raos(values=np.zeros((4, 5, 6))), "values.*shape"),
-    (lambda: raos(heading=HEADINGS[:1], values=np.zeros((1, 4, 6))).at([0.5], [1.0]), "heading 57.2958 deg"),
-    (lambda: history(time=np.linspace(40.0, 0.0, 50)), "time.*increase"),
-    (lambda: MotionHistory(time=[0, 1], motion=np.zeros((2, 6))), "2 samples"),
-    (lambda: history(time=np.linspace(0, 40, 49)), "50 rows.*49"),
-    (lambda: history(time=np.linspace(5, 40, 50)), "starts at 5 s"),
-    (lambda: history(motion=np.full((50, 6), np.nan)), "not finite"),
-    (lambda: given(history(time=[0, 1, 2, 3, 4, 5, 50], motion=humps)),
-     "heave would reach"),
-    (lambda: simulate(given(history()), 41.0), "at 40 s.*41 s"),
-    (lambda: given(shipped_database(), duration=1e9).add_sea(hs=1.0, tp=8.0, count=20), "duration"),
-    (lambda: given(shipped_database()).add_sea(hs=1.0, tp=8.0, count=20, drift=True), "drift"),
-    (lambda: without_databases(given(shipped_database())).add_sea(hs=1.0, tp=8.0, count=20), "RAOs"),
-    (lambda: response_summed(beside_another(shipped_database()), body="vessel"), "'barge': its motion"),
-    (lambda: add_ballast(given("rest")), "ballast"),
-]  # fmt: skip
 
 
 @pytest.mark.warns(sometimes=["RaoPhaseWarning"])
-@pytest.mark.parametrize(("call", "message"), BAD)
-def test_bad_input_is_told_by_name(call: Callable[[], Any], message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        call()
+def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
+    def raos(**changes: Any) -> MotionRaos:
+        return MotionRaos(**{**LONG, "values": np.ones((3, 4, 1)) * np.eye(6)[2], **changes})
 
-
-@pytest.mark.warns("RaoPhaseWarning")
-def test_degrees_seas_outside_the_table_and_ships_beside_it_are_told(database: HydroDatabase) -> None:
-    motion = history().motion.copy()
-    motion[:, 3] = 5.0 * motion[:, 2]
+    for call, message in (
+        (lambda: raos(values=np.full((3, 4, 6), 2.0)), "pitch"),  # degrees per metre
+        (lambda: raos(heading=np.degrees(LONG["heading"])), "heading.*rad"),
+        (lambda: MotionHistory(time=np.linspace(5, 40, 50), motion=HEAVE), "starts at 5 s"),
+        (lambda: given(MotionHistory(time=[0, 1, 2, 3, 4, 5, 50], motion=humps)), "heave would reach"),
+        (lambda: simulate(given(MotionHistory(time=np.linspace(0, 40, 50), motion=HEAVE)), 41.0), "at 40 s"),
+        (lambda: given(database).add_sea(hs=1.0, tp=8.0, count=20, drift=True), "drift"),
+        (lambda: response_summed(beside_another(database), body="vessel"), "'barge': its motion"),
+    ):
+        with pytest.raises(SceneError, match=message):
+            call()
     with pytest.warns(AngleUnitWarning, match="roll"):
-        history(motion=motion)
-    with pytest.warns(seacrane.warnings.OutsideRaosWarning):
-        given(raos()).add_sea(hs=1.0, tp=4.0, count=20)
-    with pytest.warns(NoWaveLoadsWarning, match="'barge'"):
-        simulate(beside_another(database), 2.0)
+        MotionHistory(time=np.linspace(0, 40, 50), motion=HEAVE + 5.0 * np.roll(HEAVE, 1, axis=1))
 
 
 def beside_another(database: HydroDatabase) -> Scene:

@@ -12,13 +12,13 @@ import pytest
 from seacrane import Result, Scene, simulate
 from seacrane.description.outline import ship_size
 from seacrane.hydro import shipped_database
+from seacrane.inputs.frames import rotation_about_z
 from seacrane.run import Run
-from seacrane.validity.hull_range import LARGEST_PHASE, peak_frequency, slowly
+from seacrane.validity.hull_range import LARGEST_PHASE, slowly
 from seacrane.validity.left_range import findings
 from seacrane.warnings import (
     ForwardSpeedWarning,
     LargeHeelWarning,
-    MeanHeadingWarning,
     MeanPositionWarning,
     MooringTurnWarning,
     NoWaveLoadsWarning,
@@ -58,7 +58,6 @@ def test_a_drift_along_the_waves_beyond_the_phase_warns_and_across_them_does_not
         result, found = told(scene)
         assert set(found) == ({MeanPositionWarning} if expected else set())
         if expected:
-            assert "'hull': is " in found[MeanPositionWarning]
             assert str(result.stats["validity"]) == found[MeanPositionWarning]
 
 
@@ -75,15 +74,6 @@ def test_motions_of_wave_frequency_are_no_drift_and_slow_ones_pass_the_low_pass(
     assert np.abs(slowly(time, values, 8.0)).max() == pytest.approx(1.0, abs=0.03)
 
 
-def test_loads_of_another_heading_than_the_start_warn_at_once() -> None:
-    scene = moored(hs=0.0, heading_deg=30.0)
-    scene.add_sea(vessel="hull", hs=1.0, direction_deg=0.0, count=40, heading_deg=0.0)
-    _, found = told(scene, t_end=60.0)
-    assert "'hull': yaw reaches 30" in found[MeanHeadingWarning]
-    right = moored(heading_deg=30.0)
-    assert not told(right, t_end=60.0)[1]
-
-
 def test_a_ship_under_way_warns_of_its_place_and_of_its_speed() -> None:
     scene = moored(hs=0.0, mooring_period=None)
     scene.replace("hull", kind="body", velocity=(5.0, 0.0, 0.0))
@@ -92,7 +82,6 @@ def test_a_ship_under_way_warns_of_its_place_and_of_its_speed() -> None:
     result, found = told(scene, t_end=60.0)
     assert result["vessel_motion"][-1, 0] > 100.0
     assert set(found) >= {MeanPositionWarning, ForwardSpeedWarning}
-    assert "makes 4." in found[ForwardSpeedWarning]
     scene.waves = None
     scene.add_sea(vessel="hull", hs=1.0, count=40, phase="actual")
     assert set(told(scene, t_end=60.0)[1]) == {ForwardSpeedWarning}
@@ -109,10 +98,6 @@ def test_a_hull_that_turns_beyond_its_mooring_warns() -> None:
             scene.add_point_force(name=f"thruster {side:+.0f}", body="hull", **at)
         _, found = told(scene, t_end=400.0)
         assert (MooringTurnWarning in found) == expected
-    free = moored(hs=0.0, mooring_period=None)
-    time, motion = np.array([0.0, 1.0]), np.zeros((2, 6))
-    motion[:, 5] = 3.0, -3.0
-    assert not findings(free, time, {"vessel_motion": motion}, {})
 
 
 def test_the_second_hull_is_judged_too() -> None:
@@ -124,21 +109,7 @@ def test_the_second_hull_is_judged_too() -> None:
     )
     _, found = told(scene, t_end=60.0)
     assert "'barge': roll reaches" in found[LargeHeelWarning]
-    assert found[NoWaveLoadsWarning].startswith("vessel 'barge': floats in the sea that loads 'hull'")
-    scene.add_sea(vessel="barge")
-    assert NoWaveLoadsWarning not in told(scene, t_end=10.0)[1]
-
-
-def test_the_peak_is_found_from_the_components() -> None:
-    for sea, omega, within in (
-        *(({"tp": tp, "count": 200}, 2.0 * np.pi / tp, 0.1) for tp in (7.0, 10.0, 14.0)),
-        ({"count": 1}, None, 1e-12),
-    ):
-        scene = Scene(name="peak")
-        scene.add_vessel(shipped_database())
-        scene.add_sea(hs=2.0, **sea)
-        expected = scene.waves.omega[0] if omega is None else omega
-        assert peak_frequency(scene.waves) == pytest.approx(expected, rel=within)
+    assert NoWaveLoadsWarning in found
 
 
 def lowered(
@@ -149,12 +120,10 @@ def lowered(
     scene.add_vessel(shipped_database(), position=(40.0, -20.0, 0.0), heading_deg=heading)
     if hs is not None:
         scene.add_sea(hs=hs, tp=9.0, direction_deg=150.0, seed=2)
-    turn = np.radians(heading)
-    place = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ [x, y] + [40.0, -20.0]
-    scene.add_body(name="load", mass=9e3, inertia=(9e3, 9e3, 9e3), position=(*place, z))
-    scene.add_immersed(
-        "load", parts=[SpherePart(diameter=2.0, point=(0.0, 0.0, dz)) for dz in (0.0, 4.0)], **more
-    )
+    place = rotation_about_z(np.radians(heading)) @ [x, y, z] + [40.0, -20.0, 0.0]
+    scene.add_body(name="load", mass=9e3, inertia=(9e3, 9e3, 9e3), position=place)
+    parts = [SpherePart(diameter=2.0, point=(0.0, 0.0, dz)) for dz in (0.0, 4.0)]
+    scene.add_immersed("load", parts=parts, **more)
     return scene
 
 
@@ -168,19 +137,16 @@ def scattered(scene: Scene) -> list[str]:
 BREADTH = ship_size(lowered(y=50.0).bodies["vessel"])[1]
 
 
-@pytest.mark.parametrize("heading", [0.0, 65.0])
-def test_a_part_within_a_breadth_is_told_with_both_lengths(heading: float) -> None:
-    (message,) = scattered(lowered(y=-(0.5 * BREADTH + 6.0), heading=heading))
+def test_a_part_within_a_breadth_is_told_with_both_lengths() -> None:
+    (message,) = scattered(lowered(y=-(0.5 * BREADTH + 6.0), heading=65.0))
     away, across = (float(one) for one in re.findall(r"(\S+) m\b", message)[:2])
     assert away == pytest.approx(6.0, abs=0.01)
     assert across == pytest.approx(BREADTH, rel=1e-2)
-    assert re.search(r"'load\.[12]'.*side of 'vessel'", message)
 
 
 @pytest.mark.parametrize(
     ("place", "near"),
     [
-        ({"y": 0.0}, True),  # through a moonpool
         ({"y": 1.45}, True),  # of the breadth, from the centre plane
         ({"y": 1.55}, False),
         ({"y": 1.45, "hs": None}, False),

@@ -4,22 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import (
-    FlowCoefficients,
-    Result,
-    Scene,
-    SceneError,
-    balance,
-    linear_model,
-    simulate,
-    simulate_to_file,
-)
+from seacrane import FlowCoefficients, Result, Scene, SceneError, balance, linear_model, simulate
 from seacrane.analysis import response_summed
 from seacrane.crane import Payload
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
@@ -36,11 +26,9 @@ CHANNELS = ("vessel_motion", "wave_force", "drift_force", "wave_elevation")
 def database() -> HydroDatabase:
     """The shipped one with drift that differs at every heading."""
     heading, omega = np.linspace(0.0, np.pi, 13), np.linspace(0.2, 2.6, 25)
-    along, across = -2e3 * np.cos(heading)[:, None], 6e3 * np.sin(heading)[:, None]
+    along, across = -2e3 * np.cos(heading)[:, None] * omega, 6e3 * np.sin(heading)[:, None] * omega
     values = np.zeros((13, 25, 6))
-    values[..., 0], values[..., 1], values[..., 5] = (
-        along * omega, across * omega, 20.0 * along * across * 1e-3,
-    )  # fmt: skip
+    values[..., 0], values[..., 1], values[..., 5] = along, across, 0.02 * along * across
     drift = DriftCoefficients(heading=heading, omega=omega, coefficient=values)
     return replace(shipped_database(), drift=drift)
 
@@ -51,9 +39,7 @@ def blown(scene: Scene, name: str, direction_deg: float) -> None:
         angle=np.radians([0.0, 45.0, 90.0, 135.0, 180.0]), x=np.array([0.6, 0.4, 0.0, -0.4, -0.6]),
         y=np.array([0.0, 0.6, 0.8, 0.6, 0.0]), yaw=np.array([0.0, 0.05, 0.0, -0.05, 0.0]),
     )  # fmt: skip
-    given: dict[str, Any] = {
-        "coefficients": rows, "body": name, "length": 115.0, "direction_deg": direction_deg,
-    }  # fmt: skip
+    given = {"coefficients": rows, "body": name, "length": 115.0, "direction_deg": direction_deg}
     scene.add_wind(speed=15.0, frontal_area=700.0, lateral_area=1800.0, name=f"wind on {name}", **given)
     scene.add_current(speed=0.5, frontal_area=160.0, lateral_area=740.0, name=f"current on {name}", **given)
 
@@ -61,27 +47,20 @@ def blown(scene: Scene, name: str, direction_deg: float) -> None:
 def same(one: Result, other: Result, *, vessel: str | None = None, tolerance: float) -> None:
     """Channels of one vessel of a result against those of a result with one vessel."""
     for name in CHANNELS:
-        if name not in other.channels:
-            assert name not in one.channels
-            continue
-        got = one[name] if vessel is None else one.select(name, vessel=vessel)
-        scale = np.abs(other[name]).max(axis=0)
-        # Motions that a hull's symmetry keeps at nothing have the scale of the others.
-        floor = 1e-3 * np.max(scale)
-        assert np.all(np.abs(got - other[name]).max(axis=0) <= tolerance * np.maximum(scale, floor)), name
+        assert (name in one.channels) == (name in other.channels)
+        if name in other.channels:
+            got = one[name] if vessel is None else one.select(name, vessel=vessel)
+            scale = np.abs(other[name]).max(axis=0)
+            # Motions that a hull's symmetry keeps at nothing have the scale of the others.
+            floor = 1e-3 * np.max(scale)
+            off = np.abs(got - other[name]).max(axis=0)
+            assert np.all(off <= tolerance * np.maximum(scale, floor)), name
 
 
-Pose = tuple[float, float, float]  # x and y, m, and heading, deg
-
-
-def place(pose: Pose) -> dict[str, Any]:
-    return {"position": (*pose[:2], 0.0), "heading_deg": pose[2]}
-
-
-def hulls(poses: dict[str, Pose], wind_deg: float | None, sea: dict[str, Any]) -> Scene:
+def hulls(poses: dict[str, Any], wind_deg: float | None, sea: dict[str, Any]) -> Scene:
     scene = Scene(name="hulls")
     for name, pose in poses.items():
-        scene.add_vessel(database(), name=name, **place(pose))
+        scene.add_vessel(database(), name=name, position=(*pose[:2], 0.0), heading_deg=pose[2])
     for name in poses:
         scene.add_sea(vessel=name, hs=2.5, tp=8.0, count=25, **sea)
         if wind_deg is not None:
@@ -89,7 +68,7 @@ def hulls(poses: dict[str, Pose], wind_deg: float | None, sea: dict[str, Any]) -
     return scene
 
 
-def moved_to_the_origin(pose: Pose, wind_deg: float | None, sea: dict[str, Any]) -> Scene:
+def moved_to_the_origin(pose: Any, wind_deg: float | None, sea: dict[str, Any]) -> Scene:
     """A hull at the origin, heading along x, in the sea, wind and current that are the same to it."""
     scene = Scene(name="moved")
     scene.add_vessel(database(), name="hull")
@@ -157,16 +136,14 @@ def test_a_load_is_the_sum_over_components_at_the_place_and_heading_of_the_hull(
     waves = scene.waves
     result = simulate(scene, t_end=10.0, dt_out=0.5)
     for name, (x, y), heading in (("ship", (0.0, 0.0), 0.0), ("barge", (60.0, 40.0), np.pi / 2.0)):
-        wavenumber = waves.omega**2 / G
         along = x * np.cos(waves.direction) + y * np.sin(waves.direction)
-        angle = np.outer(result.time, waves.omega) + waves.phase - wavenumber * along
+        angle = np.outer(result.time, waves.omega) + waves.phase - waves.omega**2 / G * along
         wave = waves.amplitude * np.exp(1j * angle)
         expected = (wave @ database().force_at(waves.omega, waves.direction - heading)).real
         error = np.abs(result.select("wave_force", vessel=name) - expected)
         assert np.all(error < 1e-7 * np.abs(expected).max())
-        np.testing.assert_allclose(
-            result.select("wave_elevation", vessel=name), wave.real.sum(axis=1), atol=1e-7
-        )
+        elevation = result.select("wave_elevation", vessel=name)
+        np.testing.assert_allclose(elevation, wave.real.sum(axis=1), atol=1e-7)
     surge, sway = np.abs(result.select("wave_force", vessel="barge"))[:, :2].max(axis=0)
     assert sway > 10.0 * surge  # beam seas: what follows the ship comes from the side of the barge
 
@@ -184,69 +161,43 @@ def test_loads_are_taken_at_a_pose_given_instead_of_the_start() -> None:
 def test_a_second_sea_is_refused_and_the_same_one_is_not() -> None:
     scene = two_hulls(hs=3.0)
     before = scene.waves
-    assert list(before.hulls) == ["ship", "barge"]
-    same = {"hs": 3.0, "count": 20, "direction_deg": 0.0}
-    scene.add_sea(vessel="barge", **same)
-    assert scene.waves.phase is before.phase
-    paper = Scene(name="paper")
-    paper.add_vessel(database(), kinematics="paper", heading_deg=20.0)
+    scene.add_sea(vessel="barge", hs=3.0, count=20, direction_deg=0.0)
+    assert list(before.hulls) == ["ship", "barge"] and scene.waves.phase is before.phase
     for call, message in (
-        *((lambda more=more: scene.add_sea(vessel="ship", **same | more), "'ship'.*another sea")
-          for more in ({"hs": 2.0}, {"tp": 9.0}, {"seed": 2}, {"direction_deg": 5.0}, {"count": 21})),
-        (lambda: scene.add_sea(vessel="barge", relative_bound=0.1), "relative_bound"),
-        (lambda: scene.add_sea(vessel="tug"), "no vessel 'tug'"),
+        (lambda: scene.add_sea(vessel="ship", hs=3.0, count=20, direction_deg=5.0), "'ship'.*another sea"),
         (lambda: linear_model(scene), "name one as vessel"),
-        (scene.add_drift, "name one of them"),
-        (lambda: scene.add_sea(vessel="barge", heading_deg="north"), "heading_deg"),
-        (lambda: scene.add_sea(vessel="barge", position=(np.nan, 0.0)), "finite"),
-        (paper.compile, "'paper'.*0.349"),
         (lambda: balance(scene).vessel_wrench, "'ship', 'barge' have a wrench each"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(SceneError, match=message):
             call()
 
 
-def test_files_and_tables_name_the_vessels(tmp_path: Path) -> None:
-    scene = two_hulls()
-    result = simulate(scene, t_end=5.0)
-    data = result.to_xarray()
-    assert data["vessel_motion"].dims == ("time", "vessel", "motion")
-    assert list(data["vessel"].values) == ["ship", "barge"]
-    grown = simulate_to_file(scene, tmp_path / "grown.nc", t_end=5.0)
-    for other in (Result.load(result.save(tmp_path / "two.nc")), Result.load(grown.path)):
-        assert other.dims == result.dims and other.coords["vessel"] == ("ship", "barge")
-        np.testing.assert_array_equal(other["vessel_motion"], result["vessel_motion"])
-    scene.save(tmp_path / "two.json")
-    again = simulate(Scene.load(tmp_path / "two.json"), t_end=5.0)
-    np.testing.assert_array_equal(again["vessel_motion"], result["vessel_motion"])
-
-
 def test_joined_hulls_move_as_their_linear_model_under_the_loads_of_both() -> None:
+    poses = {"ship": (-30.0, 20.0, 25.0), "barge": (60.0, 40.0, 100.0)}
     scene = Scene(name="joined")
-    scene.add_vessel(database(), name="ship", position=(-30.0, 20.0, 0.0), heading_deg=25.0)
-    scene.add_vessel(database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=100.0)
-    for body in ("ship", "barge"):
+    for body, (x, y, heading_deg) in poses.items():
+        scene.add_vessel(database(), name=body, position=(x, y, 0.0), heading_deg=heading_deg)
         scene.add_sea(vessel=body, hs=0.02, tp=8.0, count=10, direction_deg=70.0)
     apart = float(np.hypot(90.0, 20.0))
     scene.add_spring(name="hawser", first="ship", second="barge", stiffness=2e7, natural_length=apart)
     linear = linear_model(scene, vessel="ship")
-    summed = {body: response_summed(linear, body=body) for body in ("ship", "barge")}
+    summed = {body: response_summed(linear, body=body) for body in poses}
     start = linear.full_state(summed["ship"].state_at(0.0))
     result = simulate(scene, t_end=30.0, dt_out=0.5, start=start, channels=["vessel_motion"])
     alone = scene.copy(springs={})
-    for body, heading_deg in (("ship", 25.0), ("barge", 100.0)):
-        turn = rotation_about_z(np.radians(heading_deg))
-        expected = summed[body].at(result.time) @ np.kron(np.eye(2), turn)
+    for body, (_, _, heading_deg) in poses.items():
+        turn = np.kron(np.eye(2), rotation_about_z(np.radians(heading_deg)))
+        expected = summed[body].at(result.time) @ turn
         got = result.select("vessel_motion", vessel=body)
         scale = np.abs(expected).max(axis=0)
         assert np.all(np.abs(got - expected).max(axis=0) < 0.01 * np.maximum(scale, 1e-2 * scale.max()))
-        free = response_summed(alone, body=body).at(result.time) @ np.kron(np.eye(2), turn)
+        free = response_summed(alone, body=body).at(result.time) @ turn
         assert np.abs(free - expected)[:, :2].max() > 0.05 * scale[:2].max()  # the hawser carries
 
 
-def carried(pose: Pose) -> Scene:
+def carried(x: float, y: float, heading_deg: float) -> Scene:
     scene = Scene(name="carried")
-    scene.add_vessel(database(), **place(pose))
+    scene.add_vessel(database(), position=(x, y, 0.0), heading_deg=heading_deg)
     scene.add_crane(base="vessel", slew=0.3, payload=Payload(mass=20e3))
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):
         scene.add_actuator(name=joint, joint=joint, stiffness=1e8, damping=1e7)
@@ -255,7 +206,7 @@ def carried(pose: Pose) -> Scene:
 
 @pytest.mark.warns("BallastWarning", "OutsideRangeWarning")
 def test_a_crane_stands_on_its_vessel_wherever_that_is() -> None:
-    here, there = carried((0.0, 0.0, 0.0)), carried((120.0, -40.0, 130.0))
+    here, there = carried(0.0, 0.0, 0.0), carried(120.0, -40.0, 130.0)
     turn = rotation_about_z(np.radians(130.0))
     one, other = balance(here), balance(there)
     expected = np.kron(np.eye(2), turn) @ one.vessel_wrench

@@ -72,9 +72,8 @@ def test_free_trim_takes_work_off_a_wedge_whose_deck_is_wet() -> None:
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [({"draught": 20.0}, "waterline"), ({"heel_deg": 91.0}, "90 deg"), ({"trim": "loose"}, "trim is"),
-     ({"center_of_gravity": (0.0, 1.0)}, "center_of_gravity"), ({"faces": np.fliplr(FACES)}, "inwards")],
-)  # fmt: skip
+    [({"draught": 20.0}, "waterline"), ({"heel_deg": 91.0}, "90"), ({"faces": np.fliplr(FACES)}, "inwards")],
+)
 def test_what_makes_no_sense_is_told(given: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         barge(**given)

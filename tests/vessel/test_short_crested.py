@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from veres_writer import VeresRun
 
 from seacrane import Scene, SceneError, cases, linear_model, motion_rao, response_statistics
-from seacrane.analysis import LinearModel, ResponseStatistics, response_summed
+from seacrane.analysis import response_summed
 from seacrane.hydro import HydroDatabase, motion_response, read_veres, shipped_database
 from seacrane.hydro.data.encounter import encounter_frequency
 from seacrane.sea import Spreading, cos_2s, cos_n, jonswap
@@ -22,60 +21,42 @@ from seacrane.warnings import EncounterFrequencyWarning
 
 Array = NDArray[np.float64]
 SEA = jonswap(hs=2.0, tp=9.0)
-TIP = (40.0, 10.0, 15.0)
-
-
-@cache
-def alone() -> LinearModel:
-    """The shipped hull, linearised."""
-    return linear_model(cases.vessel(hs=0.0))
-
-
-def statistics(spreading: Spreading | None) -> ResponseStatistics:
-    return response_statistics(
-        alone(), spectrum=SEA, direction=2.2, body="vessel", point=TIP, spreading=spreading
-    )
 
 
 @pytest.mark.parametrize("spreading", [cos_2s(4.0), cos_n(2.0)])
 def test_it_is_the_sum_over_a_realised_sea(spreading: Spreading) -> None:
     """One direction for each of many components: another quadrature of the same double integral."""
     scene = cases.vessel(hs=0.0)
+    alone, asked = linear_model(scene), {"body": "vessel", "point": (40.0, 10.0, 15.0)}
+    found = response_statistics(alone, spectrum=SEA, direction=2.2, spreading=spreading, **asked)
     scene.add_sea(hs=2.0, tp=9.0, direction_deg=np.degrees(2.2), spreading=spreading, count=6000)
-    summed = response_summed(alone(), body="vessel", point=TIP, waves=scene.waves)
-    np.testing.assert_allclose(statistics(spreading).std[2:], summed.std[2:], rtol=0.004)
+    summed = response_summed(alone, waves=scene.waves, **asked)
+    np.testing.assert_allclose(found.std[2:], summed.std[2:], rtol=0.004)
 
 
 def axisymmetric() -> HydroDatabase:
     """A body of revolution without couplings: surge ~ cos, sway ~ sin, heave the same from everywhere."""
-    base = shipped_database()
-    eye = np.eye(6)
+    base, eye = shipped_database(), np.eye(6)
     heading = np.radians(np.arange(0.0, 360.0, 5.0))
-    shape = np.abs(base.force[18, :, 2])
     pattern = np.zeros((len(heading), 6))
     pattern[:, 0], pattern[:, 1], pattern[:, 2] = np.cos(heading), np.sin(heading), 1.0
-    round_ = np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
-    matrices: dict[str, Any] = {}
-    for name in ("added_mass", "damping"):
-        table = eye * getattr(base, name)
+    force = pattern[:, None, :] * np.abs(base.force[18, :, 2])[None, :, None]
+    matrices = {name: eye * getattr(base, name) for name in ("added_mass", "damping")}
+    for table in matrices.values():
         table[:, 0, 0] = table[:, 1, 1]
-        matrices[name] = table
     return replace(
-        base, heading=heading, force=pattern[:, None, :] * shape[None, :, None], memory=None, drift=None,
-        motion_rao=None, port_starboard_symmetric=False, mass_matrix=eye * base.mass_matrix,
-        restoring=eye * base.restoring, linear_damping=eye * base.linear_damping + 1e5 * round_,
+        base, heading=heading, force=force, memory=None, drift=None, motion_rao=None,
+        port_starboard_symmetric=False, mass_matrix=eye * base.mass_matrix, restoring=eye * base.restoring,
+        linear_damping=eye * base.linear_damping + 1e5 * np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
         infinite_frequency_added_mass=None, zero_frequency_added_mass=None, **matrices,
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("s", [1.0, 3.5, 25.0])
+@pytest.mark.parametrize("s", [1.0, 3.5])
 def test_a_body_of_revolution_in_closed_form(s: float) -> None:
     """Heave knows no spreading. Surge and sway share theirs by E cos(2 a) = s (s - 1) / ((s + 1) (s + 2))."""
     database = axisymmetric()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        scene = Scene()
-        scene.add_vessel(database, memory="convolution")
+    scene = free(database, 120.0)
 
     def variance(spreading: Spreading | None) -> Array:
         found = response_statistics(
@@ -98,7 +79,6 @@ def ship_at(speed: float, folder: Path) -> tuple[HydroDatabase, HydroDatabase]:
 
 
 def free(database: HydroDatabase, mooring_period: float | None) -> Scene:
-    """The vessel alone."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         scene = Scene()
@@ -146,20 +126,13 @@ def test_moments_are_those_of_the_spectrum_of_encounter(heading_deg: float, tmp_
 def test_waves_met_outside_the_table_and_speeds_that_do_not_belong_together_are_told(tmp_path: Path) -> None:
     still, fast = ship_at(10.0, tmp_path)
     asked: dict[str, Any] = {"direction": 0.0, "body": "vessel"}
-    with pytest.warns(EncounterFrequencyWarning, match="at 10 m/s"):
-        found = response_statistics(
-            free(still, 60.0), database=fast, spectrum=jonswap(hs=1.0, tp=6.0), memory="database",
-            spreading=cos_2s(10.0), **asked,
-        )  # fmt: skip
-    assert np.all(np.isfinite(found.moments))
+    sea = {"spectrum": jonswap(hs=1.0, tp=6.0), "spreading": cos_2s(10.0)}
     scene = free(still, 60.0)
+    with pytest.warns(EncounterFrequencyWarning, match="at 10 m/s"):
+        found = response_statistics(scene, database=fast, memory="database", **sea, **asked)
+    assert np.all(np.isfinite(found.moments))
     under_way = linear_model(scene, memory="database", database=fast)
-    scene.add_sea(hs=1.0)
-    for call, message in (
-        (lambda: response_statistics(free(still, 60.0), database=fast, spectrum=SEA, **asked), "10 m/s.* 0"),
-        (lambda: motion_rao(under_way, database=still, omega=0.6, **asked), "0 m/s.* 10 m/s"),
-        (lambda: response_summed(under_way, body="vessel", waves=scene.waves), "zero speed"),
-        (lambda: statistics(5.0), "spreading is 5"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=message):
-            call()
+    with pytest.raises(SceneError, match=r"10 m/s.* 0"):
+        response_statistics(scene, database=fast, **sea, **asked)
+    with pytest.raises(SceneError, match=r"0 m/s.* 10 m/s"):
+        motion_rao(under_way, database=still, omega=0.6, **asked)

@@ -14,8 +14,18 @@ from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, linear_model, motion_rao, natural_modes, simulate
 from seacrane.analysis import response_summed
-from seacrane.hydro import HydroDatabase, HydroGroup, MemoryModel, fit_memory, shipped_database
+from seacrane.errors import FileFormatError
+from seacrane.hydro import (
+    HydroDatabase,
+    HydroGroup,
+    fit_memory,
+    passivity_certificate,
+    shipped_database,
+    two_barges,
+)
+from seacrane.hydro.data.memory_model import MemoryBlock
 from seacrane.hydro.group.parts import joined_memory
+from seacrane.hydro.memory.independent_states import independent_blocks
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.validity.relative_place import gap_between, relative_findings
 from seacrane.warnings import RelativePlaceWarning
@@ -40,13 +50,7 @@ def apart() -> HydroGroup:
         databases={"a": hull(), "b": hull()},
         positions={"a": (0.0, 0.5 * FAR, 0.0), "b": (10.0, -0.5 * FAR, 0.0)},
     )
-    return replace(group, memory=pair_of_memories())
-
-
-@lru_cache(maxsize=1)
-def pair_of_memories() -> MemoryModel:
-    memory = hull().memory
-    return joined_memory([memory, memory])
+    return replace(group, memory=joined_memory([hull().memory] * 2))
 
 
 def mixed(share: float = 0.2) -> HydroGroup:
@@ -56,7 +60,7 @@ def mixed(share: float = 0.2) -> HydroGroup:
     """
     whole = apart()
     mix = np.eye(12) + share * np.kron([[0.0, 1.0], [1.0, 0.0]], MIRROR)
-    memory = pair_of_memories()
+    memory = joined_memory([hull().memory] * 2)
     blocks = []
     for block in memory.blocks:
         b, c = np.zeros((len(block.A), 12)), np.zeros((12, len(block.A)))
@@ -74,10 +78,7 @@ def mixed(share: float = 0.2) -> HydroGroup:
     )  # fmt: skip
     tables = {key: mix.T @ getattr(whole, key) @ mix for key in ("added_mass", "damping")}
     limit = whole.infinite_frequency_added_mass
-    return replace(
-        whole, **tables, memory=coupled,
-        infinite_frequency_added_mass=None if limit is None else mix.T @ limit @ mix,
-    )  # fmt: skip
+    return replace(whole, **tables, memory=coupled, infinite_frequency_added_mass=mix.T @ limit @ mix)
 
 
 def afloat(group: HydroGroup, *, sea: dict[str, Any] | None = None, **more: Any) -> Scene:
@@ -86,10 +87,6 @@ def afloat(group: HydroGroup, *, sea: dict[str, Any] | None = None, **more: Any)
     for name in scene.vessels if sea is not None else ():
         scene.add_sea(vessel=name, **(sea or {}))
     return scene
-
-
-def linear_hull(database: HydroDatabase) -> HydroDatabase:
-    return replace(database, quadratic_damping=np.zeros(6))
 
 
 def linear(group: HydroGroup) -> HydroGroup:
@@ -141,13 +138,8 @@ def test_other_names_in_another_order_and_files_move_alike(tmp_path: Path) -> No
 
 
 def test_a_free_pair_keeps_its_energy() -> None:
-    group = replace(
-        linear(mixed()),
-        bodies=tuple(
-            replace(body, linear_damping=np.zeros((6, 6)), quadratic_damping=np.zeros(6))
-            for body in apart().bodies
-        ),
-    )
+    undamped = {"linear_damping": np.zeros((6, 6)), "quadratic_damping": np.zeros(6)}
+    group = replace(mixed(), bodies=tuple(replace(body, **undamped) for body in apart().bodies))
     scene = Scene(name="free")
     scene.add_vessels(group, memory="none", mooring_period=None)
     velocities = {"a": (1.0, -0.5, 0.3), "b": (-0.4, 0.2, 0.6)}
@@ -206,7 +198,7 @@ def test_natural_modes_are_those_of_hulls_that_move_alike_and_against_each_other
     expected = []
     for factor in (1.0 + share, 1.0 - share):
         single = Scene(name="single")
-        single.add_vessel(linear_hull(scaled(factor)), mooring_period=None)
+        single.add_vessel(replace(scaled(factor), quadratic_damping=np.zeros(6)), mooring_period=None)
         expected.append(natural_modes(single).eigenvalues)
     both = np.sort_complex(np.concatenate(expected))
     np.testing.assert_allclose(np.sort_complex(found), both, rtol=1e-6)
@@ -221,11 +213,9 @@ def test_a_vessel_tied_to_another_needs_the_redundant_form_and_what_cannot_be_is
     for call, message in (
         (lambda: simulate(tied, t_end=1.0, formulation="recursive"), "does not float freely"),
         (lambda: afloat(replace(apart(), bodies=(higher, second))), "'a' is 1 m above"),
-        (lambda: afloat(apart(), names=["a"]), "names are a"),
         (lambda: afloat(apart(), memory="convolution"), "memory 'convolution'"),
-        (lambda: afloat(apart(), position=(0.0, 0.0)), "position"),
         (lambda: linear_model(afloat(mixed()), vessel="a", memory="database"), "of group 'group'"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(SceneError, match=message):
             call()
 
@@ -235,20 +225,52 @@ def test_leaving_the_place_beside_each_other_is_named() -> None:
     gap = gap_between(scene, "a", "b")
     assert gap == pytest.approx(FAR - hull().breadth)
     time = np.linspace(0.0, 100.0, 201)
-    still = np.zeros((201, 2, 6))
-
-    def found(moved: Array) -> list[tuple[type[Warning], str]]:
-        return relative_findings(scene, time, {"vessel_motion": moved})
-
-    assert found(still) == []
-    together = still.copy()
+    together, swing = np.zeros((201, 2, 6)), np.zeros((201, 2, 6))
     together[:, :, 1] = 20.0  # both drift alike
-    assert found(together) == []
-    swing = still.copy()
     swing[:, 1, 1] = 0.3 * gap * np.sin(2.0 * np.pi * time / 10.0)  # with the waves, not on the average
-    assert found(swing) == []
+    for moved in (together, swing):
+        assert relative_findings(scene, time, {"vessel_motion": moved}) == []
     for motion_of, size, told in ((1, 0.11 * gap, "a tenth of the gap"), (5, np.radians(2.1), "2.1 deg")):
         away = swing.copy()
         away[:, 1, motion_of] += size
-        ((kind, message),) = found(away)
-        assert kind is RelativePlaceWarning and told in message and "group 'group': 'b' leaves" in message
+        ((kind, message),) = relative_findings(scene, time, {"vessel_motion": away})
+        assert kind is RelativePlaceWarning and told in message
+
+
+@pytest.mark.parametrize("lid", [None, 0.03])
+def test_their_memory_is_passive_and_near_their_matrices(lid: float | None) -> None:
+    group = two_barges(lid_damping=lid)
+    assert passivity_certificate(group.memory).passive
+    assert group.memory.motion.error.worst < 0.035
+    assert group.lid_damping == lid
+    coupling = np.abs(group.damping[:, :6, 6:]).max()
+    assert coupling == 0.0 if lid is None else coupling > 0.02 * np.abs(group.damping[:, :6, :6]).max()
+    for body, volume in zip(group.bodies, (100.0 * 25.0 * 5.5, 60.0 * 18.0 * 3.5), strict=True):
+        assert body.mass_matrix[0, 0] == pytest.approx(1025.0 * volume, rel=1e-12)
+        assert body.restoring[2, 2] * body.draught == pytest.approx(1025.0 * 9.81 * volume, rel=1e-6)
+
+
+def test_a_group_is_kept_and_a_file_of_none_refused(tmp_path: Path) -> None:
+    path, group = tmp_path / "pair.hydro", two_barges(lid_damping=0.01)
+    group.save(path)
+    again = HydroGroup.load(path)
+    assert again.digest == group.digest
+    assert replace(again, rho=1000.0).digest != group.digest
+    data = path.read_bytes()
+    other = data.replace(b"group 1\n", b"group 2\n", 1)
+    for damaged, message in ((other, "version '2'"), (data[:-20], "damaged group")):
+        path.write_bytes(damaged)
+        with pytest.raises(FileFormatError, match=f"pair.hydro.*{message}"):
+            HydroGroup.load(path)
+
+
+def test_blocks_whose_states_do_not_feel_each_other_make_the_same_loads() -> None:
+    def transfer(block: MemoryBlock, omega: float) -> Any:
+        return block.C @ np.linalg.solve(1j * omega * np.eye(len(block.A)) - block.A, block.B) + block.D
+
+    for block in two_barges(lid_damping=0.03).memory.blocks:
+        parts = independent_blocks(block)
+        assert len(parts) > 1 and sum(len(part.A) for part in parts) == len(block.A)
+        for omega in (0.0, 0.7, 3.0):
+            whole, apart = transfer(block, omega), sum(transfer(part, omega) for part in parts)
+            np.testing.assert_allclose(apart, whole, rtol=0.0, atol=1e-12 * np.abs(whole).max())

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.signal import lsim
 
 from seacrane import Curve, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.hydro import HydroDatabase, shipped_database
@@ -62,15 +61,12 @@ def test_a_fixed_vessel_gets_the_mean_load_of_its_place_and_heading(x: float, y:
         assert np.all(drift == 0.0)
 
 
-SIX = ("x", "y", "z", "roll", "pitch", "yaw")
-
-
 def driven(*, cutoff: float = CUTOFF, phase: str | None = None, **curves: Curve) -> Scene:
     """A hull whose six coordinates are given; in a short-crested sea where a phase is asked for."""
     scene = Scene(name="driven")
     scene.add_vessel(database(), mooring_period=None, memory="none")
     scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
-    for name in SIX:
+    for name in ("x", "y", "z", "roll", "pitch", "yaw"):
         scene.add_driver(joint="tow", coordinate=name, curve=curves.get(name, Curve.constant(value=0.0)))
     if phase:
         scene.add_sea(hs=2.0, tp=8.0, count=12)
@@ -141,39 +137,19 @@ def test_far_beyond_the_fast_sines_the_load_is_still_right() -> None:
 
 def test_what_makes_no_sense_is_refused_by_name() -> None:
     force = actual_scene().waves.hull().force_by_heading
-    broken = np.array(force.values)
-    broken[1, 2, 3] = np.nan
-    gaps = Scene()
-    gaps.add_vessel(replace(database(), name="beam only").select(heading=(1.0, 2.0)), memory="none")
-    gaps.add_sea(hs=3.0, tp=8.0, direction_deg=90.0, count=40)
+    turned = actual_scene(force_by_heading=ByHeading(heading=force.heading[::-1], values=force.values))
     paper = Scene(name="paper")
     paper.add_vessel(database(), kinematics="paper")
     paper.waves = afloat("slow").waves
-    slow = afloat("slow")
-    slow.waves = replace(slow.waves, evaluation="fft")
-
-    def headings(heading: Array, values: Array) -> Scene:
-        return actual_scene(force_by_heading=ByHeading(heading=heading, values=values))
-
     for call, message in (
-        (Scene(name="calm").use_actual_position, "needs a sea"),
-        (Scene(name="calm").use_slow_position, "needs a sea"),
         (actual_scene(evaluation="fft").compile, "evaluation='exact'"),
-        (slow.compile, "evaluation='exact'"),
-        (headings(force.heading, force.values[:, :3]).compile, r"shape \(\d+, 40, 6\)"),
-        (headings(force.heading[::-1], force.values).compile, "45 deg"),
-        (headings(force.heading, broken).compile, "component 2 is nan"),
-        (gaps.use_actual_position, "'beam only': headings.*45 deg"),
+        (turned.compile, "45 deg"),
         (actual_scene(drift=np.zeros((40, 6))).compile, "drift_by_heading"),
         (paper.compile, "yaw_following"),
-        (lambda: afloat("mean").use_slow_position(cutoff=float("nan")), "frequency"),
         (lambda: afloat("mean").waves.changed(cutoff=0.1), "no force_by_heading"),
-        (lambda: afloat("mean").waves.changed(cutoff=-1.0), "cutoff is -1"),
     ):
         with pytest.raises(SceneError, match=message):
             call()
-    with pytest.raises(ValueError, match="not finite"):
-        positioned(spread_sea()).evaluate(float("nan"))
 
 
 def slow_gain(omega: float, cutoff: float) -> complex:
@@ -230,26 +206,14 @@ def afloat(phase: Any, *, memory: Any = "per-pair", **waves: Any) -> Scene:
     return scene
 
 
-def test_the_motion_of_a_free_hull_through_the_filter_is_where_its_loads_are_taken() -> None:
-    """The filter once more, as a transfer function over the recorded motion."""
-    scene = afloat("slow", direction_deg=70.0)
-    result = simulate(scene, t_end=60.0, dt_out=0.02, rtol=1e-8, channels=["vessel_motion", "wave_force"])
-    w = scene.waves.hull().cutoff
-    assert w == pytest.approx(0.2 * peak_frequency(scene.waves))
-    motion = result["vessel_motion"][:, [0, 1, 5]]
-    low_pass = ([2.0 * w**2, w**3], [1.0, 2.0 * w, 2.0 * w**2, w**3])
-    slow = np.stack([lsim(low_pass, U=motion[:, i], T=result.time)[1] for i in range(3)], axis=1)
-    expected = load_at(scene, result.time, slow)
-    assert np.abs(result["wave_force"] - expected).max() < 1e-6 * np.abs(expected).max()
-
-
 def test_formulations_and_merging_agree() -> None:
     scene = cases.case2(phase="slow", count=20)
     scene.waves = replace(scene.waves, negligible=0.0)
     found = []
     for formulation, merge in (("redundant", True), ("redundant", False), ("recursive", True)):
-        model = scene.compile(merge=merge)
-        run = Run(scene, t_end=4.0, dt_out=0.5, model=model, rtol=1e-9, formulation=formulation)
+        run = Run(
+            scene, 4.0, dt_out=0.5, model=scene.compile(merge=merge), rtol=1e-9, formulation=formulation
+        )
         run.advance(4.0)
         channels = run.core.channels()
         found.append(np.column_stack([channels["vessel_motion"], channels["wave_force"]]))
@@ -257,8 +221,9 @@ def test_formulations_and_merging_agree() -> None:
         assert np.all(np.abs(other - found[0]) < 1e-6 * np.abs(found[0]).max(axis=0))
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-@pytest.mark.parametrize("integrator", ["dopri5", "rosenbrock"])
+@pytest.mark.parametrize(
+    ("integrator", "formulation"), [("dopri5", "recursive"), ("rosenbrock", "redundant")]
+)
 def test_a_run_goes_on_bit_for_bit(integrator: str, formulation: str) -> None:
     settings: dict[str, Any] = {"integrator": integrator, "formulation": formulation, "dt_out": 0.5}
     whole = Run(afloat("slow"), t_end=8.0, **settings)
@@ -272,23 +237,11 @@ def test_a_run_goes_on_bit_for_bit(integrator: str, formulation: str) -> None:
     np.testing.assert_array_equal(one, other)
 
 
-@pytest.mark.parametrize("memory", ["none", "passive", "convolution"])
-def test_any_memory_goes_with_it(memory: str) -> None:
-    motions = [
-        simulate(afloat("slow", memory=kind), t_end=20.0, dt_out=0.5)["vessel_motion"]
-        for kind in (memory, "per-pair")
-    ]
-    limit = 0.5 if memory == "none" else 0.05
-    assert np.abs(motions[0] - motions[1]).max() < limit * np.abs(motions[1]).max()
-
-
 def test_files_keep_positions_and_actual_ones_have_no_filter_left(tmp_path: Path) -> None:
     scene = afloat("slow")
     scene.save(tmp_path / "scene.json")
     again = Scene.load(tmp_path / "scene.json")
-    one, other = scene.waves.hull(), again.waves.hull()
-    assert other.cutoff == one.cutoff > 0.0
-    np.testing.assert_array_equal(other.force_by_heading.values, one.force_by_heading.values)
+    assert again.waves.hull().cutoff == pytest.approx(0.2 * peak_frequency(scene.waves))
     first, second = (simulate(s, t_end=3.0, dt_out=1.0)["vessel_motion"] for s in (scene, again))
     np.testing.assert_array_equal(first, second)
     states = scene.compile().memory_states
