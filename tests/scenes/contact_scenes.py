@@ -103,3 +103,21 @@ def thrown() -> Scene:
     scene.add_contact("load", points=FEET - (0.0, 0.0, 0.6), on="ground", stiffness=1e6, damping=1.0,
                       friction=0.4, name="feet")  # fmt: skip
     return scene
+
+
+def lifted(heave: float, omega: float, stretch: float, rate: float, stiffness: float) -> Scene:
+    """A load on a barge that heaves by a sine, under a spring whose upper end rises at a steady rate."""
+    scene = Scene(name="lifted", gravity=GRAVITY)
+    scene.add_body(name="barge", mass=1e6, inertia=(1e6,) * 3, velocity=(0.0, 0.0, heave * omega))
+    scene.add_joint(kind="prismatic", name="heave", first="ground", second="barge", axis=(0.0, 0.0, 1.0))
+    scene.add_driver(joint="heave", curve=Curve.harmonic(amplitude=heave, omega=omega, phase=-0.5 * np.pi))
+    block(scene, "barge", friction=0.3, hold=1e-3, stiffness=stiffness, velocity=(0.0, 0.0, heave * omega))
+    scene.add_body(
+        name="tip", mass=100.0, inertia=(1.0,) * 3, position=(0.0, 0.0, 10.0), velocity=(0, 0, rate)
+    )
+    scene.add_joint(kind="prismatic", name="hoist", first="ground", second="tip", axis=(0.0, 0.0, 1.0))
+    scene.add_driver(joint="hoist", curve=Curve.table([0.0, 100.0], [0.0, 100.0 * rate]))
+    slack = 10.0 + MASS * GRAVITY / (len(FEET) * stiffness)
+    scene.add_spring(name="wire", first="block", second="tip", lengths=[0.0, slack, slack + 10.0],
+                     forces=[0.0, 0.0, 10.0 * stretch])  # fmt: skip
+    return scene
