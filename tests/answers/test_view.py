@@ -26,7 +26,6 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.pictures.hull_shapes import schematic_size
-from seacrane.pictures.packing import Blob
 from seacrane.pictures.page_sea import sea_components
 from seacrane.pictures.pose_curves import LARGEST_ERROR, STEPS, motion_of
 from seacrane.pictures.shapes import BoxShape, HullShape, equivalent_box, framework
