@@ -101,13 +101,6 @@ def test_a_shift_that_is_not_sure_is_told(result: Result) -> None:
     assert found.shift == pytest.approx(1.0, abs=1e-4)
 
 
-def test_which_curve_is_said_by_the_one_text(result: Result) -> None:
-    made = record(heave, np.arange(0.0, END, 0.2), name="motion of the ship")
-    late = compare(result, made, channel="vessel_motion[heave, after=60]")
-    assert late.time[0] == pytest.approx(60.0, abs=0.2)
-    assert (late.channel, late.column) == ("vessel_motion[motion=heave, after=60]", "motion of the ship")
-
-
 def test_what_cannot_be_compared_is_refused(result: Result) -> None:
     time = np.arange(0.0, END, 0.2)
     made, still = record(heave, time), record(np.ones_like, time)
@@ -135,36 +128,3 @@ def test_spectra_tables_and_pictures(result: Result, tmp_path: Path) -> None:
     upper, lower = found.plot().axes
     np.testing.assert_array_equal(upper.lines[1].get_ydata(), found.record)
     np.testing.assert_array_equal(lower.lines[0].get_ydata(), found.difference)
-
-
-def decay(inertia: float, stiffness: float, linear: float, quadratic: float, start: float) -> Scene:
-    """A body that rolls, from an angle (rad)."""
-    scene = Scene(name="decay", gravity=0.0)
-    turned = (float(np.cos(0.5 * start)), float(np.sin(0.5 * start)), 0.0, 0.0)
-    scene.add_body(name="hull", mass=1e3, inertia=[inertia, inertia, inertia], quaternion=turned)
-    restoring, damping = np.zeros((6, 6)), np.zeros((6, 6))
-    restoring[3, 3], damping[3, 3] = stiffness, linear
-    scene.add_vessel(
-        body="hull", added_mass=np.zeros((6, 6)), linear_damping=damping, restoring=restoring,
-        quadratic_damping=[0, 0, 0, quadratic, 0, 0],
-    )  # fmt: skip
-    return scene
-
-
-def test_the_roll_decay_of_a_tanker_model(shared: Path) -> None:
-    """SSPA's test of KVLCC2 beside an equation of its published period and damping.
-
-    Damping ratio 0.0034 + 0.0238 a: linear b1 / (2 I w), quadratic 4 / (3 pi) b2 / I times the amplitude.
-    """
-    path = shared / "measured" / "kvlcc2_roll_decay" / "roll.csv"
-    if not path.is_file():
-        pytest.skip(f"no {path}")
-    measured = MeasuredSeries.load(path, before=100.0)
-    assert (list(measured.columns), measured.units["roll"]) == (["roll"], "rad")
-    omega, inertia = 2.0 * np.pi / 2.547, 100.0
-    linear, quadratic = 2.0 * 0.0034 * omega * inertia, 0.0238 * 0.75 * np.pi * inertia
-    model = decay(inertia, omega**2 * inertia, linear, quadratic, float(measured["roll"][0]))
-    result = simulate(model, t_end=100.0, dt_out=0.05)
-    found = compare(result, measured, maximum_shift=1.0)
-    assert abs(found.shift) < 0.1 and found.correlation > 0.99
-    assert found.rms / np.ptp(found.record) < 0.02

@@ -9,7 +9,6 @@ import re
 import tomllib
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -25,7 +24,6 @@ from seacrane.lift.build import times_of
 from seacrane.lift.lift import LIFTS
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import TABLES
-from seacrane.lift.text_lines import lines_of
 from seacrane.sea import SeaState, WaveSystem, cos_2s, jonswap
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -247,52 +245,6 @@ def test_a_file_of_another_kind_or_version_is_refused(tmp_path: Path) -> None:
     lift_of(PENDULUM, tmp_path)
     with pytest.raises(FileFormatError, match=r"Lift\.load"):
         Scene.load(tmp_path / "my_lift.toml")
-
-
-LAID_OUT = '''\
-# aa = 1
-title = """
-not_a_key = 2
-"""  # [no.table]
-[upper]
-b.mid = [1, 2.5,
-  { xx = "]}", yy = { zz = 1979-05-27T07:32:00Z } },
-]
-"quoted \\u00e9 key" = 'a \\ [b]'
-[[list]]
-k1 = 1
-[list.inner]
-k2 = 2
-[[list]]
-
-k3 = 3
-[[list.inner]]
-k4 = 4
-[[list.inner]]
-k5 = 5
-'''
-
-
-def keys_in(value: Any, path: tuple[Any, ...] = ()) -> set[tuple[Any, ...]]:
-    """Paths of all keys of a parsed document."""
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    found = {(*path, key) for key, _ in items if isinstance(key, str)}
-    return found.union(*(keys_in(item, (*path, key)) for key, item in items))
-
-
-def test_every_key_has_its_line() -> None:
-    for text in (LAID_OUT, EVERY_TABLE, PENDULUM):
-        found, rows = lines_of(text), text.splitlines()
-        for path in keys_in(tomllib.loads(text)):
-            assert str(path[-1])[:6] in rows[found[path] - 1], path
-    found = lines_of(LAID_OUT)
-    assert [found["list", i, "inner", *k] for i, k in ((0, ()), (1, ()), (1, (0,)), (1, (1,)))] == [
-        12,
-        17,
-        17,
-        19,
-    ]
-    assert [found["upper", "b"], found["list",], found["list", 1]] == [6, 10, 14]
 
 
 def test_the_schema_is_current_and_agrees_with_the_reader() -> None:

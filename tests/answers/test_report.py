@@ -5,13 +5,13 @@ from __future__ import annotations
 import base64
 import re
 from html import unescape
+from pathlib import Path
 
 import pytest
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane.answers.measures import energy_closure, speed, worst
 from seacrane.answers.paper_report import Study, study_report
-from seacrane.pictures import Finding, Picture, save_sheet
+from seacrane.pictures import Finding, save_sheet
 from seacrane.pictures.overview import overview_sheet
 from seacrane.result import Result
 
@@ -41,30 +41,15 @@ def words(text: str) -> str:
     return unescape(re.sub(r"<[^>]*>", "", text))
 
 
-@pytest.fixture(scope="module")
-def runs() -> dict[str, Result]:
-    return {"vessel": vessel_result(t_end=20.0), "case 2": crane_result(t_end=20.0)}
-
-
-@pytest.fixture(scope="module")
-def picture(tmp_path_factory: pytest.TempPathFactory, runs: dict[str, Result]) -> Picture:
-    return save_sheet(overview_sheet(runs["vessel"]), tmp_path_factory.mktemp("report"), "overview")
-
-
-@pytest.fixture(scope="module")
-def page(runs: dict[str, Result], picture: Picture) -> Page:
+def test_tables_hold_the_runs_numbers_and_pictures_are_inside(tmp_path: Path) -> None:
+    runs = {"vessel": vessel_result(t_end=20.0), "case 2": crane_result(t_end=20.0)}
+    picture = save_sheet(overview_sheet(runs["vessel"]), tmp_path, "overview")
     contents = {"summary": ["Three cases."], "pictures": [picture], "scene": SCENE, "findings": [FINDING]}
-    return Page(study_report(Study(title="Lift of a <box> & payload", runs=runs, **contents)).html)
-
-
-def test_the_page_needs_nothing_outside_itself_and_escapes_text(page: Page, picture: Picture) -> None:
+    page = Page(study_report(Study(title="Lift of a <box> & payload", runs=runs, **contents)).html)
     (source,) = page.sources
     kind, _, data = source.partition(",")
     assert kind == "data:image/png;base64" and base64.b64decode(data) == picture.image.read_bytes()
     assert "Lift of a <box> & payload" in page.text
-
-
-def test_tables_hold_the_runs_numbers(page: Page, runs: dict[str, Result]) -> None:
     second = runs["case 2"]
     assert page.row("degrees of freedom") == ["6", "14"] and page.row("joints") == ["11"]
     ratio = max(abs(second["energy_balance"])) / max(second["absolute_work"])
@@ -79,8 +64,6 @@ def test_a_channel_that_was_not_recorded_leaves_its_cell_empty() -> None:
     run = crane_run(t_end=2.0)
     for name in ("energy_balance", "absolute_work", "constraint_error_before_projection"):
         del run["arrays"][name]
-    run["stats"]["wall_s"] = 0.0
     result = Result.from_arrays(**run, interrupted=True)
-    assert worst(result, "energy_balance") is energy_closure(result) is speed(result) is None
     html = study_report(Study(title="t", runs={"case 2": result})).html
     assert Page(html).row("balance over work") == [""] and "run case 2 ended at 2 s" in html

@@ -35,10 +35,3 @@ def test_tables_escape_names() -> None:
     for thing in (scene, seacrane.simulate(scene, t_end=0.1), database):
         html = thing._repr_html_()
         assert nasty not in html and "&lt;script&gt;" in html
-
-
-def test_a_result_is_a_mapping_of_its_channels() -> None:
-    result = seacrane.simulate(cases.case2(), t_end=0.2)
-    assert "position" in result and "nonsense" not in result
-    assert list(result) == list(result.channels) == list(result.keys()) and len(result) > 3
-    assert all(values is result[name] for name, values in result.items()) and result.get("nonsense") is None

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
-import resource
 import signal
 import subprocess
 import sys
 import time
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -85,13 +82,10 @@ def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
     place: dict[str, Any] = {"channel": "position", "names": {"body": "vessel", "axis": "z"}, "after": 2.0}
     lift = Lift.load(ran.parent / "ship.toml")
     same = ensemble(
-        lift.scene(),
-        over={"seed": range(1, 41), "hs": [1, 2.0]},
+        lift.scene(), over={"seed": range(1, 41), "hs": [1, 2.0]},
         keep={"heave": Kept(what="maximum", **place), "deepest": Kept(what="minimum", **place)},
-        until={"heave.mpm": 0.25},
-        t_end=8.0,
-        rtol=1e-2,
-    )
+        until={"heave.mpm": 0.25}, t_end=8.0, rtol=1e-2,
+    )  # fmt: skip
     assert there.dataset.identical(same.dataset)
     shown = shown_study(ran)
     assert shown.certainty == same.certainty
@@ -176,21 +170,6 @@ def test_a_killed_study_goes_on_to_the_same(study: Path, ran: Path) -> None:
     assert again.identical(Ensemble.load(ran / MEMBERS).dataset)
 
 
-def test_a_full_disk_is_named_and_loses_nothing(study: Path, ran: Path) -> None:
-    out = study.parent / "out"
-    number = os.fork()
-    if not number:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))
-        try:
-            run_study(study, out)
-        except OSError as error:
-            os._exit(4 if "pack_0000000.nc" in str(error) and "free in" in str(error) else 5)
-        os._exit(6)
-    assert os.waitstatus_to_exitcode(os.waitpid(number, 0)[1]) == 4
-    run_study(study, out)
-    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
-
-
 def test_the_folder_of_another_study(study: Path, ran: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = (ran / "study.toml").read_bytes()
     study.write_text(STUDY.replace("t_end_s = 8", "t_end_s = 9"))
@@ -245,25 +224,6 @@ def test_members_and_bounds_are_read_without_the_lift(study: Path) -> None:
     read = StudyFile.load(study)
     assert (len(read.members), read.until) == (80, {"heave.mpm": 0.25})
     assert np.array_equal(list(read.over["seed"]), np.arange(1, 41))
-
-
-@pytest.fixture
-def cluster() -> Iterator[str]:
-    """The address of a cluster of one worker process."""
-    distributed = pytest.importorskip("distributed", reason="needs the extra ensemble")
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as there:
-        yield str(there.scheduler_address)
-
-
-def test_a_cluster_gives_the_same(
-    cluster: str, study: Path, ran: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(command(study, "out", "--dask", "tcp://127.0.0.1:9")) == 1
-    assert "no scheduler" in capsys.readouterr().err
-    assert main(command(study, "out", "--dask", cluster)) == 0
-    assert Ensemble.load(study.parent / "out" / MEMBERS).dataset.identical(
-        Ensemble.load(ran / MEMBERS).dataset
-    )
 
 
 def test_the_schema_is_current_and_knows_the_study() -> None:

@@ -22,11 +22,9 @@ def points(depth: float, count: int = 40) -> dict[str, np.ndarray]:
     rng = np.random.default_rng(8)
     floor = min(depth, 60.0)
     return {
-        "time": rng.uniform(0.0, 300.0, count),
-        "x": rng.uniform(-80.0, 80.0, count),
-        "y": rng.uniform(-80.0, 80.0, count),
-        "z": -0.8 * floor * rng.uniform(0.0, 1.0, count) ** 2 - 1.5,
-    }
+        "time": rng.uniform(0.0, 300.0, count), "x": rng.uniform(-80.0, 80.0, count),
+        "y": rng.uniform(-80.0, 80.0, count), "z": -0.8 * floor * rng.uniform(0.0, 1.0, count) ** 2 - 1.5,
+    }  # fmt: skip
 
 
 def slope(waves: WaveComponents, at: dict[str, np.ndarray], along: str, what: str) -> np.ndarray:

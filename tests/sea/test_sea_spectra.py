@@ -29,14 +29,12 @@ G = 9.80665
 OMEGA = np.linspace(0.15, 4.0, 400)
 
 SPECTRA = {
-    "jonswap": jonswap(hs=2.0, tp=8.0),
-    "dnv": jonswap(hs=4.0, tp=9.0, gamma="dnv"),
-    "bretschneider": bretschneider(hs=3.0, tz=7.0),
-    "wind": torsethaugen(hs=4.0, tp=8.0),
+    "jonswap": jonswap(hs=2.0, tp=8.0), "dnv": jonswap(hs=4.0, tp=9.0, gamma="dnv"),
+    "bretschneider": bretschneider(hs=3.0, tz=7.0), "wind": torsethaugen(hs=4.0, tp=8.0),
     "long": torsethaugen(hs=1.0, tp=28.0),
     "ochi-hubble": ochi_hubble(hs=(3.0, 2.0), tp=(14.0, 6.0), shape=(3.0, 1.3)),
     "narrow": ochi_hubble(hs=(1.0, 2.0), tp=(18.0, 7.0), shape=(12.0, 0.8)),
-}
+}  # fmt: skip
 
 
 def integral(spectrum: Spectrum, order: int, low: float, high: float) -> float:
