@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import platform
 import re
 import signal
 import subprocess
@@ -71,10 +70,7 @@ def test_the_version_is_printed_without_numerical_packages() -> None:
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert done.stderr.strip() == "0"
-    first, *build = command_line("--version").stdout.splitlines()
-    assert first == f"seacrane {__version__}"
-    facts = dict(line.split(maxsplit=1) for line in build)
-    assert facts["core"].startswith("_core.") and platform.python_version() in facts["python"]
+    assert command_line("--version").stdout.splitlines()[0] == f"seacrane {__version__}"
 
 
 RUN = ("run", "vessel", "--out", "OUT")

@@ -218,8 +218,6 @@ BUILT = [
         "feed_forward = 'none'",
     ),
     (ARM.replace("[control]", "[notes]"), "[command]", r"\[control\]"),
-    (ARM[: ARM.index("[command]")], "[control]", r"\[\[command\]\]"),
-    (HEAD + VESSEL + "speed_m_per_s = 3\n", "speed_m_per_s", "speed"),
 ]  # fmt: skip
 
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import re
+import tomllib
+from typing import Any
+
 import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
+from seacrane.lift.tables import TABLES
 from seacrane.scene import gust_curve, spline_curve
 from seacrane.water import BoxPart, Opening, SpherePart
 
@@ -222,169 +227,62 @@ project = "A-17"; tries = [1, 2.5]
 )
 
 
+UNIT = re.compile("(?:_(?:m2|m3|m|kg|N|Pa|s2|s|Hz|W|deg|rad|per))+$")
+KINDS = {"first_frame": Frame, "second_frame": Frame, "coefficients": FlowCoefficients, "openings": Opening}
+PARTS = {"sphere": SpherePart, "box": BoxPart}
+CURVES = {"spline": spline_curve, "gust": gust_curve}
+ORDINATES = {"value", "start", "end", "amplitude", "offset", "values"}
+
+
 def every_table() -> Scene:
-    """What `EVERY_TABLE` describes, by calls."""
-    scene = Scene(name="every table", gravity=9.81, orientation="euler_xyz", baumgarte=0.5, length_scale=1.1)
-    scene.add_body(
-        name="hull", mass=1e6, inertia=[[2e6, 1e5, 0], [1e5, 3e6, 0], [0, 0, 2.5e6]],
-        center_of_mass=(0.1, -0.2, 0.3), angular_velocity=(0, 0, np.radians(2)),
-    )  # fmt: skip
-    scene.add_body(
-        name="arm", mass=12.5, inertia=[1, 2, 3], position=(1, 0, 2), quaternion=(0.5, 0.5, 0.5, 0.5),
-        velocity=(0, 0.1, 0), gravity=False,
-    )  # fmt: skip
-    for i, name in enumerate(("bob", "box")):
-        scene.add_body(name=name, mass=3, inertia=[1, 1, 1], position=(4, i, 0))
-    scene.add_vessel(
-        body="hull", name="water", added_mass=np.eye(6) * 1e5, quadratic_damping=[0, 0, 3, 4, 5, 0],
-        mooring_stiffness=[1e4, 2e4, 3e4], kinematics="paper",
-    )  # fmt: skip
-    scene.add_joint(kind="revolute", name="pin", first="hull", second="arm", axis=(0.3, 1, 0.2))
-    scene.add_joint(
-        kind="universal", name="cross", first="hull", second="bob", axis=(1, 0, 0), second_axis=(0, 0, 1)
-    )
-    scene.add_joint(
-        kind="distance", name="rope", first="bob", second="box", point=(4, 0, 0),
-        second_point=(4, 1, 0.5), length=1.25,
-    )  # fmt: skip
-    scene.add_joint(
-        kind="cylindrical", name="sleeve", first="ground", second="box",
-        first_frame=Frame(point=(4, 1, 0)), second_frame=Frame(),
-    )  # fmt: skip
-    scene.add_joint(kind="weld", name="deck", first="ground", second="hull")
-    shake = Curve.harmonic(amplitude=0.01, omega=2.0 * np.pi / 5.0, phase=np.radians(-90))
-    scene.add_driver(joint="sleeve", name="shaker", curve=shake)
-    turn = spline_curve(times=np.arange(7.0), values=np.radians([0, 0, 1, 4, 9, 10, 10]))
-    turn = turn.then(time=6, curve=Curve.constant(value=np.radians(10)))
-    scene.add_driver(joint="sleeve", coordinate="angle", curve=turn)
-    swing = Curve.harmonic(
-        start_time=9, offset=np.radians(-30), amplitude=np.radians(2), omega=2.0 * np.pi / 4.0
-    )
-    move = Curve.quintic(start_time=1, end_time=7, start=0, end=np.radians(-30))
-    scene.add_actuator(
-        name="motor", joint="pin", stiffness=1e3, damping=200, feed_forward=5.5,
-        reference=move.then(time=9, curve=swing),
-    )  # fmt: skip
-    scene.add_point_force(name="push", body="arm", force=(3, 0, 0), point=(0, 0.5, 0), body_axes=True)
-    scene.add_spring(
-        name="soft", first="ground", second="bob", stiffness=100, damping=0.1, natural_length=0.3
-    )
-    scene.add_spring(name="table", first="hull", second="box", lengths=[1, 2.5], forces=[0, 10])
-    scene.add_line(
-        name="hoist", bodies=["ground", "box", "bob"], points=[(0, 0, 9), (0, 0, 1), (0, 0, 0)],
-        EA=1e6, length=12, damping_ratio=0.05, mass=300,
-    )  # fmt: skip
-    scene.add_line(
-        name="whip", bodies=["ground", "ground", "bob"], points=[(-3, 0, 9), (0, 0, 9), (0, 0, 0)],
-        strains=[0, 0.1], tensions=[0, 1000], length=12, radii=[0, 0.3, 0],
-        axes=[(0, 0, 0), (0, 1, 0), (0, 0, 0)], efficiencies=[1, 0.98, 1], slip_speed=0.02,
-    )  # fmt: skip
-    scene.add_line(
-        name="chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], EA=1e8,
-        length=40, mass_per_length=5, segments=3, segment_rung="quasi-static", settling=0.3,
-        diameter=0.02, flow=(1, 0, 0),
-        seabed={"depth": 50, "stiffness": 1e4, "friction": 0.5, "damping_ratio": 0.4, "give": 0.02},
-    )  # fmt: skip
-    scene.add_line(
-        name="wet chain", rung="with mass", bodies=["ground", "box"], points=[(20, 5, -10), (0, 0, 1)],
-        EA=1e8, length=Curve.quintic(start_time=1, end_time=9, start=30, end=34), mass_per_length=5,
-        segments=2, diameter=0.05, medium="sea", density=1000,
-        drag_coefficient_along=0.02, added_mass_coefficient=0.9,
-    )  # fmt: skip
-    scene.add_line(joint="rope", rung="rigid", restitution=0.2)
-    scene.add_winch(
-        line="hoist", rate=Curve.quintic(start_time=0, end_time=2, start=0, end=0.5), maximum_rate=1,
-        maximum_acceleration=0.5, lag=0.1, minimum_length=2,
-        tension=Curve.quintic(start_time=1, end_time=3, start=2e3, end=4e3), tension_gain=1e-4, dead_band=100,
-        drum_inertia=500, drum_radius=0.5, maximum_tension=3e4, maximum_power=5e4,
-        brake=Curve.quintic(start_time=5, end_time=5.1, start=0, end=1), brake_capacity=4e4, brake_give=2e-3,
-    )  # fmt: skip
-    scene.add_roles(prefix="quay ", tip=("hull", (6, 0, 20)))
-    scene.add_hoist(
-        "quay hoist", crane="quay ", load="anode", mass=2e3, size=(1, 1, 2), length=5, falls=2, stiffness=1e6,
-        block_mass=100, slings={"angle_deg": 60, "EA": 1e7, "breaking_load": 6e5},
-        winch={"lag": 0.2, "maximum_rate": 0.5}, breaking_load=4e5, safety_factor=3,
-    )  # fmt: skip
-    scene.add_gas_spring(
-        name="phc", first="box", second="bob", area=0.05, force=2e4, stiffness=3e3, length=4, exponent=1.3,
-        damping=100, minimum=1, maximum=7,
-    )  # fmt: skip
-    scene.add_hydraulic_cylinder(
-        name="ram", first="box", second="bob", full_area=0.05, rod_side_area=0.03, retracted_length=0.1,
-        stroke=20, pressure=2e6, pressure_rod=1e6, pump_pressure=2e7, rated_flow=0.01, pump_check=True,
-        reference=Curve.quintic(start_time=0, end_time=5, start=3, end=4), gain=2, rupture_time=9,
-        rupture_area=1e-5,
-    )  # fmt: skip
-    scene.add_bridle(
-        name="sling", hook="ground", load="box", hook_point=(0, 0, 9), EA=[1e6],
-        points=[(0.5, 0, 0.5), (-0.5, 0, 0.5)],
-    )  # fmt: skip
-    parts = [SpherePart(diameter=0.4), BoxPart(size=(1, 2, 0.5), strips=(2, 1), point=(0, 0, 0.1), slam=6)]
-    scene.add_immersed("bob", parts=parts)
-    scene.add_entrapped_water(
-        name="skirt", body="bob", area=1.5, height=0.5, point=(0, 0, -0.15), initial=0.5,
-        openings=[Opening(point=(0, 0.5, -0.1), area=0.02), Opening(point=(0.5, 0, 0.3), area=0.01)],
-        air="shut", exponent=1.2, air_pressure=1.1e5,
-    )  # fmt: skip
-    scene.add_pendulum_damping(name="swing", first="ground", first_point=(0, 0, 9), second="bob", ratio=0.01)
-    scene.add_air_drag(body="bob", frontal_area=2, lateral_area=3, drag_coefficient=0.8)
-    scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
-    _add_flows(scene)
-    scene.add_end_stop(
-        joint="sleeve", coordinate="angle", minimum=np.radians(-90), maximum=np.radians(90),
-        sticking_speed=0.01,
-    )  # fmt: skip
-    scene.add_seat(joint="deck")
-    scene.add_soft_stop(joint="sleeve", maximum=2, stiffness=1e4, damping=0.5)
-    scene.add_friction(joint="pin", load=4, speed=np.radians(1))
-    scene.add_contact(
-        "bob", name="landing", points=[(0.5, 0, -0.5), (-0.5, 0, -0.5)], on="hull", surface="box",
-        place=(0, 0, -30), size=(8, 4, 0.5), stiffness=1e5, damping=0.5, friction=0.3, hold=2e-3,
-    )  # fmt: skip
-    scene.add_contact(
-        "bob", points=[(0.5, 0, 0.5)], on="hull", axis=(0, -1, 0), place=(0, 50, 0),
-        table=[(0, 0), (0.1, 2e3), (0.3, 2e4)],
-    )  # fmt: skip
-    scene.add_seabed("box", points=[(0, 0, -0.5)], depth=80, stiffness=2e5, friction=0.4)
-    scene.add_heave_compensation(
-        name="ahc", body="hull", point=(1, 2, 3), winch="hoist", ratio=1.5, high_pass=0.02, lag=0.3,
-        lag_order=2, actuator_frequency=1.5, maximum_rate=2, maximum_stroke=3,
-    )  # fmt: skip
-    scene.add_range(joint="sleeve", minimum=-1, maximum=3)
-    scene.add_limit_state(channel="link_tension", maximum=8e4, minimum=1e3)
-    scene.add_limit_state(name="luffing", channel="stroke", maximum=2.5, names={"cylinder": "aft luff"})
-    scene.add_limit_state(channel="vessel_motion", maximum=np.radians(90), names={"motion": "roll"})
-    scene.add_lift_factors(
-        "box", weight_contingency=1.1, center_of_gravity=(0.1, 0, 0), skew_load=1.25, dynamic_factor=1.3,
-        sling_safety_factor=3, shackle_safety_factor=4, shackle_breaking_load=1e5, alpha=0.7,
-        sources={"alpha": "the project's own"},
-    )  # fmt: skip
-    scene.record_coordinate(joint="pin", name="angle of the arm")
-    scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
-    scene.add_point(name="edge", body="hull", point=(1, 2, 3))
-    scene.add_clearance(name="hull", points="corner", body="hull", center=(1, 0, 2), size=(3, 4, 5))
-    scene.add_relative(name="corner over the edge", point="corner", to="edge", axes="hull")
-    scene.add_channel(name="drop", expression="edge.z - box.z")
-    scene.record_coordinate(joint="sleeve", coordinate="angle")
-    scene.add_roles(
-        prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1)),
-        areas={"luff": (0.5, 0.25)},
-    )  # fmt: skip
-    scene.notes.update(project="A-17", tries=[1, 2.5])
+    """What `EVERY_TABLE` describes, by calls: keys without units are keywords, degrees become radians."""
+    parsed = tomllib.loads(EVERY_TABLE)
+    scene = Scene(**_words(parsed["scene"]))
+    scene.notes.update(parsed["notes"])
+    for name in (name for name in TABLES if name in parsed and name not in ("scene", "notes")):
+        call = {"hydrodynamics": "add_vessel", "record": "record_coordinate"}.get(name, f"add_{name}")
+        for one in parsed[name] if isinstance(parsed[name], list) else [parsed[name]]:
+            getattr(scene, call)(**_words(one))
     return scene
 
 
-def _add_flows(scene: Scene) -> None:
-    wind = FlowCoefficients(angle=np.radians([0, 90, 180]), x=[0.9, 0, -0.9], y=[0, 0.8, 0], yaw=[0, 0.1, 0])
-    scene.add_wind(
-        coefficients=wind, speed=gust_curve(mean_speed=12, duration=10, seed=3), direction_deg=90,
-        frontal_area=400, lateral_area=1200, length=100, body="hull",
-    )  # fmt: skip
-    current = FlowCoefficients(angle=[0, 1.5, 3.0], x=[0.1, 0, -0.1], y=[0, 0.6, 0], yaw=[0, 0.05, 0])
-    scene.add_current(
-        coefficients=current, speed=0.5, direction_deg=0, frontal_area=200, lateral_area=700, length=100,
-        body="hull",
-    )  # fmt: skip
+def _words(table: dict[str, Any], kept: tuple[str, ...] = ("direction_deg",)) -> dict[str, Any]:
+    return dict(_word(key, value) if key not in kept else (key, value) for key, value in table.items())
+
+
+def _word(key: str, told: Any) -> tuple[str, Any]:
+    name = UNIT.sub("", key)
+    turned = "deg" in key[len(name) :]
+    first = told[0] if isinstance(told, list) else told
+    if name == "tip":
+        return name, (told["body"], told["point_m"])
+    if name == "areas":
+        return name, {one["cylinder"]: (one["full_m2"], one["rod_side_m2"]) for one in told}
+    if name == "parts":
+        told = [dict(one) for one in told]
+        return name, [PARTS[one.pop("kind")](**_words(one)) for one in told]
+    if name in KINDS:
+        made = [KINDS[name](**_words(one)) for one in (told if isinstance(told, list) else [told])]
+        return name, made if isinstance(told, list) else made[0]
+    if isinstance(first, dict) and "kind" in first:
+        return name, _curve(told if isinstance(told, list) else [told], turned)
+    if isinstance(told, dict):
+        return name, _words(told, kept=("angle_deg",))
+    return name, np.radians(told) if turned else told
+
+
+def _curve(pieces: list[dict[str, Any]], turned: bool) -> Curve:
+    curve = None
+    for piece in pieces:
+        given = _words(piece)
+        if turned:
+            given |= {name: np.radians(given[name]) for name in given.keys() & ORDINATES}
+        at, kind = given.pop("from", None), given.pop("kind")
+        if "period" in given:
+            given["omega"] = 2.0 * np.pi / given.pop("period")
+        one = (CURVES.get(kind) or getattr(Curve, kind))(**given)
+        curve = one if curve is None else curve.then(time=at, curve=one)
+    return curve
 
 
 ON_DECK = (

@@ -118,17 +118,11 @@ def test_exact_load_against_numpy() -> None:
     assert np.all(error >= 0.01 * table.error_bound)
 
 
-def test_bad_arrays_are_refused() -> None:
+def test_arrays_that_do_not_fit_are_refused() -> None:
     waves = _core.WaveComponents(omega=[0.5, 0.6], amplitude=1.0)
-    spectrum = _core.jonswap(hs=2.0, tp=8.0)
-    realise = partial(_core.realise_waves, spectrum, direction=0.0)
     undefined = [[0.0] * 6, [0.0, 0.0, np.nan, 0.0, 0.0, 0.0]]
-    for call, given, message in (
-        (realise, {"seed": 2**64}, "seed is 18446744073709551616"),
-        (realise, {"seed": 1, "count": 2.5}, r"count is 2\.5"),
-        (_core.WaveComponents, {"omega": [0.5, 0.6, 0.7], "amplitude": [1.0, 1.0]}, "amplitude is 2"),
-        (partial(_core.ExactWaveLoad, waves), {"transfer": undefined}, r"transfer\(1, 2\) is \(nan,0\)"),
-        (partial(_core.ExactWaveLoad, waves), {"transfer": np.zeros((3, 6))}, r"transfer is \(3, 6\)"),
-    ):
+    for transfer, message in ((undefined, r"transfer\(1, 2\)"), (np.zeros((3, 6)), r"transfer is \(3, 6\)")):
         with pytest.raises(ValueError, match=message):
-            call(**given)
+            _core.ExactWaveLoad(waves, transfer=transfer)
+    with pytest.raises(ValueError, match="amplitude is 2"):
+        _core.WaveComponents(omega=[0.5, 0.6, 0.7], amplitude=[1.0, 1.0])

@@ -14,7 +14,6 @@ from seacrane import Scene, _core, cases, simulate
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients
-from seacrane.run.stats import origin_settings
 from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, realise_waves, torsethaugen
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import WavesWithoutLoadWarning
@@ -161,26 +160,6 @@ def test_plain_arguments_of_add_sea() -> None:
     afloat(sea=SeaState(systems=[SWELL], placement="uniform"), evaluation="fft").compile()
     with pytest.raises(SceneError, match="placement='uniform'"):
         afloat(sea=SeaState(systems=[SWELL]), evaluation="fft").compile()
-
-
-def test_keywords_of_phase_and_drift_do_what_the_functions_do() -> None:
-    drift = DriftCoefficients(
-        heading=np.linspace(0.0, np.pi, 13), omega=np.linspace(0.2, 2.6, 25),
-        coefficient=np.full((13, 25, 6), [-2e3, 1e3, 0.0, 0.0, 0.0, 1e4]),
-    )  # fmt: skip
-    scenes = []
-    for options in ({"phase": "actual", "drift": True}, {}):
-        scene = Scene(name="sea")
-        scene.add_vessel(dataclasses.replace(shipped_database(), drift=drift))
-        scene.add_sea(hs=2.0, count=30, **options)
-        scenes.append(scene)
-    by_keyword, by_hand = scenes
-    by_hand.add_drift()
-    by_hand.use_actual_position()
-    one, other = by_keyword.waves.hull(), by_hand.waves.hull()
-    np.testing.assert_array_equal(one.force_by_heading.values, other.force_by_heading.values)
-    np.testing.assert_array_equal(one.drift_by_heading.values, other.drift_by_heading.values)
-    assert origin_settings(by_keyword)["wave_phase"] == origin_settings(by_hand)["wave_phase"] == "actual"
 
 
 def test_a_sea_is_as_deep_as_its_database() -> None:
