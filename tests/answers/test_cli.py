@@ -144,7 +144,7 @@ def test_show_and_report_tell_of_a_result_by_its_content(lift: tuple[Done, Path]
 def test_options_reach_the_case_and_the_integrator(tmp_path: Path) -> None:
     options = (
         "--t-end 2 --integrator rk4 --dt 0.05 --hs 3 --tp 9 --seed 5 --wave-direction-deg 90 --memory none "
-        "--formulation redundant --progress --spectrum torsethaugen --spreading 4"
+        "--formulation redundant --progress --spectrum pierson-moskowitz --spreading 4"
     )
     done = command_line("run", "vessel", "--out", tmp_path, *options.split())
     assert done.returncode == 0 and "simulated" in done.stderr, done.stderr
@@ -153,7 +153,7 @@ def test_options_reach_the_case_and_the_integrator(tmp_path: Path) -> None:
     assert (stats["integrator"], stats["formulation"], stats["seed"]) == ("rk4", "redundant", 5)
     assert stats["realised_hs"] == pytest.approx(3.0, rel=0.01)
     assert settings["dt"] == 0.05 and settings["memory"] == "none" and settings["tp"] == 9.0
-    assert (settings["spectrum"], settings["spreading"]["exponent"]) == ("torsethaugen", 4.0)
+    assert (settings["spectrum"], settings["spreading"]["exponent"]) == ("pierson-moskowitz", 4.0)
 
 
 def test_a_script_and_a_scene_file_run_alike(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
