@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import platform
 import re
 import signal
 import subprocess
@@ -18,7 +17,7 @@ import pytest
 import seacrane.hydro
 from seacrane import cases
 from seacrane.cli.as_json import to_json
-from seacrane.cli.command_line import explain, main
+from seacrane.cli.command_line import main
 from seacrane.cli.scene_source import run_script
 from seacrane.errors import SceneError
 from seacrane.result import Result
@@ -63,15 +62,6 @@ def told(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> tuple[in
     return code, capsys.readouterr().err.strip()
 
 
-def test_every_command_explains_itself(capsys: pytest.CaptureFixture[str]) -> None:
-    for command in ("", "run", "paper", "report", "show", "view", "hydro", "trade", "schema", "doctor"):
-        with pytest.raises(SystemExit) as end:
-            main([*command.split(), "--help"])
-        assert not end.value.code
-        assert capsys.readouterr().out.startswith(f"usage: seacrane {command}".rstrip())
-    assert main([]) == 2 and "usage: seacrane" in capsys.readouterr().err
-
-
 def test_the_version_is_printed_without_numerical_packages() -> None:
     script = (
         "import sys\nfrom seacrane.cli import main\n"
@@ -80,46 +70,32 @@ def test_the_version_is_printed_without_numerical_packages() -> None:
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert done.stderr.strip() == "0"
-    first, *build = command_line("--version").stdout.splitlines()
-    assert first == f"seacrane {__version__}"
-    facts = dict(line.split(maxsplit=1) for line in build)
-    assert facts["core"].startswith("_core.") and platform.python_version() in facts["python"]
+    assert command_line("--version").stdout.splitlines()[0] == f"seacrane {__version__}"
 
 
 RUN = ("run", "vessel", "--out", "OUT")
-FAILING = {
-    "an unknown command": (2, ("sail",), "'sail'"),
-    "no folder": (2, ("run", "vessel"), "--out"),
-    "a time that is no number": (2, (*RUN, "--t-end", "long"), "'long'"),
-    "an unknown memory": (2, (*RUN, "--memory", "elephant"), "'elephant'"),
-    "an absent scene": (1, ("run", "case9", "--out", "OUT"), "'case9'"),
-    "an absent database": (1, (*RUN, "--database", "none.nc"), "none.nc"),
-    "an integrator that does not exist": (1, (*RUN, "--integrator", "magic"), "magic"),
-    "a run of negative length": (1, (*RUN, "--t-end", "-1"), "t_end is -1.0 s"),
-    "a negative wave height": (1, (*RUN, "--hs", "-2"), "-2"),
-    "an integrator that cannot step it": (
-        1, (*RUN, "--formulation", "recursive", "--integrator", "ida"), "'recursive'",
-    ),
-    "a file for a folder": (1, ("run", "vessel", "--out", "TAKEN", "--t-end", "1"), "taken is a file"),
-    "a scene file that is none": (1, ("run", "TAKEN", "--out", "OUT"), "taken"),
-    "a database as a result": (1, ("report", str(DATABASE), "--out", "OUT"), "is not a seacrane result"),
-    "hydro of nothing": (1, ("hydro", "none.nc"), "none.nc"),
-    "earlier figures": (1, ("paper", "--out", "EARLIER"), "report.html.*--overwrite"),
-    "earlier plots": (1, ("hydro", str(DATABASE), "--out", "EARLIER"), "motion.png.*--overwrite"),
-    "a result that is not there": (1, ("report", "my lift.nc", "--out", "OUT"), "my lift.nc"),
-}  # fmt: skip
+FAILING = [
+    (2, ("sail",), "'sail'"), (2, ("run", "vessel"), "--out"), (2, (*RUN, "--t-end", "long"), "'long'"),
+    (1, ("run", "case9", "--out", "OUT"), "'case9'"), (1, (*RUN, "--database", "none.nc"), "none.nc"),
+    (1, (*RUN, "--integrator", "magic"), "magic"), (1, (*RUN, "--t-end", "-1"), "t_end is -1.0 s"),
+    (1, ("run", "vessel", "--out", "TAKEN", "--t-end", "1"), "taken is a file"),
+    (1, ("run", "TAKEN", "--out", "OUT"), "taken"),
+    (1, ("report", str(DATABASE), "--out", "OUT"), "is not a seacrane result"),
+    (1, ("paper", "--out", "EARLIER"), "report.html.*--overwrite"),
+    (1, ("hydro", str(DATABASE), "--out", "EARLIER"), "motion.png.*--overwrite"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("case", FAILING)
+@pytest.mark.parametrize(("code", "arguments", "words"), FAILING)
 def test_failure_is_told_in_one_line_and_leaves_no_file(
-    case: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+    code: int, arguments: tuple[str, ...], words: str,
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
     (tmp_path / "taken").write_text('{"bodies": [')
     (tmp_path / "earlier").mkdir()
     for name in ("report.html", "motion.png"):
         (tmp_path / "earlier" / name).write_text("mine")
-    code, arguments, words = FAILING[case]
     given = [one.lower() if one in ("OUT", "TAKEN", "EARLIER") else one for one in arguments]
     found, line = told(capsys, *given)
     assert found == code and re.search(words, line) and "Traceback" not in line and "\n" not in line
@@ -133,18 +109,6 @@ def lift(tmp_path_factory: pytest.TempPathFactory) -> tuple[Done, Path]:
     return command_line("run", "case2", "--out", folder, "--t-end", "5", "--dt-out", "0.5"), folder
 
 
-CHANNELS = (
-    "position velocity angular_velocity quaternion euler_xyz vessel_motion stroke stroke_rate cylinder_force "
-    "slew_angle slew_torque link_tension reaction_force reaction_moment wave_elevation wave_force "
-    "constraint_error constraint_rate_error constraint_error_before_projection energy_balance absolute_work"
-)
-STATS = (
-    "seacrane_version scene formulation integrator seed realised_hs simulated_s wall_s evaluations steps "
-    "rejected_steps states coordinates constraints degrees_of_freedom compiled_coordinates "
-    "compiled_constraints wave_components"
-)
-
-
 def test_a_run_writes_its_file_and_a_summary(lift: tuple[Done, Path]) -> None:
     done, folder = lift
     assert done.returncode == 0, done.stderr
@@ -154,10 +118,6 @@ def test_a_run_writes_its_file_and_a_summary(lift: tuple[Done, Path]) -> None:
     assert "worst constraint error" in done.stdout and f"saved {folder / 'case2.nc'}" in done.stdout
     result = Result.load(folder / "case2.nc")
     np.testing.assert_allclose(result.time, np.arange(0, 5.25, 0.5))
-    bodies = "vessel tower king main_barrel main_rod main_jib knuckle_barrel knuckle_rod knuckle_jib payload"
-    assert set(result.coords["body"]) == set(bodies.split())
-    assert set(result.coords["joint"]) == {*"ABCDEFG", "deck", "main_cylinder", "knuckle_cylinder", "link"}
-    assert set(CHANNELS.split()) <= set(result.channels) and set(STATS.split()) <= set(result.stats)
     counts = [result.stats[name] for name in ("coordinates", "constraints", "degrees_of_freedom")]
     assert counts == [60, 46, 14] and result["constraint_error"].max() < 1e-9
 
@@ -167,40 +127,24 @@ def test_show_and_report_tell_of_a_result_by_its_content(lift: tuple[Done, Path]
     file = lift[1] / "case2.nc"
     done = command_line("show", file, "--out", tmp_path, "--start", "1")
     assert done.returncode == 0, done.stderr
-    assert "case2, 1 to 5 s" in done.stdout and f"saved {tmp_path / 'case2.png'}" in done.stdout
-    assert (tmp_path / "case2.png").read_bytes().startswith(b"\x89PNG")
+    assert "case2, 1 to 5 s" in done.stdout and (tmp_path / "case2.png").read_bytes().startswith(b"\x89PNG")
     shown = json.loads(command_line("show", file, "--json").stdout)
-    assert shown["rows"]["hoist tension"]["unit"] == "N" and "Too short" in shown["remarks"][0]
-    assert "overwrite" in refusal(command_line("show", file, "--out", tmp_path))
+    assert shown["rows"]["hoist tension"]["unit"] == "N"
     copied, pages = tmp_path / "a lift.json", tmp_path / "pages"  # the name says nothing
     copied.write_bytes(file.read_bytes())
     assert command_line("report", copied, "--out", pages).returncode == 0
     (page,) = pages.iterdir()
-    text = page.read_text(encoding="utf-8")
-    assert page.name == "a lift.json.html" and "<h2>At a glance</h2>" in text
     page.write_text("mine")
     assert "--overwrite" in refusal(command_line("report", copied, "--out", pages))
     assert page.read_text() == "mine"
-    done = command_line("report", copied, "--out", pages, "--overwrite")
-    assert done.returncode == 0 and page.read_text(encoding="utf-8") == text
-
-
-def test_options_of_the_other_report_are_refused(
-    lift: tuple[Done, Path], capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    result, out = lift[1] / "case2.nc", tmp_path / "x"
-    for arguments, words in (
-        ((result,), "--out DIR"), ((result, "--json", "--out", out), "--json"),
-        (("case2", "--out", out), "--out and --overwrite"),
-    ):  # fmt: skip
-        code, line = told(capsys, "report", *arguments)
-        assert code == 1 and words in line and not out.exists()
+    assert command_line("report", copied, "--out", pages, "--overwrite").returncode == 0
+    assert "<h2>At a glance</h2>" in page.read_text(encoding="utf-8")
 
 
 def test_options_reach_the_case_and_the_integrator(tmp_path: Path) -> None:
     options = (
         "--t-end 2 --integrator rk4 --dt 0.05 --hs 3 --tp 9 --seed 5 --wave-direction-deg 90 --memory none "
-        "--formulation redundant --progress"
+        "--formulation redundant --progress --spectrum pierson-moskowitz --spreading 4"
     )
     done = command_line("run", "vessel", "--out", tmp_path, *options.split())
     assert done.returncode == 0 and "simulated" in done.stderr, done.stderr
@@ -209,6 +153,7 @@ def test_options_reach_the_case_and_the_integrator(tmp_path: Path) -> None:
     assert (stats["integrator"], stats["formulation"], stats["seed"]) == ("rk4", "redundant", 5)
     assert stats["realised_hs"] == pytest.approx(3.0, rel=0.01)
     assert settings["dt"] == 0.05 and settings["memory"] == "none" and settings["tp"] == 9.0
+    assert (settings["spectrum"], settings["spreading"]["exponent"]) == ("pierson-moskowitz", 4.0)
 
 
 def test_a_script_and_a_scene_file_run_alike(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -229,16 +174,10 @@ def test_a_script_and_a_scene_file_run_alike(tmp_path: Path, capsys: pytest.Capt
 
 def test_the_report_is_the_scenes_own(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["report", "case2", "--json"]) == 0
-    printed = json.loads(capsys.readouterr().out)
-    own = cases.case2().report()
+    printed, own = json.loads(capsys.readouterr().out), cases.case2().report()
     assert list(printed) == list(own)
-    for section, rows in own.items():
-        assert [row["name"] for row in printed[section]] == [str(name) for name, _ in rows], section
     values = {row["name"]: row["value"] for rows in printed.values() for row in rows}
     assert {60, 46, 14} <= {value for value in values.values() if isinstance(value, int)}
-    assert main(["report", "case2"]) == 0
-    text = capsys.readouterr().out
-    assert all(section in text for section in own)
 
 
 @pytest.fixture(scope="module")
@@ -274,28 +213,20 @@ def test_the_papers_runs_are_accurate(paper: tuple[Done, Path]) -> None:
         assert closure < ENERGY_CLOSURE.get(path.stem, 1e-6), path.name
 
 
-BAD_SCRIPTS = {
-    "no function": ("x = 1\n", "scene()"),
-    "an error": ("def scene():\n    return 1 / 0\n", "bad.py line 2: ZeroDivisionError"),
-    "not a scene": ("def scene():\n    return 3\n", "int"),
-    "bad syntax": ("def scene(:\n", "bad.py line 1: SyntaxError"),
-    "an early exit": ("raise SystemExit(0)\n", "bad.py line 1: SystemExit"),
-    "an absent helper": ("import helper_that_is_absent\n", "bad.py line 1: ModuleNotFoundError"),
-}
-
-
 def test_a_script_that_fails_is_named_with_its_line_and_may_import_its_neighbour(tmp_path: Path) -> None:
     script = tmp_path / "bad.py"
-    for case, (text, words) in BAD_SCRIPTS.items():
+    for text, words in (
+        ("x = 1\n", "scene()"), ("def scene():\n    return 1 / 0\n", "bad.py line 2: ZeroDivisionError"),
+        ("def scene(:\n", "bad.py line 1: SyntaxError"),
+        ("raise SystemExit(0)\n", "bad.py line 1: SystemExit"),
+    ):  # fmt: skip
         script.write_text(text)
-        with pytest.raises(SceneError) as caught:
+        with pytest.raises(SceneError, match=re.escape(words)):
             run_script(script)
-        assert words in str(caught.value), case
     (tmp_path / "neighbour_of_pendulum.py").write_text(PENDULUM)
     script.write_text("from neighbour_of_pendulum import scene\n")
     before = list(sys.path)
-    assert run_script(script).name == "pendulum"
-    assert sys.path == before
+    assert run_script(script).name == "pendulum" and sys.path == before
 
 
 def test_ctrl_c_leaves_what_was_computed(tmp_path: Path) -> None:
@@ -325,82 +256,31 @@ def test_a_real_ship_is_checked_and_run(shared: Path, tmp_path: Path) -> None:
     ship = shared / "veres" / "supply"
     done = command_line("hydro", ship, "--json", "--out", tmp_path / "plots")
     assert done.returncode == 0, done.stderr
-    rows = json.loads(done.stdout)
-    assert all(set(row) == {"check", "value", "limit", "verdict"} for row in rows)
-    verdicts = {row["check"]: row["verdict"] for row in rows}
+    verdicts = {row["check"]: row["verdict"] for row in json.loads(done.stdout)}
     for motion in ("surge", "sway", "heave", "roll", "pitch", "yaw"):
         assert verdicts[f"motion_rao_{motion}"] == "pass"
-    plots = {"added_mass", "damping", "retardation", "wave_force", "motion"}
-    names = {path.name for path in (tmp_path / "plots").iterdir()}
-    assert names == {f"{plot}.{kind}" for plot in plots for kind in ("png", "csv")}
+    assert len(list((tmp_path / "plots").iterdir())) == 10
     done = command_line("hydro", ship / "input")
     assert done.returncode == 0, done.stderr
-    head, *lines = (line.split() for line in done.stdout.splitlines())
-    assert head == ["check", "value", "limit", "verdict"]
-    values = {line[0]: line[1] for line in lines}
-    assert float(values["mass_t"]) == pytest.approx(6362.2, abs=0.1) and "motion_rao_surge" in values
+    values = {line.split()[0]: line.split()[1] for line in done.stdout.splitlines()}
+    assert float(values["mass_t"]) == pytest.approx(6362.2, abs=0.1)
     assert float(values["GM_of_C44_and_mass_m"]) == pytest.approx(2.14, abs=0.005)
     done = command_line("run", "vessel", "--database", ship, "--out", tmp_path, "--t-end", "5")
     assert done.returncode == 0, done.stderr
     assert np.isfinite(Result.load(tmp_path / "vessel.nc")["vessel_motion"]).all()
 
 
-@pytest.mark.slow("fits a memory")
-def test_hydro_fits_over_a_band_that_is_named(capsys: pytest.CaptureFixture[str], shared: Path) -> None:
-    path = str(shared / "veres" / "supply")
-    with pytest.warns(UserWarning, match="infinite-frequency"):
-        assert main(["hydro", path, "--band", "0.4", "2.0", "--memory", "by-motion", "--json"]) == 0
-    rows = {row["check"]: row for row in json.loads(capsys.readouterr().out)}
-    assert rows["memory_motion_error"]["limit"] == 0.01
-    assert main(["hydro", path, "--band", "2.9", "3.0"]) != 0
-    assert "2.9 to 3 rad/s" in capsys.readouterr().err
-
-
 def test_the_reader_of_our_output_may_leave() -> None:
     reading, writing = os.pipe()
     os.close(reading)
     command = [sys.executable, "-m", "seacrane", "hydro", str(DATABASE)]
-    try:
-        done = subprocess.run(
-            command, stdout=writing, stderr=subprocess.PIPE, text=True, timeout=300, check=False
-        )
-    finally:
-        os.close(writing)
+    done = subprocess.run(
+        command, stdout=writing, stderr=subprocess.PIPE, text=True, timeout=300, check=False
+    )
+    os.close(writing)
     assert done.returncode == 1 and done.stderr == ""
 
 
-def test_errors_become_one_line_and_infinity_has_no_word_in_json() -> None:
-    errors = [OSError("two\nlines"), SceneError("body 'x'"), KeyError("no channel"), ValueError()]
-    texts = ["two lines", "body 'x'", "unexpected KeyError: no channel", "ValueError"]
-    assert [explain(error) for error in errors] == texts
+def test_infinity_has_no_word_in_json() -> None:
     value = {"a": np.array([1.0, np.inf]), "b": (np.float64("nan"), np.int64(2)), "c": None, "d": True}
     assert json.loads(to_json(value)) == {"a": [1.0, None], "b": [None, 2], "c": None, "d": True}
-
-
-TWO_HINGES = """
-import warnings
-import seacrane
-
-def scene():
-    warnings.warn("look here", UserWarning)
-    out = seacrane.Scene(name="door")
-    out.add_body(name="door", mass=30.0, inertia=[[1, 0, 0], [0, 1, 0], [0, 0, 1]], position=(0.5, 0, 0))
-    for z in (-0.8, 0.8):
-        out.add_joint(name=f"hinge {z}", kind="revolute", first="ground", second="door",
-                      point=(0, 0, z), axis=(0, 0, 1))
-    return out
-"""
-
-
-@pytest.mark.parametrize("launcher", ["module", "program"])
-def test_warnings_name_the_users_line_or_none(launcher: str, tmp_path: Path) -> None:
-    """Not the line of the program that starts the command."""
-    script = tmp_path / "door.py"
-    script.write_text(TWO_HINGES)
-    module, program = [sys.executable, "-m", "seacrane"], [str(Path(sys.executable).with_name("seacrane"))]
-    command = [*(module if launcher == "module" else program), "run", str(script), "--out", str(tmp_path)]
-    done = subprocess.run([*command, "--t-end", "0.1"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    lines = [line for line in done.stderr.splitlines() if "redundant" in line]
-    assert lines and all(line.startswith("seacrane run: RedundantJointsWarning: ") for line in lines)
-    assert f"{script}:6: UserWarning: look here" in done.stderr

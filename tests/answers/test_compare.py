@@ -17,8 +17,7 @@ from seacrane.warnings import UncertainShiftWarning
 # Ships that are led start where they are led to.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 Array = np.ndarray
-Curve = Callable[[Array], Array]
-END = 200.0
+Curve, END = Callable[[Array], Array], 200.0
 RANDOM = np.random.default_rng(11)
 OMEGA, PHASE = np.linspace(0.4, 1.1, 50), RANDOM.uniform(0.0, 2.0 * np.pi, 50)
 SIZE = 0.1
@@ -47,13 +46,12 @@ def record(values: Curve, time: Array, unit: str = "m", name: str = "heave") -> 
     return MeasuredSeries(time=time, columns={name: values(time)}, units={name: unit})
 
 
-@pytest.mark.parametrize("late", [0.0, 1.234, -4.5])
+@pytest.mark.parametrize("late", [1.234, -4.5])
 def test_the_shift_of_a_record_is_found_between_samples(result: Result, late: float) -> None:
     """Without noise: to the error of the splines through run and record."""
     time = np.arange(10.0, 180.0, 0.2)
     found = compare(result, record(lambda t: heave(t - late), time))
-    assert found.shift == pytest.approx(late, abs=2e-4)
-    assert found.rms < 2e-4
+    assert found.shift == pytest.approx(late, abs=2e-4) and found.rms < 2e-4
     assert found.correlation == pytest.approx(1.0, abs=1e-6)
     # A record of another clock is found where the longest shift allows it.
     made = record(lambda t: heave(t - 6990.0 - late), np.arange(7000.0, 7120.0, 0.2))
@@ -87,7 +85,7 @@ def test_differences_are_run_minus_record_and_signed(result: Result) -> None:
     found = compare(result, made, maximum_shift=0.0)
     np.testing.assert_allclose(found.difference, 0.5 * heave(found.time) + 2.0, atol=2e-4)
     assert (found.shift, found.gain) == (0.0, pytest.approx(2.0, rel=1e-3))
-    assert found.bias == pytest.approx(found.difference.mean(), rel=1e-9) and "+2" in str(found)
+    assert found.bias == pytest.approx(found.difference.mean(), rel=1e-9)
 
 
 def test_a_shift_that_is_not_sure_is_told(result: Result) -> None:
@@ -103,30 +101,15 @@ def test_a_shift_that_is_not_sure_is_told(result: Result) -> None:
     assert found.shift == pytest.approx(1.0, abs=1e-4)
 
 
-def test_which_curve_is_said_by_the_one_text(result: Result) -> None:
-    made = record(heave, np.arange(0.0, END, 0.2), name="motion of the ship")
-    whole = compare(result, made, channel="vessel_motion[heave]")
-    late = compare(result, made, channel="vessel_motion[heave, after=60]")
-    assert whole.time[0] == pytest.approx(0.0, abs=0.3)
-    assert late.time[0] == pytest.approx(60.0, abs=0.2)
-    assert (late.channel, late.column) == ("vessel_motion[motion=heave, after=60]", "motion of the ship")
-
-
 def test_what_cannot_be_compared_is_refused(result: Result) -> None:
     time = np.arange(0.0, END, 0.2)
     made, still = record(heave, time), record(np.ones_like, time)
     two = MeasuredSeries(time=time, columns={"a": time, "b": time}, units={"a": "m", "b": "m"})
     refused: list[tuple[Any, dict[str, Any], str]] = [
-        (made, {"channel": "hook_load"}, "'hook_load'"),
         (made, {"channel": "position"}, "several curves"),
         (record(heave, time, unit="rad"), {}, "in m, and column 'heave' in rad"),
-        (made, {"column": "sway"}, "'sway'"),
-        (made, {"maximum_shift": -1.0}, "maximum_shift"),
-        (made, {"channel": "heave[after=199.5]"}, "has 3 outputs|does not exist"),
-        (still, {}, "does not vary"),
-        ({"heave": heave(time)}, {}, "MeasuredSeries"),
-        (two, {"channel": "heave"}, "column=, a, b"),
-    ]
+        (still, {}, "does not vary"), (two, {"channel": "heave"}, "column=, a, b"),
+    ]  # fmt: skip
     for measured, given, words in refused:
         with pytest.raises(SceneError, match=words):
             compare(result, measured, **given)
@@ -142,50 +125,6 @@ def test_spectra_tables_and_pictures(result: Result, tmp_path: Path) -> None:
     table = pandas.read_csv(found.to_csv(tmp_path / "compared.csv"), index_col=0)
     assert list(table.columns) == ["run [m]", "record [m]", "difference [m]"]
     np.testing.assert_allclose(table["difference [m]"], found.difference, rtol=1e-12, atol=1e-15)
-    assert found.to_dataframe().attrs == {
-        "units": dict.fromkeys(("run", "record", "difference"), "m"), "shift": found.shift,
-    }  # fmt: skip
-    over_time, over_omega = found.plot(), found.plot_spectra()
-    upper, lower = over_time.axes
+    upper, lower = found.plot().axes
     np.testing.assert_array_equal(upper.lines[1].get_ydata(), found.record)
     np.testing.assert_array_equal(lower.lines[0].get_ydata(), found.difference)
-    assert over_omega.axes[0].lines[0].get_xdata()[-1] < 2.0
-    assert "<table" in found._repr_html_()
-
-
-def decay(inertia: float, stiffness: float, linear: float, quadratic: float, start: float) -> Scene:
-    """A body that rolls, from an angle (rad)."""
-    half = 0.5 * start
-    scene = Scene(name="decay", gravity=0.0)
-    turned = (float(np.cos(half)), float(np.sin(half)), 0.0, 0.0)
-    scene.add_body(name="hull", mass=1e3, inertia=[inertia, inertia, inertia], quaternion=turned)
-    restoring, damping = np.zeros((6, 6)), np.zeros((6, 6))
-    restoring[3, 3], damping[3, 3] = stiffness, linear
-    scene.add_vessel(
-        body="hull", added_mass=np.zeros((6, 6)), linear_damping=damping, restoring=restoring,
-        quadratic_damping=[0, 0, 0, quadratic, 0, 0],
-    )  # fmt: skip
-    return scene
-
-
-def test_the_roll_decay_of_a_tanker_model(shared: Path) -> None:
-    """SSPA's test of KVLCC2 beside an equation of its published period and damping.
-
-    Damping ratio 0.0034 + 0.0238 a: linear b1 / (2 I w), quadratic 4 / (3 pi) b2 / I times the amplitude.
-    """
-    path = shared / "measured" / "kvlcc2_roll_decay" / "roll.csv"
-    if not path.is_file():
-        pytest.skip(f"no {path}")
-    measured = MeasuredSeries.load(path, before=100.0)
-    assert (list(measured.columns), measured.units["roll"]) == (["roll"], "rad")
-    omega, inertia = 2.0 * np.pi / 2.547, 100.0
-    linear, quadratic = 2.0 * 0.0034 * omega * inertia, 0.0238 * 0.75 * np.pi * inertia
-    model = decay(inertia, omega**2 * inertia, linear, quadratic, float(measured["roll"][0]))
-    result = simulate(model, t_end=100.0, dt_out=0.05)
-    found = compare(result, measured, maximum_shift=1.0)
-    assert abs(found.shift) < 0.1
-    assert found.correlation > 0.99
-    assert found.rms / np.ptp(found.record) < 0.02
-    without = decay(inertia, omega**2 * inertia, linear, 0.0, float(measured["roll"][0]))
-    undamped = compare(simulate(without, t_end=100.0, dt_out=0.05), measured, maximum_shift=1.0)
-    assert undamped.gain > 1.2 * found.gain

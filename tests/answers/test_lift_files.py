@@ -9,36 +9,22 @@ import re
 import tomllib
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
 
-from seacrane import (
-    FileFormatError,
-    Lift,
-    Method,
-    Outputs,
-    Result,
-    Scene,
-    SceneError,
-    SeaState,
-    WaveSystem,
-    cases,
-    simulate,
-)
+from seacrane import Lift, Method, Outputs, Result, Scene, cases, simulate
 from seacrane.cli import main
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description.file import scene_digest
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.lift.build import times_of
-from seacrane.lift.keys import Key
 from seacrane.lift.lift import LIFTS
 from seacrane.lift.schema import schema, schema_path, schema_text
-from seacrane.lift.tables import CURVES, TABLES
-from seacrane.lift.text_lines import lines_of
-from seacrane.sea import cos_2s, jonswap
+from seacrane.lift.tables import TABLES
+from seacrane.sea import SeaState, WaveSystem, cos_2s, jonswap
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = (ROOT / "examples" / "lifts" / "box_over_the_side.toml").read_text(encoding="utf-8")
@@ -52,9 +38,8 @@ def lift_of(text: str, folder: Path, name: str = "my_lift.toml") -> Lift:
 def test_a_depth_chooses_among_those_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """And the sea is as deep."""
 
-    def load(file: str, *, speed: float | None, depth: float | None) -> HydroDatabase:
+    def load(file: str, *, speed: float | None, depth: float) -> HydroDatabase:
         assert (Path(file).name, speed) == ("hull.nc", None)
-        assert depth is not None
         return replace(shipped_database(), depth=depth)
 
     monkeypatch.setattr("seacrane.lift.calls.load_hull", load)
@@ -140,9 +125,8 @@ def test_texts_of_any_kind_are_written(tmp_path: Path) -> None:
     lift = Lift({"notes": {"a b": 'quote " and \\ and\nline \x7f\t', "é": "λ", "x": [True, -0.0, 1e300, 7]}})
     lift.save(tmp_path / "notes.toml")
     assert Lift.load(tmp_path / "notes.toml").scene().notes == lift.scene().notes
-    for value, words in (("\ud800", "surrogate"), (None, "None")):
-        with pytest.raises(SceneError, match=words):
-            Lift({"notes": {"x": value}}).save(tmp_path / "x.toml")
+    with pytest.raises(SceneError, match="surrogate"):
+        Lift({"notes": {"x": "\ud800"}}).save(tmp_path / "x.toml")
     assert not (tmp_path / "x.toml").exists()
     (tmp_path / "a.toml").write_bytes(b"\xef\xbb\xbf" + PENDULUM.replace("\n", "\r\n").encode())
     assert Lift.load(tmp_path / "a.toml") == lift_of(PENDULUM, tmp_path), "marks and ends of other editors"
@@ -167,15 +151,12 @@ CONTROLLED = (
     + """
 [[body]]
 name = "arm"; mass_kg = 5; inertia_kg_m2 = [1, 2, 3]; position_m = [1, 0, 0]
-
 [joint]
 kind = "revolute"; name = "pin"; first = "ground"; second = "arm"; point_m = [0, 0, 0]; axis = [0, 1, 0]
-
 [control]
 natural_frequency_Hz = 2
 damping_ratio = 0.5
 FEED_FORWARD
-
 [command]
 joint = "pin"
 reference_deg = { kind = "quintic", start_time_s = 0, end_time_s = 6, start = 0, end = -45 }
@@ -203,7 +184,7 @@ def test_times_go_on_from_part_to_part() -> None:
     parts = [{"until": 45.0, "every": 5.0}, {"until": 100.0, "every": 0.5}]
     expected = np.append(np.linspace(0.0, 45.0, 10), np.arange(45.0, 100.1, 0.5)[1:])
     np.testing.assert_array_equal(times_of(parts), expected)
-    for until, every in ((0.0, 1.0), (5.0, 0.0), (5.0, 2.0), (1e6, 1.0), (5.0, 1e-300)):
+    for until, every in ((5.0, 2.0), (5.0, 1e-300)):
         with pytest.raises(SceneError, match="times"):
             times_of([{"until": until, "every": every}])
 
@@ -212,242 +193,95 @@ ARM = CONTROLLED.replace("FEED_FORWARD", "")
 VESSEL = '[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
 DRIVEN = '[driver]\njoint = "x"\n'
 ONE, TWO = '{ kind = "constant", value = 1 }', '{ kind = "constant", value = 2 }'
-MISTAKES = {
-    "an unknown key": ("[crane.payload]\nmass_t = 3", 4, "mass_t .*nearest: mass_kg"),
-    "a key without its unit": ("[crane]\npayload = { mass = 3 }", 4, "nearest: mass_kg"),
-    "an unknown table": ("\n[crain]", 4, "crain.*nearest: crane"),
-    "a key that is like none": ("[seat]\nqqqq = 1", 4, "joint, name"),
-    "two units": ("[crane]\nslew_deg = 3\nslew_rad = 1", 4, "slew_"),
-    "a text for a number": ('[sea]\nhs_m = "two"', 4, "hs_m .*'two'"),
-    "a number that is none": ("[sea]\nhs_m = nan", 4, "finite"),
-    "a fraction of a seed": ("[sea]\nseed = 1.5", 4, "whole"),
-    "too few coordinates": ("[crane]\nfoot_m = [1, 2]", 4, "foot_m.* 3"),
-    "a missing key": ('[[body]]\nname = "a"', 3, r"body\]\] 1 .*mass_kg"),
-    "an unknown choice": ('[sea]\nspectrum = "jonswop"', 4, "nearest: jonswap"),
-    "a tolerance out of range": ("[method]\nrtol = 3", 4, "rtol"),
-    "a list for a table": ("[[run]]\nt_end_s = 1", 3, r"\[run\]"),
-    "a number for a table": ("line = 3", 3, r"\[\[line\]\]"),
-    "a gust of a joint": (DRIVEN + 'curve_m = { kind = "gust" }', 5, "constant"),
-    "a piece without a time": (
-        f"{DRIVEN}curve_m = [\n{ONE},\n{TWO},\n]", 7, r"driver\.curve_m\]\] 2 .*from_s",
-    ),
-    "no pieces": (DRIVEN + "curve_m = []", 5, "curve_m"),
-    "a date": ("[notes]\nday = 2026-01-01", 3, "notes"),
-    "half a line": ("[sea]\nhs_m =", 4, "Invalid value"),
-    "half a list": ("[sea]\n\nx = [1,", 5, "truncated or malformed"),
-    "a key twice": ("[sea]\nhs_m = 1\nhs_m = 2", 5, "overwrite"),
-    "a long key": ("a" + " . a" * 20 + " = 1", 3, "parts"),
-}  # fmt: skip
-
-
-BUILT = {
-    "a unit of the other kind": (
+MISTAKES = [
+    ("[crane.payload]\nmass_t = 3", 4, "mass_t .*nearest: mass_kg"), ("\n[crain]", 4, "nearest: crane"),
+    ("[crane]\nslew_deg = 3\nslew_rad = 1", 4, "slew_"), ('[sea]\nhs_m = "two"', 4, "hs_m .*'two'"),
+    ("[sea]\nseed = 1.5", 4, "whole"), ("[crane]\nfoot_m = [1, 2]", 4, "foot_m.* 3"),
+    ('[[body]]\nname = "a"', 3, r"body\]\] 1 .*mass_kg"), ('[sea]\nspectrum = "jonswop"', 4, "jonswap"),
+    ("[[run]]\nt_end_s = 1", 3, r"\[run\]"), (DRIVEN + 'curve_m = { kind = "gust" }', 5, "constant"),
+    (f"{DRIVEN}curve_m = [\n{ONE},\n{TWO},\n]", 7, r"driver\.curve_m\]\] 2 .*from_s"),
+]  # fmt: skip
+NOT_IN_SCHEMA = [
+    ("[sea]\nhs_m = nan", 4, "finite"), ("[sea]\n\nx = [1,", 5, "truncated or malformed"),
+    ("a" + " . a" * 20 + " = 1", 3, "parts"),
+]  # fmt: skip
+BUILT = [
+    (
         ARM + '\n[[actuator]]\njoint = "pin"\nstiffness_N_per_m = 3\n', "stiffness_N_per_m",
         "joint 'pin' .*stiffness_N_m_per_rad",
     ),
-    "a reference of the other kind": (
-        ARM.replace("reference_deg", "reference_m"), "reference_m", "reference_rad or reference_deg"
-    ),
-    "a value that the API refuses": (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
-    "a joint that is not there": (HEAD + '[line]\njoint = "rope"\nrung = "rigid"\n', "[line]", "'rope'"),
-    "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "systems"),
-    "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc"),
-    "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", r"\[control\]"),
-    "no times": (ARM, "[control]", "times"),
-    "times for nothing": (
+    (ARM.replace("reference_deg", "reference_m"), "reference_m", "reference_rad or reference_deg"),
+    (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
+    (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "systems"), (ARM, "[control]", "times"),
+    (
         ARM.replace("damping_ratio", 'feed_forward = "none"\nperiod_s = 5\ndamping_ratio'), "period_s",
         "feed_forward = 'none'",
     ),
-    "control of nothing": (ARM[: ARM.index("[command]")], "[control]", r"\[\[command\]\]"),
-    "a speed of the shipped hull": (HEAD + VESSEL + "speed_m_per_s = 3\n", "speed_m_per_s", "speed"),
-    "a payload of nothing": (
-        HEAD + '[crane]\nbase = "ground"\n[crane.payload]\nlink_length_m = 5\nmass_kg = 0\n', "mass_kg",
-        "mass",
-    ),
-    "ballast of nothing": (HEAD + VESSEL + '[balance]\nvessel = "ship"\n', "vessel", "'vessel'"),
-    "no frequency": (ARM.replace("Hz = 2", "Hz = 0"), "natural_frequency_Hz", "above zero"),
-}  # fmt: skip
+    (ARM.replace("[control]", "[notes]"), "[command]", r"\[control\]"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("case", [*MISTAKES, *BUILT])
-def test_a_mistake_is_told_by_its_line(case: str, tmp_path: Path) -> None:
+def test_a_mistake_is_told_by_its_line(tmp_path: Path) -> None:
     """On reading, or once the scene is made: by the first line that begins so."""
-    if case in MISTAKES:
-        text, line, words = MISTAKES[case]
+    for text, line, words in (*MISTAKES, *NOT_IN_SCHEMA):
         with pytest.raises(FileFormatError, match=rf"^my_lift\.toml line {line}\b(?s:.*){words}"):
             lift_of(HEAD + text + "\n", tmp_path)
-        return
-    text, at, words = BUILT[case]
-    lift = lift_of(text, tmp_path)
-    line = next(i for i, one in enumerate(text.splitlines(), start=1) if one.startswith(at))
-    with pytest.raises(FileFormatError, match=rf"^my_lift\.toml line {line}: .*{words}"):
-        lift.scene()
+    for text, at, words in BUILT:
+        lift = lift_of(text, tmp_path)
+        line = next(i for i, one in enumerate(text.splitlines(), start=1) if one.startswith(at))
+        with pytest.raises(FileFormatError, match=rf"^my_lift\.toml line {line}: .*{words}"):
+            lift.scene()
 
 
-@pytest.mark.warns("AngleUnitWarning", "SteepSeaWarning")
-def test_slips_in_units_stay_named(tmp_path: Path) -> None:
-    crane = '[crane]\nbase = "ground"\nslew_rad = -90\n'
-    lift_of(HEAD + VESSEL + crane + "[sea]\nhs_m = 12\ntp_s = 8\ncount = 5\n", tmp_path).scene()
-    with pytest.raises(FileFormatError, match=r"^my_lift\.toml line 2: .*version = 2"):
-        lift_of(HEAD.replace("version = 2", "version = 3"), tmp_path)
-
-
-WRONG_KINDS: dict[str, tuple[bytes, str]] = {
-    "scene.json": (b'{"format": "seacrane scene"}', r"Scene\.load"),
-    "crane.urdf": (b'<?xml version="1.0"?><robot/>', "URDF"),
-    "part.step": (b"ISO-10303-21;\nHEADER;", "STEP"),
-    "hull.nc": (b"CDF\x01....", "load_database"),
-    "result.nc": (b"\x89HDF\r\n", r"Result\.load"),
-    "crane.glb": (b"glTF\x02", "glTF"),
-    "crane.toml": (DEFAULT_PATH.read_bytes(), r"KnuckleBoomCrane\.load"),
-    "other.toml": (b"a = 1\n", "TOML"),
-    "empty.toml": (b" \n", "empty"),
-    "blob.bin": (b"\x00\x01\xff\xfe", "something else"),
-}
-
-
-def test_a_wrong_kind_of_file_is_told_what_it_looks_like(tmp_path: Path) -> None:
-    for name, (content, kind) in WRONG_KINDS.items():
-        (tmp_path / name).write_bytes(content)
-        with pytest.raises(FileFormatError, match=f"^{name}: is .*{kind}"):
-            Lift.load(tmp_path / name)
+def test_a_file_of_another_kind_or_version_is_refused(tmp_path: Path) -> None:
+    for text, words in (
+        ('{"format": "seacrane scene"}', r"Scene\.load"), (" \n", "empty"),
+        (HEAD.replace("version = 2", "version = 3"), r"line 2: .*version = 2"),
+    ):  # fmt: skip
+        with pytest.raises(FileFormatError, match=f"my_lift.toml.*{words}"):
+            lift_of(text, tmp_path)
     lift_of(PENDULUM, tmp_path)
     with pytest.raises(FileFormatError, match=r"Lift\.load"):
         Scene.load(tmp_path / "my_lift.toml")
-    with pytest.raises(SceneError, match="case1"):
-        Lift.shipped("case4")
 
 
-LAID_OUT = '''\
-# a = 1
-title = """
-not_a_key = 2
-"""  # [no.table]
-[a]
-b.c = [1, 2.5,
-  { x = "]}", y = { z = 1979-05-27T07:32:00Z } },
-]
-"quoted \\u00e9 key" = 'a \\ [b]'
-[[list]]
-k = 1
-[list.inner]
-k = 2
-[[list]]
-
-k = 3
-[[list.inner]]
-k = 4
-[[list.inner]]
-k = 5
-'''
-
-
-def keys_in(value: Any, path: tuple[Any, ...] = ()) -> set[tuple[Any, ...]]:
-    """Paths of all keys of a parsed document."""
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    found = {(*path, key) for key, _ in items if isinstance(key, str)}
-    return found.union(*(keys_in(item, (*path, key)) for key, item in items))
-
-
-def test_every_key_has_its_line() -> None:
-    for text in (LAID_OUT, EVERY_TABLE, PENDULUM):
-        found = lines_of(text)
-        rows = text.splitlines()
-        for path in keys_in(tomllib.loads(text)):
-            assert str(path[-1])[:6] in rows[found[path] - 1], path
-    assert lines_of(LAID_OUT) == {
-        ("title",): 2, ("a",): 5, ("a", "b"): 6, ("a", "b", "c"): 6, ("a", "b", "c", 2): 7,
-        ("a", "b", "c", 2, "x"): 7, ("a", "b", "c", 2, "y"): 7, ("a", "b", "c", 2, "y", "z"): 7,
-        ("a", "quoted é key"): 9, ("list",): 10, ("list", 0): 10, ("list", 0, "k"): 11,
-        ("list", 0, "inner"): 12, ("list", 0, "inner", "k"): 13, ("list", 1): 14, ("list", 1, "k"): 16,
-        ("list", 1, "inner"): 17, ("list", 1, "inner", 0): 17, ("list", 1, "inner", 0, "k"): 18,
-        ("list", 1, "inner", 1): 19, ("list", 1, "inner", 1, "k"): 20,
-    }  # fmt: skip
-
-
-def validator() -> Any:
+def test_the_schema_is_current_and_agrees_with_the_reader() -> None:
     jsonschema = pytest.importorskip("jsonschema", reason="needs the package 'jsonschema'")
-    jsonschema.Draft7Validator.check_schema(schema())
-    return jsonschema.Draft7Validator(schema())
-
-
-def test_the_schema_is_current_and_lifts_are_valid_by_it() -> None:
     text = schema_path().read_text(encoding="utf-8")
     assert text == schema_text() and json.loads(text) == schema(), "make it anew by `seacrane schema`"
-    check, paths = validator(), list(schema_path().parent.glob("lifts/*.toml"))
+    jsonschema.Draft7Validator.check_schema(schema())
+    check, paths = jsonschema.Draft7Validator(schema()), list(schema_path().parent.glob("lifts/*.toml"))
     assert len(paths) == len(LIFTS)
     for path in paths:
         mark = path.read_text(encoding="utf-8").splitlines()[0]
-        assert mark.startswith("#:schema "), "editors are led to it"
-        assert (path.parent / mark.split()[1]).resolve() == schema_path().resolve()
+        assert (path.parent / mark.removeprefix("#:schema ")).resolve() == schema_path().resolve()
     for one in (*(path.read_text(encoding="utf-8") for path in paths), PENDULUM, EVERY_TABLE, ARM, EXAMPLE):
         check.validate(tomllib.loads(one))
-
-
-NOT_IN_SCHEMA = ("a tolerance out of range", "a number that is none", "a date", "half", "a key twice")
-
-
-def test_the_schema_refuses_what_the_reader_refuses() -> None:
-    check = validator()
-    for case, (text, *_) in MISTAKES.items():
-        if not case.startswith(NOT_IN_SCHEMA):
-            assert list(check.iter_errors(tomllib.loads(HEAD + text))), case
+    for text, *_ in MISTAKES:
+        assert list(check.iter_errors(tomllib.loads(HEAD + text))), text
 
 
 CALLS = {
     "vessel": "add_vessel", "hydrodynamics": "add_vessel", "record": "record_coordinate",
 } | {name: f"add_{name}" for name in TABLES if hasattr(Scene, f"add_{name}")}  # fmt: skip
-LEFT_OUT = {
-    "add_function_force": "a C function is no data",
-    "add_load": "its kinds have tables of their own",
-    "add_drift": "drift of [sea]",
-    "add_vessels": "its group of hulls is read in a script",
-    "use_actual_position": "phase of [sea]",
-    "use_slow_position": "phase of [sea]",
-}
+# A C function is no data, kinds of loads have tables of their own, a group of hulls is read in a script; the
+# others are keys of [sea].
+LEFT_OUT = {"add_function_force", "add_load", "add_vessels", "add_drift", "use_actual_position",
+            "use_slow_position"}  # fmt: skip
 
 
-def test_every_call_that_adds_has_its_table_and_the_document_names_it() -> None:
+def test_every_call_that_adds_has_its_table_and_every_keyword_its_key() -> None:
+    """The document names the tables; what only a script can give is named here."""
     adding = {name for name in dir(Scene) if name.startswith(("add_", "use_", "record_"))}
-    assert adding == set(CALLS.values()) | set(LEFT_OUT)
+    assert adding == set(CALLS.values()) | LEFT_OUT
     page = (ROOT / "docs" / "lift-files.md").read_text(encoding="utf-8")
     assert [name for name in TABLES if f"`[{name}]`" not in page] == []
-
-
-def test_every_keyword_is_a_key() -> None:
-    """What only a script can give is named here."""
     scripted = {"sea": {"database", "sea"}, "hydrodynamics": {"database", "memory"}, "vessel": {"body"}}
     scripted |= {"mesh": {"vertices", "faces"}, "roles": {"ropes"}}
     for name, call in CALLS.items():
         parameters = inspect.signature(getattr(Scene, call)).parameters.values()
         words = {one.name for one in parameters if one.kind is not one.VAR_KEYWORD} - {"scene"}
         assert words - scripted.get(name, set()) <= {key.name for key in TABLES[name].keys}, name
-
-
-PLAIN = {
-    "air", "friction", "overlap", "pilot_ratio", "command", "accumulator_exponent", "discharge_coefficient",
-    "length_scale", "design_factor", "mooring_damping", "inertia", "quaternion", "gamma", "spreading",
-    "relative_bound", "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "rtol",
-    "spectral_radius", "energy_limit", "scale", "brake", "direction", "ratio", "gain", "lag_order",
-    "actuator_damping", "exponent", "turns", "efficiencies", "frictions", "strains", "swing_damping_ratio",
-    "drag_coefficient", "safety_factor", "weight_contingency", "skew_load", "dynamic_factor",
-    "sling_safety_factor", "shackle_safety_factor", "alpha", "strips", "slam", "wetting", "drag", "end_drag",
-    "perforation", "fill", "wave_factor", "drag_coefficient_along", "added_mass_coefficient",
-}  # fmt: skip
-IN_CURVES = {"value", "start", "end", "amplitude", "offset", "values"}  # by the key that holds the curve
-
-
-def all_keys(keys: tuple[Key, ...]) -> list[Key]:
-    return [one for key in keys for one in (key, *all_keys(key.keys))]
-
-
-def test_every_quantity_has_a_unit() -> None:
-    tables = [key for table in TABLES.values() for key in all_keys(table.keys)]
-    pieces = [key for keys in CURVES.values() for key in keys]
-    for key in (*tables, *pieces):
-        plain = key.name in PLAIN or (key in pieces and key.name in IN_CURVES)
-        if key.type in ("number", "array", "curve") and not plain:
-            assert key.unit or key.name.endswith("_deg"), key
 
 
 def test_the_command_runs_a_lift(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -461,19 +295,9 @@ def test_the_command_runs_a_lift(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert main(["run", str(path), "--out", str(out), "--overwrite", *options]) == 0
     result = Result.load(out / "my_lift.nc")
     assert result.time.tolist() == [0.0, 0.25, 0.5, 0.75, 1.0]
-    assert result.stats["integrator"] == "semi-implicit-euler"
-    assert set(result.channels) == {"position", "constraint_error", "energy_balance"}
+    assert result.stats["integrator"] == "semi-implicit-euler" and result.settings["dt"] == 0.005
     capsys.readouterr()
     assert main(["report", str(path)]) == 0 and "pivot" in capsys.readouterr().out
-    for text, options, words in (
-        (PENDULUM.replace("mass_kg", "mass_t"), [], r"line 9: .*body\]\] 1; nearest: mass_kg"),
-        (PENDULUM.replace("axis = [0, 1, 0]", "axis = [0, 0, 0]"), [], r"line 19: \[\[joint\]\] 1: "),
-        (HEAD, ["--hs", "2"], r"--hs.*my_lift\.toml"),
-    ):
-        path.write_text(text)
-        assert main(["run", str(path), "--out", str(tmp_path / "other"), *options]) == 1
-        told = capsys.readouterr().err.strip()
-        assert re.search(words, told) and "\n" not in told
-    assert not (tmp_path / "other").exists()
-    assert main(["schema"]) == 0 and json.loads(capsys.readouterr().out) == schema()
-    assert main(["schema", "--path"]) == 0 and capsys.readouterr().out.strip() == str(schema_path())
+    path.write_text(HEAD)
+    assert main(["run", str(path), "--out", str(tmp_path / "other"), "--hs", "2"]) == 1
+    assert "--hs" in capsys.readouterr().err and not (tmp_path / "other").exists()

@@ -5,29 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from html import unescape
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from test_report import Page
-from test_result import crane_result, crane_run, vessel_result
+from test_result import crane_run, vessel_result
 
-from seacrane import (
-    FileFormatError,
-    Frame,
-    Result,
-    Scene,
-    SceneError,
-    Stage,
-    cases,
-    report,
-    simulate,
-    simulate_stages,
-)  # fmt: skip
+from seacrane import Frame, Result, Scene, Stage, cases, report, simulate, simulate_stages
 from seacrane.answers import Report
 from seacrane.answers.limits_section import judged_bounds
 from seacrane.answers.measures import statistics_of
-from seacrane.result import About, Event
 
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")  # thrown on purpose
 NASTY = "<img src=x onerror=alert(1)>&\"'"
@@ -39,13 +26,9 @@ def titles(page: Report) -> list[str]:
 
 def swinging(*, wire: bool, speed: float = 3.0, name: str = "swing", body: str = "ball") -> Scene:
     scene = Scene(name=name)
-    scene.add_body(
-        name=body, mass=100.0, inertia=np.eye(3), position=(0.0, 0.0, -2.0), velocity=(speed, 0.0, 0.0)
-    )
-    scene.add_joint(
-        name="rope", kind="distance", first="ground", second=body, first_frame=Frame(),
-        second_frame=Frame(), length=2.0,
-    )  # fmt: skip
+    scene.add_body(body, mass=100.0, inertia=np.eye(3), position=(0, 0, -2), velocity=(speed, 0, 0))
+    frames = {"first_frame": Frame(), "second_frame": Frame()}
+    scene.add_joint("rope", kind="distance", first="ground", second=body, length=2.0, **frames)
     scene.add_roles(link="rope")
     if wire:
         scene.add_line(joint="rope", rung="rigid")
@@ -62,11 +45,10 @@ def page(lift: Result) -> Report:
     return report(lift)
 
 
-def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report, tmp_path: Path) -> None:
-    assert titles(page) == [
-        "At a glance", "Summary", "Particulars", "Scene", "In three dimensions", "Hook load and tension",
-        "Limits", "Statistics", "Histories", "Payload track", "Warnings", "Checks", "Cost", "Provenance",
-    ]  # fmt: skip
+def test_a_lift_has_its_sections_and_replaces_no_other_page(page: Report, tmp_path: Path) -> None:
+    found = titles(page)
+    assert found[:2] == ["At a glance", "Summary"] and found[-1] == "Provenance"
+    assert {"Scene", "In three dimensions", "Hook load and tension", "Limits", "Payload track"} < set(found)
     sources = Page(page.html).sources
     assert len(sources) == 4 and all(one.startswith("data:image/png;base64,") for one in sources)
     path = page.save(tmp_path / "lift.html")
@@ -76,25 +58,16 @@ def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report, 
         page.save(path)
 
 
-def staged(**hoist: Any) -> Result:
+def test_a_staged_lift_tells_what_was_lifted_by_what_and_when() -> None:
     """A block and slings on a winch from a crane on a given ship, hoisted in the second of two stages."""
     scene = Scene(name="staged")
     scene.add_given_vessel("rest", name="barge")
     scene.add_crane(base="barge", slew=-np.pi / 2, s1=2.0, s2=2.0)
     rig = {"block_mass": 1e3, "slings": {"angle_deg": 60, "EA": 5e7}, "winch": {"maximum_rate": 0.5}}
-    scene.add_hoist(mass=20e3, size=(3, 3, 2), EA=4e7, falls=2, **rig, **hoist)
-    stages = [
-        Stage(name="hang", duration=2.0),
-        Stage(name="hoist", duration=3.0, commands={"hoist.rate": -0.4}),
-    ]
-    return simulate_stages(scene, stages, dt_out=0.1)
-
-
-def test_a_staged_lift_tells_what_was_lifted_by_what_and_when() -> None:
-    result = staged()
+    scene.add_hoist(mass=20e3, size=(3, 3, 2), EA=4e7, falls=2, **rig)
+    hoist = Stage(name="hoist", duration=3.0, commands={"hoist.rate": -0.4})
+    result = simulate_stages(scene, [Stage(name="hang", duration=2.0), hoist], dt_out=0.1)
     read = Page(report(result).html)
-    assert read.row("ship") == ["barge: moves by its rest"]
-    assert read.row("crane")[0].startswith("on barge, tip ")
     assert read.row("load") == ["load, 20 t, 3 x 3 x 2 m, 4 slings, block and rigging 1 t"]
     rope = 2.0 * (8.0 - 8.0 * 21e3 * result.scene.gravity / 2.0 / 4e7)
     assert read.row("wire") == [f"hoist, elastic, 2 falls, EA 4e+07 N, {rope:.4g} m of rope, winch (0.5 m/s)"]
@@ -105,19 +78,7 @@ def test_a_staged_lift_tells_what_was_lifted_by_what_and_when() -> None:
     assert f"{hook.min():.4g} t" in read.text, "the least hook load is that of the hook, not of a sling"
 
 
-def test_a_warning_is_told_once_and_long_lists_are_cut() -> None:
-    told = ["link 'a': pushes with 3.1 N at t = 2 s", "link 'a': pushes with 12 N at t = 7.5 s", "roll is 21"]
-    run = crane_run(t_end=1.0)
-    run["stats"]["validity"] = "\n".join(told)
-    many = [Event(time=0.01 * i, name="rope", kind="contact", impulse=2.5) for i in range(250)]
-    html = report(Result.from_arrays(**run, events=many)).html
-    assert html.count("pushes with") == 1 and html.count("It came") == 1
-    assert "pushes with 3.1 N at t = 2 s. It came 2 times" in unescape(html)
-    assert "50 later events are not shown" in html and html.count("<td>contact</td>") == 200
-
-
 def test_statistics_are_those_of_the_channels(lift: Result, page: Report) -> None:
-    """Without what the summary tells, and curves that are rounding."""
     row = Page(page.html).row("wave elevation")
     wave = lift["wave_elevation"]
     expected = [
@@ -125,35 +86,26 @@ def test_statistics_are_those_of_the_channels(lift: Result, page: Report) -> Non
     ]  # fmt: skip
     assert row[0] == "m"
     assert [float(cell) for cell in row[1:]] == pytest.approx(expected, rel=1e-3)
-    named = {one.title for one in statistics_of(lift)[0]}
-    assert len(named) > 10 and not {"hoist tension", "cylinder force main", "vessel motion roll"} & named
     assert Page(page.html).row("hoist tension")[:2] == ["kN", "98.07"]
     run = crane_run(t_end=5.0)
-    run["arrays"]["vessel_motion"][:, 1] = 1e-16
-    found, left_out = statistics_of(Result.from_arrays(**run))
-    named = {one.title for one in found}
-    assert "vessel motion sway" not in named and "vessel motion surge" in named and left_out >= 1
+    run["arrays"]["vessel_motion"][:, 1] = 1e-16  # which is rounding
+    named = {one.title for one in statistics_of(Result.from_arrays(**run))[0]}
+    assert "vessel motion sway" not in named and "vessel motion surge" in named
 
 
 def test_any_result_has_a_report() -> None:
-    for result in (vessel_result(t_end=5.0), crane_result(payload=False, t_end=5.0)):
-        found = set(titles(report(result)))
-        assert {"At a glance", "Statistics", "Histories", "Checks", "Provenance"} <= found
-        assert "Scene" not in found, "nothing was noted to draw"
+    assert {"At a glance", "Statistics", "Checks"} <= set(titles(report(vessel_result(t_end=5.0))))
     run = crane_run(t_end=1.0, waves=False)
     arrays = {"constraint_error": run["arrays"]["constraint_error"][:1]}
     page = report(Result.from_arrays(**(run | {"arrays": arrays, "time": run["time"][:1]})))
-    assert titles(page) == ["At a glance", "Particulars", "Warnings", "Checks", "Cost", "Provenance"]
+    assert "Checks" in titles(page)
     run = crane_run(t_end=2.0)
     run["arrays"]["link_tension"][-1] = np.nan
+    for name in ("vessel_motion", "cylinder_force"):
+        run["arrays"][name][:] = np.nan
     page = report(Result.from_arrays(**run, interrupted=True))
     assert "Interrupted: the run ended at 2 s" in page.html
     assert "nan" not in Page(page.html).row("link tension")
-    run = crane_run(t_end=2.0)
-    for name in ("link_tension", "vessel_motion", "cylinder_force"):
-        run["arrays"][name][:] = np.nan
-    page = report(Result.from_arrays(**run, interrupted=True))
-    assert "Largest hook load" not in page.html and "Largest slew torque" in page.html
 
 
 def test_names_are_escaped_everywhere() -> None:
@@ -188,10 +140,8 @@ def test_ranges_are_judged_by_what_was_recorded(lift: Result) -> None:
     assert bounds["main_cylinder"].bound == "0 to 5 m" and bounds["main_cylinder"].held
     first = {**lift.about.bounds[0], "maximum": 1e-4 * float(lift["stroke"].max()), "minimum": -1.0}
     far = replace(lift.about, bounds=[first, *lift.about.bounds[1:]])
-    arrays = {**lift.channels, "coordinate": lift["coordinate"] + 0.5}
-    moved = Result.from_arrays(time=lift.time, arrays=arrays, coords=lift.coords, stats=lift.stats, about=far)
-    broken = {one.name: one for one in judged_bounds(moved)}["main_cylinder"]
-    assert broken.held is False and broken.words.endswith("m beyond")
+    moved = replace(lift, channels={**lift.channels, "coordinate": lift["coordinate"] + 0.5}, about=far)
+    assert {one.name: one for one in judged_bounds(moved)}["main_cylinder"].held is False
     assert "of 3 not held" in report(moved).html
     unknown = {name: values for name, values in lift.channels.items() if name != "coordinate"}
     silent = replace(lift, channels=unknown)
@@ -204,18 +154,3 @@ def test_checks_that_fail_are_told() -> None:
     run["arrays"]["energy_balance"] = 0.5 * run["arrays"]["absolute_work"]
     html = report(Result.from_arrays(**run)).html
     assert "do not use the numbers" in html and "Energy is off by more than 0.001" in html
-
-
-NOTES = {
-    "no mapping": (About(outline={"bodies": 7}), "'Scene'.*TypeError"),
-    "an unknown kind": (About(bounds=[{"kind": "spell"}]), "KeyError: 'spell'"),
-    "an outline of text": (About(outline={"bodies": {"king": "x"}}), "'Scene'"),
-}
-
-
-def test_notes_that_no_run_writes_are_told() -> None:
-    for about, words in NOTES.values():
-        with pytest.raises(FileFormatError, match=words):
-            report(Result.from_arrays(**crane_run(t_end=1.0) | {"about": about}))
-    with pytest.raises(SceneError, match="result is a Scene"):
-        report(Scene())  # type: ignore[arg-type]

@@ -17,14 +17,9 @@ from seacrane.scene import MotionHistory
 G, LOAD = 9.80665, 40e3  # m/s2, kg
 SHIPS = """
 [[given_vessel]]
-database = "hull_115"
-duration_s = 30
-ramp_s = 5
+database = "hull_115"; duration_s = 30; ramp_s = 5
 [[given_vessel]]
-name = "barge"
-position_m = [0, 60, 0]
-heading_deg = 90
-size_m = [90, 30, 5]
+name = "barge"; position_m = [0, 60, 0]; heading_deg = 90; size_m = [90, 30, 5]
 [given_vessel.raos]
 omega_rad_per_s = [0.3, 0.6]
 [[given_vessel.raos.headings]]
@@ -32,26 +27,20 @@ heading_deg = 0
 amplitude = [[1, 0, 1, 0, 0.009, 0], [0.8, 0, 0.8, 0, 0.02, 0]]
 phase_deg = [[-90, 0, 0, 0, -90, 0], [-90, 0, 0, 0, -90, 0]]
 [[given_vessel]]
-name = "quay"
-motion = "rest"
-position_m = [0, 120, 0]
+name = "quay"; motion = "rest"; position_m = [0, 120, 0]
 [[given_vessel]]
-name = "measured"
-position_m = [0, 180, 0]
+name = "measured"; position_m = [0, 180, 0]
 [given_vessel.history]
 time_s = [0, 1, 2, 3, 4, 5]
 motion = [[0, 0, 0, 0, 0, 0], [0, 0, 0.1, 0, 0, 0], [0, 0, 0.2, 0, 0, 0],
           [0, 0, 0.3, 0, 0, 0], [0, 0, 0.2, 0, 0, 0], [0, 0, 0.1, 0, 0, 0]]
 [[sea]]
-hs_m = 1
-tp_s = 12
-direction_deg = 90
-count = 40
+hs_m = 1; tp_s = 12; direction_deg = 90; count = 40
 [[sea]]
 vessel = "barge"
 [[sea]]
 vessel = "quay"
-"""
+""".replace("; ", "\n")
 
 
 def lift_of(text: str, folder: Path) -> Lift:
@@ -94,21 +83,16 @@ def test_a_slack_tank(tmp_path: Path) -> None:
 def test_a_luffing_rope_lifts_the_boom_that_it_holds(tmp_path: Path) -> None:
     text = """
 [crane]
-crane = "crane.toml"
-base = "ground"
-foot_m = [0, 0, 0]
-held = true
+crane = "crane.toml"; base = "ground"; foot_m = [0, 0, 0]; held = true
 [[crane.coordinates]]
-name = "boom"
-value_deg = 60
+name = "boom"; value_deg = 60
 [crane.payload]
 mass_kg = 20e3
 [luffing_rope]
-luff = "boom"
-rate_m_per_s = 0.1
+luff = "boom"; rate_m_per_s = 0.1
 [run]
 t_end_s = 0.5
-"""
+""".replace("; ", "\n")
     (tmp_path / "crane.toml").write_text(LATTICE, encoding="utf-8")
     result = lift_of(text, tmp_path).simulate()
     assert result["link_tension"][0] == pytest.approx(20e3 * G, rel=1e-2)
@@ -123,26 +107,15 @@ def test_pressures_hold_a_crane_with_its_load(tmp_path: Path) -> None:
     x, y, z = scene.place_of(body=body, point=point).tolist()
     text = f"""
 [crane]
-base = "ground"
-foot_m = [0, 0, 0]
-slew_rad = -1.0
-s1_m = 2.0
-s2_m = 3.0
-held = true
+base = "ground"; foot_m = [0, 0, 0]; slew_rad = -1.0; s1_m = 2.0; s2_m = 3.0; held = true
 hydraulics = {{ main = {{ pump_pressure_Pa = 32e6, rated_flow_m3_per_s = 0.05 }} }}
 [[body]]
-name = "load"
-mass_kg = {LOAD}
-inertia_kg_m2 = [4e4, 4e4, 4e4]
-position_m = [{x!r}, {y!r}, {z - 12.0!r}]
+name = "load"; mass_kg = {LOAD}; inertia_kg_m2 = [4e4, 4e4, 4e4]; position_m = [{x!r}, {y!r}, {z - 12.0!r}]
 [[line]]
-name = "hoist"
-bodies = ["{body}", "load"]
-points_m = [{list(point)}, [0, 0, 0]]
-EA_N = 3e8
+name = "hoist"; bodies = ["{body}", "load"]; points_m = [{list(point)}, [0, 0, 0]]; EA_N = 3e8
 tension_at_start_N = {LOAD * G!r}
 [hold_pressures]
 [run]
 t_end_s = 1
-"""
+""".replace("; ", "\n")
     assert np.ptp(lift_of(text, tmp_path).simulate()["hydraulic_stroke"]) < 1e-6

@@ -5,16 +5,13 @@ from __future__ import annotations
 import base64
 import re
 from html import unescape
-from typing import Any
+from pathlib import Path
 
-import numpy as np
 import pytest
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane.answers import Report
-from seacrane.answers.measures import energy_closure, speed, worst
 from seacrane.answers.paper_report import Study, study_report
-from seacrane.pictures import Finding, Picture, save_sheet
+from seacrane.pictures import Finding, save_sheet
 from seacrane.pictures.overview import overview_sheet
 from seacrane.result import Result
 
@@ -44,58 +41,29 @@ def words(text: str) -> str:
     return unescape(re.sub(r"<[^>]*>", "", text))
 
 
-@pytest.fixture(scope="module")
-def runs() -> dict[str, Result]:
-    return {"vessel": vessel_result(t_end=20.0), "case 2": crane_result(t_end=20.0)}
-
-
-@pytest.fixture(scope="module")
-def picture(tmp_path_factory: pytest.TempPathFactory, runs: dict[str, Result]) -> Picture:
-    return save_sheet(overview_sheet(runs["vessel"]), tmp_path_factory.mktemp("report"), "overview")
-
-
-@pytest.fixture(scope="module")
-def page(runs: dict[str, Result], picture: Picture) -> Page:
+def test_tables_hold_the_runs_numbers_and_pictures_are_inside(tmp_path: Path) -> None:
+    runs = {"vessel": vessel_result(t_end=20.0), "case 2": crane_result(t_end=20.0)}
+    picture = save_sheet(overview_sheet(runs["vessel"]), tmp_path, "overview")
     contents = {"summary": ["Three cases."], "pictures": [picture], "scene": SCENE, "findings": [FINDING]}
-    return Page(made(title="Lift of a <box> & payload", runs=runs, **contents).html)
-
-
-def made(**contents: Any) -> Report:
-    return study_report(Study(**contents))
-
-
-def test_the_page_needs_nothing_outside_itself_and_escapes_text(page: Page, picture: Picture) -> None:
+    page = Page(study_report(Study(title="Lift of a <box> & payload", runs=runs, **contents)).html)
     (source,) = page.sources
     kind, _, data = source.partition(",")
-    assert kind == "data:image/png;base64"
-    assert base64.b64decode(data) == picture.image.read_bytes()
+    assert kind == "data:image/png;base64" and base64.b64decode(data) == picture.image.read_bytes()
     assert "Lift of a <box> & payload" in page.text
-    assert page.text.count('"relative_tolerance": 1e-06') == 2
-    assert page.row("numpy") == [np.__version__]
-
-
-def test_tables_hold_the_runs_numbers(page: Page, runs: dict[str, Result]) -> None:
-    first, second = runs.values()
-    assert page.row("evaluations") == ["12000", "12000"]
-    assert page.row("degrees of freedom") == ["6", "14"]
-    assert page.row("joints") == ["11"]
+    second = runs["case 2"]
+    assert page.row("degrees of freedom") == ["6", "14"] and page.row("joints") == ["11"]
     ratio = max(abs(second["energy_balance"])) / max(second["absolute_work"])
     assert float(page.row("balance over work")[1]) == pytest.approx(ratio, rel=1e-4)
     error = [float(cell) for cell in page.row("position residual after projection [m or rad]")]
-    assert error == pytest.approx(
-        [first["constraint_error"].max(), second["constraint_error"].max()], rel=1e-4
-    )
+    assert error == pytest.approx([one["constraint_error"].max() for one in runs.values()], rel=1e-4)
     assert float(page.row("times faster than real time")[1]) == pytest.approx(20.0 / 0.25)
     assert page.row("yaw reacts") == ["0.1 deg/s", "changes", "reproduced"]
-    assert page.row("waves <0.1 %>") == ["3, 4.5"]
 
 
 def test_a_channel_that_was_not_recorded_leaves_its_cell_empty() -> None:
     run = crane_run(t_end=2.0)
     for name in ("energy_balance", "absolute_work", "constraint_error_before_projection"):
         del run["arrays"][name]
-    run["stats"]["wall_s"] = 0.0
     result = Result.from_arrays(**run, interrupted=True)
-    assert worst(result, "energy_balance") is energy_closure(result) is speed(result) is None
-    html = made(title="t", runs={"case 2": result}).html
+    html = study_report(Study(title="t", runs={"case 2": result})).html
     assert Page(html).row("balance over work") == [""] and "run case 2 ended at 2 s" in html

@@ -27,25 +27,11 @@ def test_what_a_user_holds_tells_what_it_is_in_one_line() -> None:
         assert str(getattr(thing, "name", "")) in text
 
 
-def test_tables_hold_numbers_and_escape_names() -> None:
+def test_tables_escape_names() -> None:
     nasty = "<script>alert(1)</script>"
     scene = Scene(name=nasty)
     scene.add_body(name=nasty, mass=1.0, inertia=np.eye(3))
     database = dataclasses.replace(shipped_database(), name=nasty, source=nasty)
-    result = seacrane.simulate(scene, t_end=0.1)
-    for thing in (scene, result, database):
+    for thing in (scene, seacrane.simulate(scene, t_end=0.1), database):
         html = thing._repr_html_()
         assert nasty not in html and "&lt;script&gt;" in html
-    lines = [line.split() for line in str(database).splitlines()]
-    assert ["mass", "[t]", "14000"] in lines
-    assert ["GM", "of", "its", "C44", "and", "mass", "[m]", "3"] in lines
-
-
-def test_a_result_is_a_mapping_of_its_channels() -> None:
-    result = seacrane.simulate(cases.case2(), t_end=0.2)
-    assert "position" in result and "nonsense" not in result
-    assert list(result) == list(result.channels) == list(result.keys()) and len(result) > 3
-    assert all(values is result[name] for name, values in result.items())
-    assert result.get("nonsense") is None and result.get("position") is result["position"]
-    assert dict(result).keys() == result.channels.keys()
-    assert result and result == result and result != dict(result) and hash(result)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import pickle
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray
+from scipy.spatial.transform import Rotation
 
 from seacrane.errors import FileFormatError
 from seacrane.result import CHANNELS, Result
@@ -22,8 +20,6 @@ BODIES = ["vessel", "tower", "king", "main_barrel", "main_rod", "main_jib", "knu
           "knuckle_jib", "payload"]  # fmt: skip
 JOINTS = ["deck", "A", "B", "C", "D", "E", "F", "G", "main_cylinder", "knuckle_cylinder", "link"]
 CYLINDERS = ["main", "knuckle"]
-SLEW_END = 45.0
-
 # Centres of mass at the start (x forward, y port, z up; m): a crane of 390 t, its jib pointing aft.
 MASSES = np.array([14000e3, 100e3, 115e3, 13e3, 9e3, 77e3, 14e3, 9e3, 53e3, 10e3])
 START = np.array(
@@ -32,9 +28,9 @@ START = np.array(
 )  # fmt: skip
 
 
-def smooth_step(t: np.ndarray, end: float = SLEW_END) -> np.ndarray:
-    """Quintic from 0 to 1 between 0 and `end`."""
-    u = np.clip(t / end, 0, 1)
+def smooth_step(t: np.ndarray) -> np.ndarray:
+    """Quintic from 0 to 1 between 0 and 45 s."""
+    u = np.clip(t / 45.0, 0, 1)
     return u**3 * (10 - 15 * u + 6 * u**2)
 
 
@@ -44,11 +40,8 @@ def crane_run(
 ) -> dict[str, Any]:  # fmt: skip
     """Arguments for `Result.from_arrays`: a rigid ship in a regular sea whose crane swings out in 45 s.
 
-    Every body follows the ship as a rigid body, and the crane turns about the slew axis, so poses, rates,
-    strokes and angles belong to one motion; `oscillation` adds case 3's 5 s movement after 50 s.
+    Poses, rates and strokes belong to one motion; `oscillation` adds case 3's 5 s movement after 50 s.
     """
-    from scipy.spatial.transform import Rotation
-
     t = np.arange(0, t_end + dt / 2, dt)
     names = BODIES if payload else BODIES[:-1]
     joints = JOINTS if payload else JOINTS[:-1]
@@ -56,16 +49,11 @@ def crane_run(
     size = 1.0 if memory else 1.3
     swing = smooth_step(t)
     five = oscillation * np.where(t > 50, np.cos(2 * np.pi * t / 5), 0)
-    motion = np.column_stack(
-        [
-            0.10 * size * np.cos(omega * t - lag) + 0.01 * five,
-            0.12 * size * np.cos(omega * t - 0.4 - lag) + 0.30 * five,
-            0.50 * size * np.cos(omega * t - 0.8 - lag) + 0.05 * five,
-            0.02 * size * np.cos(omega * t - 1.1 - lag) - heel * swing + 0.02 * five,
-            0.01 * size * np.cos(omega * t + 0.3 - lag),
-            0.003 * size * np.cos(omega * t + 1.0 - lag) + 0.01 * np.gradient(swing, t) * (heel > 0),
-        ]
-    )
+    height, phase = np.array([0.1, 0.12, 0.5, 0.02, 0.01, 0.003]), np.array([0.0, 0.4, 0.8, 1.1, -0.3, -1.0])
+    motion = height * size * np.cos(omega * t[:, None] - phase - lag)
+    motion += np.outer(five, [0.01, 0.3, 0.05, 0.02, 0.0, 0.0])
+    motion[:, 3] -= heel * swing
+    motion[:, 5] += 0.01 * np.gradient(swing, t) * (heel > 0)
     slew = -np.pi / 2 * swing
     ship = Rotation.from_euler("ZYX", motion[:, [5, 4, 3]])
     crane = ship * Rotation.from_euler("z", slew[:, None])
@@ -140,33 +128,24 @@ def run() -> dict[str, Any]:
 
 
 def test_a_result_holds_only_what_the_scene_has_and_what_it_holds_is_described() -> None:
-    alone = vessel_result(t_end=2.0)
-    assert set(alone.coords) == {"body", "axis", "motion", "wxyz"}
-    assert "link_tension" not in alone.channels
-    calm = Result.from_arrays(**crane_run(waves=False, payload=False, t_end=2.0))
-    assert not {"wave_elevation", "wave_force", "link_tension"} & set(calm.channels)
-    assert "seed" not in calm.stats
+    assert set(vessel_result(t_end=2.0).coords) == {"body", "axis", "motion", "wxyz"}
     assert all(one.dims[0] == "time" and one.unit and one.long_name for one in CHANNELS.values())
+    calm = Result.from_arrays(**crane_run(waves=False, payload=False, t_end=2.0))
     dataset = calm.to_xarray()
     assert all(dataset[name].attrs["units"] and dataset[name].attrs["long_name"] for name in calm.channels)
     knuckle = dataset["cylinder_force"].sel(cylinder="knuckle")
     np.testing.assert_array_equal(knuckle, calm.select("cylinder_force", cylinder="knuckle"))
-    assert dataset["vessel_motion"].sel(motion="heave").dims == ("time",)
     dataset["stroke"][0] = 5.0
     assert calm["stroke"][0, 0] == 0.0, "the dataset is a copy"
 
 
 def test_arrays_and_mappings_cannot_be_changed(run: dict[str, Any]) -> None:
     result = Result.from_arrays(**run)
-    with pytest.raises(ValueError, match="read-only"):
-        result.time[0] = 1
-    for array in result.channels.values():
+    for array in (result.time, *result.channels.values()):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1
     with pytest.raises(TypeError):
         result.channels["stroke"] = result.time  # type: ignore[index]
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        result.interrupted = True  # type: ignore[misc]
 
 
 def test_select_picks_by_name(run: dict[str, Any]) -> None:
@@ -174,16 +153,13 @@ def test_select_picks_by_name(run: dict[str, Any]) -> None:
     height = result.select("position", body="payload", axis="z")
     np.testing.assert_array_equal(height, run["arrays"]["position"][:, 9, 2])
     assert not height.flags.writeable
-    assert result.select("reaction_force", joint="A").shape == (result.time.size, 3)
     with pytest.raises(ValueError, match=r"no body 'payloat'.*choose from vessel"):
         result.select("position", body="payloat")
     with pytest.raises(ValueError, match="not 'joint'"):
         result.select("position", joint="A")
-    with pytest.raises(KeyError, match="no channel 'lift'"):
-        result.select("lift")
 
 
-@pytest.mark.parametrize("backend", ["own reader", "xarray", "another process"])
+@pytest.mark.parametrize("backend", ["own reader", "xarray", "pickle"])
 def test_a_saved_file_returns_bit_for_bit(run: dict[str, Any], tmp_path: Path, backend: str) -> None:
     run["stats"] |= {"seed": 2**64 - 1, "repeat_period_s": np.inf}
     run["arrays"]["slew_torque"][-1] = np.nan  # what stopped an interrupted run
@@ -192,10 +168,8 @@ def test_a_saved_file_returns_bit_for_bit(run: dict[str, Any], tmp_path: Path, b
     if backend == "xarray":
         with xarray.open_dataset(path, engine="netcdf4", decode_times=False) as file:
             dataset = file.load()
-        assert dataset["quaternion"].dims == ("time", "body", "wxyz")
         assert list(dataset.body.values) == BODIES and list(dataset.motion.values)[3] == "roll"
         assert json.loads(dataset.attrs["settings"])["relative_tolerance"] == 1e-6
-        assert dataset.attrs["interrupted"] == 1
         values = {"time": dataset.time.values, **{name: dataset[name].values for name in result.channels}}
     else:
         again = Result.load(path) if backend == "own reader" else pickle.loads(pickle.dumps(result))
@@ -211,65 +185,30 @@ def test_a_saved_file_returns_bit_for_bit(run: dict[str, Any], tmp_path: Path, b
         np.testing.assert_array_equal(array, result[name], err_msg=name)
 
 
-BAD_INPUT = {
-    "unknown channel": (lambda r: r["arrays"].update(heave=r["time"]), "'heave'"),
-    "wrong shape": (lambda r: r["arrays"].update(stroke=r["arrays"]["stroke"].T), r"'stroke'.*\(2, 51\)"),
-    "not a number": (lambda r: r["arrays"]["stroke"].__setitem__((3, 1), np.nan), "'stroke'.*output 3"),
-    "infinite": (lambda r: r["arrays"]["slew_angle"].__setitem__(4, np.inf), "'slew_angle'.*output 4"),
-    "time going back": (lambda r: r["time"].__setitem__(2, 0.0), "increasing"),
-    "no output at all": (lambda r: r.update(time=np.empty(0)), "time"),
-    "a body named twice": (lambda r: r["coords"].update(body=["vessel"] * 2), "more than once: vessel"),
-    "a counter missing": (lambda r: r["stats"].pop("steps"), "steps"),
-    "a counter not a number": (lambda r: r["stats"].update(wall_s=np.nan), "'wall_s'"),
-    "what is structured": (lambda r: r["stats"].update(bounds="[]"), "'bounds'"),
-    "a counter of no plain kind": (lambda r: r["stats"].update(steps=[1]), "'steps' is a list"),
-}
+BAD_INPUT = [
+    (lambda r: r["arrays"].update(heave=r["time"]), "'heave'"),
+    (lambda r: r["arrays"].update(stroke=r["arrays"]["stroke"].T), r"'stroke'.*\(2, 51\)"),
+    (lambda r: r["arrays"]["stroke"].__setitem__((3, 1), np.nan), "'stroke'.*output 3"),
+    (lambda r: r["time"].__setitem__(2, 0.0), "increasing"),
+    (lambda r: r["coords"].update(body=["vessel"] * 2), "more than once: vessel"),
+    (lambda r: r["stats"].pop("steps"), "steps"), (lambda r: r["stats"].update(bounds="[]"), "'bounds'"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("case", BAD_INPUT)
-def test_refuses(run: dict[str, Any], case: str) -> None:
-    change, message = BAD_INPUT[case]
-    change(run)
-    with pytest.raises(ValueError, match=message):
-        Result.from_arrays(**run)
+def test_arrays_that_contradict_each_other_are_refused() -> None:
+    for change, message in BAD_INPUT:
+        run = crane_run(t_end=5.0)
+        change(run)
+        with pytest.raises(ValueError, match=message):
+            Result.from_arrays(**run)
 
 
 def test_a_file_that_is_no_result_is_named(run: dict[str, Any], tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"absent\.nc"):
-        Result.load(tmp_path / "absent.nc")
     whole = Result.from_arrays(**run).save(tmp_path / "whole.nc").read_bytes()
-    contents = [b"time,heave\n", *(whole[: int(share * len(whole))] for share in (0.1, 0.5, 0.9))]
-    for content in contents:
+    for content in (b"time,heave\n", *(whole[: int(share * len(whole))] for share in (0.1, 0.5, 0.9))):
         (tmp_path / "cut.nc").write_bytes(content)
         with pytest.raises(FileFormatError, match=r"cut\.nc"):
             Result.load(tmp_path / "cut.nc")
     xarray.Dataset({"temperature": ("time", [1.0, 2.0])}).to_netcdf(tmp_path / "other.nc")
     with pytest.raises(FileFormatError, match=r"other\.nc.*'time'"):
         Result.load(tmp_path / "other.nc")
-    with pytest.raises(OSError, match=r"r\.nc.*folder"):
-        Result.from_arrays(**run).save(tmp_path / "absent" / "r.nc")
-    assert not (tmp_path / "absent").exists()
-
-
-FULL_DISK = """
-import resource, sys
-sys.path.insert(0, {here!r})
-from test_result import crane_result
-result = crane_result(t_end=50.0)
-resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))  # writes beyond 20 kB fail as on a full disk
-try:
-    result.save({target!r})
-except OSError as error:
-    print("refused:", error)
-"""
-
-
-def test_a_full_disk_gives_a_clear_error_and_keeps_the_older_file(tmp_path: Path) -> None:
-    target = tmp_path / "r.nc"
-    target.write_text("an older file")
-    script = FULL_DISK.format(here=str(Path(__file__).parent), target=str(target))
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
-    assert f"refused: could not write {target}" in done.stdout, done.stdout + done.stderr
-    assert "MB free" in done.stdout
-    assert target.read_text() == "an older file"
-    assert list(tmp_path.iterdir()) == [target]

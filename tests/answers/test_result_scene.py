@@ -14,18 +14,9 @@ import numpy as np
 import pytest
 from view_scenes import alone
 
-from seacrane import (
-    FileFormatError,
-    Result,
-    Scene,
-    SceneError,
-    cases,
-    report,
-    simulate,
-    simulate_to_file,
-    view,
-)
+from seacrane import Result, Scene, cases, report, simulate, simulate_to_file, view
 from seacrane.cli.command_line import main
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.result import kept_scene
 from seacrane.result.kept_scene import NOT_KEPT
 from seacrane.result.result_file import SCENE, SCENE_DIMENSION
@@ -42,28 +33,23 @@ def pendulum() -> Scene:
     return scene
 
 
-def with_scene(path: Path, text: bytes, kind: str = "u1") -> Path:
+def with_scene(path: Path, text: bytes) -> Path:
     """A result's file whose scene is this text."""
-    result = simulate(pendulum(), 0.5)
-    bare = Result.from_arrays(
-        time=result.time, arrays=result.channels, coords=result.coords, stats=result.stats, about=result.about
-    )
-    bare.save(path)
+    replace(simulate(pendulum(), 0.5), kept_scene=None).save(path)
     with netCDF4.Dataset(path, "a") as file:
         file.createDimension(SCENE_DIMENSION, len(text))
-        file.createVariable(SCENE, kind, (SCENE_DIMENSION,))[:] = np.frombuffer(text, "u1")
+        file.createVariable(SCENE, "u1", (SCENE_DIMENSION,))[:] = np.frombuffer(text, "u1")
     return path
 
 
 def test_a_page_is_drawn_and_a_run_repeated_from_the_file_alone(tmp_path: Path) -> None:
     loaded = Result.load(alone().save(tmp_path / "run.nc"))
-    assert isinstance(loaded.scene, Scene)
     assert loaded.scene == alone().scene
     assert view(loaded).html == view(alone()).html
     np.testing.assert_array_equal(simulate(loaded.scene, 20.0)["position"], loaded["position"])
     loaded.scene.add_mesh(body="vessel", vertices=np.eye(3), faces=[[0, 1, 2]])
     again = Result.load(loaded.save(tmp_path / "again.nc"))
-    assert again.scene is not None and list(again.scene.meshes) == ["vessel"]
+    assert list(again.scene.meshes) == ["vessel"]
     assert "<h2>In three dimensions</h2>" in report(again).html
 
 
@@ -80,14 +66,7 @@ def test_a_run_to_a_file_keeps_its_scene(tmp_path: Path, monkeypatch: pytest.Mon
     finished = Result.load(path)
     assert finished.scene == so_far.scene
     longer = simulate_to_file(scene, path, 2.0, resume=True).load()
-    assert longer.time[-1] == 2.0
-    assert longer.scene == so_far.scene
-    assert view(longer).motion.end == 2.0
-
-
-def without_scene(path: Path) -> Path:
-    """A file of a run whose scene was too large for one."""
-    return replace(alone(), kept_scene=None).save(path)
+    assert longer.scene == so_far.scene and view(longer).motion.end == 2.0
 
 
 def test_c_functions_and_notes_are_left_out(tmp_path: Path) -> None:
@@ -97,18 +76,15 @@ def test_c_functions_and_notes_are_left_out(tmp_path: Path) -> None:
     def function(*_: Any) -> int:
         return 0
 
-    address = ctypes.cast(function, ctypes.c_void_p).value
-    assert address is not None
     scene = pendulum()
     run = simulate(scene, 0.5)
-    scene.add_function_force(name="<gust>", body="ball", address=address)
+    scene.add_function_force("<gust>", body="ball", address=ctypes.cast(function, ctypes.c_void_p).value)
     result = Result.from_arrays(
         time=run.time, arrays=run.channels, coords=run.coords, stats=run.stats, about=run.about, scene=scene
     )
     loaded = Result.load(result.save(tmp_path / "run.nc"))
     assert str(loaded.stats[NOT_KEPT]).startswith("function force '<gust>'")
     assert loaded.scene == pendulum().copy(notes={}) and loaded.settings["notes"] == {"project": "secret"}
-    assert "function force &#x27;&lt;gust&gt;&#x27;" in view(loaded).html
 
 
 def test_a_scene_too_large_for_a_file_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,28 +93,21 @@ def test_a_scene_too_large_for_a_file_is_left_out(tmp_path: Path, monkeypatch: p
     assert loaded.scene is None
     with pytest.raises(SceneError, match=r"takes \d+ bytes, above 100"):
         view(loaded)
-    assert "In three dimensions" not in report(loaded).html
     told = simulate_to_file(pendulum(), tmp_path / "streamed.nc", 0.5)
     assert str(told.load().stats[NOT_KEPT]).startswith("the scene: takes")
 
 
-HOSTILE: dict[str, tuple[Any, str]] = {
-    "no JSON": (b"\x00\xff\xfe" * 20, r"run\.nc: its scene"),
-    "no scene": (b"{}", "is not a scene file"),
-    "nested": (b"[" * 100_000, r"run\.nc: its scene"),
-    "repeated": (b'{"format": "seacrane scene", "format": 1}', "occurs twice"),
-    "no number": (b'{"mass": NaN}', "NaN is not a number"),
-    "an element that makes no sense": ((b'"mass": 1.0', b'"mass": "heavy"'), r"bodies\[0\]\.mass is 'heavy'"),
-    "other bodies": ((b'"ball"', b'"cube"'), "'ball', 'cube'"),
-    "larger than any": (b"{" + b" " * 20_000 + b"}", "20002 bytes"),
-}
+HOSTILE: list[tuple[Any, str]] = [
+    (b"\x00\xff\xfe" * 20, r"run\.nc: its scene"), (b"{}", "is not a scene file"),
+    (b"[" * 100_000, r"run\.nc: its scene"),
+    (b'{"format": "seacrane scene", "format": 1}', "occurs twice"), (b'{"mass": NaN}', "NaN is not a number"),
+    ((b'"mass": 1.0', b'"mass": "heavy"'), r"bodies\[0\]\.mass is 'heavy'"),
+    ((b'"ball"', b'"cube"'), "'ball', 'cube'"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("case", HOSTILE)
-def test_hostile_bytes_are_refused(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    if case == "larger than any":
-        monkeypatch.setattr("seacrane.description.file_text.LARGEST_FILE", 10_000)
-    text, message = HOSTILE[case]
+@pytest.mark.parametrize(("text", "message"), HOSTILE)
+def test_hostile_bytes_are_refused(text: Any, message: str, tmp_path: Path) -> None:
     if isinstance(text, tuple):  # of a sound one
         pendulum().save(tmp_path / "scene.json")
         text = json.dumps(json.loads((tmp_path / "scene.json").read_text())).encode().replace(*text)
@@ -147,14 +116,10 @@ def test_hostile_bytes_are_refused(case: str, tmp_path: Path, monkeypatch: pytes
     with pytest.raises((FileFormatError, SceneError), match=message) as caught:
         view(loaded)
     assert len(str(caught.value)) < 500
-    if case != "other bodies":
-        for ask in (lambda: loaded.scene, lambda: report(loaded)):
-            with pytest.raises(FileFormatError, match=message):
-                ask()
 
 
 def test_a_scene_that_unfolds_is_refused_before_it_is_read(tmp_path: Path) -> None:
-    """A quarter of a gigabyte of nothing in a small file; and one that is no bytes."""
+    """A quarter of a gigabyte of nothing in a small file."""
     path = with_scene(tmp_path / "run.nc", b"{}")
     with netCDF4.Dataset(path, "a") as file:
         file.renameVariable(SCENE, "old")
@@ -167,8 +132,6 @@ def test_a_scene_that_unfolds_is_refused_before_it_is_read(tmp_path: Path) -> No
         Result.load(path)
     assert tracemalloc.get_traced_memory()[1] < 64 * 2**20
     tracemalloc.stop()
-    with pytest.raises(FileFormatError, match="scene_json is of float64"):
-        Result.load(with_scene(tmp_path / "numbers.nc", b"{}", "f8"))
 
 
 def test_the_command_writes_the_page_of_a_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -178,22 +141,8 @@ def test_the_command_writes_the_page_of_a_result(tmp_path: Path, capsys: pytest.
     page.write_text("mine")
     assert main(["view", str(source), "--out", str(page)]) == 1
     assert "--overwrite" in capsys.readouterr().err and page.read_text() == "mine"
+    few = simulate(cases.vessel(), 1.0, channels=["vessel_motion"]).save(tmp_path / "few.nc")
+    assert main(["view", str(few), "--out", str(tmp_path / "few.html")]) == 1
+    assert "position, quaternion" in capsys.readouterr().err and not (tmp_path / "few.html").exists()
     assert main(["view", "vessel", "--out", str(page), "--overwrite"]) == 0
     assert page.read_text(encoding="utf-8") == view(cases.vessel()).html
-
-
-def test_the_command_says_what_is_missing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    few = simulate(cases.vessel(), 1.0, channels=["vessel_motion"])
-    (tmp_path / "script.py").write_text("raise SystemExit")
-    missing = {
-        without_scene(tmp_path / "bare.nc"): "holds no scene",
-        few.save(tmp_path / "few.nc"): "position, quaternion, velocity, angular_velocity",
-        tmp_path / "script.py": "seacrane run",
-    }
-    page = tmp_path / "page.html"
-    for source, words in missing.items():
-        assert main(["view", str(source), "--out", str(page)]) == 1
-        assert words in capsys.readouterr().err
-    assert not page.exists()
-    assert main(["view", "vessel", "--out", str(tmp_path), "--overwrite"]) == 1
-    assert "is a folder" in capsys.readouterr().err

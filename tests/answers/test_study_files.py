@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
-import resource
 import signal
 import subprocess
 import sys
 import time
 import tomllib
-from collections.abc import Iterator
-from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +17,6 @@ import pytest
 from seacrane import FileFormatError, Kept, Lift, SceneError, ensemble
 from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble
-from seacrane.errors import WorkerVersionError
 from seacrane.lift.schema import schema_path
 from seacrane.lift.shown_study import shown_study
 from seacrane.lift.study_file import StudyFile
@@ -87,13 +82,10 @@ def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
     place: dict[str, Any] = {"channel": "position", "names": {"body": "vessel", "axis": "z"}, "after": 2.0}
     lift = Lift.load(ran.parent / "ship.toml")
     same = ensemble(
-        lift.scene(),
-        over={"seed": range(1, 41), "hs": [1, 2.0]},
+        lift.scene(), over={"seed": range(1, 41), "hs": [1, 2.0]},
         keep={"heave": Kept(what="maximum", **place), "deepest": Kept(what="minimum", **place)},
-        until={"heave.mpm": 0.25},
-        t_end=8.0,
-        rtol=1e-2,
-    )
+        until={"heave.mpm": 0.25}, t_end=8.0, rtol=1e-2,
+    )  # fmt: skip
     assert there.dataset.identical(same.dataset)
     shown = shown_study(ran)
     assert shown.certainty == same.certainty
@@ -104,23 +96,15 @@ def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
         value, low, high = cell.numbers("mpm")
         assert low < value < high < values.max() + 1.0
     value, low, high = deepest.cells[0].numbers("p90")
-    assert low < value < high
-    assert value < deepest.cells[0].mean
-    assert len(heave.head()) == len(next(iter(heave.rows())))
+    assert low < value < high and value < deepest.cells[0].mean
 
 
 def test_show_prints_tables_and_draws(ran: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["show", str(ran), "--out", str(tmp_path)]) == 0
-    told = capsys.readouterr().out
-    assert "0 failed" in told and "Gumbel" in told and "heave.mpm (hs=2.0)" in told
-    assert {path.name for path in tmp_path.iterdir()} == {
-        "heave.csv", "deepest.csv", "heave-over-hs.png", "deepest-over-hs.png",
-    }  # fmt: skip
-    head, first, *_ = (tmp_path / "heave.csv").read_text().splitlines()
-    assert head.startswith("hs,seeds,mean [m],scatter [m],most probable [m]")
+    assert "0 failed" in capsys.readouterr().out
+    assert {"heave.csv", "heave-over-hs.png"} < {path.name for path in tmp_path.iterdir()}
+    _, first, *_ = (tmp_path / "heave.csv").read_text().splitlines()
     assert float(first.split(",")[2]) == pytest.approx(shown_study(ran).tables[0].cells[0].mean)
-    assert main(["show", str(ran), "--json"]) == 1
-    assert "--json" in capsys.readouterr().err
 
 
 def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -128,14 +112,12 @@ def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixt
     text += "[statistics]\nexposure_s = 60\n"
     study.write_text(text)
     assert main(command(study, "one")) == 0
-    told = capsys.readouterr().out
-    assert "heave-gumbel.png" in told and "Maximum in 60 s" in told
+    assert "heave-gumbel.png" in capsys.readouterr().out
     over = text[text.index("[over]") : text.index("[[keep]]")]
     design = "[design]\ncount = 6\nranges = { hs = [1, 2], bodies.vessel.mass = [1e7, 1.1e7] }\n\n"
     study.write_text(text.replace(over, design).replace("[until]\nheave.mpm = 0.9\n", ""))
     assert main(command(study, "design")) == 0
-    told = capsys.readouterr().out
-    assert "6 of 6 members run" in told and "heave-over-bodies.vessel.mass.png" in told
+    assert "heave-over-bodies.vessel.mass.png" in capsys.readouterr().out
 
 
 @pytest.mark.warns("FailedSeedsWarning")
@@ -144,9 +126,6 @@ def test_a_study_of_failures_is_shown(study: Path, capsys: pytest.CaptureFixture
     assert main(command(study)) == 0
     told = capsys.readouterr().out
     assert "40 of 40 members run, 40 failed" in told and "vassal" in told
-    study.write_text(STUDY.replace('channel = "position"', 'channel = "swing"'))
-    assert main(command(study, "other")) == 1
-    assert "'swing'" in capsys.readouterr().err
 
 
 def started(study: Path, packs: int, *options: str) -> subprocess.Popen[bytes]:
@@ -191,35 +170,17 @@ def test_a_killed_study_goes_on_to_the_same(study: Path, ran: Path) -> None:
     assert again.identical(Ensemble.load(ran / MEMBERS).dataset)
 
 
-def test_a_full_disk_is_named_and_loses_nothing(study: Path, ran: Path) -> None:
-    out = study.parent / "out"
-    number = os.fork()
-    if not number:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))
-        try:
-            run_study(study, out)
-        except OSError as error:
-            os._exit(4 if "pack_0000000.nc" in str(error) and "free in" in str(error) else 5)
-        os._exit(6)
-    assert os.waitstatus_to_exitcode(os.waitpid(number, 0)[1]) == 4
-    run_study(study, out)
-    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
-
-
 def test_the_folder_of_another_study(study: Path, ran: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = (ran / "study.toml").read_bytes()
     study.write_text(STUDY.replace("t_end_s = 8", "t_end_s = 9"))
     assert main(command(study, ran)) == 1
     assert "t_end" in capsys.readouterr().err
     assert (ran / "study.toml").read_bytes() == before
-    other = study.parent / "other"
-    other.mkdir()
+    (other := study.parent / "other").mkdir()
     (other / "letter.txt").touch()
     for place, words in ((other, "something else"), (study, "is a file")):
         with pytest.raises(SceneError, match=words):
             run_study(study, place)
-    assert main(["show", str(other)]) == 1
-    assert "no folder of a study" in capsys.readouterr().err
 
 
 def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
@@ -232,30 +193,19 @@ def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
 
 
 BAD = [
-    ("seacrane study", "seacrane studio", "format"),
-    ("version = 2", "version = 3", "heave.toml line 2: version is 3"),
-    ('lift = "ship.toml"', "", "lift"),
-    ("ship.toml", "shop.toml", "heave.toml line 3: .*shop.toml"),
-    ("[over]", "[ovr]", "line 5: ovr .*nearest: over"),
-    ("hs =", "hss =", "line 7: .*'hss'; nearest: 'hs'"),
-    ("hs =", "bodies.vessel.mas =", "line 7: .*; nearest: 'bodies.vessel.mass'"),
-    ("hs = [1, 2.0]", "hs = 2", "line 7: hs is 2"),
+    ("version = 2", "version = 3", "heave.toml line 2: version is 3"), ('lift = "ship.toml"', "", "lift"),
+    ("[over]", "[ovr]", "line 5: ovr .*nearest: over"), ("hs =", "hss =", "line 7: .*'hss'; nearest: 'hs'"),
     ("hs = [1, 2.0]", "hs = [1, 1]", "line 5: over: hs has 1 twice"),
-    ("count = 40", "count = 1000000000", "2000000000 members"),
     ("[1, 2.0]", "{ first = 1, last = 2, count = 1000000000 }", "40000000000 members"),
-    ("count = 40", "cont = 40", "line 6: cont .*nearest: count"),
-    ("count = 40", "count = 0", "line 6: count is 0"),
     ("count = 40", "count = 10", "line 23: until: seed"),
     ('what = "maximum"', 'what = "biggest"', "line 12: what .*'biggest'"),
-    ("after_s", "after", "line 14: after .*nearest: after_s"),
     ('name = "deepest"', 'name = "heave"', "line 17: .*'heave'"),
     ('name = "deepest"', 'name = "member"', "keep: .*'member'"),
     ("heave.mpm = 0.25", "heave.p95 = 0.25", "line 24: until: heave.p95"),
     ("heave.mpm = 0.25", "heeve.mpm = 0.25", "line 24: until: .*'heeve'"),
-    ("heave.mpm = 0.25", "", r"line 23: \[until\]"),
     ("t_end_s", "t_end", "line 27: t_end .*nearest: t_end_s"),
     ("[over]", "[design]\ncount = 3\n[over]", "either"),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("old", "new", "message"), BAD)
@@ -267,49 +217,13 @@ def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, stud
     assert not (study.parent / "out").exists()
 
 
-def test_mistakes_beside_the_file_are_named(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(WorkerVersionError, match="no seacrane"):
-        run_study(study, study.parent / "out", executor=Elsewhere())
-    address = "tcp://127.0.0.1:9"
-    for options, words in (
-        (["--workers", "0"], "--workers is 0"), (["--workers", "2", "--dask", address], "leave one out"),
-    ):  # fmt: skip
-        assert main(command(study, "out", *options)) == 1
-        assert words in capsys.readouterr().err
+def test_members_and_bounds_are_read_without_the_lift(study: Path) -> None:
     (study.parent / "ship.toml").write_text(LIFT.replace("hs_m", "hs"))
     with pytest.raises(FileFormatError, match=r"ship\.toml line 10: hs "):
         run_study(study, study.parent / "out")
-    (study.parent / "ship.toml").unlink()
     read = StudyFile.load(study)
     assert (len(read.members), read.until) == (80, {"heave.mpm": 0.25})
     assert np.array_equal(list(read.over["seed"]), np.arange(1, 41))
-
-
-@pytest.fixture
-def cluster() -> Iterator[str]:
-    """The address of a cluster of one worker process."""
-    distributed = pytest.importorskip("distributed", reason="needs the extra ensemble")
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as there:
-        yield str(there.scheduler_address)
-
-
-def test_a_cluster_gives_the_same(
-    cluster: str, study: Path, ran: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    out, nowhere = study.parent / "out", "tcp://127.0.0.1:9"
-    assert main(command(study, "out", "--dask", nowhere)) == 1
-    assert f"--dask {nowhere}: no scheduler" in capsys.readouterr().err
-    assert main(command(study, "out", "--dask", cluster)) == 0
-    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
-
-
-class Elsewhere(Executor):
-    """Workers to which the package is unknown."""
-
-    def submit(self, *_: Any, **__: Any) -> Future[Any]:  # type: ignore[override]
-        failed: Future[Any] = Future()
-        failed.set_exception(ModuleNotFoundError("No module named 'seacrane'", name="seacrane"))
-        return failed
 
 
 def test_the_schema_is_current_and_knows_the_study() -> None:
@@ -318,5 +232,5 @@ def test_the_schema_is_current_and_knows_the_study() -> None:
     jsonschema.Draft7Validator.check_schema(study_schema())
     check = jsonschema.Draft7Validator(json.loads(study_schema_text()))
     assert not list(check.iter_errors(tomllib.loads(STUDY)))
-    for old, new in (("[over]", "[ovr]"), ("after_s", "after"), ("count = 40", "cont = 40"), ("0.25", "2")):
+    for old, new in (("[over]", "[ovr]"), ("after_s", "after"), ("0.25", "2")):
         assert list(check.iter_errors(tomllib.loads(STUDY.replace(old, new, 1)))), old

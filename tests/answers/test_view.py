@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import base64
-import copy
 import gzip
 import json
 import pickle
 import re
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,20 +16,19 @@ import pytest
 from hydraulic_scenes import BORE, RETRACTED, ROD, START, raised
 from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 
-from seacrane import Result, Scene, SceneError, cases, simulate, view
-from seacrane.crane import BODIES, KnuckleBoomCrane, load_crane
+from seacrane import Scene, SceneError, cases, simulate, view
+from seacrane.crane import BODIES, KnuckleBoomCrane
 from seacrane.crane.geometry import plane_axes
 from seacrane.description.file import scene_digest
-from seacrane.hydro import Hull, ParametricHull, shipped_database
+from seacrane.hydro import shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.pictures.hull_shapes import schematic_size
-from seacrane.pictures.packing import Blob
 from seacrane.pictures.page_sea import sea_components
 from seacrane.pictures.pose_curves import LARGEST_ERROR, STEPS, motion_of
-from seacrane.pictures.shapes import BoxShape, HullShape, TubeShape, equivalent_box, framework
+from seacrane.pictures.shapes import BoxShape, equivalent_box
 from seacrane.pictures.wires import wires_of
 
 
@@ -47,8 +45,7 @@ class Page:
     @property
     def data(self) -> dict[str, Any]:
         """What the page's script reads."""
-        found: dict[str, Any] = json.loads(self.scripts["data"])
-        return found
+        return dict(json.loads(self.scripts["data"]))
 
     def series(self, told: dict[str, Any]) -> np.ndarray:
         """A series as packing.py describes it, written independently of it."""
@@ -66,8 +63,7 @@ def test_a_pose_at_any_output_is_that_of_the_run() -> None:
     distance = np.linalg.norm(position - result["position"], axis=-1).max()
     assert distance <= motion.error[0] + 1e-12 <= LARGEST_ERROR[0]
     assert angle_between(quaternion, result["quaternion"]) <= LARGEST_ERROR[1]
-    assert motion.interval == pytest.approx(0.2)
-    assert motion.error[0] < 1e-3
+    assert motion.interval == pytest.approx(0.2) and motion.error[0] < 1e-3
 
 
 def test_the_page_is_small_and_holds_the_poses_that_the_view_tells() -> None:
@@ -86,9 +82,7 @@ def test_the_page_is_small_and_holds_the_poses_that_the_view_tells() -> None:
 def test_a_snatch_asks_for_more_frames_and_outputs_bound_them() -> None:
     """Between outputs of 0.05 s, a payload that stops within one needs the finer interval."""
     scene = Scene(name="bounce")
-    scene.add_body(
-        name="ball", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0, 0, -0.5), velocity=(0.0, 1.0, 3.0)
-    )
+    scene.add_body("ball", mass=1, inertia=(0.1, 0.1, 0.1), position=(0, 0, -0.5), velocity=(0, 1, 3))
     scene.add_joint(kind="distance", name="wire", first="ground", second="ball", point=(0, 0, 0),
                     second_point=(0, 0, -0.5), length=1.0)  # fmt: skip
     scene.add_line(joint="wire", rung="rigid", restitution=0.5)
@@ -96,31 +90,15 @@ def test_a_snatch_asks_for_more_frames_and_outputs_bound_them() -> None:
     assert coarse.interval == pytest.approx(0.1) and coarse.error[0] > 0.0
     motion = motion_of(simulate(cases.vessel(), 10.0, dt_out=0.5))
     assert (motion.interval, motion.end) == pytest.approx((0.5, 10.0))
-    data = Page(view(simulate(scene, 1.0)).html).data
-    assert data["sea"] is None and data["bodies"][0]["role"] == "body"
-
-
-def test_a_series_comes_back_within_half_a_step() -> None:
-    values = np.cumsum(np.random.default_rng(2).normal(size=(3, 50)), axis=1) * 1e3
-    for step in (1e-4, 1e-15):  # the second is too small for whole numbers of 32 bits
-        blob = Blob()
-        blob.floats(np.ones(3))
-        told = blob.series(values, step)
-        page = Page(f"<script id=blob>{blob.text()}</script>")
-        np.testing.assert_allclose(page.series(told), values, rtol=0.0, atol=0.51 * told["step"])
-        assert told["step"] >= step
 
 
 def test_the_sea_is_that_of_the_scene() -> None:
     scene = cases.vessel(hs=3.0, seed=7)
-    assert scene.waves is not None
     table = sea_components(scene)
     a, w, phase, kx, ky = table.T
     t, x, y = 123.4, -31.0, 17.0
     expected = scene.waves.components().elevation(t, x=x, y=y)
     assert np.sum(a * np.cos(w * t + phase - kx * x - ky * y)) == pytest.approx(float(expected), abs=1e-9)
-    assert np.all(np.diff(a) <= 0.0)
-    assert len(table) == np.size(scene.waves.omega)
 
 
 def test_crane_members_are_those_of_the_data_file() -> None:
@@ -138,23 +116,6 @@ def test_crane_members_are_those_of_the_data_file() -> None:
     np.testing.assert_allclose(box.size, (6.0, 6.0, 4.0))
 
 
-def test_a_crane_that_is_none_of_ours_is_bars_between_its_joints() -> None:
-    """As short as can be."""
-    scene = cases.case2()
-    jib = scene.bodies["main_jib"]
-    scene.replace("main_jib", mass=2.0 * jib.mass)
-    bars = looks(scene)["main_jib"].shapes
-    assert len(bars) == 3
-    assert all(isinstance(bar, TubeShape) for bar in bars)
-    ends = np.unique(np.round(np.concatenate([bar.points for bar in bars]), 6), axis=0)
-    held = [joint.first_frame.point for joint in scene.joints.values() if joint.first == "main_jib"]
-    held += [joint.second_frame.point for joint in scene.joints.values() if joint.second == "main_jib"]
-    points = np.array(held).reshape(-1, 3) - jib.center_of_mass
-    np.testing.assert_allclose(ends, np.unique(np.round(points, 6), axis=0), atol=1e-5)
-    bars = framework(np.array([[0.0, 0, 0], [3.0, 0, 0], [1.0, 0, 0], [1.0, 1.0, 0]]), 0.1)
-    assert sum(np.linalg.norm(bar.end - bar.start) for bar in bars) == pytest.approx(4.0)
-
-
 def test_the_equivalent_box_of_a_box_is_that_box() -> None:
     size, mass = np.array([3.0, 2.0, 0.5]), 7.0
     inertia = np.diag(mass / 12.0 * (np.sum(size**2) - size**2))
@@ -166,13 +127,10 @@ def test_the_equivalent_box_of_a_box_is_that_box() -> None:
 
 
 def test_the_shipped_vessel_has_the_shipped_hull_and_another_a_schematic_one() -> None:
-    """Which displaces its mass."""
     result = pair()
-    assert result.scene is not None
     found = looks(result.scene)
     assert "hull_115" in found["vessel"].note and "schematic" in found[HTML_NAME].note
     (true,), (made_up,) = found["vessel"].shapes, found[HTML_NAME].shapes
-    assert isinstance(true, HullShape) and isinstance(made_up, HullShape)
     np.testing.assert_allclose(np.ptp(true.vertices, axis=0)[:2], (115.0, 25.0), rtol=1e-3)
     np.testing.assert_allclose(np.ptp(made_up.vertices, axis=0)[:2], (115.0, 25.0), rtol=1e-2)
     length, breadth, draught = schematic_size(14e6, 14e6 * np.diag([0.36 * 25, 0.25 * 115, 0.25 * 115]) ** 2)
@@ -180,60 +138,27 @@ def test_the_shipped_vessel_has_the_shipped_hull_and_another_a_schematic_one() -
     assert 1025.0 * 0.7 * length * breadth * draught == pytest.approx(14e6)
 
 
-def test_a_hull_of_ones_own_is_drawn() -> None:
-    hull = Hull.from_parametric(
-        ParametricHull(
-            length=60.0, breadth=14.0, draught=4.0, entrance_length=20.0, run_length=18.0,
-            transom_breadth_fraction=0.8, transom_draught_fraction=0.3, section_exponent=4.0,
-            origin_from_transom=30.0,
-        ),
-        stations=20, girth=8,
-    )  # fmt: skip
-    (shape,) = looks(cases.vessel(), hulls={"vessel": hull})["vessel"].shapes
-    assert isinstance(shape, HullShape)
-    lowest, highest = shape.vertices.min(axis=0), shape.vertices.max(axis=0)
-    assert lowest[2] - shape.waterline == pytest.approx(-4.0, abs=1e-3)
-    assert highest[0] - lowest[0] == pytest.approx(60.0, abs=1e-3)
-
-
 def test_only_wires_go_slack() -> None:
-    """A luffing rope is drawn whether it is a line or not."""
     scene = cases.case2()
     assert wires_of(scene, list(scene.bodies))[0]["length"] == 0.0
     scene.add_line(joint="link", rung="rigid")
-    scene.add_spring(
-        name="tugger", first="vessel", second="payload", lengths=[0.0, 5.0, 9.0], forces=[0.0, 0.0, 1e5]
-    )
+    scene.add_spring("tugger", first="vessel", second="payload", lengths=[0, 5, 9], forces=[0, 0, 1e5])
     link, tugger = wires_of(scene, list(scene.bodies))
     assert (link["kind"], link["length"]) == ("wire", 8.0)
     assert (tugger["kind"], tugger["length"]) == ("spring", 5.0)
-    scene = Scene(name="lattice")
-    scene.add_crane(load_crane("lattice_boom_100t"), base="ground", coordinates={"boom": 0.7}, held=True)
-    (led,) = wires_of(scene, list(scene.bodies))
-    assert (led["name"], led["kind"]) == ("luffing rope", "link")
-    scene.add_luffing_rope()
-    falls = wires_of(scene, list(scene.bodies))
-    assert len(falls) == 12 and {one["element"] for one in falls} == {"luffing rope"}
-    assert led["from"] == falls[0]["from"] and led["to"] == falls[0]["to"]
 
 
 def test_a_cylinder_between_two_points_has_a_barrel_and_a_rod() -> None:
-    """Of the piston's size; one whose barrel and rod are bodies is drawn by them."""
     scene = raised(command=0.5)
     drawn = drawing_of(simulate(scene, 1.0, dt_out=0.25))
     rod, barrel = drawn.wires
     assert (rod["kind"], barrel["kind"], rod["element"]) == ("rod", "barrel", "ram")
     assert (rod["radius"], barrel["radius"]) == pytest.approx((0.5 * ROD, 0.5 * 1.15 * BORE))
-    for number in range(len(drawn.motion.times)):
-        pose = drawn.motion.position[number : number + 1], drawn.motion.quaternion[number : number + 1]
-        top = float(pose[0][0, 0, 2])
-        assert [end[0, 2] for end in drawn.ends_of(rod, *pose)] == pytest.approx([0.0, top])
-        assert [end[0, 2] for end in drawn.ends_of(barrel, *pose)] == pytest.approx([0.0, RETRACTED])
+    pose = drawn.motion.position[-1:], drawn.motion.quaternion[-1:]
+    top = float(pose[0][0, 0, 2])
+    assert [end[0, 2] for end in drawn.ends_of(rod, *pose)] == pytest.approx([0.0, top])
+    assert [end[0, 2] for end in drawn.ends_of(barrel, *pose)] == pytest.approx([0.0, RETRACTED])
     assert top > RETRACTED + START
-    oil = {"main": {"pump_pressure": 32e6, "rated_flow": 0.05}}
-    crane = Scene(name="crane")
-    crane.add_crane(base="ground", held=True, hydraulics=oil)
-    assert wires_of(crane, list(crane.bodies)) == []
 
 
 def test_forces_are_those_of_the_run() -> None:
@@ -257,20 +182,15 @@ def test_chosen_channels_are_drawn_in_their_units() -> None:
     np.testing.assert_allclose(page.series(roll["values"])[0], expected, atol=2e-3)
     expected = case2().select("position", body="payload", axis="z")[::2]
     np.testing.assert_allclose(page.series(height["values"])[0], expected, atol=1e-3 * np.ptp(expected))
-    assert view(case2(), channels=()).html.count('"strip":[]') == 1
 
 
 def test_names_appear_as_text() -> None:
     """Names with markup neither end a script nor become elements, nor leave a notebook's frame."""
-    shown, plain = view(pair(), height=500), Page(view(alone()).html)
+    shown = view(pair(), height=500)
     page = Page(shown.html)
-    assert page.elements.count("script") == plain.elements.count("script") == 3
-    assert not {"b", "i"} & set(page.elements)
+    assert page.elements.count("script") == 3 and not {"b", "i"} & set(page.elements)
     assert HTML_NAME in {body["name"] for body in page.data["bodies"]}
-    assert "<b onclick" not in shown.html
-    assert "&lt;i&gt;two vessels&lt;/i&gt;</title>" in shown.html
-    frame = shown._repr_html_()
-    assert frame.count("<") == 2 and "height:500px" in frame
+    assert shown._repr_html_().count("<") == 2
 
 
 def test_a_scene_alone_stands_at_its_assembled_start() -> None:
@@ -281,75 +201,49 @@ def test_a_scene_alone_stands_at_its_assembled_start() -> None:
     position, quaternion = shown.motion.at(np.zeros(1))
     np.testing.assert_allclose(position[0], start["position"][0], atol=1e-9)
     assert angle_between(quaternion[0], start["quaternion"][0]) < 1e-7
-    data = Page(shown.html).data
-    assert data["least"] > 10.0 and data["strip"] == data["arrows"] == []
     scene.add_body(name="later", mass=1.0, inertia=(1.0, 1.0, 1.0))
     assert start.scene is not None and "later" not in start.scene.bodies
 
 
 def test_a_page_is_saved_anew_and_replaces_no_other_file(tmp_path: Path) -> None:
-    shown = view(alone())
-    path = tmp_path / "lift.html"
+    shown, path = view(alone()), tmp_path / "lift.html"
     path.write_text(shown.html.replace("lift", "earlier"), encoding="utf-8")
     assert shown.save(path) == path and path.read_text(encoding="utf-8") == shown.html
-    with pytest.raises(FileExistsError, match="overwrite=True"):
-        shown.save(path, overwrite=False)
     path.write_text("mine")
     with pytest.raises(FileExistsError, match="not of seacrane"):
         shown.save(path)
     assert path.read_text() == "mine"
     shown.save(path, overwrite=True)
-    assert path.stat().st_size > 1e5
-    with pytest.raises(OSError, match="no folder"):
-        shown.save(tmp_path / "absent" / "lift.html")
-    assert [one.name for one in tmp_path.iterdir()] == ["lift.html"]
+    assert path.stat().st_size > 1e5 and [one.name for one in tmp_path.iterdir()] == ["lift.html"]
 
 
 def test_a_copy_of_a_result_needs_its_scene() -> None:
     result = alone()
-    for twin in (copy.copy(result), pickle.loads(pickle.dumps(result))):
-        assert twin.scene is None
-        assert view(twin, scene=cases.vessel(hs=4.0, tp=10.0)).html == view(result).html
-        for given, words in (({}, "scene=scene"), ({"scene": cases.case2()}, "not the one")):
-            with pytest.raises(SceneError, match=words):
-                view(twin, **given)
-
-
-def test_what_cannot_be_shown_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("seacrane.pictures.drawn_bodies.LARGEST_HULL", 1000)
-    few = simulate(cases.vessel(), 1.0, channels=["vessel_motion", "position"])
-    refused: list[tuple[dict[str, Any], str]] = [
-        ({"what": "lift.html"}, "'lift.html'"),
-        ({"what": Scene(name="none")}, "'none'.*bodies"),
-        ({"what": few}, "quaternion, velocity, angular_velocity"),
-        ({"height": 3}, "height is 3"),
-        ({"hulls": {"crane": shipped_database}}, "'crane'.*'vessel'"),
-        ({"hulls": {"vessel": 3}}, "'vessel' is 3"),
-        ({"hulls": [3]}, "hulls"),
-        ({"hulls": {"vessel": shipped_hull()}}, "2278 panels.*1000"),
-        ({"scene": 3}, "scene is 3"),
-        ({"what": cases.vessel(), "scene": cases.vessel()}, "scene="),
-        ({"what": cases.vessel(), "channels": ["position"]}, "channels"),
-        ({"what": case2(), "channels": ["tension_of_link"]}, "'tension_of_link'.*position"),
-        ({"what": case2(), "channels": ["vessel_motion[rol]"]}, "vessel_motion"),
-        ({"what": case2(), "channels": ["position"]}, "30 lines"),
-        ({"what": case2(), "channels": "stroke"}, "'stroke'"),
-    ]
-    for given, words in refused:
-        arguments = {"what": alone(), **given}
+    twin = pickle.loads(pickle.dumps(result))
+    assert twin.scene is None
+    assert view(twin, scene=cases.vessel(hs=4.0, tp=10.0)).html == view(result).html
+    for given, words in (({}, "scene=scene"), ({"scene": cases.case2()}, "not the one")):
         with pytest.raises(SceneError, match=words):
-            view(arguments.pop("what"), **arguments)
+            view(twin, **given)
+
+
+def test_what_cannot_be_shown_is_refused() -> None:
+    few = simulate(cases.vessel(), 1.0, channels=["vessel_motion", "position"])
+    for what, given, words in (
+        (few, {}, "quaternion, velocity, angular_velocity"),
+        (alone(), {"hulls": {"crane": shipped_database}}, "'crane'.*'vessel'"),
+        (case2(), {"channels": ["vessel_motion[rol]"]}, "vessel_motion"),
+        (case2(), {"channels": ["position"]}, "30 lines"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=words):
+            view(what, **given)
 
 
 def test_an_interrupted_run_is_shown_as_far_as_it_is_finite() -> None:
     whole = alone()
-    arrays = {name: array.copy() for name, array in whole.items()}
-    arrays["position"][150:] = np.nan
-    cut = Result.from_arrays(
-        time=whole.time, arrays=arrays, coords={"body": whole.coords["body"]},
-        stats=whole.stats, interrupted=True, scene=whole.scene,
-    )  # fmt: skip
-    shown = view(cut)
+    position = whole["position"].copy()
+    position[150:] = np.nan
+    shown = view(replace(whole, channels={**whole.channels, "position": position}, interrupted=True))
     assert shown.motion.end == pytest.approx(whole.time[149])
     assert "interrupted" in shown.html
 

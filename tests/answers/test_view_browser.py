@@ -6,7 +6,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path
-from time import monotonic, sleep
 
 import chromium
 import numpy as np
@@ -17,10 +16,7 @@ from view_scenes import angle_between, case2, thrown
 from seacrane import view
 from seacrane.pictures import View
 
-SHOWN = (
-    "case2",  # the one page that `make test` looks at
-    *(pytest.param(name, marks=pytest.mark.slow("opens a page")) for name in ("alone", "thrown", "pair")),
-)
+SHOWN = ("case2", pytest.param("pair", marks=pytest.mark.slow("opens a page")))
 
 
 @pytest.fixture(scope="module")
@@ -49,33 +45,9 @@ def test_a_page_opens_without_a_network(tab: chromium.Tab, name: str, tmp_path: 
     pictures = []
     for at in (0.0, 4.0):
         tab.value(f"seacrane.seek({at})")
-        pictures.append(tab.colours(tmp_path / "picture.png")[:, 80:500, 400:880])
+        pictures.append(tab.colours()[:, 80:500, 400:880])
     assert pictures[0].reshape(3, -1).std(axis=1).min() > 10.0, "the picture is of one colour"
     assert np.abs(pictures[1] - pictures[0]).mean() > 1.0, "nothing moves"
-    assert tab.errors == []
-
-
-def test_the_page_keeps_pictures_and_films(tab: chromium.Tab, tmp_path: Path) -> None:
-    opened(tab, view(case2()), tmp_path)
-    tab.value("window.kept = []; URL.createObjectURL = (blob) => { kept.push(blob); return ''; }; 0")
-    tab.value("HTMLAnchorElement.prototype.click = function () { kept.push(this.download); }; 0")
-    tab.value("document.getElementById('picture').click()")
-    tab.value("document.getElementById('film').click()")
-    assert tab.value("document.getElementById('film').textContent") == "end film"
-    until = monotonic() + 30.0
-    while (
-        float(tab.value("document.getElementById('now').textContent").split()[0]) < 1.5
-        and monotonic() < until
-    ):
-        sleep(0.1)  # frames come as quickly as the machine draws them
-    tab.value("document.getElementById('film').click()")
-    while tab.value("kept.length") < 4 and monotonic() < until:
-        sleep(0.1)
-    told = json.loads(tab.value("JSON.stringify(kept.map((one) => one.size ? [one.type, one.size] : one))"))
-    sizes = {kind: size for kind, size in (one for one in told if isinstance(one, list))}
-    assert sizes.keys() == {"image/png", "video/webm"}
-    assert sizes["image/png"] > 2_000 and sizes["video/webm"] > 1_000
-    assert {one for one in told if isinstance(one, str)} == {"case2.png", "case2.webm"}
     assert tab.errors == []
 
 
@@ -88,7 +60,6 @@ def test_the_page_moves_bodies_and_waves_as_the_run_did(tab: chromium.Tab, tmp_p
             pose = np.array(tab.value(f"seacrane.pose({json.dumps(body)}, {result.time[index]})"))
             np.testing.assert_allclose(pose[:3], result.select("position", body=body)[index], atol=1e-3)
             assert angle_between(pose[3:], result.select("quaternion", body=body)[index]) < 1e-4
-    assert result.scene is not None and result.scene.waves is not None
     waves = result.scene.waves.components()
     for time, x, y in ((0.0, 0.0, 0.0), (31.7, 12.0, -40.0), (10000.3, -60.0, 5.0)):
         expected = float(waves.elevation(time, x=x, y=y))
@@ -98,36 +69,9 @@ def test_the_page_moves_bodies_and_waves_as_the_run_did(tab: chromium.Tab, tmp_p
 @pytest.mark.slow("opens a page")
 def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(thrown()), tmp_path)
-    tension = thrown()["link_tension"]
-    slack, taut = (thrown().time[index] for index in (5, len(tension) - 5))
-    for time, wires in ((slack, ["link"]), (taut, [])):
-        tab.value(f"seacrane.seek({time})")
+    for index, wires in ((5, ["link"]), (-5, [])):
+        tab.value(f"seacrane.seek({thrown().time[index]})")
         assert tab.value("seacrane.slack()") == wires
-
-
-@pytest.mark.slow("opens a page")
-def test_address_and_keys_move_the_time_and_the_camera(tab: chromium.Tab, tmp_path: Path) -> None:
-    def now(text: str) -> None:
-        tab.wait_for(f"document.getElementById('now').textContent === '{text} s'")
-
-    opened(tab, view(case2()), tmp_path, "#t=42.8&view=payload")
-    now("42.80")
-    assert tab.value("document.getElementById('view').value") == "payload"
-    tab.value("location.hash = '#t=10'")
-    now("10.00")
-    tab.press("ArrowRight")
-    now("10.20")
-    assert tab.value("location.hash") == "#t=10.2&view=payload"
-    tab.press("2")
-    tab.wait_for("document.getElementById('view').value === 'port'")
-    tab.press("f")
-    assert tab.value("document.getElementById('forces').value") == "all"
-    tab.press(" ")
-    tab.wait_for("parseFloat(document.getElementById('now').textContent) > 10.5")
-    tab.press(" ")
-    assert tab.value("document.getElementById('play').textContent") == "play"
-    tab.press("End")
-    now("60.00")
 
 
 @pytest.mark.slow("opens a page")
@@ -135,13 +79,11 @@ def test_the_page_lives_inside_another_one_as_in_a_notebook(tab: chromium.Tab, t
     tab.errors.clear()
     tab.requests.clear()
     path = tmp_path / "notebook.html"
-    body = view(case2())._repr_html_()
     script = "<script>document.documentElement.dataset.ready = 'true'</script>"
-    path.write_text(f"<!DOCTYPE html><body>{body}{script}</body>", encoding="utf-8")
+    path.write_text(f"<!DOCTYPE html><body>{view(case2())._repr_html_()}{script}</body>", encoding="utf-8")
     tab.open(path.as_uri())
     inside = "document.querySelector('iframe').contentDocument"
     tab.wait_for(f"{inside}.documentElement.dataset.ready === 'true'")
     tab.value("document.querySelector('iframe').contentWindow.seacrane.seek(12)")
-    assert tab.value(f"{inside}.getElementById('now').textContent") == "12.00 s"
-    assert tab.errors == []
+    assert tab.value(f"{inside}.getElementById('now').textContent") == "12.00 s" and tab.errors == []
     assert set(tab.requests) <= {path.as_uri(), "about:srcdoc"}

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import struct
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,8 +16,7 @@ from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.surfaces import surfaces_of
 
 pygltflib = pytest.importorskip("pygltflib", reason="the extra dev holds pygltflib")
-COMPONENTS = {5126: "<f4", 5125: "<u4"}
-WIDTH = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+COMPONENTS, WIDTH = {5126: "<f4", 5125: "<u4"}, {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 
 
 class Model:
@@ -35,8 +32,7 @@ class Model:
         part = self.gltf.bufferViews[accessor.bufferView]
         width = WIDTH[accessor.type]
         kind = np.dtype(COMPONENTS[accessor.componentType])
-        assert part.byteLength == kind.itemsize * width * accessor.count
-        assert part.byteOffset % 4 == 0
+        assert part.byteLength == kind.itemsize * width * accessor.count and part.byteOffset % 4 == 0
         values = np.frombuffer(self.blob, kind, width * accessor.count, part.byteOffset)
         return values.reshape(accessor.count, width)
 
@@ -79,11 +75,8 @@ def test_up_is_up_and_nodes_stand_at_their_first_pose(model: Model, tmp_path: Pa
     (root,) = model.gltf.scenes[model.gltf.scene].nodes
     turn = Rotation.from_quat(model.gltf.nodes[root].rotation)
     np.testing.assert_allclose(turn.apply([[1, 0, 0], [0, 0, 1]]), [[1, 0, 0], [0, 1, 0]], atol=1e-12)
-    assert len(model.gltf.nodes[root].children) == len(model.gltf.nodes) - 1
-    node = model.gltf.nodes[model.nodes["main_jib"]]
     start = case2().select("position", body="main_jib")[0]
-    np.testing.assert_allclose(node.translation, start, atol=1e-4)
-    assert node.extras == {"role": "crane"}
+    np.testing.assert_allclose(model.gltf.nodes[model.nodes["main_jib"]].translation, start, atol=1e-4)
     still = Model(view(cases.vessel()).save_gltf(tmp_path / "vessel.glb")).gltf
     assert still.animations == [] and [one.name for one in still.nodes][1:] == ["vessel"]
 
@@ -100,24 +93,18 @@ def test_a_link_reaches_from_tip_to_payload(model: Model) -> None:
     quaternion = np.roll(result.select("quaternion", body="payload")[::2], -1, axis=1)
     expected = result.select("position", body="payload")[::2] + Rotation.from_quat(quaternion).apply(hook)
     np.testing.assert_allclose(end, expected, atol=2e-3)
-    assert knots[0] == 0.0
     assert np.sum(turn[1:] * turn[:-1], axis=1).min() > 0.9
     Slerp(knots, Rotation.from_quat(turn))  # refuses times that do not increase
 
 
-def test_the_hull_has_its_length_and_its_colours(model: Model) -> None:
-    node = model.gltf.nodes[model.nodes["vessel"]]
-    primitives = model.gltf.meshes[node.mesh].primitives
-    vertices = np.concatenate([model.numbers(one.attributes.POSITION) for one in primitives])
-    np.testing.assert_allclose(np.ptp(vertices, axis=0)[:2], (115.0, 25.0), rtol=1e-3)
-    names = [model.gltf.materials[one.material].name for one in primitives]
-    assert len(set(names)) == 3
-    for one in primitives:
+def test_the_hull_has_its_length(model: Model) -> None:
+    primitives = model.gltf.meshes[model.gltf.nodes[model.nodes["vessel"]].mesh].primitives
+    vertices = [model.numbers(one.attributes.POSITION) for one in primitives]
+    np.testing.assert_allclose(np.ptp(np.concatenate(vertices), axis=0)[:2], (115.0, 25.0), rtol=1e-3)
+    for one, corners in zip(primitives, vertices, strict=True):
         told = model.gltf.accessors[one.attributes.POSITION]
-        corners, faces = model.numbers(one.attributes.POSITION), model.numbers(one.indices)
-        np.testing.assert_array_equal(told.min, corners.min(axis=0))
-        np.testing.assert_array_equal(told.max, corners.max(axis=0))
-        assert faces.max() == len(corners) - 1
+        np.testing.assert_array_equal([told.min, told.max], [corners.min(axis=0), corners.max(axis=0)])
+        assert model.numbers(one.indices).max() == len(corners) - 1
 
 
 def test_triangles_face_outwards_and_enclose_their_shape() -> None:
@@ -133,25 +120,14 @@ def test_triangles_face_outwards_and_enclose_their_shape() -> None:
             assert np.sum(a * np.cross(b, c)) / 6.0 == pytest.approx(expected)
 
 
-def test_names_are_kept_and_the_container_is_whole(tmp_path: Path) -> None:
-    data = view(pair()).save_gltf(tmp_path / "pair.glb").read_bytes()
-    assert struct.unpack_from("<4sII", data) == (b"glTF", 2, len(data))
-    size, kind = struct.unpack_from("<I4s", data, 12)
-    document: dict[str, Any] = json.loads(data[20 : 20 + size])
-    assert kind == b"JSON" and size % 4 == 0
-    rest, kind = struct.unpack_from("<I4s", data, 20 + size)
-    assert kind == b"BIN\0" and rest == document["buffers"][0]["byteLength"] == len(data) - 28 - size
-    assert HTML_NAME in {node["name"] for node in document["nodes"]}
-
-
-def test_a_model_of_another_program_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    shown, path = view(cases.vessel()), tmp_path / "vessel.glb"
+def test_names_are_kept_and_a_model_of_another_program_too(tmp_path: Path) -> None:
+    path = view(pair()).save_gltf(tmp_path / "pair.glb")
+    assert HTML_NAME in Model(path).nodes
+    assert struct.unpack("<II", path.read_bytes()[4:12]) == (2, path.stat().st_size)
     path.write_bytes(b"glTF of another program")
     with pytest.raises(FileExistsError, match="not of seacrane"):
-        shown.save_gltf(path)
-    shown.save_gltf(path, overwrite=True)
-    monkeypatch.setattr("seacrane.pictures.animated_gltf.LARGEST", 1000)
-    for name, words in (("vessel.gltf", r"\.glb"), ("large.glb", r"\d+ bytes, above 1000")):
-        with pytest.raises(SceneError, match=words):
-            shown.save_gltf(tmp_path / name)
-    assert [one.name for one in tmp_path.iterdir()] == ["vessel.glb"]
+        view(cases.vessel()).save_gltf(path)
+    view(cases.vessel()).save_gltf(path, overwrite=True)
+    with pytest.raises(SceneError, match=r"\.glb"):
+        view(cases.vessel()).save_gltf(tmp_path / "vessel.gltf")
+    assert [one.name for one in tmp_path.iterdir()] == ["pair.glb"]

@@ -40,9 +40,7 @@ def test_wires_are_absent_from_release_to_connection() -> None:
     times = np.array([0.0, 0.9, 1.1, 1.9, 2.1, 2.9, 3.1, 4.0])
     assert drawing.absent(tugger, times).tolist() == [True, True, *[False] * 6]
     assert drawing.absent(hoist, times).tolist() == [*[False] * 4, True, True, False, False]
-    assert not drawing.absent(hoist, np.asarray(0.0))
-    alone = drawing_of(lifted().scene)
-    assert [wire["absent"] for wire in alone.wires] == [[], []]
+    assert [wire["absent"] for wire in drawing_of(lifted().scene).wires] == [[], []]
 
 
 def test_models_have_no_wire_where_there_is_none(tmp_path: Path) -> None:
@@ -62,17 +60,14 @@ def marked() -> Result:
 
 
 def test_stages_points_clearances_and_forces_are_on_the_page() -> None:
-    page = view(marked())
-    data = json.loads(page.html.split('id="data">')[1].split("</script>")[0])
+    data = json.loads(view(marked()).html.split('id="data">')[1].split("</script>")[0])
     assert data["stages"] == [["hold", 0.0, 1.0], ["wait", 1.0, 2.0]]
     assert data["points"] == [{"name": "corner", "at": [0, 1.0, 0.0, 0.0]}]
     assert data["clearances"] == [
         {"name": "mast", "points": [[0, 1.0, 0.0, 0.0]], "at": [-1, 5.0, 0.0, 1.0], "size": [2.0, 2.0, 4.0]}
     ]
-    assert list(data["forces"]) == ["hoist"]
     (wire,) = data["wires"]
     assert 40e9 * (2.0 * wire["size"]) ** 2 == pytest.approx(STIFFNESS)
-    assert "EA = 40 GPa" in page.html
 
 
 @pytest.mark.slow("opens pages")
@@ -86,7 +81,6 @@ def test_pages_tell_stage_clearance_and_tension_and_hide_what_is_absent(tmp_path
         assert tab.value("seacrane.stage()") == "wait, 1.50 s"
         assert tab.value("seacrane.clearance('mast')") == pytest.approx(3.0, abs=1e-3)
         assert tab.value("seacrane.wire('hoist 1')") == f"hoist 1 {PULL / 1e3:g} kN"
-        tab.value("document.getElementById('real').click()")
         tab.open(view(lifted()).save(tmp_path / "lifted.html").as_uri())
         for time, absent in ((0.5, ["tugger"]), (1.5, []), (2.5, ["hoist 1"]), (4.0, [])):
             tab.value(f"seacrane.seek({time})")

@@ -7,7 +7,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import nbformat
 import pytest
 from test_cli import command_line, refusal
 
@@ -54,24 +53,3 @@ def test_a_script_and_lift_files_run_where_they_are_written(written: Path, tmp_p
         done = command_line("run", written / "lifts" / f"{name}.toml", "--out", tmp_path, "--t-end", "2")
         assert done.returncode == 0, done.stderr
     assert [path.suffix for path in tmp_path.iterdir()] == [".nc", ".nc"]
-
-
-def judge(notebook: nbformat.NotebookNode) -> None:
-    """Valid, run from first to last, with text and pictures, and it names the extra that it needs."""
-    nbformat.validate(notebook)
-    assert "jupytext" not in notebook.metadata and notebook.metadata.kernelspec.name == "python3"
-    assert notebook.cells[0].source.startswith("# ") and "seacrane[notebooks]" in notebook.cells[1].source
-    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
-    assert all(cell.execution_count for cell in cells)
-    outputs = [out for cell in cells for out in cell.outputs]
-    assert any(out.output_type == "stream" for out in outputs)
-    assert any("image/png" in out.get("data", {}) for out in outputs)
-    assert not any("srcdoc" in str(out) for out in outputs)
-
-
-def test_notebooks_that_are_installed_have_their_outputs(written: Path) -> None:
-    found = sorted((written / "notebooks").glob("*.ipynb"))
-    if not found:
-        pytest.skip("this package was built without notebooks: `make wheel` runs them")
-    for path in found:
-        judge(nbformat.read(path, as_version=4))

@@ -19,10 +19,7 @@ FLOORS = """
     | ensembles | operability | pictures | answers | trading | needs | lift | cases | cli | __main__
 """
 ROOMS = {name: floor for floor, names in enumerate(FLOORS.split("|")) for name in names.split()}
-HIDDEN = {
-    "cli": "a command imports what it needs, so that --help is quick",
-    "inputs.netcdf_limits": "h5py is loaded once a file is opened",
-}
+HIDDEN = ("cli", "inputs.netcdf_limits")  # commands, and h5py once a file is opened: --help is quick
 # Folders of the core from the ground up, and what each may not include of those before it.
 FOLDERS = ("math", "integrate", "sea", "strip", "elements", "hydro", "model", "dynamics", "compile", "lanes",
            "run")  # fmt: skip
@@ -66,14 +63,11 @@ def test_no_circle_of_modules(arrows: list[Import]) -> None:
         graph[arrow.source].add(arrow.target)
     assert circles(graph) == []
     assert circles({"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": set(), "e": {"d"}}) == [["a", "b", "c"]]
-    assert circles({"a": {"b", "c"}, "b": {"d"}, "c": {"d"}}) == []
 
 
 def test_no_import_of_the_package_is_hidden_in_a_function(arrows: list[Import]) -> None:
     hidden = {f"{arrow.source}." for arrow in arrows if arrow.hidden}
     assert [one for one in hidden if not one.startswith(tuple(f"{place}." for place in HIDDEN))] == []
-    needed = {place for place in HIDDEN for one in hidden if one.startswith(f"{place}.")}
-    assert needed == set(HIDDEN), "an exception that nothing needs"
 
 
 def test_the_core_names_modules_that_are_there() -> None:

@@ -15,19 +15,12 @@ STOPS = PAGE.split("## A run that stops")[1].split("\n## ")[0]
 def test_every_stop_of_a_run_has_an_entry_and_every_entry_is_of_the_package() -> None:
     """By the words in backquotes after "Message:" or "Messages:"."""
     paragraphs = [one.replace("\n", " ") for one in STOPS.split("\n\n") if one.startswith("Message")]
+    assert len(stops()) >= 30
     told = [word for paragraph in paragraphs for word in re.findall(r"`([^`]+)`", paragraph)]
     assert {site: words for site, words in stops().items() if not any(one in words for one in told)} == {}
     reports = [CPP / "run" / "guards.cpp", PYTHON / "run" / "advance.py"]
     words = [*stops().values(), *("".join(LITERAL.findall(path.read_text())) for path in reports)]
     assert [one for one in told if not any(one in text for text in words)] == []
-
-
-def test_the_scan_sees_stops_in_every_form_of_a_throw() -> None:
-    words = "\n".join(stops().values())
-    for known in ("projection does not close it", "the step size has collapsed", "controller: raised",
-                  "XYZ angles are singular", "Newton's iteration", "stands still"):  # fmt: skip
-        assert known in words
-    assert len(stops()) >= 30
 
 
 def test_every_warning_and_error_has_an_entry_and_every_entry_is_one() -> None:

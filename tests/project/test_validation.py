@@ -78,17 +78,6 @@ def test_a_sample_is_as_published(name: str, modules: Any, published: dict[str, 
             assert row.difference == pytest.approx(told, rel=0.1)
 
 
-@pytest.mark.parametrize("method", ["rk4", "tsit5"])
-def test_orders_computed_again_are_as_published(
-    method: str, modules: Any, published: dict[str, dict[str, str]]
-) -> None:
-    (row,) = modules("compared.orders").orders((method,))
-    (told,) = [key for key in published if key.startswith(f"`{method}`: ")]
-    (words, reference), (published_words, published_reference) = row.cells[1:3], told.split("; ")
-    assert published_reference == reference
-    assert float(published_words.split()[-1]) == pytest.approx(float(words.split()[-1]), abs=0.1)
-
-
 def test_the_facts_of_the_readme_are_those_of_the_files(modules: Any) -> None:
     """And of one engine."""
     facts, table, sources = modules("facts"), modules("measure.table"), modules("measure.sources")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import io
 import json
 import os
 import select
@@ -12,7 +13,6 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -68,20 +68,10 @@ class Tab:
             raise RuntimeError(f"{expression}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
-    def press(self, key: str) -> None:
-        """A key, down and up."""
-        text = {"text": key} if len(key) == 1 else {}
-        self.ask("Input.dispatchKeyEvent", type="keyDown", key=key, **text)
-        self.ask("Input.dispatchKeyEvent", type="keyUp", key=key)
-
-    def picture(self, path: Path) -> None:
-        """What is seen, to a file as PNG."""
-        path.write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"]))
-
-    def colours(self, path: Path) -> np.ndarray:
-        """Red, green and blue of what is seen, 0 to 255, by row and column; also written to a file."""
-        self.picture(path)
-        with Image.open(path) as image:
+    def colours(self) -> np.ndarray:
+        """Red, green and blue of what is seen, 0 to 255, by row and column."""
+        picture = base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"])
+        with Image.open(io.BytesIO(picture)) as image:
             return np.moveaxis(np.asarray(image.convert("RGB"), dtype=float), -1, 0)
 
     def ask(self, method: str, **parameters: Any) -> dict[str, Any]:

