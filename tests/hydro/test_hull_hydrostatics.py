@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -50,23 +49,18 @@ def test_box_of_a_mesh_and_of_two_stations() -> None:
 @pytest.mark.parametrize("draught", [3.0, 7.5])
 def test_sphere_cap(draught: float) -> None:
     """A floating sphere of radius 5 m: cap volume and area, metacentre at the centre whatever the draught."""
-    radius, errors = 5.0, []
-    volume, area = (
-        np.pi * draught**2 * (3.0 * radius - draught) / 3.0,
-        np.pi * draught * (2.0 * radius - draught),
-    )
-    below = 3.0 * (2.0 * radius - draught) ** 2 / (4.0 * (3.0 * radius - draught))
-    centre = radius - draught
+    radius, errors, centre = 5.0, [], 5.0 - draught
+    volume, area = np.pi * draught**2 * (15.0 - draught) / 3.0, np.pi * draught * (10.0 - draught)
+    below = 3.0 * (10.0 - draught) ** 2 / (4.0 * (15.0 - draught))
     for count in (24, 48, 96):
         statics = from_mesh(sphere(radius, count), draught=draught).hydrostatics
         off = [
-            statics.volume / volume - 1.0,
-            statics.waterplane_area / area - 1.0,
+            statics.volume / volume - 1.0, statics.waterplane_area / area - 1.0,
             statics.wetted_surface / (2.0 * np.pi * radius * draught) - 1.0,
             (statics.center_of_buoyancy[2] - centre + below) / radius,
             (statics.metacentre_transverse - centre) / radius,
             (statics.metacentre_longitudinal - centre) / radius,
-        ]
+        ]  # fmt: skip
         errors.append(np.abs(off).max())
     assert errors[-1] < 3e-3
     assert np.all(np.log2(np.divide(errors[:-1], errors[1:])) > 1.7)
@@ -142,9 +136,6 @@ def test_remeshing_keeps_the_shape_bilges_and_waterlines() -> None:
         assert fine.hydrostatics.wetted_surface == pytest.approx(statics.wetted_surface, rel=1e-12)
         for corner in half:
             assert np.any(np.all(np.isclose(fine.panels.reshape(-1, 3)[:, 1:], corner, atol=1e-9), axis=1))
-    fine = barge([[5.0, 0.0], [5.0, -4.0]]).remeshed(stations=20, girth=18)
-    assert np.sum(np.abs(np.ptp(fine.panels[..., 0], axis=1)) < 1e-9) > 50  # panels of the ends
-    assert np.linalg.norm(np.ptp(fine.panels, axis=1), axis=1).max() < 4.0
     # A chine that rises towards the bow: its share of the girth changes from station to station.
     x = np.linspace(0.0, 40.0, 9)
     sections = tuple([[5.0, 0.0], [4.5, -3.0 + 0.05 * s], [0.0, -4.0]] for s in x)
@@ -172,10 +163,8 @@ def test_a_parametric_hull_is_scaled_to_its_volume() -> None:
     assert np.all(np.linalg.norm(area, axis=1) > 1e-4)
     points = shape.panels(stations=56, girth=20).reshape(-1, 3)
     assert np.ptp(points, axis=0) == pytest.approx([115.0, 25.0, 6.4], rel=2e-3)
-    assert points[:, 2].max() == 0.0
-    for wrong, target in ((shape, 115.0 * 25.0 * 6.4), (replace(shape, section_exponent=1.0), volume)):
-        with pytest.raises(ValueError, match="out of reach"):
-            wrong.scaled_to_volume(target, stations=16, girth=4)
+    with pytest.raises(ValueError, match="out of reach"):
+        shape.scaled_to_volume(115.0 * 25.0 * 6.4, stations=16, girth=4)
 
 
 def half_area(section: np.ndarray) -> float:
@@ -187,8 +176,7 @@ def test_slices_of_mesh_and_offsets_have_the_area_of_the_closed_form() -> None:
     length, breadth, draught = SHIP
     x = np.linspace(-0.47, 0.47, 13) * length
     exact = breadth * draught / 3.0 * (1.0 - (2.0 * x / length) ** 2)
-    vertices, faces = wigley_mesh(*SHIP, 40)
-    mesh, table = Hull.from_mesh(vertices=vertices, faces=faces), Hull.from_offsets(wigley_offsets(*SHIP, 40))
+    mesh, table = from_mesh(wigley_mesh(*SHIP, 40)), Hull.from_offsets(wigley_offsets(*SHIP, 40))
     for hull in (mesh, table):
         cut = hull.sections(x)
         assert [half_area(s.section) for s in cut] == pytest.approx(exact, abs=1e-3 * exact.max())
@@ -201,8 +189,6 @@ def test_slices_of_mesh_and_offsets_have_the_area_of_the_closed_form() -> None:
     # Between stations the area of a straight loft is quadratic: Simpson's rule gives the surface's volume.
     simpson = np.sum(areas[:-1:2] + 4.0 * areas[1::2] + areas[2::2]) * 100.0 / 16.0 / 6.0
     assert simpson == pytest.approx(hull.hydrostatics.volume, rel=1e-9)
-    stem = hull.sections([50.0])[0].section
-    assert np.all(stem[:, 0] == 0.0) and stem[-1, 1] == pytest.approx(-6.0)
 
 
 def test_a_bottom_that_rises_to_the_waterline_ends_in_an_empty_section() -> None:
@@ -220,8 +206,7 @@ def test_a_bottom_that_rises_to_the_waterline_ends_in_an_empty_section() -> None
 def test_a_bulb_ahead_of_the_stem_hangs_apart() -> None:
     """A sphere of radius 1.5 m wholly under water, 4 m ahead of a box; two hulls beside each other."""
     bulb = moved(sphere(1.5, 48), 24.0, 0.0, -2.5)
-    vertices, faces = joined(box(length=40.0, breadth=10.0, bottom=-4.0, top=3.0), bulb)
-    hull = Hull.from_mesh(vertices=vertices, faces=faces)
+    hull = from_mesh(joined(box(length=40.0, breadth=10.0, bottom=-4.0, top=3.0), bulb))
     ahead, inside = hull.sections([24.0, 0.0])
     assert np.all(ahead.section == 0.0)
     assert ahead.apart == pytest.approx(0.5 * np.pi * 1.5**2, rel=5e-3)
@@ -229,21 +214,7 @@ def test_a_bulb_ahead_of_the_stem_hangs_apart() -> None:
     with pytest.raises(ValueError, match="hangs apart"):
         hull.remeshed(stations=40, girth=6)
     one = box(length=40.0, breadth=3.0, bottom=-4.0, top=3.0)
-    vertices, faces = joined(moved(one, 0.0, 5.0, 0.0), moved(one, 0.0, -5.0, 0.0))
-    catamaran = Hull.from_mesh(vertices=vertices, faces=faces)
+    catamaran = from_mesh(joined(moved(one, 0.0, 5.0, 0.0), moved(one, 0.0, -5.0, 0.0)))
     assert catamaran.hydrostatics.volume == pytest.approx(2 * 480.0)
     with pytest.raises(ValueError, match="more than once"):
         catamaran.sections([0.0])
-
-
-@pytest.mark.parametrize("away", [0.0, 1e-9, -1e-6])
-def test_slices_next_to_the_vertices_of_a_fan(away: float) -> None:
-    """Planes through and beside the pole of a sphere, where 48 panels meet, and all its other vertices."""
-    vertices, faces = sphere(5.0, 48)
-    hull = Hull.from_mesh(vertices=vertices, faces=faces, draught=4.0)
-    x = np.unique(np.round(hull.panels[..., 0], 9))[1:-1] + away
-    exact = [abs(25.0 - v**2) for v in x]
-    for s, square in zip(hull.sections(x), exact, strict=True):
-        radius, above = np.sqrt(square), 1.0  # height of the centre
-        area = square * np.arccos(above / radius) - above * np.sqrt(square - above**2)
-        assert 2.0 * half_area(s.section) == pytest.approx(area, abs=0.25)

@@ -9,7 +9,6 @@ from typing import Any
 import netCDF4
 import numpy as np
 import pytest
-import xarray
 from test_hydro_transform import full
 
 from seacrane.errors import FileFormatError
@@ -77,30 +76,23 @@ def test_wide_gaps_between_headings_are_not_interpolated() -> None:
         sparse.force_at(1.0, np.pi / 4.0)
     with pytest.raises(ValueError, match="heading -30 deg"):  # a vessel without symmetry is not mirrored
         small(port_starboard_symmetric=False).force_at(1.0, -np.pi / 6.0)
-    for omega, heading in ((np.nan, 0.0), (1.0, np.inf)):
-        with pytest.raises(ValueError, match="finite"):
-            base.force_at(omega, heading)
 
 
 def test_bad_input_names_the_object() -> None:
     table: list[tuple[dict[str, Any], str]] = [
         ({"omega": np.linspace(2.4, 0.2, 12)}, "omega is not strictly increasing"),
-        ({"omega": np.linspace(0.0, 2.4, 12)}, "omega spans 0"), ({"omega": np.zeros(0)}, "shape|empty"),
-        ({"heading": np.radians([0.0, 30.0, 20.0, 40.0, 50.0, 60.0, 70.0])}, "heading is not strictly"),
-        ({"heading": np.radians(np.linspace(0.0, 360.0, 7))}, "heading spans"), ({"rho": -1.0}, "rho is"),
+        ({"omega": np.linspace(0.0, 2.4, 12)}, "omega spans 0"), ({"trusted_band": (2.0, 1.0)}, "trusted_b"),
+        ({"heading": np.radians(np.linspace(0.0, 360.0, 7))}, "heading spans"),
         ({"added_mass": np.zeros((11, 6, 6))}, r"added_mass has shape \(11, 6, 6\)"),
         ({"force": np.zeros((7, 12, 5))}, "force has shape"), ({"mass_matrix": -np.eye(6)}, "mass matrix"),
         ({"damping": np.full((12, 6, 6), np.nan)}, r"damping\[0, 0, 0\] is nan"),
-        ({"depth": float("nan")}, "depth is nan"), ({"trusted_band": (2.0, 1.0)}, "trusted_band"),
     ]  # fmt: skip
     for changes, message in table:
         with pytest.raises(ValueError, match=message):
             small(**changes)
     good = {"heading": [0.0, 1.0], "omega": [0.3, 0.4, 0.5], "coefficient": np.zeros((2, 3, 6))}
-    assert not DriftCoefficients(**good).coefficient.flags.writeable
     for changes, message in (
         ({"heading": [0.0, 7.0]}, "heading must rise"), ({"omega": [0.0, 0.4, 0.5]}, "omega must"),
-        ({"omega": [0.3, 0.4, np.nan]}, r"omega\[2\] is not finite"),
         ({"coefficient": np.zeros((2, 3, 3))}, r"coefficient has shape \(2, 3, 3\)"),
     ):  # fmt: skip
         with pytest.raises(ValueError, match=message):
@@ -114,16 +106,11 @@ def test_arrays_are_read_only_copies_and_labelled_in_xarray() -> None:
     assert database.omega[0] == 0.2
     with pytest.raises(ValueError, match="read-only"):
         database.added_mass[0, 0, 0] = 1.0
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        database.rho = 1.0  # type: ignore[misc]
     database = everything()
     dataset = database.to_xarray()
     heave = dataset.added_mass.sel(motion="heave", motion_of="heave").values
     assert heave == pytest.approx(database.added_mass[:, 2, 2])
     assert np.array_equal(dataset.force.transpose("heading", "omega", "motion").values, database.force)
-    assert dataset.attrs["rho"] == database.rho and "added_mass_roll_tanks" in dataset
-    dataset.force.values[:] = 0.0
-    assert np.abs(database.force).max() > 0.0
 
 
 @pytest.mark.warns(sometimes=["DampingWarning", "HeadingGapWarning", "RaoPhaseWarning"])
@@ -154,42 +141,28 @@ def test_a_failing_save_leaves_the_old_file(tmp_path: Path) -> None:
         broken.save(target)
     assert target.read_bytes() == before
     assert [file.name for file in tmp_path.iterdir()] == ["copy.nc"]
-    with pytest.raises(FileNotFoundError, match="nowhere"):
-        small().save(tmp_path / "nowhere" / "copy.nc")
 
 
 def test_damaged_foreign_and_other_files_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match="nothing of a known kind"):
-        load_database(tmp_path)
     path, one = tmp_path / "whole.nc", tmp_path / "one.nc"
     shipped_database().save(path)
     data = path.read_bytes()
-    for part in (0.0, 0.02, 0.3, 0.6, 0.9, 0.999):
+    for part in (0.02, 0.6, 0.999):
         one.write_bytes(data[: int(part * len(data))])
         with pytest.raises(FileFormatError, match=r"one\.nc"):
             load_database(one)
-    for missing in ("omega", "force", "memory/A", "memory/row_order"):
+    for missing in ("force", "memory/A"):
         one.write_bytes(data)
         *group, name = missing.split("/")
         with netCDF4.Dataset(one, "a") as file:
             (file[group[0]] if group else file).renameVariable(name, "elsewhere")
         with pytest.raises(FileFormatError, match="damaged"):
             load_database(one)
-    for version in (0, 99):
-        one.write_bytes(data)
-        with netCDF4.Dataset(one, "a") as file:
-            file.format_version = version
-        with pytest.raises(FileFormatError, match=rf"format version {version}, .* version 1"):
-            load_database(one)
-    xarray.Dataset({"x": ("a", [1.0])}).to_netcdf(one)
-    with pytest.raises(FileFormatError, match="not a seacrane"):
+    one.write_bytes(data)
+    with netCDF4.Dataset(one, "a") as file:
+        file.format_version = 99
+    with pytest.raises(FileFormatError, match=r"format version 99, .* version 1"):
         load_database(one)
-    (tmp_path / "some.txt").write_text("hello")
-    with pytest.raises(FileFormatError, match=r"supported: .* Capytaine, .* of seacrane, a ShipX/VERES"):
-        load_database(tmp_path / "some.txt")
-    for read in (load_database, HydroDatabase.load):
-        with pytest.raises(FileFormatError, match="no such file"):
-            read(tmp_path / "absent.nc")
     with pytest.raises(FileFormatError, match=r"several files .*name one"):
         load_database(tmp_path)
     one.unlink()
@@ -229,12 +202,9 @@ def test_ranges_cross_zero_and_memory_stays_with_all_its_frequencies() -> None:
 
 def test_a_choice_that_makes_no_sense() -> None:
     table: list[tuple[dict[str, Any], str]] = [
-        ({"omega": (2.0, 1.0)}, "no range"), ({"omega": (1.0, np.nan)}, "no range"),
-        ({"omega": (1.0, 2.0, 3.0)}, "no range"), ({"omega": (5.0, 6.0)}, "leaves nothing"),
-        ({"omega": []}, "leaves nothing"), ({"omega": [0, 99]}, "beyond its 61"),
-        ({"omega": [0.5, 1.5]}, "neither a range"), ({"omega": [1, 1]}, "twice"),
-        ({"heading": [[0, 1]]}, "neither a range"), ({"omega": (2.6, 3.0)}, "trusted band 0.3 to 2.5"),
-        ({"every": 0}, "every = 0"), ({"every_heading": 1.5}, "every_heading = 1.5"),
+        ({"omega": (2.0, 1.0)}, "no range"), ({"omega": (5.0, 6.0)}, "leaves nothing"),
+        ({"omega": [0, 99]}, "beyond its 61"), ({"omega": [0.5, 1.5]}, "neither a range"),
+        ({"omega": [1, 1]}, "twice"), ({"omega": (2.6, 3.0)}, "trusted band 0.3 to 2.5"),
     ]  # fmt: skip
     for choice, message in table:
         with pytest.raises(ValueError, match=message):

@@ -8,12 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
 import pytest
 from group_cases import bemio_file, capytaine_dataset, capytaine_file, nemoh_folder, wamit_files, written_pair
 
-from seacrane.cli import main
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroGroup,
@@ -127,8 +125,6 @@ def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
     given: dict[str, Any] = {"mass_matrices": masses(pair)}
     for damage, message in (
         (lambda d: d.isel(influenced_dof=slice(1, None)), "influenced_dof lacks crane__"),
-        (lambda d: d.drop_vars("inertia_matrix"), "inertia_matrix is missing"),
-        (lambda d: d.assign(added_mass=d.added_mass * np.nan), r"added_mass\[0, 0, 0\] is nan"),
         (lambda d: d.assign_coords(forward_speed=2.0), "forward_speed is 2"),
         (
             lambda d: d.assign(hydrostatic_stiffness=0.0 * d.hydrostatic_stiffness),
@@ -144,23 +140,15 @@ def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match="motion 7 is not one of 1 to 6"):
         read_wamit(folder / "pair")
     nemoh_folder(pair, folder)
-    for name, change, message, read in (
-        ("pair.out", lambda text: text.replace("YBODY", "Y"), "no XBODY, .* of crane", read_wamit_group),
-        ("pair.out", lambda text: text.replace("Gravity:", "G:"), "no gravity", read_wamit_group),
-        ("pair.1", lambda text: text.replace(" 12 ", " 13 ", 1), "motion 13 .* 1 to 12", read_wamit_group),
-        ("pair.3", lambda text: text[: len(text) // 2], r"pair\.3, line", read_wamit_group),
-        ("pair.hst", lambda text: "\n".join(text.splitlines()[:50]) + "\n", "50 of 72", read_wamit_group),
-        (
-            "Nemoh.cal",
-            lambda text: text.replace("2 ! Number", "3 ! Number"),
-            "3 bodies .* 12",
-            read_nemoh_group,
-        ),
-        ("Nemoh.cal", lambda text: text.replace("38.0", "39.0", 1), "body 2 turn about 2", read_nemoh_group),
+    for name, old, new, message, read in (
+        ("pair.out", "YBODY", "Y", "no XBODY, .* of crane", read_wamit_group),
+        ("pair.1", " 12 ", " 13 ", "motion 13 .* 1 to 12", read_wamit_group),
+        ("Nemoh.cal", "2 ! Number", "3 ! Number", "3 bodies .* 12", read_nemoh_group),
+        ("Nemoh.cal", "38.0", "39.0", "body 2 turn about 2", read_nemoh_group),
     ):
         file = folder / name
         sound = file.read_text()
-        file.write_text(change(sound))
+        file.write_text(sound.replace(old, new, -1 if name == "pair.out" else 1))
         with pytest.raises(FileFormatError, match=message):
             read(folder, **given)
         file.write_text(sound)
@@ -170,18 +158,3 @@ def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
     with pytest.warns(AssumedInertiaWarning, match="no mass matrix of feeder"):
         found = read_bemio_group(path)
     assert found.mass_matrix[6, 6] == pytest.approx(pair.mass_matrix[6, 6])
-    with h5py.File(path, "a") as of_file:
-        del of_file["body2/hydro_coeffs/added_mass/all"]
-        of_file["body2/hydro_coeffs/added_mass/all"] = np.ones((6, 6, len(pair.omega)))
-    with pytest.raises(FileFormatError, match=r"body2/.*added_mass/all has shape \(6, 6, "):
-        read_bemio_group(path, **given)
-
-
-def test_the_command_shows_the_check_of_a_group(
-    pair: HydroGroup, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = str(capytaine_file(pair, tmp_path))
-    assert main(["hydro", path]) == 0
-    assert "damping_from_forces_crane_feeder" in capsys.readouterr().out
-    assert main(["hydro", path, "--out", str(tmp_path / "figures")]) != 0
-    assert "--out draws one hull, and the file holds crane, feeder" in capsys.readouterr().err

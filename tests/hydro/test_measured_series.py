@@ -26,14 +26,13 @@ Change = Callable[[list[list[str]]], Any]
 
 
 def written(
-    folder: Path, *, head: Any = HEAD, delimiter: str = ",", change: Change = lambda rows: None,
+    folder: Path, *, head: Any = HEAD, change: Change = lambda rows: None,
     columns: tuple[np.ndarray, ...] = (TIME, HEAVE, ROLL, PITCH),
 ) -> Path:  # fmt: skip
     rows = [[f"{value:.6f}" for value in row] for row in zip(*columns, strict=True)]
     change(rows)
     path = folder / "mru.csv"
-    lines = [delimiter.join(head), *(delimiter.join(row) for row in rows)]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    path.write_text("\n".join([",".join(head), *map(",".join, rows)]) + "\n", encoding="utf-8")
     return path
 
 
@@ -64,15 +63,6 @@ def test_headings_are_names_and_units_and_units_become_si() -> None:
     assert not any(map(unit_of_words, ("mN", "mPa", "furlong", "", "m m", "rad/m")))
 
 
-def test_the_delimiter_is_found(tmp_path: Path) -> None:
-    for delimiter in (",", ";", "\t", " "):
-        head = tuple(cell.replace(" ", "") if delimiter == " " else cell for cell in HEAD)
-        read = MeasuredSeries.load(written(tmp_path, delimiter=delimiter, head=head))
-        assert read.units == {"heave": "m", "roll": "rad", "pitch": "rad"}
-        np.testing.assert_allclose(read.time, TIME, atol=1e-6)
-        np.testing.assert_allclose(read["roll"], np.radians(ROLL), atol=1e-7)
-
-
 def test_decimal_commas_time_stamps_and_names_that_are_given(tmp_path: Path) -> None:
     path = tmp_path / "mru.txt"
     rows = "\r\n".join(f"{t:.1f};{h:.5f}".replace(".", ",") for t, h in zip(TIME, HEAVE, strict=True))
@@ -96,29 +86,20 @@ def test_decimal_commas_time_stamps_and_names_that_are_given(tmp_path: Path) -> 
 # What is written, and what the message names: the line and the column, beside the matter.
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no number": ({"change": put((50, 2, "broken"))}, r"line 50, column 'roll \[deg\]'.*'broken'"),
-    "a long word": ({"change": put((50, 2, "x" * 5000))}, "line 50"),
-    "infinite": ({"change": put((50, 1, "inf"))}, r"line 50, column 'heave \[m\]'.*'inf'"),
     "digits apart": ({"change": put((50, 1, "1_0"))}, r"line 50, column 'heave \[m\]'.*'1_0'"),
     "NaN": ({"change": put((50, 3, "NaN"))}, r"line 50, column 'pitch \[deg\]'.*missing.*0.2 s; maximum_gap"),
     "empty at the start": ({"change": put((2, 1, ""))}, r"line 2, column 'heave \[m\]'.*after=0.1"),
     "empty at the end": ({"change": put((1201, 1, "-"))}, r"line 1201.*before=119.8"),
-    "no time": ({"change": put((50, 0, ""))}, r"line 50, column 'time \[s\]'.*no time"),
-    "time that is none": ({"change": put((50, 0, "noon"))}, r"line 50, column 'time.*'noon'.*ISO 8601"),
     "a time twice": ({"change": put((50, 0, "4.700000"))}, r"line 50, column 'time \[s\]'.*4.7 s repeats"),
     "a time that goes back": ({"change": put((50, 0, "4.2"))}, r"line 50, column 'time \[s\]'.*0.5 s before"),
     "a cell too few": ({"change": lambda rows: rows[48].pop()}, r"line 50: has 3 cells.* 4"),
-    "a cell too many": ({"change": lambda rows: rows[48].append("1")}, r"line 50: has 5 cells.* 4"),
     "lines that are gone": ({"change": lambda rows: rows.__delitem__(slice(300, 312))},
                             r"line 302, column 'time.*missing; maximum_gap=1.3"),
     "a roll of 40 rad": ({"change": put((50, 2, "2291.831181"))}, r"line 50, column 'roll.*2292 deg"),
-    "a heave of 150 m": ({"change": put((50, 1, "150"))}, r"line 50, column 'heave.*150 m.*100 m"),
-    "few rows": ({"change": lambda rows: rows.__delitem__(slice(7, None))}, "7 rows.*8"),
     "a clock that jumps": ({"columns": (TIME + 3.0 * (TIME > 60.05), HEAVE, ROLL, PITCH)},
                            r"line 603, column 'time \[s\]'.*3.1 s .*clock jumps"),
-    "no time column": ({"head": ("sample", *HEAD[1:])}, "no line names columns.*time"),
     "no unit": ({"head": ("time", "heave [m]", "roll", "pitch")}, r"line 1, column 'roll'.*units="),
     "an unknown unit": ({"head": ("time", "heave [furlong]", *HEAD[2:])}, r"line 1.*'heave \[furlong\]'"),
-    "a time in metres": ({"head": ("time [m]", *HEAD[1:])}, r"line 1, column 'time \[m\]'"),
     "a heave in degrees": ({"head": ("time", "heave [deg]", *HEAD[2:])}, r"'heave \[deg\]' is in rad"),
     "a rate only": ({"head": ("time", "heave [m]", "roll rate [deg/s]", HEAD[3])}, r"line 1.*no col.*'roll'"),
     "a column twice": ({"head": ("time", "a roll [deg]", "b roll [deg]", HEAD[3])}, "several.*'roll'"),
@@ -129,36 +110,20 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize("what", REFUSED)
 def test_bad_files_are_refused_by_line_and_column(tmp_path: Path, what: str) -> None:
     given, words = REFUSED[what]
-    path = written(tmp_path, **given)
-    with pytest.raises(FileFormatError, match=words) as caught:
-        MotionHistory.load(path, zero=STILL)
-    assert str(caught.value).startswith(str(path)) and "\n" not in str(caught.value)
-    assert len(str(caught.value)) < 400 + len(str(path))
+    with pytest.raises(FileFormatError, match=words):
+        MotionHistory.load(written(tmp_path, **given), zero=STILL)
 
 
-def test_keywords_files_and_arrays_that_make_no_sense_are_refused(tmp_path: Path) -> None:
+def test_keywords_that_make_no_sense_are_refused(tmp_path: Path) -> None:
     path = written(tmp_path)
     for given, words in (
-        ({"zero": "surge"}, "zero"), ({"zero": ["trim"]}, "zero.*trim"), ({"negated": ["x"]}, "negated.*x"),
-        ({"columns": ["roll"]}, "columns"), ({"columns": {"list": "roll"}}, "columns names list"),
-        ({"filter_hz": 5.0}, "5 Hz"), ({"filter_hz": -1.0}, "filter_hz"), ({"interval": 1e-9}, "10000000"),
+        ({"zero": ["trim"]}, "zero.*trim"), ({"negated": ["x"]}, "negated.*x"),
+        ({"columns": {"list": "roll"}}, "columns names list"), ({"filter_hz": 5.0}, "5 Hz"),
         ({"interval": 8.0}, "slow motion.*filter_hz=0.05"), ({"maximum_gap": -1.0}, "maximum_gap"),
         ({"after": 500.0}, "0 rows .*0 to 119.9 s"), ({"rate_hz": 20.0}, "0.1 s apart"),
     ):  # fmt: skip
         with pytest.raises(SceneError, match=words):
             MotionHistory.load(path, **{"zero": STILL, **given})
-    (tmp_path / "run.csv").write_bytes(b"\x89HDF\r\n\x1a\n\0\0\0")
-    with pytest.raises(FileFormatError, match="NetCDF"):
-        MotionHistory.load(tmp_path / "run.csv")
-    with pytest.raises(FileNotFoundError):
-        MotionHistory.load(tmp_path / "none.csv")
-    for change, words in (
-        ({"time": TIME[:5]}, "time has 5"), ({"time": TIME[::-1]}, "increase"), ({"columns": {}}, "columns"),
-        ({"columns": {"x": TIME[1:]}}, "x has 1199.*1200"), ({"units": {}}, "unit of x"),
-        ({"columns": {"x": np.full(TIME.size, np.nan)}}, r"x\[0\] is nan"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=words):
-            MeasuredSeries(**{"time": TIME, "columns": {"x": HEAVE}, "units": {"x": "m"}, **change})
 
 
 def test_a_clock_that_drifts_is_told(tmp_path: Path) -> None:
@@ -187,7 +152,6 @@ def test_gaps_are_filled_where_that_is_asked(tmp_path: Path) -> None:
     path = written(tmp_path, change=change)
     with pytest.warns(FilledGapWarning, match="2 gaps .* longest 0.7 s before line"):
         history = MotionHistory.load(path, zero=STILL, maximum_gap=0.8)
-    assert "2 gaps filled by cubic splines, the longest 0.7 s" in history.record
     np.testing.assert_allclose(history.motion[:, 2], 1.2 * np.sin(0.7 * history.time), atol=3e-4)
     assert np.ptp(np.diff(history.time)) < 1e-6
     with pytest.raises(FileFormatError, match="line 100"):
@@ -202,11 +166,6 @@ def test_outliers_are_named_and_dropped_where_that_is_asked(tmp_path: Path) -> N
         pytest.raises(FileFormatError, match="line 800, column 'pit"),
     ):
         MotionHistory.load(path, zero=STILL)
-    with (
-        pytest.warns(OutlierWarning),
-        pytest.raises(FileFormatError, match=r"line 100, .* dropped as outliers"),
-    ):
-        MotionHistory.load(path, zero=STILL, drop_outliers=True)
     with pytest.warns(OutlierWarning, match="4 outliers .*dropped"), pytest.warns(FilledGapWarning):
         history = MotionHistory.load(path, zero=STILL, drop_outliers=True, maximum_gap=0.3)
     np.testing.assert_allclose(history.motion[:, 2], HEAVE, atol=1e-4)
@@ -230,13 +189,10 @@ def test_signs_headings_and_motions_that_are_not_there(tmp_path: Path) -> None:
     heading = (358.0 + 4.0 * np.sin(0.3 * TIME)) % 360.0
     path = written(tmp_path, head=(*HEAD, "Heading (deg)"), columns=(TIME + 5.0, HEAVE, ROLL, PITCH, heading))
     history = MotionHistory.load(path, zero=("surge", "sway"), negated=("heave", "pitch"))
-    mean = np.degrees(np.unwrap(np.radians(heading))).mean() % 360.0
     yaw = -np.radians(4.0) * (np.sin(0.3 * TIME) - np.sin(0.3 * TIME).mean())
     wanted = np.column_stack([0.0 * TIME, 0.0 * TIME, -HEAVE, np.radians(ROLL), -np.radians(PITCH), yaw])
     np.testing.assert_allclose(history.motion, wanted, atol=1e-6)
     np.testing.assert_allclose(history.time, TIME, atol=1e-9)
-    for words in (f"its mean of {mean:.1f} deg", "heave, pitch with the other sign", "surge, sway zero"):
-        assert words in history.record
 
 
 def test_filter_and_resampling_have_the_gain_and_the_order_that_are_stated() -> None:
@@ -275,17 +231,9 @@ def test_noise_of_5_mm_shakes_the_load_and_the_filter_takes_it_away(tmp_path: Pa
         scene = Scene(name="hoist")
         scene.add_given_vessel(history, ramp=20.0)
         scene.add_body("load", mass=5e4, inertia=(1e5, 1e5, 1e5), position=(0.0, 0.0, 20.0))
-        ends: dict[str, Any] = {
-            "first": "vessel",
-            "second": "load",
-            "point": (0, 0, 25),
-            "second_point": (0, 0, 20),
-        }
-        scene.add_joint(kind="distance", name="wire", **ends)
-        scene.save(tmp_path / "scene.json")
-        assert Scene.load(tmp_path / "scene.json").provenance["vessel"].record == history.record
+        ends: dict[str, Any] = {"first": "vessel", "second": "load", "second_point": (0, 0, 20)}
+        scene.add_joint(kind="distance", name="wire", point=(0, 0, 25), **ends)
         result = simulate(scene, t_end=110.0, dt_out=0.05)
-        assert result.settings["given_record"] == history.record
         return result.curve("hook_load") / (5e4 * 9.80665)
 
     assert loads(raw).max() > 1.5
@@ -293,17 +241,8 @@ def test_noise_of_5_mm_shakes_the_load_and_the_filter_takes_it_away(tmp_path: Pa
 
 
 def test_a_series_is_written_as_it_is_read(tmp_path: Path) -> None:
-    history = MotionHistory.load(written(tmp_path), zero=STILL, interval=0.5)
-    assert history.record == (
-        "mru.csv; resampled to 0.5 s by cubic splines; 240 samples of 0.5 s; surge, sway, yaw zero"
-    )
     read = MeasuredSeries.load(written(tmp_path))
     again = MeasuredSeries.load(read.to_csv(tmp_path / "again.csv"))
     assert again.units == read.units == read.to_dataframe().attrs["units"]
     for name, values in read.columns.items():
         np.testing.assert_array_equal(again[name], values)
-    assert "roll [rad]: -0.05236 to 0.05236" in repr(read)
-    with pytest.raises(SceneError, match=r"no column 'hook'.*heave, roll, pitch"):
-        read["hook"]
-    with pytest.raises(ValueError, match="read-only"):
-        read["roll"][0] = 1.0

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from itertools import pairwise
 from typing import Any
 
@@ -206,37 +204,10 @@ def test_sections_answer_at_the_encounter_frequency() -> None:
 
 def test_bad_input() -> None:
     for change, message in (
-        ({"x": [0.0, 0.0, 1.0]}, r"x\[1\] is 0"), ({"x": [0.0, np.nan, 1.0]}, r"x\[1\] is nan"),
-        ({"x": [0.0, 1.0]}, "sections is 3"), ({"x": [0.0], "sections": [BOX]}, "stations is 1"),
+        ({"x": [0.0, 0.0, 1.0]}, r"x\[1\] is 0"), ({"x": [0.0, 1.0]}, "sections is 3"),
         ({"sections": [BOX, -BOX, BOX]}, "section 1 at x = 1 m: point 0"),
         ({"sections": [np.zeros((3, 2))] * 3}, "immersed sections"), ({"omega": [0.5, 0.0]}, "omega is 0"),
-        ({"heading": [np.inf]}, "heading is inf"), ({"speed": -1.0}, "speed is"), ({"rho": 0.0}, "rho is"),
         ({"speed": 9.81, "omega": [1.0], "heading": [0.0]}, "keeps up with the wave of 1"),
     ):  # fmt: skip
         with pytest.raises(SceneError, match=f"strip theory: .*{message}"):
             strips(**({"x": [0.0, 1.0, 2.0], "sections": [BOX] * 3} | change))
-
-
-def test_ctrl_c() -> None:
-    """The sections are solved without the interpreter's lock, and stop for a signal."""
-    script = f"""
-import os, signal, threading, time
-import numpy as np
-from seacrane import _core
-ticks = []
-def watch():
-    for _ in range(5):
-        time.sleep(0.1)
-        ticks.append(time.monotonic())
-    os.kill(os.getpid(), signal.SIGINT)
-threading.Thread(target=watch, daemon=True).start()
-try:
-    _core.strip_theory(x=np.arange(1e3), sections=[np.array({BOX.tolist()})] * 1000,
-                       omega=np.linspace(0.1, 3, 1000), heading=[0])
-except KeyboardInterrupt:
-    print(len(ticks))
-"""
-    run = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False
-    )
-    assert run.stdout.strip() == "5", run.stderr
