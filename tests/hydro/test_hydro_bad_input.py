@@ -54,17 +54,6 @@ def saved(database: HydroDatabase, folder: Path) -> HydroDatabase:
     return load_database(folder / "hull.nc")
 
 
-@pytest.mark.slow("real ships")
-def test_good_data_are_silent(shared: Path) -> None:
-    with silence():
-        load_database(shared / "veres" / "supply")
-        tanker = load_database(shared / "wamit")
-        damped_tanker = dataclasses.replace(tanker, linear_damping=np.diag([0, 0, 0, 1e8, 0, 0]))
-        vessel_parameters(shipped_database())
-        for kind in ("by-motion", "per-pair", "passive"):
-            vessel_parameters(damped_tanker, memory=fit_memory(database=tanker, kind=kind))
-
-
 def test_infinite_frequency_added_mass_that_is_not_there() -> None:
     database = hull(infinite_frequency_added_mass=None)
     with pytest.warns(InfiniteFrequencyWarning, match=r"3.1 rad/s"):

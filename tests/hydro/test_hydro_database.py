@@ -67,17 +67,6 @@ def test_headings_wrap_and_mirror() -> None:
         assert np.all(np.abs(database.force_at(omega, -heading) - PARITY * force) < 1e-9 * size)
 
 
-def test_wide_gaps_between_headings_are_not_interpolated() -> None:
-    base, beam = small(), np.pi / 2.0
-    sparse = dataclasses.replace(base, heading=base.heading[[0, 3]], force=base.force[[0, 3]])
-    assert sparse.force_at(1.0, beam) == pytest.approx(base.force_at(1.0, beam))
-    assert sparse.force_at(1.0, -beam) == pytest.approx(PARITY * base.force_at(1.0, beam))
-    with pytest.raises(ValueError, match="heading 45 deg"):
-        sparse.force_at(1.0, np.pi / 4.0)
-    with pytest.raises(ValueError, match="heading -30 deg"):  # a vessel without symmetry is not mirrored
-        small(port_starboard_symmetric=False).force_at(1.0, -np.pi / 6.0)
-
-
 def test_bad_input_names_the_object() -> None:
     table: list[tuple[dict[str, Any], str]] = [
         ({"omega": np.linspace(2.4, 0.2, 12)}, "omega is not strictly increasing"),

@@ -18,28 +18,17 @@ from seacrane.warnings import AssumedDensityWarning, AssumedInertiaWarning
 CENTRE = np.array([3.0, 0.0, -2.0])  # of the rotations, from the origin of the mesh
 
 RADIATION, WAVES, CONTROL = "results/RadiationCoefficients.tec", "results/ExcitationForce.tec", "Nemoh.cal"
-DAMAGE: list[tuple[str, Callable[[str], str] | None, str]] = [
-    ("mesh/KH.dat", None, "KH.dat: no such file"), ("mesh/KH.dat", lambda text: text[:200], "six rows"),
-    ("mesh/KH.dat", lambda text: text.replace("E", "x", 1), "are no numbers"),
+DAMAGE: list[tuple[str, Callable[[str], str], str]] = [
+    ("mesh/KH.dat", lambda text: text[:200], "six rows"),
     ("mesh/Hydrostatics.dat", lambda text: text[:40], "no centre of gravity"),
-    ("mesh/Hydrostatics.dat", lambda text: text.replace("Displacement = ", "Displacement = -"), "positive"),
-    (RADIATION, lambda text: "", "no numbers"),
     (RADIATION, lambda text: text[:-30], "omega and two for each of six"),
     (RADIATION, lambda text: text[: text.rindex("Zone")], "5 degrees of freedom"),
     (RADIATION, lambda text: text.rstrip().rpartition("\n")[0] + "\n", "other frequencies"),
-    (RADIATION, lambda text: text.replace("E+0", "E+999", 1), "not all finite"),
     (WAVES, lambda text: text.replace("beta", "wave", 1), "no wave direction"),
-    (WAVES, lambda text: text.replace(line_of(text), "", 1), "other frequencies"),
-    (CONTROL, lambda text: text.replace("1025.0", "-1025.0"), "density -1025"),
     (CONTROL, lambda text: text.replace("1 ! Number", "2 ! Number"), "2 bodies with 6"),
     (CONTROL, lambda text: text.replace("9.81", ""), "does not begin with density"),
     (CONTROL, lambda text: text.replace("-2.0 !", "-1.0 !", 1), "turn about 2 points"),
 ]  # fmt: skip
-
-
-def line_of(text: str) -> str:
-    """The first line of numbers."""
-    return next(line + "\n" for line in text.splitlines() if line[:1].isdigit())
 
 
 def shipped_part() -> HydroDatabase:
@@ -47,18 +36,12 @@ def shipped_part() -> HydroDatabase:
     return shipped_database().select(every=8, every_heading=6)
 
 
-def control(turn: np.ndarray, depth: float = 0.0, bodies: int = 1) -> str:
+def control(turn: np.ndarray, depth: float = 0.0) -> str:
     """``Nemoh.cal``."""
     motions = [f"1 {x} {y} {z} 0. 0. 0. ! translation" for x, y, z in np.eye(3)]
     motions += [f"2 {x} {y} {z} {turn[0]} {turn[1]} {turn[2]} ! rotation" for x, y, z in np.eye(3)]
     head = ["--- Environment ---", "1025.0 ! RHO", "9.81 ! G", f"{depth} ! DEPTH", "0. 0. ! XEFF YEFF"]
-    body = [
-        "--- Bodies ---",
-        f"{bodies} ! Number of bodies",
-        "--- Body 1 ---",
-        "ship.dat ! Mesh",
-        "540 300 !",
-    ]
+    body = ["--- Bodies ---", "1 ! Number of bodies", "--- Body 1 ---", "ship.dat ! Mesh", "540 300 !"]
     return "\n".join([*head, *body, "6 ! Degrees of freedom", *motions, "6 ! Forces", *motions, "0 !"]) + "\n"
 
 
@@ -141,9 +124,7 @@ def test_damage_is_named(tmp_path: Path) -> None:
     write_project(base, folder)
     for file, change, message in DAMAGE:
         text = (folder / file).read_text()
-        (folder / file).unlink()
-        if change is not None:
-            (folder / file).write_text(change(text))
+        (folder / file).write_text(change(text))
         with pytest.raises(FileFormatError, match=message):
             read_nemoh(folder, mass_matrix=base.mass_matrix)
         (folder / file).write_text(text)

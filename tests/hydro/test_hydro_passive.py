@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Scene, simulate
+from seacrane import simulate
 from seacrane.cases import case1
 from seacrane.errors import PassivityError
 from seacrane.hydro import (
@@ -200,17 +200,6 @@ def test_a_weak_pair_is_judged_by_the_motions() -> None:
     row = next(row for row in model.rows if (row.output, row.input) == (0, 2))
     assert row.r2_damping < 0.9 and row.accepted
     assert all(row.accepted for row in model.rows)
-
-
-def test_saved_and_loaded_without_loss(hull: MemoryModel, tmp_path: Path) -> None:
-    dataclasses.replace(shipped_database(), memory=hull).save(tmp_path / "ship.nc")
-    own = load_database(tmp_path / "ship.nc")
-    assert passivity_certificate(own.memory) == passivity_certificate(hull)
-    assert own.memory.rows == hull.rows
-    for kind, states in (("passive", hull.states), ("per-pair", shipped_database().memory.states)):
-        scene = Scene(name=kind)
-        scene.add_vessel(own, memory=kind)
-        assert scene.compile().memory_states == states
 
 
 def test_runs_stay_close_to_the_per_pair_model() -> None:

@@ -36,12 +36,6 @@ def closure(database: HydroDatabase) -> dict[str, float]:
     return {row.check: row.value for row in database.check() if row.check.startswith("motion_rao")}
 
 
-@pytest.fixture(scope="module")
-def moving(tmp_path_factory: pytest.TempPathFactory) -> HydroDatabase:
-    """A ship at 5 m/s."""
-    return read_veres(VeresRun(speeds=(5.0,)).write(tmp_path_factory.mktemp("moving")))
-
-
 def written(folder: Path, *speeds: float, count: int = 5, **leave_out: list[float]) -> Path:
     run = VeresRun(speeds=speeds, omega=np.linspace(0.2, 2.4, count))
     return run.write(folder, leave_out={f".{suffix}": values for suffix, values in leave_out.items()})
@@ -51,13 +45,11 @@ def written(folder: Path, *speeds: float, count: int = 5, **leave_out: list[floa
 def test_one_of_several_speeds_is_read(tmp_path: Path) -> None:
     stem = written(tmp_path, 4.0, -1.0, 8.0, count=9)
     assert available_speeds(stem) == available_speeds(tmp_path) == (-1.0, 4.0, 8.0)
-    with pytest.warns(SeveralSpeedsWarning, match=r"speeds -1, 4, 8 m/s; -1 m/s is read") as caught:
-        assert seacrane.load_database(stem).speed == -1.0
-    assert caught[0].filename == __file__  # the caller's line, not one of ours
+    with pytest.warns(SeveralSpeedsWarning, match=r"speeds -1, 4, 8 m/s; -1 m/s is read"):
+        assert load_database(stem).speed == -1.0
     written(tmp_path, 0.0, 4.0)
-    for speed in (3.0, float("nan")):
-        with pytest.raises(FileFormatError, match=rf"no speed {speed:g} m/s; the files hold 0, 4 m/s"):
-            load_database(stem, speed=speed)
+    with pytest.raises(FileFormatError, match="no speed 3 m/s; the files hold 0, 4 m/s"):
+        load_database(stem, speed=3.0)
     written(tmp_path, 0.0, 4.0, 8.0, re8=[8.0], re2=[0.0])
     with pytest.warns(PartialSetWarning, match=r"speeds 0, 8 m/s are not in every file .* ones, 4 m/s"):
         assert load_database(stem).speed == 4.0
@@ -65,10 +57,6 @@ def test_one_of_several_speeds_is_read(tmp_path: Path) -> None:
     written(tmp_path, 0.0, 5.1444446, 10.288889, re7=[5.1444446, 10.288889])
     with pytest.warns(PartialSetWarning, match=r"speeds 5\.14444, 10\.2889 m/s are not in every file"):
         assert load_database(stem).speed == 0.0
-    assert available_speeds(stem) == (0.0,)
-    written(tmp_path, 0.0, 4.0, 8.0, re8=[0.0, 8.0], re7=[4.0])
-    with pytest.raises(FileFormatError, match=r"no speed is in every file \(box.re7: 0, 8 m/s; box.re8: 4"):
-        load_database(stem)
     written(tmp_path, 4.0, 4.0)
     with pytest.raises(FileFormatError, match=r"box\.re7: speed 4 m/s is given twice"):
         load_database(stem)
@@ -118,7 +106,8 @@ def test_motions_close_at_speed(speed: float, tmp_path: Path) -> None:
             assert closure(dataclasses.replace(database, speed=other))["motion_rao_heave"] > 0.1
 
 
-def test_what_forward_speed_leaves_unknown_or_forbids(moving: HydroDatabase) -> None:
+def test_what_forward_speed_leaves_unknown_or_forbids(tmp_path: Path) -> None:
+    moving = read_veres(VeresRun(speeds=(5.0,)).write(tmp_path))
     solved, encounter = motion_response(moving), np.abs(encounter_frequency(moving))
     outside = (encounter > moving.omega[-1] * (1 + 1e-9)) | (encounter < moving.omega[0] * (1 - 1e-9))
     assert 0.1 < outside.mean() < 0.5
@@ -159,12 +148,3 @@ def test_headings_that_disagree_or_leave_a_range_out_are_named(tmp_path: Path) -
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         read_veres(VeresRun(speeds=(5.0,), heading_error=0.001).write(tmp_path))
-
-
-def test_saved_and_read_back(moving: HydroDatabase, tmp_path: Path) -> None:
-    moving.save(tmp_path / "moving.nc")
-    assert available_speeds(tmp_path / "moving.nc") == (5.0,)
-    again = load_database(tmp_path / "moving.nc", speed=5.0)
-    assert np.array_equal(motion_response(again), motion_response(moving), equal_nan=True)
-    with pytest.raises(FileFormatError, match="of 5 m/s, not of speed 0 m/s"):
-        load_database(tmp_path / "moving.nc", speed=0.0)

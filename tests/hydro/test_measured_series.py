@@ -1,21 +1,29 @@
-"""Measured series: what is read of a file, what is refused by line and column, and what is done to it."""
+"""Measured series and hindcasts: what is read of a file, what is refused by line, clocks, masked values."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from contextlib import nullcontext
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import MotionHistory, Scene, simulate
+from seacrane import MotionHistory
 from seacrane.errors import FileFormatError, SceneError
+from seacrane.operability import WaveHindcast
+from seacrane.sea import MeasuredWaves
 from seacrane.series.headings import heading_of, unit_of_words
-from seacrane.statistics import MeasuredSeries
-from seacrane.warnings import ClockDriftWarning, FilledGapWarning, NoisyMotionWarning, OutlierWarning
+from seacrane.statistics import MeasuredSeries, interpolated, record_extremes
+from seacrane.warnings import (
+    ClockDriftWarning,
+    FilledGapWarning,
+    NoisyMotionWarning,
+    OutlierWarning,
+    PoorFitWarning,
+)
 
 TIME = np.arange(0.0, 120.0, 0.1)
 HEAVE, ROLL, PITCH = 1.2 * np.sin(0.7 * TIME), 3.0 * np.sin(0.6 * TIME + 1.0), 1.5 * np.sin(0.65 * TIME)
@@ -128,13 +136,9 @@ def test_keywords_that_make_no_sense_are_refused(tmp_path: Path) -> None:
 
 def test_a_clock_that_drifts_is_told(tmp_path: Path) -> None:
     """By the nominal rate, and by a second clock: 4 ms in a second make 0.48 s, more than a sample."""
-    for gain, words in (
-        (0.0, ""),
-        (4e-3, r"gains \+[34]\d{3} us in a second .* 10 Hz"),
-        (-4e-3, r"gains -[34]\d{3}"),
-    ):
+    for gain, words in ((4e-3, r"gains \+[34]\d{3} us in a second .* 10 Hz"), (-4e-3, r"gains -[34]\d{3}")):
         columns = ((1.0 + gain) * TIME, HEAVE, ROLL, PITCH)
-        with pytest.warns(ClockDriftWarning, match=words) if gain else nullcontext():
+        with pytest.warns(ClockDriftWarning, match=words):
             MotionHistory.load(written(tmp_path, columns=columns), zero=STILL, rate_hz=10.0)
     two = written(tmp_path, head=(*HEAD, "GPS time"), columns=(*columns, 7e4 + TIME))
     with pytest.warns(ClockDriftWarning, match="on column 'GPS time'"):
@@ -215,11 +219,19 @@ def test_filter_and_resampling_have_the_gain_and_the_order_that_are_stated() -> 
     assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.15)
 
 
-def test_noise_of_5_mm_shakes_the_load_and_the_filter_takes_it_away(tmp_path: Path) -> None:
+def test_a_series_is_written_as_it_is_read(tmp_path: Path) -> None:
+    read = MeasuredSeries.load(written(tmp_path))
+    again = MeasuredSeries.load(read.to_csv(tmp_path / "again.csv"))
+    assert again.units == read.units == read.to_dataframe().attrs["units"]
+    for name, values in read.columns.items():
+        np.testing.assert_array_equal(again[name], values)
+
+
+def test_noise_of_5_mm_is_told_and_the_filter_takes_it_away(tmp_path: Path) -> None:
     random = np.random.default_rng(1)
     path = written(tmp_path, columns=(TIME, HEAVE + random.normal(0.0, 5e-3, TIME.size), ROLL, PITCH))
     with pytest.warns(NoisyMotionWarning, match="filter_hz=0.5"):
-        raw = MotionHistory.load(path, zero=STILL)
+        MotionHistory.load(path, zero=STILL)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         clean = MotionHistory.load(path, zero=STILL, filter_hz=0.5, interval=0.2)
@@ -227,22 +239,86 @@ def test_noise_of_5_mm_shakes_the_load_and_the_filter_takes_it_away(tmp_path: Pa
     error = clean.motion[:, 2] - 1.2 * np.sin(0.7 * clean.time)
     assert error[inner].std() == pytest.approx(5e-3 * np.sqrt(2 * 0.5 / 10.0), rel=0.25)
 
-    def loads(history: MotionHistory) -> np.ndarray:
-        scene = Scene(name="hoist")
-        scene.add_given_vessel(history, ramp=20.0)
-        scene.add_body("load", mass=5e4, inertia=(1e5, 1e5, 1e5), position=(0.0, 0.0, 20.0))
-        ends: dict[str, Any] = {"first": "vessel", "second": "load", "second_point": (0, 0, 20)}
-        scene.add_joint(kind="distance", name="wire", point=(0, 0, 25), **ends)
-        result = simulate(scene, t_end=110.0, dt_out=0.05)
-        return result.curve("hook_load") / (5e4 * 9.80665)
 
-    assert loads(raw).max() > 1.5
-    assert loads(clean).max() == pytest.approx(1.0 + 1.2 * 0.49 / 9.80665, abs=0.02)
+START = datetime(2020, 1, 1, tzinfo=UTC)
+HOURS = [START + timedelta(hours=i) for i in range(48)]
+STAMPS = {unit: [f"{one.timestamp() * factor:.0f}" for one in HOURS]
+          for unit, factor in (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9))}  # fmt: skip
+STAMPS |= {
+    form: [f"{one:{form}}" for one in HOURS] for form in ("%Y%m%d%H", "%Y%m%d%H%M", "%Y-%m-%dT%H:%M:%S")
+}
 
 
-def test_a_series_is_written_as_it_is_read(tmp_path: Path) -> None:
-    read = MeasuredSeries.load(written(tmp_path))
-    again = MeasuredSeries.load(read.to_csv(tmp_path / "again.csv"))
-    assert again.units == read.units == read.to_dataframe().attrs["units"]
-    for name, values in read.columns.items():
-        np.testing.assert_array_equal(again[name], values)
+def hindcast(stamps: list[str], path: Path, *, delimiter: str = ",", comma: bool = False) -> Path:
+    rows = [delimiter.join(["time", "hs", "tp"])]
+    for i, stamp in enumerate(stamps):
+        hs = f"{1.0 + 0.1 * (i % 7):.1f}"
+        rows.append(delimiter.join([stamp, hs.replace(".", ",") if comma else hs, "8"]))
+    path.write_text("\n".join(rows) + "\n", encoding="latin-1")
+    return path
+
+
+def test_a_hindcast_by_any_clock(tmp_path: Path) -> None:
+    path = tmp_path / "site.csv"
+    for kind, stamps in STAMPS.items():
+        found = WaveHindcast.load(hindcast(stamps, path))
+        assert found.time[0] == np.datetime64("2020-01-01T00:00:00") and found.step_hours == 1.0
+        if "%" not in kind:
+            again = WaveHindcast(time=np.array(stamps, dtype=np.int64), hs=found.hs, tp=found.tp)
+            assert np.array_equal(again.time, found.time)
+    # Numbers that count from nothing known are asked for.
+    for stamps in ([f"{i}" for i in range(48)], [f"{43831 + i / 24:.5f}" for i in range(48)]):
+        with pytest.raises(FileFormatError, match=r"site\.csv: time begins with .*give dates"):
+            WaveHindcast.load(hindcast(stamps, path))
+
+
+def test_a_hindcast_of_any_spreadsheet(tmp_path: Path) -> None:
+    dates = STAMPS["%Y-%m-%dT%H:%M:%S"]
+    for delimiter, comma in ((";", True), (";", False), ("\t", True), (",", False)):
+        path = hindcast(dates, tmp_path / "site.csv", delimiter=delimiter, comma=comma)
+        assert WaveHindcast.load(path).hs[3] == pytest.approx(1.3)
+        path.write_bytes(path.read_bytes().replace(b"time", "Zeit f\xfcr S\xfcd".encode("latin-1"), 1))
+        assert WaveHindcast.load(path, names={"time": "Zeit für Süd"}).hs[3] == pytest.approx(1.3)
+    hs = np.ma.masked_equal([1.0, -99.0, 1.2], -99.0)
+    assert WaveHindcast(time=dates[:3], hs=hs, tp=np.full(3, 8.0)).known.tolist() == [True, False, True]
+
+
+def test_the_clock_of_a_logger(tmp_path: Path) -> None:
+    """That counts since 1970, or whole numbers far apart, which are asked for."""
+    path = tmp_path / "log.csv"
+
+    def load(times: np.ndarray, header: str = "time", **given: Any) -> float:
+        rows = [f"{t:.1f},{0.1 * np.cos(0.05 * i):.6f}" for i, t in enumerate(times)]
+        path.write_text("\n".join([f"{header},heave [m]", *rows]) + "\n")
+        return MeasuredSeries.load(path, **given).interval
+
+    for one in (1.0, 1e3, 1e6):
+        times = np.round((START.timestamp() + 0.5 * np.arange(200)) * one, 1)
+        assert load(times) == pytest.approx(0.5, rel=1e-6)
+        if one == 1e3:
+            with pytest.raises(FileFormatError, match=r"unit 's', .* are ms since 1970"):
+                load(times, "time [s]")
+    with pytest.raises(FileFormatError, match="50 apart: s, or ms"):
+        load(50.0 * np.arange(100))
+    assert load(50.0 * np.arange(100), units={"time": "ms"}) == pytest.approx(0.05)
+    assert load(np.arange(100.0)) == 1.0
+    assert load(50.0 * np.arange(100), "time [s]") == 50.0
+
+
+def test_masked_values_are_refused_and_may_be_interpolated_and_few_extremes_told() -> None:
+    time = np.arange(0.0, 600.0, 0.5)
+    wave = np.cos(0.7 * time)
+    hidden = np.where((time > 99.0) & (time < 101.0), -99.0, wave)
+    masked = np.ma.masked_equal(hidden, -99.0)
+    with pytest.raises(SceneError, match=r"3 masked values, the first at \[199\]; .*interpolated"):
+        MeasuredWaves(time=time, elevation=masked, direction_deg=180.0)
+    with pytest.raises(SceneError, match="masked values"):
+        MeasuredSeries(time=time, columns={"wave": masked}, units={"wave": "m"})
+    assert np.abs(interpolated(time, masked) - wave).max() < 0.02
+    draw, tension = np.random.default_rng(3), np.zeros(21_600)
+    tension[draw.integers(0, tension.size, 12)] = 8e5
+    with pytest.raises(SceneError, match="too few for a largest value"):
+        record_extremes(tension, interval=0.5)
+    tension[draw.integers(0, tension.size, 60)] = 8e5
+    with pytest.warns(PoorFitWarning, match="too few for peaks over a threshold"):
+        record_extremes(tension, interval=0.5)

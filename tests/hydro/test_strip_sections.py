@@ -126,11 +126,9 @@ def test_a_stem_is_a_plate_in_sway_a_point_is_nothing_and_all_scales_with_size()
 
 def test_bad_sections() -> None:
     for points, message in (
-        ([[5, 0], [0, -5]], "2 points"), ([[5, 0], [5, np.nan], [0, -5]], "point 1 .* not finite"),
-        ([[5, -1], [5, -3], [0, -5]], "point 0"), ([[0, -5], [5, -5], [5, 0]], "point 0"),
+        ([[5, 0], [5, np.nan], [0, -5]], "point 1 .* not finite"), ([[5, -1], [5, -3], [0, -5]], "point 0"),
         ([[5, 0], [5, -3], [1, -5]], "point 2"), ([[5, 0], [-1, -3], [0, -5]], "point 1 .* crossed"),
-        ([[5, 0], [5, 0.2], [5, -3], [0, -5]], "point 1 .* above"), ([[5, 0], [5, 0], [0, 0]], "again"),
-        ([[5, 0], [2, 0], [2, -3], [0, -5]], "point 1 .* waterline again"),
+        ([[5, 0], [5, 0.2], [5, -3], [0, -5]], "point 1 .* above"),
         ([[5, 0], [1, -4], [5, -4], [1, -1], [0, -5]], "crosses the side"),
         ([[5, 0], [5, -4], [5, -2], [0, -5]], "turns back"),
     ):  # fmt: skip
@@ -141,9 +139,3 @@ def test_bad_sections() -> None:
     with pytest.raises(SceneError, match=r"damping .* 20 panels are too few"):
         solved(slot, [1.0], panels=20)
     assert diagonal(solved(slot, [1.0], panels=300)["damping"]).min() > 0.0
-    for omega, options, message in (
-        ([0.0], {}, "omega is .* above"), ([np.nan], {}, "omega is"), ([1.0], {"panels": 7}, "panels is"),
-        ([[1.0]], {}, "omega has 2 dimensions"),
-    ):  # fmt: skip
-        with pytest.raises(ValueError, match=message):
-            solved(RECTANGLE, omega, **options)

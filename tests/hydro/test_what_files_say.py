@@ -15,7 +15,6 @@ from orcaflex_writer import write as write_model
 from test_hydro_bemio import bemio_values, written
 from test_hydro_capytaine import OMEGA, in_file, layout
 
-from seacrane import Scene
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
@@ -237,31 +236,3 @@ def test_placeholder_masses_are_asked_for(mass: Any, tmp_path: Path) -> None:
     tiny = (("influenced_dof", "radiating_dof"), np.eye(6))
     with pytest.raises(FileFormatError, match=r"mass is 1 kg, .* placeholder"):
         read_capytaine(capytaine(of_capytaine(), tmp_path, inertia_matrix=tiny))
-
-
-def test_rows_of_round_off_are_no_damage(tmp_path: Path) -> None:
-    path = wamit(BASE, tmp_path) / "ship.3"
-    lines = path.read_text().splitlines()
-    head = " ".join(lines[1].split()[:3])
-    for share in (1e-8, 1e-2):
-        size = share * float(np.abs(BASE.force[..., :3]).max() / BASE.rho / BASE.g)
-        lines[1] = f"{head} {size:.6E} 90.0 {size:.6E} {-size:.6E}"
-        path.write_text("\n".join(lines) + "\n")
-        if share == 1e-8:
-            read_wamit_set(tmp_path)
-    with pytest.raises(FileFormatError, match="the line is damaged"):
-        read_wamit_set(tmp_path)
-
-
-def test_a_round_body_has_no_yaw_of_the_water(recwarn: pytest.WarningsRecorder) -> None:
-    """Added mass and damping of yaw are round-off of either sign: taken, and not said to add energy."""
-    base, tables = shipped_database(), {}
-    for name, share in (("added_mass", 1e-8), ("infinite_frequency_added_mass", 1e-8), ("damping", 1e-9)):
-        tables[name] = getattr(base, name).copy()
-        tables[name][..., 5, :], tables[name][..., 5] = 0.0, 0.0
-        tables[name][..., 5, 5] = -share * base.mass_matrix[5, 5]
-    force = base.force * np.array([1, 1, 1, 1, 1, 0])
-    scene = Scene(name="spar")
-    scene.add_vessel(replace(base, memory=None, zero_frequency_added_mass=None, force=force, **tables))
-    scene.compile()
-    assert not [one for one in recwarn if "energy" in str(one.message)]
