@@ -89,29 +89,6 @@ def test_port_starboard_symmetry_and_missing_surge() -> None:
     assert all(row.r2_added_mass > 0.98 and row.r2_damping > 0.98 for row in memory.rows), memory.rows
 
 
-def test_offsets_mesh_and_parametric_hull_give_one_database() -> None:
-    shape = ParametricHull(
-        length=60.0, breadth=14.0, draught=4.0, entrance_length=24.0, run_length=20.0,
-        transom_breadth_fraction=0.8, transom_draught_fraction=0.5, section_exponent=4.0,
-    )  # fmt: skip
-    parametric = Hull.from_parametric(shape, stations=48, girth=24)
-    x = np.linspace(0.0, 60.0, 49)
-    table = OffsetTable(x=x, sections=tuple(shape.section(float(v), 20) for v in x))
-    panels = parametric.panels
-    mesh = Hull.from_mesh(vertices=panels.reshape(-1, 3), faces=np.arange(4 * len(panels)).reshape(-1, 4))
-    grid: dict[str, Any] = {"omega": np.linspace(0.4, 2.4, 6), "heading": np.radians([90.0, 135.0, 180.0])}
-    centre = [float(parametric.hydrostatics.center_of_buoyancy[0]), 0.0, 0.0]
-    one, other, third = (
-        hydro_from_hull(hull, center_of_gravity=centre, **grid)
-        for hull in (parametric, Hull.from_offsets(table), mesh)
-    )
-    for name in ("added_mass", "damping", "force", "infinite_frequency_added_mass"):
-        a, b, c = (np.asarray(getattr(d, name)) for d in (one, other, third))
-        scale = np.abs(a).reshape(-1, a.shape[-1]).max(axis=0)
-        np.testing.assert_array_less(np.abs(c - a) / np.where(scale > 0, scale, 1.0), 1e-6)
-        np.testing.assert_array_less(np.abs(b - a) / np.where(scale > 0, scale, 1.0), 0.02)
-
-
 SMALL: dict[str, Any] = {"center_of_gravity": [0.0, 0.0, -1.0], "omega": [0.5, 1.0], "heading": [0.0, 1.5]}
 
 
@@ -216,8 +193,7 @@ def test_a_mesh_is_checked_when_asked_for_and_named_when_it_has_not_converged(
     given: dict[str, Any] = {"center_of_gravity": (0, 0, -2), "omega": [0.5, 0.8], "heading": [0.0, 3.1]}
     with warnings.catch_warnings():
         warnings.simplefilter("error", MeshConvergenceWarning)
-        plain, checked = (hydro_from_hull(hull, check=check, **given) for check in (False, True))
-    assert np.array_equal(plain.added_mass, checked.added_mass)
+        hydro_from_hull(hull, check=True, **given)
     solve = hull_database.strip_solution
 
     def off(hull: Hull, **given: Any) -> HullSolution:

@@ -101,9 +101,6 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "a time twice": ({"change": put((50, 0, "4.700000"))}, r"line 50, column 'time \[s\]'.*4.7 s repeats"),
     "a time that goes back": ({"change": put((50, 0, "4.2"))}, r"line 50, column 'time \[s\]'.*0.5 s before"),
     "a cell too few": ({"change": lambda rows: rows[48].pop()}, r"line 50: has 3 cells.* 4"),
-    "lines that are gone": ({"change": lambda rows: rows.__delitem__(slice(300, 312))},
-                            r"line 302, column 'time.*missing; maximum_gap=1.3"),
-    "a roll of 40 rad": ({"change": put((50, 2, "2291.831181"))}, r"line 50, column 'roll.*2292 deg"),
     "a clock that jumps": ({"columns": (TIME + 3.0 * (TIME > 60.05), HEAVE, ROLL, PITCH)},
                            r"line 603, column 'time \[s\]'.*3.1 s .*clock jumps"),
     "no unit": ({"head": ("time", "heave [m]", "roll", "pitch")}, r"line 1, column 'roll'.*units="),
@@ -174,19 +171,6 @@ def test_outliers_are_named_and_dropped_where_that_is_asked(tmp_path: Path) -> N
         history = MotionHistory.load(path, zero=STILL, drop_outliers=True, maximum_gap=0.3)
     np.testing.assert_allclose(history.motion[:, 2], HEAVE, atol=1e-4)
     np.testing.assert_allclose(history.motion[:, 3:5], np.radians([ROLL, PITCH]).T, atol=1e-4)
-
-
-def test_sound_motions_have_no_outliers(tmp_path: Path) -> None:
-    """A random sea of ship's periods, sampled at 10, 4 and 2 Hz, and a decay."""
-    random = np.random.default_rng(5)
-    omega, phase = np.linspace(0.3, 1.6, 80), random.uniform(0.0, 2.0 * np.pi, 80)
-    for step in (0.1, 0.25, 0.5):
-        time = np.arange(0.0, 600.0, step)
-        sea = 0.2 * np.cos(np.outer(time, omega) + phase).sum(axis=1)
-        decay = 0.2 * np.exp(-0.01 * time) * np.cos(0.5 * time)
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            MeasuredSeries.load(written(tmp_path, head=("t", "a [m]", "b [m]"), columns=(time, sea, decay)))
 
 
 def test_signs_headings_and_motions_that_are_not_there(tmp_path: Path) -> None:
@@ -295,26 +279,24 @@ def test_the_clock_of_a_logger(tmp_path: Path) -> None:
     for one in (1.0, 1e3, 1e6):
         times = np.round((START.timestamp() + 0.5 * np.arange(200)) * one, 1)
         assert load(times) == pytest.approx(0.5, rel=1e-6)
-        if one == 1e3:
-            with pytest.raises(FileFormatError, match=r"unit 's', .* are ms since 1970"):
-                load(times, "time [s]")
     with pytest.raises(FileFormatError, match="50 apart: s, or ms"):
         load(50.0 * np.arange(100))
     assert load(50.0 * np.arange(100), units={"time": "ms"}) == pytest.approx(0.05)
-    assert load(np.arange(100.0)) == 1.0
     assert load(50.0 * np.arange(100), "time [s]") == 50.0
 
 
-def test_masked_values_are_refused_and_may_be_interpolated_and_few_extremes_told() -> None:
+def test_masked_values_are_refused_and_may_be_interpolated() -> None:
     time = np.arange(0.0, 600.0, 0.5)
     wave = np.cos(0.7 * time)
-    hidden = np.where((time > 99.0) & (time < 101.0), -99.0, wave)
-    masked = np.ma.masked_equal(hidden, -99.0)
+    masked = np.ma.masked_equal(np.where((time > 99.0) & (time < 101.0), -99.0, wave), -99.0)
     with pytest.raises(SceneError, match=r"3 masked values, the first at \[199\]; .*interpolated"):
         MeasuredWaves(time=time, elevation=masked, direction_deg=180.0)
     with pytest.raises(SceneError, match="masked values"):
         MeasuredSeries(time=time, columns={"wave": masked}, units={"wave": "m"})
     assert np.abs(interpolated(time, masked) - wave).max() < 0.02
+
+
+def test_too_few_extremes_are_told() -> None:
     draw, tension = np.random.default_rng(3), np.zeros(21_600)
     tension[draw.integers(0, tension.size, 12)] = 8e5
     with pytest.raises(SceneError, match="too few for a largest value"):

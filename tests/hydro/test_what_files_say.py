@@ -12,8 +12,8 @@ import pytest
 import test_hydro_nemoh
 from orcaflex_writer import hull_part, model
 from orcaflex_writer import write as write_model
-from test_hydro_bemio import bemio_values, written
 from test_hydro_capytaine import OMEGA, in_file, layout
+from test_hydro_nemoh import bemio_values, written
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
@@ -26,9 +26,8 @@ from seacrane.hydro import (
     shipped_database,
 )
 from seacrane.hydro.readers.numbers_of_text import number_of_word
-from seacrane.hydro.vessel.vessel_parameters import vessel_parameters
 from seacrane.sea.dispersion import wavenumber
-from seacrane.warnings import AssumedReferenceWarning, AsymmetryWarning, FloatingPositionWarning
+from seacrane.warnings import AssumedReferenceWarning, FloatingPositionWarning
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::seacrane.warnings.AssumedInertiaWarning",
@@ -117,14 +116,6 @@ def test_half_a_matrix_is_completed(reader: str, tmp_path: Path) -> None:
         theirs = getattr(base, name)
         whole = theirs * UPPER + (theirs * np.triu(np.ones((6, 6)), 1)).swapaxes(1, 2)
         assert np.abs(getattr(found, name) - whole).max() <= 1e-6 * np.abs(theirs).max()
-
-
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.MemoryFitWarning")
-def test_any_use_of_a_skew_matrix_warns() -> None:
-    skew = BASE.added_mass.copy()
-    skew[:, 0, 4] += 0.5 * np.sqrt(skew[:, 0, 0] * skew[:, 4, 4])
-    with pytest.warns(AsymmetryWarning, match="added_mass is not symmetric: its entries 15 and 51"):
-        vessel_parameters(replace(shipped_database().select(every=6, every_heading=6), added_mass=skew))
 
 
 @pytest.mark.parametrize("reader", READERS)
