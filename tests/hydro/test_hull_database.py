@@ -134,7 +134,6 @@ def inside() -> np.ndarray:
 
 @cache
 def strip() -> HydroDatabase:
-    """The shipped hull at the shipped frequencies of the band."""
     grid = {"omega": panel().omega[inside()], "heading": panel().heading[::9]}
     return hydro_from_hull(SHIPPED, **OF_SHIPPED, **grid)
 
@@ -188,7 +187,6 @@ def test_capytaine_gives_the_same_kind_of_database() -> None:
 def test_a_mesh_is_checked_when_asked_for_and_named_when_it_has_not_converged(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Heave damping a tenth larger on the coarse mesh."""
     hull = Hull.from_offsets(wigley_offsets(100.0, 10.0, 5.0, 24))
     given: dict[str, Any] = {"center_of_gravity": (0, 0, -2), "omega": [0.5, 0.8], "heading": [0.0, 3.1]}
     with warnings.catch_warnings():

@@ -27,7 +27,6 @@ def values(statics: Hydrostatics) -> np.ndarray:
 
 
 def barge(half: Any, **given: Any) -> Hull:
-    """Of one section all along."""
     return Hull.from_offsets(OffsetTable(x=[-20.0, 20.0], sections=(half,) * 2), **given)
 
 

@@ -25,7 +25,6 @@ HEADING = slice(None, None, 3)
 
 
 def in_file(matrices: np.ndarray) -> np.ndarray:
-    """Matrices (..., 6, 6) in the order of the file."""
     return matrices[..., ORDER, :][..., ORDER]
 
 
@@ -65,7 +64,6 @@ def layout(centre: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> xarray.Datas
 
 
 def read(dataset: xarray.Dataset, folder: Path, **given: Any) -> HydroDatabase:
-    """The dataset by way of a file."""
     dataset.to_netcdf(folder / "hull.nc", engine="netcdf4")
     return read_capytaine(folder / "hull.nc", **given)
 
@@ -111,7 +109,6 @@ def test_layouts_of_other_runs(tmp_path: Path) -> None:
 
 
 def test_one_of_several_depths_is_chosen(tmp_path: Path) -> None:
-    """Added mass of each is its own; the file asks which. A sea takes it, or has to fit."""
     base, deep = shipped_database(), layout()
     shallow = deep.assign_coords(water_depth=20.0)
     shallow["added_mass"] = 1.5 * deep["added_mass"]

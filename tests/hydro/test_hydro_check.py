@@ -27,7 +27,6 @@ from seacrane.hydro.data.relations import (
     infinite_added_mass_from_damping,
     retardation_from_damping,
 )
-from seacrane.hydro.database.figures import added_mass_sheet, retardation_sheet
 from seacrane.hydro.readers.band_of_data import first_rough_value
 from seacrane.warnings import DampingWarning, RoughDataWarning
 
@@ -35,7 +34,6 @@ MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 def rows_of(database: HydroDatabase) -> dict[str, CheckRow]:
-    """The self-check by name."""
     return {row.check: row for row in database.check()}
 
 
@@ -194,22 +192,6 @@ def test_figures_show_the_motions_that_are_computed(shared: Path) -> None:
     at = int(np.argmin(np.abs(tanker.heading - np.pi)))
     assert lines["180 deg"] == pytest.approx(np.abs(motion_response(tanker)[at, :, 2]))
     assert lines["180 deg, file"] == pytest.approx(np.abs(tanker.motion_rao[at, :, 2]))
-
-
-def panel_of(sheet: Any, quantity: str) -> dict[str, np.ndarray]:
-    panel = next(panel for panel in sheet.panels if panel.quantity == quantity)
-    return {line.label: line.values for line in panel.lines}
-
-
-def test_fits_and_limits_are_those_of_the_memory() -> None:
-    database = shipped_database()
-    memory = database.memory
-    lines = panel_of(added_mass_sheet(database, memory), "A35")
-    assert np.array_equal(lines["database"], database.added_mass[:, 2, 4])
-    assert lines["memory model"] == pytest.approx(memory.frequency_response(database.omega)[0][:, 2, 4])
-    assert np.all(lines["model, infinite frequency"] == memory.added_mass[2, 4])
-    data, model = panel_of(retardation_sheet(database, memory), "K33").values()
-    assert np.sqrt(np.mean((data - model) ** 2) / np.mean(data**2)) < 0.06  # the fit's misfit of K, docs
 
 
 def test_retardation_of_a_closed_form_converges() -> None:

@@ -6,7 +6,6 @@ import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -131,7 +130,6 @@ def test_modes_of_two_masses_on_springs() -> None:
 
 
 def two_springs(stiffness: float, inertia: float, coupled: float, rate: float) -> HydroGroup:
-    """Two bodies of which only heave is restored; their water couples them by inertia."""
     omega, heave, at = np.linspace(0.2, 4.0, 39), np.zeros((6, 6)), np.array([0.0, 20.0, 0.0])
     heave[2, 2] = 1.0
     body = GroupBody(
@@ -149,7 +147,6 @@ def two_springs(stiffness: float, inertia: float, coupled: float, rate: float) -
 
 
 def with_peak(group: HydroGroup, omega: float, height: float = 4.0) -> HydroGroup:
-    """The group with a narrow peak in the heave damping of its first hull."""
     damping = group.damping.copy()
     bell = 1.0 / (1.0 + ((group.omega - omega) / 0.02) ** 2)
     damping[:, 2, 2] += height * damping[:, 2, 2].max() * bell
@@ -203,7 +200,7 @@ def test_requirements_and_groups_that_do_not_fit_are_refused_by_name(hull: Hydro
     group = written_pair()
     group.require(names=["crane", "feeder"], positions={"feeder": (6.0, 38.0, -1.5)}, apart=True)
     for given, message in (
-        ({"names": ["feeder", "crane"]}, "use group.ordered"), ({"positions": {"tug": (0, 0, 0)}}, "'tug'"),
+        ({"names": ["feeder", "crane"]}, "use group.ordered"),
         ({"positions": {"feeder": (6.0, 38.0, 0.0)}}, r"feeder .* \(6, 38, -1.5\) m"),
         ({"draughts": {"feeder": 1.1 * group.bodies[1].draught}}, "feeder .* draught"),
     ):  # fmt: skip
@@ -219,10 +216,6 @@ def test_requirements_and_groups_that_do_not_fit_are_refused_by_name(hull: Hydro
         other = {"one": short, "two": replace(short, trusted_band=None, memory=None, **changes)}
         with pytest.raises(ValueError, match=message):
             HydroGroup.from_databases(databases=other, positions={"one": (0, 0, 0), "two": APART})
-    with pytest.raises(ValueError, match="crane, crane"):
-        replace(group, bodies=(group.bodies[0],) * 2)
-    with pytest.raises(ValueError, match="added_mass has shape"):
-        replace(group, added_mass=group.added_mass[:, :6, :6])
 
 
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.RoughDataWarning")
@@ -246,7 +239,6 @@ def masses(group: HydroGroup) -> dict[str, np.ndarray]:
 
 
 def assert_same(found: HydroGroup, group: HydroGroup, tolerance: float = 1e-9) -> None:
-    """Numbers by each motion's own size; bodies by name, place and heading."""
     assert found.names == group.names
     scale = np.sqrt(np.abs(np.diagonal(group.added_mass, axis1=1, axis2=2)).max(axis=0))
     both = np.outer(scale, scale)
@@ -319,38 +311,29 @@ def test_hydrostatics_in_another_order_are_named(pair: HydroGroup, tmp_path: Pat
         read_nemoh_group(folder, mass_matrices=masses(unlike))
 
 
-@pytest.mark.warns("AssumedInertiaWarning")
 def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
-    given: dict[str, Any] = {"mass_matrices": masses(pair)}
     for damage, message in (
         (lambda d: d.isel(influenced_dof=slice(1, None)), "influenced_dof lacks crane__"),
         (lambda d: d.assign_coords(forward_speed=2.0), "forward_speed is 2"),
-        (
-            lambda d: d.assign(hydrostatic_stiffness=0.0 * d.hydrostatic_stiffness),
-            "body crane: restoring C33",
-        ),
     ):
         damage(capytaine_dataset(pair)).to_netcdf(tmp_path / "pair.nc")
         with pytest.raises(FileFormatError, match=rf"pair\.nc: .*{message}"):
             read_capytaine_group(tmp_path / "pair.nc")
     with pytest.raises(FileFormatError, match=r"crane, feeder.*read_capytaine_group"):
         read_capytaine(capytaine_file(pair, tmp_path))
-    folder = wamit_files(pair, tmp_path)
+    folder = nemoh_folder(pair, wamit_files(pair, tmp_path))
     with pytest.raises(FileFormatError, match="motion 7 is not one of 1 to 6"):
         read_wamit(folder / "pair")
-    nemoh_folder(pair, folder)
     for name, old, new, message, read in (
-        ("pair.out", "YBODY", "Y", "no XBODY, .* of crane", read_wamit_group),
         ("pair.1", " 12 ", " 13 ", "motion 13 .* 1 to 12", read_wamit_group),
         ("Nemoh.cal", "2 ! Number", "3 ! Number", "3 bodies .* 12", read_nemoh_group),
         ("Nemoh.cal", "38.0", "39.0", "body 2 turn about 2", read_nemoh_group),
     ):
-        file = folder / name
-        sound = file.read_text()
-        file.write_text(sound.replace(old, new, -1 if name == "pair.out" else 1))
+        sound = (folder / name).read_text()
+        (folder / name).write_text(sound.replace(old, new, 1))
         with pytest.raises(FileFormatError, match=message):
-            read(folder, **given)
-        file.write_text(sound)
+            read(folder, mass_matrices=masses(pair))
+        (folder / name).write_text(sound)
     path = bemio_file(pair, tmp_path)
     with pytest.raises(FileFormatError, match=r"mass_matrices .* crane, barge"):
         read_bemio_group(path, mass_matrices={"crane": np.eye(6), "barge": np.eye(6)})

@@ -43,13 +43,11 @@ def as_group(dataset: xarray.Dataset, folder: Path) -> HydroGroup:
 
 
 def near_pair() -> xarray.Dataset:
-    """Places off the axes, and waves from the side."""
     bodies = hemisphere("near", 2.0, -3.0), hemisphere("far", 8.0, 9.0)
     return solved(bodies, [0.7, 1.1], [0.5, 2.0])
 
 
 def both_motions(folder: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Translations (headings, omega, 6) of both hulls, by the group as read, and by Capytaine."""
     dataset = near_pair()
     group = as_group(dataset, folder)
     own = capytaine.post_pro.rao(dataset)

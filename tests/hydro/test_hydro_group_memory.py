@@ -102,7 +102,6 @@ def test_bodies_in_another_order_take_the_memory_along(group: HydroGroup, model:
 
 
 def test_hulls_that_do_not_couple_have_memories_of_their_own() -> None:
-    """In one fit, and as single ones side by side: states and order as they are."""
     apart = group_in(known_water(0.0))
     model = fit_memory(database=apart, limit=LIMIT)
     assert all(len({motion // 6 for motion in block.inputs}) == 1 for block in model.blocks)

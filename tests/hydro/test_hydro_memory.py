@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import simulate
-from seacrane.cases import case1
 from seacrane.errors import PassivityError
 from seacrane.hydro import (
     HydroDatabase,
@@ -52,7 +49,6 @@ def known_system(**changes: Any) -> IdentificationData:
 
 @pytest.fixture(scope="module")
 def supply(shared: Path) -> HydroDatabase:
-    """The supply vessel with its memory fitted per pair."""
     database = load_database(shared / "veres" / "supply")
     return dataclasses.replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
@@ -399,15 +395,3 @@ def test_known_oscillators_are_recovered_by_a_search_with_the_right_derivatives(
     for i, shift in enumerate(1e-6 * np.eye(len(at))):
         slope = (problem.residual(at + shift) - problem.residual(at - shift)) / 2e-6
         assert exact[:, i] == pytest.approx(slope, rel=1e-5, abs=1e-6 * np.abs(exact).max())
-
-
-def test_runs_stay_close_to_the_per_pair_model() -> None:
-    """Both models state R2 >= 0.99, a misfit of 10 % rms of the memory's share: motions differ by less."""
-    given = {"t_end": 60.0, "dt_out": 0.5, "channels": ["vessel_motion"]}
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        one, other = (
-            simulate(case1(memory=kind), **given)["vessel_motion"] for kind in ("per-pair", "passive")
-        )
-    difference = np.sqrt(np.mean((other - one) ** 2, axis=0) / np.mean(one**2, axis=0))
-    assert np.all(difference < 0.1) and difference.max() > 1e-5

@@ -34,12 +34,10 @@ DAMAGE: list[tuple[str, Callable[[str], str], str]] = [
 
 
 def shipped_part() -> HydroDatabase:
-    """Some frequencies and headings of the shipped hull."""
     return shipped_database().select(every=6, every_heading=3)
 
 
 def control(turn: np.ndarray, depth: float = 0.0) -> str:
-    """``Nemoh.cal``."""
     motions = [f"1 {x} {y} {z} 0. 0. 0. ! translation" for x, y, z in np.eye(3)]
     motions += [f"2 {x} {y} {z} {turn[0]} {turn[1]} {turn[2]} ! rotation" for x, y, z in np.eye(3)]
     head = ["--- Environment ---", "1025.0 ! RHO", "9.81 ! G", f"{depth} ! DEPTH", "0. 0. ! XEFF YEFF"]
@@ -77,7 +75,6 @@ def write_project(base: HydroDatabase, folder: Path) -> None:
 
 
 def assert_same(found: HydroDatabase, base: HydroDatabase, tolerance: float) -> None:
-    """Frequencies, headings, matrices and forces."""
     for name in ("omega", "heading", "added_mass", "damping", "restoring", "force"):
         mine, theirs = getattr(found, name), getattr(base, name)
         assert np.abs(mine - theirs).max() <= tolerance * np.abs(theirs).max(), name
@@ -163,7 +160,6 @@ def bemio_values(base: HydroDatabase, along: float = 0.0) -> dict[str, Any]:
 
 
 def written(values: dict[str, Any], path: Path) -> Path:
-    """A file of these entries."""
     with h5py.File(path, "w") as file:
         for name, value in values.items():
             file[name] = value

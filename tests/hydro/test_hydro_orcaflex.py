@@ -28,7 +28,6 @@ pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
 
 @pytest.fixture(scope="module")
 def hull() -> HydroDatabase:
-    """Seven frequencies and 13 headings of the shipped hull, with motions."""
     return hull_part()
 
 
@@ -145,7 +144,6 @@ def dhyd(
 
 
 def put(group: Any, dimensions: dict[str, np.ndarray], arrays: dict[str, np.ndarray]) -> None:
-    """Arrays by named dimensions, which are variables themselves."""
     for name, values in dimensions.items():
         group.createDimension(name, len(values))
         group.createVariable(name, values.dtype, (name,), fill_value=False)[...] = values
@@ -154,7 +152,6 @@ def put(group: Any, dimensions: dict[str, np.ndarray], arrays: dict[str, np.ndar
 
 
 def mafredo_data(hull: HydroDatabase) -> Any:
-    """The hull in MaFreDo: te, kN, phases that lag."""
     force = np.moveaxis(hull.force, (0, 1, 2), (2, 1, 0))
     matrices = (table.swapaxes(1, 2) / 1e3 for table in (hull.added_mass, hull.damping))
     loads = (np.degrees(hull.heading), np.abs(force) / 1e3, -np.angle(force))
@@ -218,7 +215,6 @@ def test_what_mafredo_writes(hull: HydroDatabase, tmp_path: Path) -> None:
 def test_mafredo_reads_the_same_loads(
     waves: str, sense: str, event: str, hull: HydroDatabase, tmp_path: Path
 ) -> None:
-    """Kilonewtons, lagging."""
     path = write(tmp_path, model(hull, waves=waves, sense=sense, event=event))
     data = library().Hyddb1.create_from_orcaflex_yml(str(path), vessel_type_name="Vessel type1")
     values = [data.force_rao(i)["complex"].transpose("wave_direction", "omega").values for i in range(6)]

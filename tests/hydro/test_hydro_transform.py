@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import cases, simulate
 from seacrane.hydro import (
     AdditionalMatrices,
     DriftCoefficients,
@@ -139,23 +138,6 @@ def test_the_free_vessel_with_memory_has_the_same_eigenvalues(kind: str) -> None
     if kind == "passive":
         assert all(is_energy_form(block) for block in there.memory.blocks)
         assert passivity_certificate(there.memory).passive
-
-
-def test_a_run_about_the_new_point_is_the_same_voyage(tmp_path: Path) -> None:
-    """The time domain about two points in the same sea: they differ by products of small motions only."""
-    point, base, errors = (10.0, 4.0, -3.0), shipped_database(), []
-    base.at(point, phase_origin=False).save(tmp_path / "moved.nc")
-    for hs in (0.1, 1.0):
-        runs = []
-        for database in (base, load_database(tmp_path / "moved.nc")):
-            scene = cases.vessel(database=database, hs=hs, mooring_period=None)
-            runs.append(simulate(scene, t_end=20.0, dt_out=0.5, channels=["vessel_motion"])["vessel_motion"])
-        old, new = map(np.asarray, runs)
-        carried = np.concatenate([old[:, :3] + np.cross(old[:, 3:], point), old[:, 3:]], axis=1)
-        assert np.abs(new - old).max() > 0.1 * np.abs(old).max()
-        errors.append((np.abs(new - carried).max(axis=0) / np.abs(old).max(axis=0)).max())
-    assert errors[0] < 5e-3
-    assert 5.0 < errors[1] / errors[0] < 20.0  # grows with the waves: of second order
 
 
 def test_off_the_centreline_both_sides_are_written_out() -> None:

@@ -47,7 +47,6 @@ def supply(shared: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def expected(supply: Path) -> dict[str, Any]:
-    """Reference values that came with the files."""
     return json.loads((supply / "expected.json").read_text())  # type: ignore[no-any-return]
 
 
@@ -67,7 +66,6 @@ def copy(supply: Path, tmp_path: Path) -> Path:
 
 
 def of_heading(database: HydroDatabase, heading_deg: float) -> int:
-    """Index of a VERES heading (0 head sea) in the database."""
     direction = np.radians(heading_deg + 180.0)
     distance = np.abs(np.angle(np.exp(1j * (database.heading - direction))))
     assert distance.min() < 1e-9
@@ -211,7 +209,6 @@ def test_mutations_are_refused(copy: Path) -> None:
 
 
 def test_frequencies_in_any_order(copy: Path, database: HydroDatabase) -> None:
-    """Falling frequencies are read into rising ones."""
     (copy / "input.re2").unlink()
     for suffix, head, block in ((".re8", 11, 7), (".re1", 11, 7), (".re7", 18, 38)):
         path = copy / f"input{suffix}"
@@ -261,7 +258,6 @@ G = 9.81
 
 
 def closure(database: HydroDatabase) -> dict[str, float]:
-    """The motion rows of the self-check."""
     return {row.check: row.value for row in database.check() if row.check.startswith("motion_rao")}
 
 

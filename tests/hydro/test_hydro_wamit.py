@@ -34,7 +34,6 @@ def tanker(shared: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def expected(tanker: Path) -> dict[str, Any]:
-    """Reference values that came with the files."""
     return json.loads((tanker / "expected.json").read_text())  # type: ignore[no-any-return]
 
 
@@ -54,14 +53,12 @@ def copy(tanker: Path, tmp_path: Path) -> Path:
 
 
 def edit(path: Path, old: str, new: str) -> None:
-    """Replace a text that is there once."""
     text = path.read_text()
     assert text.count(old) == 1
     path.write_text(text.replace(old, new))
 
 
 def replace_lines(path: Path, first: int, last: int, *new: str) -> None:
-    """Replace lines ``first`` to ``last`` (counted from 1) by others."""
     lines = path.read_text().split("\n")
     lines[first - 1 : last] = new
     path.write_text("\n".join(lines))

@@ -45,8 +45,6 @@ def written(
 
 
 def put(*cells: tuple[int, int, str]) -> Change:
-    """A change of cells, by the line of the file and the column."""
-
     def change(rows: list[list[str]]) -> None:
         for line, column, text in cells:
             rows[line - FIRST][column] = text
@@ -65,7 +63,7 @@ def test_headings_are_names_and_units_and_units_become_si() -> None:
     for words, factor, si in (
         ("Degrees", turn, "rad"), ("°", turn, "rad"), ("deg/s", turn, "rad/s"), ("rad_per_s", 1.0, "rad/s"),
         ("mm", 1e-3, "m"), ("ft", 0.3048, "m"), ("t", 9806.65, "N"), ("KN", 1e3, "N"), ("MN", 1e6, "N"),
-        ("m/s²", 1.0, "m/s2"), ("m/s^2", 1.0, "m/s2"), ("kNm", 1e3, "N m"), ("bar", 1e5, "Pa"),
+        ("m/s²", 1.0, "m/s2"), ("kNm", 1e3, "N m"), ("bar", 1e5, "Pa"),
     ):  # fmt: skip
         assert unit_of_words(words) == (pytest.approx(factor, rel=1e-12), si)
     assert not any(map(unit_of_words, ("mN", "mPa", "furlong", "", "m m", "rad/m")))
@@ -233,12 +231,9 @@ STAMPS |= {
 }
 
 
-def hindcast(stamps: list[str], path: Path, *, delimiter: str = ",", comma: bool = False) -> Path:
-    rows = [delimiter.join(["time", "hs", "tp"])]
-    for i, stamp in enumerate(stamps):
-        hs = f"{1.0 + 0.1 * (i % 7):.1f}"
-        rows.append(delimiter.join([stamp, hs.replace(".", ",") if comma else hs, "8"]))
-    path.write_text("\n".join(rows) + "\n", encoding="latin-1")
+def hindcast(stamps: list[str], path: Path) -> Path:
+    rows = [f"{stamp},{1.0 + 0.1 * (i % 7):.1f},8" for i, stamp in enumerate(stamps)]
+    path.write_text("\n".join(["time,hs,tp", *rows]) + "\n")
     return path
 
 
@@ -256,19 +251,7 @@ def test_a_hindcast_by_any_clock(tmp_path: Path) -> None:
             WaveHindcast.load(hindcast(stamps, path))
 
 
-def test_a_hindcast_of_any_spreadsheet(tmp_path: Path) -> None:
-    dates = STAMPS["%Y-%m-%dT%H:%M:%S"]
-    for delimiter, comma in ((";", True), (";", False), ("\t", True), (",", False)):
-        path = hindcast(dates, tmp_path / "site.csv", delimiter=delimiter, comma=comma)
-        assert WaveHindcast.load(path).hs[3] == pytest.approx(1.3)
-        path.write_bytes(path.read_bytes().replace(b"time", "Zeit f\xfcr S\xfcd".encode("latin-1"), 1))
-        assert WaveHindcast.load(path, names={"time": "Zeit für Süd"}).hs[3] == pytest.approx(1.3)
-    hs = np.ma.masked_equal([1.0, -99.0, 1.2], -99.0)
-    assert WaveHindcast(time=dates[:3], hs=hs, tp=np.full(3, 8.0)).known.tolist() == [True, False, True]
-
-
 def test_the_clock_of_a_logger(tmp_path: Path) -> None:
-    """That counts since 1970, or whole numbers far apart, which are asked for."""
     path = tmp_path / "log.csv"
 
     def load(times: np.ndarray, header: str = "time", **given: Any) -> float:

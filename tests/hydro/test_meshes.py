@@ -79,7 +79,6 @@ def written(path: Path, document: Any) -> Path:
 
 
 def glb(path: Path, document: dict[str, Any]) -> Path:
-    """The same as one binary file."""
     document = copy.deepcopy(document)
     data = base64.b64decode(document["buffers"][0].pop("uri").partition(",")[2])
     text = json.dumps(document).encode()

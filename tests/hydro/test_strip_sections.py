@@ -1,4 +1,4 @@
-"""Strip theory: sections against multipoles, energy, closed forms; hulls against hand sums, Haskind, speed."""
+"""Strip theory: sections against multipoles, energy, closed forms; hulls against sums, Haskind, speed."""
 
 from __future__ import annotations
 

@@ -41,7 +41,6 @@ PLACE = np.array([-50.0, 0.0, 0.0])  # of NEMOH's rotations from the centre of g
 
 
 def wamit(base: HydroDatabase, folder: Path) -> Path:
-    """A set of WAMIT's numbers."""
     rho, g = base.rho, base.g
     one, three = [], []
     for n, w in enumerate(base.omega):
