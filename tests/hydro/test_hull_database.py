@@ -96,8 +96,7 @@ def test_bad_values_are_refused() -> None:
     table: list[tuple[dict[str, Any], str]] = [
         ({"method": "magic"}, "strip or capytaine"), ({"speed": 3.0}, "zero speed"),
         ({"center_of_gravity": [0.0, 0.5, 0.0]}, "y = 0.5"), ({"rho": np.nan}, "rho is nan"),
-        ({"center_of_gravity": [0.0, 0.0, 9.0]}, "capsizes"), ({"radii_of_gyration": [1, 2, -3]}, "positive"),
-        ({"omega": [1.0, 0.5]}, "increasing"), ({"heading": [-0.5, 0.0]}, "2 pi"), ({"stations": 3}, "5 or"),
+        ({"center_of_gravity": [0.0, 0.0, 9.0]}, "capsizes"), ({"heading": [-0.5, 0.0]}, "2 pi"),
         ({"roll_damping_fraction": 0.05, "omega": [2.0, 3.0]}, "roll natural frequency"),
     ]  # fmt: skip
     for options, message in table:

@@ -351,16 +351,11 @@ def test_a_memory_that_feeds_the_motions_is_named() -> None:
 
 
 def test_roll_damping_taken_where_there_is_no_resonance() -> None:
-    values = {
-        "linear": np.linspace(1e6, 9e6, 61),
-        "quadratic": np.zeros(61),
-        "linearised": np.zeros((37, 61)),
-    }
+    roll = dataclasses.replace(ROLL, linear=np.linspace(1e6, 9e6, 61))
     stiff = shipped_database().restoring.copy()
     stiff[3, 3] *= 1e3
-    changes = {"roll_damping": RollDamping(**values), "restoring": stiff, "memory": shipped_database().memory}
     with pytest.warns(RollDampingWarning, match="resonance lies outside 0.1 to 3.1 rad/s"):
-        vessel_parameters(hull(**changes))
+        vessel_parameters(hull(roll_damping=roll, restoring=stiff, memory=shipped_database().memory))
 
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.MemoryFitWarning")

@@ -67,16 +67,6 @@ def test_a_hull_of_a_group_is_the_database_it_was_made_of_and_moves_as_alone(hul
                 assert moved == pytest.approx(motion_response(group[name]), rel=1e-9, abs=1e-12)
 
 
-def test_the_motion_equation_holds_with_coupling() -> None:
-    group = written_pair()
-    w = group.omega[:, None, None]
-    damping = group.damping + group.linear_damping
-    left = -(w**2) * (group.mass_matrix + group.added_mass) + 1j * w * damping + group.restoring
-    residual = np.einsum("nij,mnj->mni", left, group.motion_rao) - group.force
-    terms = np.einsum("nij,mnj->mni", np.abs(left), np.abs(group.motion_rao)) + np.abs(group.force)
-    assert np.abs(residual / terms).max() < 1e-12
-
-
 def test_names_exchanged_exchange_everything() -> None:
     group = written_pair()
     other = group.ordered(["feeder", "crane"])

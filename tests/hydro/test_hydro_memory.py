@@ -69,16 +69,6 @@ def test_a_known_system_is_recovered_and_the_lowest_sufficient_order_taken() -> 
     assert r_squared(np.ones(3), np.ones(3)) == r_squared(values, values) == 1.0
 
 
-def test_static_stiffness_and_no_zero_at_origin_are_recovered() -> None:
-    numerator = NUMERATOR + np.array([0.0, 0.0, 0.0, 0.9])
-    kernel = np.polyval(numerator, 1j * OMEGA) / np.polyval(DENOMINATOR, 1j * OMEGA)
-    tables = {"added_mass": kernel.imag / OMEGA + 4.0 / OMEGA**2, "damping": kernel.real}
-    how = {"added_mass_infinite": 0.0, "zero_at_origin": False, "static_stiffness": True}
-    fit, _ = fit_order(known_system(**tables, **how), order=4, starts=[])
-    assert fit.static_stiffness == pytest.approx(-4.0, rel=1e-3)
-    assert fit.numerator == pytest.approx(numerator, rel=1e-2, abs=1e-2)
-
-
 def test_realisation_keeps_the_transfer_function_and_scales_the_states() -> None:
     block = realise(NUMERATOR * 1e8, DENOMINATOR, output=3, input=1, cause=RADIATION)
     reference = 1e8 * np.polyval(NUMERATOR, 1j * OMEGA) / np.polyval(DENOMINATOR, 1j * OMEGA)

@@ -21,14 +21,9 @@ CENTRE = np.array([3.0, 0.0, -2.0])  # of the rotations, from the origin of the 
 
 RADIATION, WAVES, CONTROL = "results/RadiationCoefficients.tec", "results/ExcitationForce.tec", "Nemoh.cal"
 DAMAGE: list[tuple[str, Callable[[str], str], str]] = [
-    ("mesh/KH.dat", lambda text: text[:200], "six rows"),
-    ("mesh/Hydrostatics.dat", lambda text: text[:40], "no centre of gravity"),
-    (RADIATION, lambda text: text[:-30], "omega and two for each of six"),
     (RADIATION, lambda text: text[: text.rindex("Zone")], "5 degrees of freedom"),
     (RADIATION, lambda text: text.rstrip().rpartition("\n")[0] + "\n", "other frequencies"),
-    (WAVES, lambda text: text.replace("beta", "wave", 1), "no wave direction"),
     (CONTROL, lambda text: text.replace("1 ! Number", "2 ! Number"), "2 bodies with 6"),
-    (CONTROL, lambda text: text.replace("9.81", ""), "does not begin with density"),
     (CONTROL, lambda text: text.replace("-2.0 !", "-1.0 !", 1), "turn about 2 points"),
 ]  # fmt: skip
 
@@ -192,10 +187,8 @@ def test_damage_of_bemio_is_named(tmp_path: Path) -> None:
     base, path, of = shipped_part(), tmp_path / "ship.h5", "simulation_parameters"
     sound = bemio_values(base)
     for name, value, message in (
-        (f"{of}/rho", None, "simulation_parameters/rho is missing"), (f"{of}/scaled", 1.0, "scaled is set"),
-        ("body2/properties/dof", 6, "body1, body2; one body"), (f"{of}/water_depth", b"deep", "b'deep'"),
-        (f"{of}/w", np.ones(3), r"shape \(6, 6, "),
+        (f"{of}/scaled", 1.0, "scaled is set"), (f"{of}/water_depth", b"deep", "b'deep'"),
+        ("body2/properties/dof", 6, "body1, body2; one body"), (f"{of}/w", np.ones(3), r"shape \(6, 6, "),
     ):  # fmt: skip
-        values = {key: one for key, one in (sound | {name: value}).items() if one is not None}
         with pytest.raises(FileFormatError, match=rf"ship\.h5: .*{message}"):
-            read_bemio(written(values, path), mass_matrix=base.mass_matrix)
+            read_bemio(written(sound | {name: value}, path), mass_matrix=base.mass_matrix)

@@ -125,19 +125,16 @@ def test_moments_and_power_do_not_depend_on_the_point() -> None:
     assert there.drift.coefficient @ new == pytest.approx(base.drift.coefficient @ old)
 
 
-@pytest.mark.parametrize("kind", ["per-pair", "passive"])
-def test_the_free_vessel_with_memory_has_the_same_eigenvalues(kind: str) -> None:
+def test_the_free_vessel_with_passive_memory_has_the_same_eigenvalues() -> None:
     base = shipped_database()
-    if kind == "passive":
-        base = dataclasses.replace(base, memory=fit_memory(database=base, kind="passive", r2=0.9))
+    base = dataclasses.replace(base, memory=fit_memory(database=base, kind="passive", r2=0.9))
     there = base.at((12.0, -5.0, 3.0))
     before, after = (np.linalg.eigvals(free_vessel_system(vessel_parameters(d))) for d in (base, there))
     distance = np.abs(before[:, None] - after)
     assert len(before) == len(after)
     assert distance.min(axis=1).max() < 1e-10 and distance.min(axis=0).max() < 1e-10
-    if kind == "passive":
-        assert all(is_energy_form(block) for block in there.memory.blocks)
-        assert passivity_certificate(there.memory).passive
+    assert all(is_energy_form(block) for block in there.memory.blocks)
+    assert passivity_certificate(there.memory).passive
 
 
 def test_off_the_centreline_both_sides_are_written_out() -> None:

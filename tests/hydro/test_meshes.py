@@ -211,13 +211,11 @@ BEYOND = "beyond the 168 bytes of its buffer"
 HOSTILE: list[tuple[Any, str]] = [
     (changed(asset={"version": "1.0"}), "no glTF 2.0"), ("[" * 100_000, "is no glTF"),
     (changed(extensionsRequired=["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression"),
-    (changed(accessors__0__sparse={}), "VEC3"), (changed(accessors__0__componentType=5120), "plain VEC3"),
+    (changed(accessors__0__componentType=5120), "plain VEC3"), (changed(accessors__0__count=9), BEYOND),
     (changed(buffers__0__uri="/etc/passwd"), "buffer in another file"), (not_finite(), "not finite"),
-    (changed(accessors__0__count=9), BEYOND), (changed(accessors__1__count=-3), BEYOND),
     (changed(bufferViews__1__byteOffset=-8), BEYOND), (changed(bufferViews__0__byteStride=1), BEYOND),
-    (changed(accessors__0__count=7), "no triangles"), (changed(accessors__1__count=35), "no triangles"),
-    (changed(meshes__0__primitives__0__mode=5), "strip"), (changed(nodes__0__children=[0]), "64 deep"),
-    (changed(nodes__0__mesh=-1), r"no meshes\[-1\]"), (changed(nodes__0__scale=[1e308] * 3), "no finite one"),
+    (changed(accessors__1__count=35), "no triangles"), (changed(nodes__0__children=[0]), "64 deep"),
+    (changed(meshes__0__primitives__0__mode=5), "strip"), (changed(nodes__0__mesh=-1), "no meshes"),
     (changed(accessors__1__count=30_000_000), "10000000 triangles, above 200000"),
     (changed(scenes__0__nodes=[0] * 19_000), "triangles, above"),
 ]  # fmt: skip
