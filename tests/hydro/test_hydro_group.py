@@ -301,6 +301,7 @@ def test_hydrostatics_in_another_order_are_named(pair: HydroGroup, tmp_path: Pat
         read_nemoh_group(folder, mass_matrices=masses(unlike))
 
 
+@pytest.mark.warns("AssumedInertiaWarning")
 def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
     for damage, message in (
         (lambda d: d.isel(influenced_dof=slice(1, None)), "influenced_dof lacks crane__"),

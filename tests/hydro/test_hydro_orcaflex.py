@@ -113,6 +113,11 @@ def test_a_choice_of_vessel_types_and_draughts(hull: HydroDatabase, tmp_path: Pa
     assert read_orcaflex(path, vessel_type="Barge", draught="Light").mass_matrix[0, 0] == 1e7
 
 
+def of_library(path: Path) -> Any:
+    library = importlib.import_module("mafredo").Hyddb1
+    return library.create_from_orcaflex_yml(str(path), vessel_type_name="Vessel type1")
+
+
 needs_mafredo = pytest.mark.skipif(
     sys.version_info < (3, 12), reason="MaFreDo is written in the syntax of Python 3.12"
 )
