@@ -113,9 +113,8 @@ def test_a_choice_of_vessel_types_and_draughts(hull: HydroDatabase, tmp_path: Pa
     assert read_orcaflex(path, vessel_type="Barge", draught="Light").mass_matrix[0, 0] == 1e7
 
 
-def of_library(path: Path) -> Any:
-    library = importlib.import_module("mafredo").Hyddb1
-    return library.create_from_orcaflex_yml(str(path), vessel_type_name="Vessel type1")
+def library() -> Any:
+    return importlib.import_module("mafredo")
 
 
 needs_mafredo = pytest.mark.skipif(
@@ -156,8 +155,8 @@ def mafredo_data(hull: HydroDatabase) -> Any:
     force = np.moveaxis(hull.force, (0, 1, 2), (2, 1, 0))
     matrices = (table.swapaxes(1, 2) / 1e3 for table in (hull.added_mass, hull.damping))
     loads = (np.degrees(hull.heading), np.abs(force) / 1e3, -np.angle(force))
-    data = importlib.import_module("mafredo").Hyddb1.create_from_data(hull.omega, *matrices, *loads)
-    data.symmetry = importlib.import_module("mafredo").helpers.Symmetry.XZ
+    data = library().Hyddb1.create_from_data(hull.omega, *matrices, *loads)
+    data.symmetry = library().helpers.Symmetry.XZ
     return data
 
 
@@ -217,9 +216,7 @@ def test_mafredo_reads_the_same_loads(
     waves: str, sense: str, event: str, hull: HydroDatabase, tmp_path: Path
 ) -> None:
     path = write(tmp_path, model(hull, waves=waves, sense=sense, event=event))
-    data = importlib.import_module("mafredo").Hyddb1.create_from_orcaflex_yml(
-        str(path), vessel_type_name="Vessel type1"
-    )
+    data = library().Hyddb1.create_from_orcaflex_yml(str(path), vessel_type_name="Vessel type1")
     values = [data.force_rao(i)["complex"].transpose("wave_direction", "omega").values for i in range(6)]
     found, other = read_orcaflex(path).force, np.conj(np.stack(values, axis=-1)) * 1e3
     assert np.all(np.abs(found - other) <= 1e-9 * np.abs(found).max(axis=(0, 1)))
@@ -236,9 +233,7 @@ def test_bow_and_stern_alike(hull: HydroDatabase, tmp_path: Path) -> None:
     path = write(tmp_path, document)
     found = read_orcaflex(path)
     assert np.degrees(found.heading) == pytest.approx(np.arange(0.0, 181.0, 15.0))
-    data = importlib.import_module("mafredo").Hyddb1.create_from_orcaflex_yml(
-        str(path), vessel_type_name="Vessel type1"
-    )
+    data = library().Hyddb1.create_from_orcaflex_yml(str(path), vessel_type_name="Vessel type1")
     data.expand360_using_symmetry()
     for degrees in (120.0, 180.0, 240.0):
         for k, omega in enumerate(found.omega):
