@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hull_shapes import wigley_offsets
+from hull_shapes import box, joined, moved, sphere, wigley_offsets
 
 from seacrane.hydro import (
     Hull,
@@ -23,7 +23,7 @@ from seacrane.hydro import (
 )
 from seacrane.hydro.hull import hull_database
 from seacrane.hydro.hull.solution import HullSolution
-from seacrane.warnings import FloatingPositionWarning, MeshConvergenceWarning
+from seacrane.warnings import FloatingPositionWarning, MeshConvergenceWarning, SubmergedPartWarning
 
 SHIP = (100.0, 16.0, 6.0)
 RHO, G = 1025.0, 9.81
@@ -104,11 +104,15 @@ def test_bad_values_are_refused() -> None:
             hydro_from_hull(barge(), **(SMALL | options))
 
 
-def test_hulls_that_would_not_float_as_drawn_warn() -> None:
+def test_hulls_that_would_not_float_as_drawn_or_have_a_bulb_warn() -> None:
     with pytest.warns(FloatingPositionWarning, match=r"\+20\.0 %"):
         hydro_from_hull(barge(), mass=1.2 * RHO * 1600.0, **SMALL)
     with pytest.warns(FloatingPositionWarning, match=r"\+1 m forward.*trim"):
         hydro_from_hull(barge(), **(SMALL | {"center_of_gravity": [1.0, 0.0, -1.0]}))
+    bulb = moved(sphere(1.5, 24), 22.0, 0.0, -2.5)
+    vertices, faces = joined(box(length=40.0, breadth=10.0, bottom=-4.0, top=3.0), bulb)
+    with pytest.warns(SubmergedPartWarning, match="of the volume hangs apart"):
+        hydro_from_hull(Hull.from_mesh(vertices=vertices, faces=faces).at_centre_of_buoyancy(), **SMALL)
 
 
 SHIPPED = ParametricHull(  # tools/make_database.py, entrance and origin as its source text says

@@ -310,22 +310,6 @@ def test_every_pair_follows_the_data_with_fewer_states(ship: tuple[HydroDatabase
     assert [block.inputs.tolist() for block in radiation(model)] == sorted([longitudinal, [1, 3, 5]])
 
 
-def test_any_oscillators_are_passive() -> None:
-    omega = np.geomspace(0.01, 50.0, 60)
-    for seed in range(40):
-        random = np.random.default_rng(seed)
-        masses = 3 + seed % 4
-        factor, w = random.normal(size=(masses, masses)), random.uniform(0.3, 3.0, masses)
-        dampers = factor @ factor.T + 0.1 * np.eye(masses)
-        model = Oscillators(w=w, dampers=dampers, coupling=random.normal(size=(masses, 3)))
-        a, b, c = model.state_space()
-        of: dict[str, Any] = {"cause": RADIATION, "outputs": np.arange(3), "inputs": np.arange(3)}
-        block = MemoryBlock(**of, A=a, B=b, C=c, D=np.zeros((3, 3)), state_scale=np.ones(len(a)))
-        assert block.transfer(omega) == pytest.approx(model.transfer(omega), rel=1e-8, abs=1e-9)
-        certificate = certify([block])
-        assert certificate.passive and certificate.energy and certificate.margin > 0.0
-
-
 def test_a_model_that_is_not_passive_is_refused(hull: MemoryModel) -> None:
     """The shipped per-pair model is not (docs); gain at infinity and a pole that grows are named."""
     memory = shipped_database().memory

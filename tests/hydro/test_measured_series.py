@@ -105,7 +105,6 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "an unknown unit": ({"head": ("time", "heave [furlong]", *HEAD[2:])}, r"line 1.*'heave \[furlong\]'"),
     "a heave in degrees": ({"head": ("time", "heave [deg]", *HEAD[2:])}, r"'heave \[deg\]' is in rad"),
     "a rate only": ({"head": ("time", "heave [m]", "roll rate [deg/s]", HEAD[3])}, r"line 1.*no col.*'roll'"),
-    "a column twice": ({"head": ("time", "a roll [deg]", "b roll [deg]", HEAD[3])}, "several.*'roll'"),
 }  # fmt: skip
 
 
