@@ -58,12 +58,6 @@ def edit(path: Path, old: str, new: str) -> None:
     path.write_text(text.replace(old, new))
 
 
-def replace_lines(path: Path, first: int, last: int, *new: str) -> None:
-    lines = path.read_text().split("\n")
-    lines[first - 1 : last] = new
-    path.write_text("\n".join(lines))
-
-
 def test_every_number_against_the_reference_values(database: HydroDatabase, expected: dict[str, Any]) -> None:
     assert (database.rho, database.g, database.depth) == (expected["rho"], expected["g"], np.inf)
     assert 2.0 * np.pi / database.omega[::-1] == pytest.approx(expected["periods_s"], rel=1e-12)
@@ -199,7 +193,7 @@ def test_length_scale_depth_and_upper_case_suffixes(copy: Path, database: HydroD
     edit(copy / "tanker.out", "Length scale:        1.00000", "Length scale:        2.00000")
     edit(copy / "tanker.out", "Water depth:        infinite ", "Water depth:       55.00000 ")
     (copy / "tanker.3").write_text("period heading i mod pha re im\n" + (copy / "tanker.3").read_text())
-    replace_lines(copy / "tanker.frc", 2, 2, "1 0 1 2 0 0 0 0 1")
+    edit(copy / "tanker.frc", "1 0 1 1 0 0 0 0 1", "1 0 1 2 0 0 0 0 1")
     for suffix in (".out", ".frc", ".hst"):
         (copy / f"tanker{suffix}").rename(copy / f"tanker{suffix.upper()}")
     found = read_wamit(copy)
