@@ -31,7 +31,7 @@ from seacrane.hydro.memory.certificate import certify
 from seacrane.hydro.memory.identification import IdentificationData, fit_lowest_order, fit_order, r_squared
 from seacrane.hydro.memory.oscillators import GroupData, Oscillators, Problem, fit_oscillators
 from seacrane.hydro.memory.realisation import realise
-from seacrane.warnings import MemoryFitWarning, RollDampingWarning
+from seacrane.warnings import InfiniteFrequencyWarning, MemoryFitWarning, RollDampingWarning
 
 OMEGA = np.linspace(0.1, 3.0, 59)
 NUMERATOR = np.array([3.0, 1.5, 0.8, 0.0])
@@ -50,7 +50,8 @@ def known_system(**changes: Any) -> IdentificationData:
 @pytest.fixture(scope="module")
 def supply(shared: Path) -> HydroDatabase:
     database = load_database(shared / "veres" / "supply")
-    return dataclasses.replace(database, memory=fit_memory(database=database, kind="per-pair"))
+    with pytest.warns(InfiniteFrequencyWarning):
+        return dataclasses.replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
 
 def test_a_known_system_is_recovered_and_the_lowest_sufficient_order_taken() -> None:
@@ -242,7 +243,8 @@ def hull() -> MemoryModel:
 
 @pytest.fixture(scope="module")
 def both(supply: HydroDatabase) -> tuple[HydroDatabase, MemoryModel]:
-    return supply, fit_memory(database=supply, kind="passive")
+    with pytest.warns(InfiniteFrequencyWarning):
+        return supply, fit_memory(database=supply, kind="passive")
 
 
 @pytest.fixture(params=["hull", pytest.param("both", marks=pytest.mark.slow("fits a memory to a file"))])
