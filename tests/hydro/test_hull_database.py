@@ -1,8 +1,8 @@
-"""`hydro_from_hull`: limits that hydrostatics gives, every consumer of a database, refusals, warnings."""
+"""`hydro_from_hull`: limits that hydrostatics gives, strip theory against panels, refusals, warnings."""
 
 from __future__ import annotations
 
-import sys
+import warnings
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -11,8 +11,6 @@ import numpy as np
 import pytest
 from hull_shapes import box, joined, moved, sphere, wigley_offsets
 
-from seacrane import Scene, linear_model, simulate
-from seacrane.analysis import response_summed
 from seacrane.hydro import (
     Hull,
     HydroDatabase,
@@ -21,8 +19,11 @@ from seacrane.hydro import (
     fit_memory,
     hydro_from_hull,
     natural_frequency,
+    shipped_database,
 )
-from seacrane.warnings import FloatingPositionWarning, SubmergedPartWarning
+from seacrane.hydro.hull import hull_database
+from seacrane.hydro.hull.solution import HullSolution
+from seacrane.warnings import FloatingPositionWarning, MeshConvergenceWarning, SubmergedPartWarning
 
 SHIP = (100.0, 16.0, 6.0)
 RHO, G = 1025.0, 9.81
@@ -38,9 +39,8 @@ def ship_database() -> HydroDatabase:
     return hydro_from_hull(ship(), center_of_gravity=[0.0, 0.0, -1.0], roll_damping_fraction=0.05)
 
 
-def barge(name: str = "barge") -> Hull:
-    table = OffsetTable(x=[-20.0, 20.0], sections=([[5.0, 2.0], [5.0, -4.0]],) * 2, name=name)
-    return Hull.from_offsets(table)
+def barge() -> Hull:
+    return Hull.from_offsets(OffsetTable(x=[-20.0, 20.0], sections=([[5.0, 2.0], [5.0, -4.0]],) * 2))
 
 
 def test_mass_restoring_and_main_dimensions() -> None:
@@ -51,8 +51,6 @@ def test_mass_restoring_and_main_dimensions() -> None:
     assert database.mass_matrix[0, 4] == pytest.approx(-mass)
     assert database.restoring[3, 3] == pytest.approx(mass * G * statics.metacentric_height(-1.0))
     assert (database.length, database.breadth, database.draught) == pytest.approx(SHIP)
-    for text in ("strip theory, 41 stations", "wigley", "GM_T", "roll damping of 0.05"):
-        assert text in database.source
     assert all(natural_frequency(database, motion) is not None for motion in (2, 3, 4))  # by the default grid
     assert 2.0 * np.pi * G / database.omega[-1] ** 2 == pytest.approx(5.0)
     assert len(database.heading) == 37
@@ -91,75 +89,19 @@ def test_port_starboard_symmetry_and_missing_surge() -> None:
     assert all(row.r2_added_mass > 0.98 and row.r2_damping > 0.98 for row in memory.rows), memory.rows
 
 
-@pytest.mark.warns("BelowBandWarning")
-@pytest.mark.slow("a long run")
-def test_a_run_in_a_low_sea_follows_the_summed_response() -> None:
-    scene = Scene(name="hull")
-    memory = fit_memory(database=ship_database(), kind="passive")
-    scene.add_vessel(replace(ship_database(), memory=memory), memory="passive")
-    scene.add_sea(hs=0.02, tp=8.0, direction_deg=150.0, count=60)
-    linear = linear_model(scene)
-    summed = response_summed(linear, body="vessel")
-    start = linear.full_state(summed.state_at(0.0))
-    result = simulate(scene, t_end=60.0, dt_out=0.5, start=start, channels=["vessel_motion"])
-    expected = summed.at(result.time)
-    difference = np.std(result["vessel_motion"] - expected, axis=0) / np.std(expected, axis=0)
-    np.testing.assert_array_less(difference, 0.01)
-    assert np.all(np.std(expected, axis=0)[[0, 2, 4]] > 1e-5)
-
-
-def test_offsets_mesh_and_parametric_hull_give_one_database() -> None:
-    shape = ParametricHull(
-        length=60.0, breadth=14.0, draught=4.0, entrance_length=24.0, run_length=20.0,
-        transom_breadth_fraction=0.8, transom_draught_fraction=0.5, section_exponent=4.0,
-    )  # fmt: skip
-    parametric = Hull.from_parametric(shape, stations=48, girth=24)
-    x = np.linspace(0.0, 60.0, 49)
-    table = OffsetTable(x=x, sections=tuple(shape.section(float(v), 20) for v in x))
-    panels = parametric.panels
-    mesh = Hull.from_mesh(vertices=panels.reshape(-1, 3), faces=np.arange(4 * len(panels)).reshape(-1, 4))
-    grid: dict[str, Any] = {"omega": np.linspace(0.4, 2.4, 6), "heading": np.radians([90.0, 135.0, 180.0])}
-    centre = [float(parametric.hydrostatics.center_of_buoyancy[0]), 0.0, 0.0]
-    one, other, third = (
-        hydro_from_hull(hull, center_of_gravity=centre, **grid)
-        for hull in (parametric, Hull.from_offsets(table), mesh)
-    )
-    for name in ("added_mass", "damping", "force", "infinite_frequency_added_mass"):
-        a, b, c = (np.asarray(getattr(d, name)) for d in (one, other, third))
-        scale = np.abs(a).reshape(-1, a.shape[-1]).max(axis=0)
-        np.testing.assert_array_less(np.abs(c - a) / np.where(scale > 0, scale, 1.0), 1e-6)
-        np.testing.assert_array_less(np.abs(b - a) / np.where(scale > 0, scale, 1.0), 0.02)
-
-
-def test_stations_converge() -> None:
-    """Halving the spacing changes damping a quarter as much."""
-    grid: dict[str, Any] = {"omega": np.array([0.6, 1.0]), "heading": np.radians([90.0, 135.0])}
-    ends = [hydro_from_hull(ship(), center_of_gravity=[0, 0, -1], stations=n, **grid) for n in (9, 17, 33)]
-    found = [database.damping[:, [1, 2, 4], [1, 2, 4]] for database in ends]
-    first, second = (np.abs(found[i + 1] - found[i]).max(axis=0) for i in range(2))
-    assert np.all(second < 0.5 * first)
-
-
 SMALL: dict[str, Any] = {"center_of_gravity": [0.0, 0.0, -1.0], "omega": [0.5, 1.0], "heading": [0.0, 1.5]}
 
 
-def test_bad_values_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bad_values_are_refused() -> None:
     table: list[tuple[dict[str, Any], str]] = [
-        ({"method": "magic"}, "strip or capytaine"), ({"speed": 3.0}, "zero speed"), ({"mass": 0.0}, "mass"),
-        ({"center_of_gravity": [0.0, 0.5, 0.0]}, "y = 0.5"), ({"center_of_gravity": [0, 0]}, "three finite"),
-        ({"center_of_gravity": [0.0, 0.0, 9.0]}, "capsizes"), ({"radii_of_gyration": [1, 2, -3]}, "positive"),
-        ({"rho": np.nan}, "rho is nan"), ({"g": -9.81}, "g is -9.81"), ({"omega": [0.0, 1.0]}, "above 0"),
-        ({"omega": [1.0, 0.5]}, "increasing"), ({"omega": []}, "increas"), ({"heading": [-0.5, 0.0]}, "2 pi"),
-        ({"stations": 3}, "5 or more"), ({"trusted_band": (2.0, 1.0)}, "trusted_band"),
-        ({"roll_damping_fraction": -0.1}, "roll_damping_fraction"),
+        ({"method": "magic"}, "strip or capytaine"), ({"speed": 3.0}, "zero speed"),
+        ({"center_of_gravity": [0.0, 0.5, 0.0]}, "y = 0.5"), ({"rho": np.nan}, "rho is nan"),
+        ({"center_of_gravity": [0.0, 0.0, 9.0]}, "capsizes"), ({"heading": [-0.5, 0.0]}, "2 pi"),
         ({"roll_damping_fraction": 0.05, "omega": [2.0, 3.0]}, "roll natural frequency"),
     ]  # fmt: skip
     for options, message in table:
         with pytest.raises(ValueError, match=message):
             hydro_from_hull(barge(), **(SMALL | options))
-    monkeypatch.setitem(sys.modules, "capytaine", None)
-    with pytest.raises(ImportError, match=r"seacrane\[hydro\]"):
-        hydro_from_hull(barge(), **SMALL, method="capytaine")
 
 
 def test_hulls_that_would_not_float_as_drawn_or_have_a_bulb_warn() -> None:
@@ -169,6 +111,98 @@ def test_hulls_that_would_not_float_as_drawn_or_have_a_bulb_warn() -> None:
         hydro_from_hull(barge(), **(SMALL | {"center_of_gravity": [1.0, 0.0, -1.0]}))
     bulb = moved(sphere(1.5, 24), 22.0, 0.0, -2.5)
     vertices, faces = joined(box(length=40.0, breadth=10.0, bottom=-4.0, top=3.0), bulb)
-    hull = Hull.from_mesh(vertices=vertices, faces=faces).at_centre_of_buoyancy()
     with pytest.warns(SubmergedPartWarning, match="of the volume hangs apart"):
-        hydro_from_hull(hull, **SMALL)
+        hydro_from_hull(Hull.from_mesh(vertices=vertices, faces=faces).at_centre_of_buoyancy(), **SMALL)
+
+
+SHIPPED = ParametricHull(  # tools/make_database.py, entrance and origin as its source text says
+    length=115.0, breadth=25.0, draught=6.4, entrance_length=46.77395891238753, run_length=34.5,
+    transom_breadth_fraction=0.75, transom_draught_fraction=0.2, section_exponent=6.0,
+    origin_from_transom=55.298818409692544,
+)  # fmt: skip
+OF_SHIPPED: dict[str, Any] = {"center_of_gravity": [0.0, 0.0, 1.878390], "mass": 14.0e6}
+BAND = (0.8, 1.3)
+SWAY_HEAVE = [1, 2]
+
+
+@cache
+def panel() -> HydroDatabase:
+    return shipped_database()
+
+
+@cache
+def inside() -> np.ndarray:
+    return np.flatnonzero((panel().omega > BAND[0] - 1e-9) & (panel().omega < BAND[1] + 1e-9))
+
+
+@cache
+def strip() -> HydroDatabase:
+    grid = {"omega": panel().omega[inside()], "heading": panel().heading[::9]}
+    return hydro_from_hull(SHIPPED, **OF_SHIPPED, **grid)
+
+
+def test_sway_and_heave_agree_at_each_frequency() -> None:
+    """A tenth of the panel method's value at the same frequency, but for two three-dimensional effects.
+
+    A22 falls to a sixth over the band, and the absolute difference stays: 0.14 at its end. B33: 0.11.
+    """
+    assert str(SHIPPED) in panel().source
+    np.testing.assert_allclose(strip().restoring, panel().restoring, rtol=1e-6, atol=1.0)
+    np.testing.assert_allclose(strip().mass_matrix, panel().mass_matrix, rtol=1e-6, atol=1e-2)
+    slow = panel().omega[inside()] < 1.12
+    for name, bounds in (("added_mass", [0.14, 0.1]), ("damping", [0.1, 0.11])):
+        one = np.asarray(getattr(panel(), name))[inside()][:, SWAY_HEAVE, SWAY_HEAVE]
+        off = np.abs(np.asarray(getattr(strip(), name))[:, SWAY_HEAVE, SWAY_HEAVE] - one)
+        assert np.all(off / one.max(axis=0) < 0.1)
+        assert np.all(off / one < bounds) and (off / one)[slow, 0].max() < 0.1
+
+
+def test_wave_forces_agree_in_phase_and_size() -> None:
+    """Complex, at 45, 90 and 135 deg, by the largest of the panel method over these headings."""
+    one, other = panel().force[::9][1:4, inside()], strip().force[1:4]
+    error = np.abs(other - one).max(axis=(0, 1)) / np.abs(one).max(axis=(0, 1))
+    np.testing.assert_array_less(error[[1, 2, 3, 5]], [0.06, 0.12, 0.11, 0.18])
+    # A wrong sign, heading or phase would give errors of one and more.
+    conjugate = np.abs(other.conj() - one).max(axis=(0, 1)) / np.abs(one).max(axis=(0, 1))
+    assert conjugate.min() > 0.5
+
+
+def test_capytaine_gives_the_same_kind_of_database() -> None:
+    pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
+    hull = Hull.from_offsets(wigley_offsets(100.0, 10.0, 5.0, 8)).remeshed(stations=24, girth=5)
+    statics = hull.hydrostatics
+    given: dict[str, Any] = {"omega": [0.05, 0.9, 1.1], "heading": np.radians([0.0, 90.0, 120.0])}
+    given["center_of_gravity"] = [float(statics.center_of_buoyancy[0]), 0.0, -1.5]
+    one, other = (hydro_from_hull(hull, method=method, **given) for method in ("capytaine", "strip"))
+    assert "Capytaine 3" in one.source and one.zero_frequency_added_mass is not None
+    np.testing.assert_array_equal(one.restoring, other.restoring)
+    np.testing.assert_array_equal(one.added_mass, one.added_mass.swapaxes(1, 2))
+    assert np.all(one.force[0, :, 1::2] == 0.0)
+    assert one.force[0, 0, 2].real == pytest.approx(1025.0 * 9.81 * statics.waterplane_area, rel=0.02)
+    for name in ("added_mass", "damping"):
+        a, b = (np.asarray(getattr(d, name))[1:, SWAY_HEAVE, SWAY_HEAVE] for d in (one, other))
+        np.testing.assert_allclose(b, a, rtol=0.15)
+    largest = np.abs(one.force[:, 1:]).max(axis=(0, 1))
+    error = np.abs(other.force[:, 1:] - one.force[:, 1:]).max(axis=(0, 1)) / largest
+    np.testing.assert_array_less(error[SWAY_HEAVE], 0.08)
+
+
+def test_a_mesh_is_checked_when_asked_for_and_named_when_it_has_not_converged(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hull = Hull.from_offsets(wigley_offsets(100.0, 10.0, 5.0, 24))
+    given: dict[str, Any] = {"center_of_gravity": (0, 0, -2), "omega": [0.5, 0.8], "heading": [0.0, 3.1]}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", MeshConvergenceWarning)
+        hydro_from_hull(hull, check=True, **given)
+    solve = hull_database.strip_solution
+
+    def off(hull: Hull, **given: Any) -> HullSolution:
+        found = solve(hull, **given)
+        factor = np.ones((6, 6))
+        factor[2, 2] = 1.1 if "remeshed" in hull.source else 1.0
+        return replace(found, damping=found.damping * factor)
+
+    monkeypatch.setattr(hull_database, "strip_solution", off)
+    with pytest.warns(MeshConvergenceWarning, match=r"B33 (9|10|11)\.\d%"):
+        hydro_from_hull(hull, check=True, **given)

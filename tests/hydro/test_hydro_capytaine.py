@@ -12,10 +12,8 @@ import pytest
 import xarray
 
 from seacrane import Scene
-from seacrane.cli import main
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import HydroDatabase, load_database, read_capytaine, shipped_database
-from seacrane.hydro.data.relations import damping_from_forces
 from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import MissingMotionsWarning
@@ -27,7 +25,6 @@ HEADING = slice(None, None, 3)
 
 
 def in_file(matrices: np.ndarray) -> np.ndarray:
-    """Matrices (..., 6, 6) in the order of the file."""
     return matrices[..., ORDER, :][..., ORDER]
 
 
@@ -44,15 +41,10 @@ def layout(centre: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> xarray.Datas
     undefined = np.full((1, len(direction), 6), np.nan + 1j * np.nan)
     excitation = np.concatenate([undefined, force, undefined])
     part = 0.3 * excitation + 1e3
-    matrix, waves = (
-        ("influenced_dof", "radiating_dof"),
-        ("complex", "omega", "wave_direction", "influenced_dof"),
-    )
-    parts = {
-        "Froude_Krylov_force": part,
-        "diffraction_force": excitation - part,
-        "excitation_force": excitation,
-    }
+    matrix = ("influenced_dof", "radiating_dof")
+    waves = ("complex", "omega", "wave_direction", "influenced_dof")
+    parts = {"Froude_Krylov_force": part, "diffraction_force": excitation - part}
+    parts["excitation_force"] = excitation
     return xarray.Dataset(
         {
             "added_mass": (("omega", *matrix), in_file(added_mass)),
@@ -72,7 +64,6 @@ def layout(centre: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> xarray.Datas
 
 
 def read(dataset: xarray.Dataset, folder: Path, **given: Any) -> HydroDatabase:
-    """The dataset by way of a file."""
     dataset.to_netcdf(folder / "hull.nc", engine="netcdf4")
     return read_capytaine(folder / "hull.nc", **given)
 
@@ -90,8 +81,6 @@ def test_the_shipped_hull_comes_back(centre: tuple[float, float, float], tmp_pat
     assert np.all(np.abs(found.force - base.force[HEADING, OMEGA]) <= 1e-12 * scale)
     assert (found.rho, found.g, found.depth, found.speed) == (base.rho, base.g, np.inf, 0.0)
     assert found.port_starboard_symmetric == (centre[1] == 0.0)
-    assert "Capytaine 3.0.0" in found.source and "hull" in found.source
-    assert found.motion_rao is None
     if found.port_starboard_symmetric:  # told apart from our own files
         found.save(tmp_path / "ours.nc")
         assert np.array_equal(load_database(tmp_path / "ours.nc").force, found.force)
@@ -119,59 +108,33 @@ def test_layouts_of_other_runs(tmp_path: Path) -> None:
     assert np.array_equal(found.force[-1], found.force[3])
 
 
-def test_finite_depth_wavenumber(tmp_path: Path) -> None:
-    """In 20 m of water the phase between mesh origin and centre follows omega^2 = g k tanh(k h)."""
-    shallow, deep = layout((40.0, 0.0, 0.0)), layout()
-    for dataset in (shallow, deep):
-        dataset["water_depth"] = 20.0
-        for name in ("Froude_Krylov_force", "diffraction_force"):
-            dataset[name] = deep[name]
-    turned = read(shallow, tmp_path).force[0, :, 2] / read(deep, tmp_path).force[0, :, 2]
-    omega = shipped_database().omega[OMEGA]
-    k = np.angle(turned[0]) / 40.0
-    assert shipped_database().g * k * np.tanh(20.0 * k) == pytest.approx(omega[0] ** 2, rel=1e-9)
-
-
-def two_depths() -> xarray.Dataset:
-    """20 m, with half as much added mass again, and deep water."""
-    deep = layout()
+def test_one_of_several_depths_is_chosen(tmp_path: Path) -> None:
+    base, deep = shipped_database(), layout()
     shallow = deep.assign_coords(water_depth=20.0)
     shallow["added_mass"] = 1.5 * deep["added_mass"]
     how: dict[str, Any] = {"data_vars": "all", "coords": "minimal", "compat": "override", "join": "exact"}
     both = xarray.concat([shallow, deep], dim="water_depth", **how)
     for name in ("inertia_matrix", "hydrostatic_stiffness"):
         both[name] = deep[name]
-    return both
-
-
-def test_one_of_several_depths_is_chosen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Added mass of each is its own; the file asks which. A sea takes it, or has to fit."""
-    both, base = two_depths(), shipped_database()
     for given, words in (({}, "choose one"), ({"depth": 30.0}, "not 30 m")):
         with pytest.raises(FileFormatError, match=f"depths 20, inf m.*{words}"):
             read(both, tmp_path, **given)
     for depth, factor in ((20.0, 1.5), (np.inf, 1.0)):
         found = read(both, tmp_path, depth=depth)
         assert found.added_mass == pytest.approx(factor * base.added_mass[OMEGA], rel=1e-12)
-        assert found.depth == depth
-    file = tmp_path / "hull.nc"
-    assert load_database(file, depth=20.0, speed=0.0).depth == 20.0
+        assert found.depth == load_database(tmp_path / "hull.nc", depth=depth, speed=0.0).depth == depth
     base.save(tmp_path / "deep.nc")
     with pytest.raises(FileFormatError, match="depth of inf m, not of 20 m"):
         load_database(tmp_path / "deep.nc", depth=20.0)
     with pytest.raises(FileFormatError, match="not of speed 3 m/s"):
-        load_database(file, depth=20.0, speed=3.0)
-    assert main(["hydro", str(file), "--depth", "20", "--json"]) == 0
-    assert "natural_period_heave_s" in capsys.readouterr().out
-    assert main(["hydro", str(file)]) != 0
+        load_database(tmp_path / "hull.nc", depth=20.0, speed=3.0)
     scene = Scene()
     scene.add_vessel(replace(base, depth=20.0), memory="convolution")
-    scene.add_sea(hs=1.0, tp=9.0)
-    assert scene.waves is not None and scene.waves.depth == 20.0
-    scene.waves = None
-    deep = SeaState(systems=[WaveSystem(spectrum=jonswap(hs=1.0, tp=9.0), direction_deg=0.0)])
+    deep_sea = SeaState(systems=[WaveSystem(spectrum=jonswap(hs=1.0, tp=9.0), direction_deg=0.0)])
     with pytest.raises(SceneError, match=r"inf m deep, .* 20 m, .*SeaState\(depth=20\)"):
-        scene.add_sea(sea=deep)
+        scene.add_sea(sea=deep_sea)
+    scene.add_sea(hs=1.0, tp=9.0)
+    assert scene.waves.depth == 20.0
 
 
 @pytest.mark.parametrize("measure", ["freq", "period", "wavenumber", "wavelength"])
@@ -208,35 +171,20 @@ def test_motions_and_matrices_that_are_missing(tmp_path: Path) -> None:
         assert np.array_equal(matrices[:, *kept], getattr(base, name)[OMEGA][:, *kept])
         assert not matrices[:, [1, 3, 5]].any() and not matrices[:, :, [1, 3, 5]].any()
     assert not found.force[..., [1, 3, 5]].any()
-    heave = base.force[HEADING, OMEGA, 2]
-    assert np.abs(found.force[..., 2] - heave).max() < 1e-12 * np.abs(base.force).max()
     bare = dataset.drop_vars(["inertia_matrix", "hydrostatic_stiffness"])
-    with pytest.raises(FileFormatError, match="inertia_matrix is missing"):
-        read(bare, tmp_path)
     with pytest.raises(FileFormatError, match=r"hydrostatic_stiffness is missing; .* pass restoring"):
         read(bare, tmp_path, mass_matrix=base.mass_matrix)
     assert np.array_equal(read(bare, tmp_path, **given).restoring, base.restoring)
 
 
 DAMAGE: list[tuple[Any, str]] = [
-    (lambda d: d.drop_vars("added_mass"), "not a seacrane|added_mass is missing"),
-    (lambda d: d.drop_vars("rho"), "rho is missing"), (lambda d: d.drop_vars("complex"), "along complex"),
-    (lambda d: d.drop_vars(["excitation_force", "diffraction_force"]), "neither excitation_force nor"),
     (lambda d: d.assign_coords(forward_speed=2.5), "forward_speed is 2.5"),
     (lambda d: d.assign_coords(wave_direction=d.wave_direction * 57.3), "180.* radians"),
     (lambda d: d.isel(radiating_dof=[0, 1, 3, 4, 5, 5]), "radiating_dof .* each once"),
-    (lambda d: d.isel(radiating_dof=[0, 1, 5]), "influenced_dof and radiating_dof"),
-    (lambda d: d.isel(radiating_dof=[0, 5], influenced_dof=[0, 5]), "no surge, .* mass_matrix and"),
-    (lambda d: d.isel(radiating_dof=[0, 1, 2]), "radiating_dof .*heave"),
-    (lambda d: d.assign(hydrostatic_stiffness=-d.hydrostatic_stiffness), "C33 = -"),
-    (lambda d: d.rename(omega="frequency"), "no dimension omega"),
-    (lambda d: d.assign_coords(influenced_dof=list("abcdef")), "influenced_dof holds a, b"),
     (lambda d: d.assign_coords(radiating_dof=[f"{i % 2}__{n}" for i, n in enumerate(NAMES)]), "several"),
-    (lambda d: d.isel(omega=[0, -1]), "no finite positive"), (lambda d: d.isel(omega=[1, 1, 2]), "repeated"),
-    (lambda d: d.assign(added_mass=d.added_mass.isel(omega=0, drop=True)), "added_mass has dimensions"),
+    (lambda d: d.isel(omega=[1, 1, 2]), "repeated"), (lambda d: d.expand_dims(trim=[0.0, 1.0]), "on trim"),
     (lambda d: d.assign(diffraction_force=d.diffraction_force * np.nan), "force.* is .*nan"),
     (lambda d: d.drop_vars("rho").expand_dims(rho=[1000.0, 1025.0]), "rho has 2 values"),
-    (lambda d: d.expand_dims(trim=[0.0, 1.0]), "depends on trim"),
 ]  # fmt: skip
 
 
@@ -244,15 +192,6 @@ def test_damage_is_named(tmp_path: Path) -> None:
     for damage, message in DAMAGE:
         with pytest.raises(FileFormatError, match=rf"hull\.nc: .*({message})"):
             read(damage(layout()), tmp_path)
-    with pytest.raises(FileFormatError, match=r"none\.nc: no such file"):
-        read_capytaine(tmp_path / "none.nc")
-    layout().to_netcdf(tmp_path / "hull.nc", engine="netcdf4")
-    whole = (tmp_path / "hull.nc").read_bytes()
-    for part in (0.0, 0.2, 0.6, 0.95):
-        (tmp_path / "cut.nc").write_bytes(whole[: int(part * len(whole))])
-        for reader in (read_capytaine, load_database):
-            with pytest.raises(FileFormatError, match=r"cut\.nc"):
-                reader(tmp_path / "cut.nc")
 
 
 def solved_barge(x: float, y: float, turn: Any = None) -> xarray.Dataset:
@@ -274,24 +213,3 @@ def solved_barge(x: float, y: float, turn: Any = None) -> xarray.Dataset:
     study = xarray.Dataset(coords=wanted | {"radiating_dof": list(body.dofs)})
     solved: xarray.Dataset = capytaine.BEMSolver().fill_dataset(study, [body], progress_bar=False)
     return solved
-
-
-@pytest.mark.warns("DampingWarning", "HeadingGapWarning")
-def test_a_fresh_capytaine_run(tmp_path: Path) -> None:
-    """Energy relation (signs of the couplings included), long waves, and a mesh placed elsewhere."""
-    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
-    capytaine.export_dataset(tmp_path / "here.nc", solved_barge(0.0, 0.0))
-    capytaine.export_dataset(tmp_path / "there.nc", solved_barge(30.0, -10.0))
-    found, moved = load_database(tmp_path / "here.nc"), load_database(tmp_path / "there.nc")
-    assert found.port_starboard_symmetric
-    assert (found.length, found.breadth, found.draught) == pytest.approx((24.0, 8.0, 2.0), rel=0.05)
-    radiated = damping_from_forces(found)
-    peak = np.sqrt(np.diagonal(found.damping, axis1=1, axis2=2).max(axis=0))
-    error = (radiated - found.damping) / np.outer(peak, peak)
-    for j, k in ((0, 0), (1, 1), (2, 2), (4, 4), (5, 5), (0, 4)):
-        assert np.abs(error[:, j, k]).max() < 0.08
-    for j, k in ((0, 4), (1, 3)):  # roll is off by a third on so few panels, but signs have to agree
-        assert np.all(radiated[:, j, k] * found.damping[:, j, k] > 0.0)
-    assert 0.6 < found.force[0, 0, 2].real / found.restoring[2, 2] < 1.0
-    assert np.all(np.abs(moved.force - found.force) <= 1e-4 * np.abs(found.force).max(axis=(0, 1)))
-    assert np.all(np.abs(moved.added_mass - found.added_mass) <= 1e-4 * np.abs(found.added_mass).max())

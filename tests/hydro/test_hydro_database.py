@@ -1,26 +1,49 @@
-"""HydroDatabase: validation, interpolation of forces, symmetry, selection, lossless NetCDF."""
+"""HydroDatabase: forces between, selection, lossless NetCDF; data that contradict themselves or the scene."""
 
 from __future__ import annotations
 
 import dataclasses
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import netCDF4
 import numpy as np
 import pytest
-import xarray
 from test_hydro_transform import full
 
+from seacrane import Scene
 from seacrane.errors import FileFormatError
-from seacrane.hydro import DriftCoefficients, HydroDatabase, load_database, shipped_database
+from seacrane.hydro import (
+    AdditionalMatrices,
+    DriftCoefficients,
+    HydroDatabase,
+    MemoryModel,
+    RollDamping,
+    fit_memory,
+    load_database,
+    shipped_database,
+    vessel_parameters,
+)
+from seacrane.hydro.data.data_warnings import warn_of_water
 from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.warnings import (
+    AsymmetryWarning,
+    DampingWarning,
+    HeadingGapWarning,
+    InfiniteFrequencyWarning,
+    MemoryMismatchWarning,
+    NonPassiveMemoryWarning,
+    RollDampingWarning,
+    WaterMismatchWarning,
+)
 
 PARITY = np.array([1, -1, 1, -1, 1, -1])
 
 
 def small(**changes: Any) -> HydroDatabase:
-    """A floating body with smooth, made-up numbers: 12 frequencies, 7 headings from 0 to 180 degrees."""
     omega, heading = np.linspace(0.2, 2.4, 12), np.radians(np.arange(0.0, 181.0, 30.0))
     diagonal = np.diag([1.0, 1.2, 2.0, 30.0, 90.0, 80.0]) * 1e6
     values: dict[str, Any] = {
@@ -35,7 +58,6 @@ def small(**changes: Any) -> HydroDatabase:
 
 
 def everything() -> HydroDatabase:
-    """A database in which every optional part is filled, with the shipped memory model."""
     drag = np.random.default_rng(5).normal(size=6)
     return full(memory=shipped_database().memory, quadratic_damping=drag, trusted_band=(0.3, 2.0))
 
@@ -68,43 +90,20 @@ def test_headings_wrap_and_mirror() -> None:
         assert np.all(np.abs(database.force_at(omega, -heading) - PARITY * force) < 1e-9 * size)
 
 
-def test_wide_gaps_between_headings_are_not_interpolated() -> None:
-    base, beam = small(), np.pi / 2.0
-    sparse = dataclasses.replace(base, heading=base.heading[[0, 3]], force=base.force[[0, 3]])
-    assert sparse.force_at(1.0, beam) == pytest.approx(base.force_at(1.0, beam))
-    assert sparse.force_at(1.0, -beam) == pytest.approx(PARITY * base.force_at(1.0, beam))
-    with pytest.raises(ValueError, match="heading 45 deg"):
-        sparse.force_at(1.0, np.pi / 4.0)
-    with pytest.raises(ValueError, match="heading -30 deg"):  # a vessel without symmetry is not mirrored
-        small(port_starboard_symmetric=False).force_at(1.0, -np.pi / 6.0)
-    for omega, heading in ((np.nan, 0.0), (1.0, np.inf)):
-        with pytest.raises(ValueError, match="finite"):
-            base.force_at(omega, heading)
-
-
 def test_bad_input_names_the_object() -> None:
     table: list[tuple[dict[str, Any], str]] = [
         ({"omega": np.linspace(2.4, 0.2, 12)}, "omega is not strictly increasing"),
-        ({"omega": np.linspace(0.0, 2.4, 12)}, "omega spans 0"), ({"omega": np.zeros(0)}, "shape|empty"),
-        ({"heading": np.radians([0.0, 30.0, 20.0, 40.0, 50.0, 60.0, 70.0])}, "heading is not strictly"),
-        ({"heading": np.radians(np.linspace(0.0, 360.0, 7))}, "heading spans"), ({"rho": -1.0}, "rho is"),
+        ({"heading": np.radians(np.linspace(0.0, 360.0, 7))}, "heading spans"),
         ({"added_mass": np.zeros((11, 6, 6))}, r"added_mass has shape \(11, 6, 6\)"),
         ({"force": np.zeros((7, 12, 5))}, "force has shape"), ({"mass_matrix": -np.eye(6)}, "mass matrix"),
         ({"damping": np.full((12, 6, 6), np.nan)}, r"damping\[0, 0, 0\] is nan"),
-        ({"depth": float("nan")}, "depth is nan"), ({"trusted_band": (2.0, 1.0)}, "trusted_band"),
     ]  # fmt: skip
     for changes, message in table:
         with pytest.raises(ValueError, match=message):
             small(**changes)
     good = {"heading": [0.0, 1.0], "omega": [0.3, 0.4, 0.5], "coefficient": np.zeros((2, 3, 6))}
-    assert not DriftCoefficients(**good).coefficient.flags.writeable
-    for changes, message in (
-        ({"heading": [0.0, 7.0]}, "heading must rise"), ({"omega": [0.0, 0.4, 0.5]}, "omega must"),
-        ({"omega": [0.3, 0.4, np.nan]}, r"omega\[2\] is not finite"),
-        ({"coefficient": np.zeros((2, 3, 3))}, r"coefficient has shape \(2, 3, 3\)"),
-    ):  # fmt: skip
-        with pytest.raises(ValueError, match=message):
-            DriftCoefficients(**(good | changes))
+    with pytest.raises(ValueError, match="heading must rise"):
+        DriftCoefficients(**(good | {"heading": [0.0, 7.0]}))
 
 
 def test_arrays_are_read_only_copies_and_labelled_in_xarray() -> None:
@@ -114,16 +113,10 @@ def test_arrays_are_read_only_copies_and_labelled_in_xarray() -> None:
     assert database.omega[0] == 0.2
     with pytest.raises(ValueError, match="read-only"):
         database.added_mass[0, 0, 0] = 1.0
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        database.rho = 1.0  # type: ignore[misc]
-    database = everything()
     dataset = database.to_xarray()
     heave = dataset.added_mass.sel(motion="heave", motion_of="heave").values
     assert heave == pytest.approx(database.added_mass[:, 2, 2])
     assert np.array_equal(dataset.force.transpose("heading", "omega", "motion").values, database.force)
-    assert dataset.attrs["rho"] == database.rho and "added_mass_roll_tanks" in dataset
-    dataset.force.values[:] = 0.0
-    assert np.abs(database.force).max() > 0.0
 
 
 @pytest.mark.warns(sometimes=["DampingWarning", "HeadingGapWarning", "RaoPhaseWarning"])
@@ -144,56 +137,26 @@ def test_netcdf_round_trip_loses_nothing(build: Any, tmp_path: Path) -> None:
     assert [file.name for file in tmp_path.iterdir()] == ["copy.nc"]
 
 
-def test_a_failing_save_leaves_the_old_file(tmp_path: Path) -> None:
-    target = tmp_path / "copy.nc"
-    small().save(target)
-    before = target.read_bytes()
-    broken = small()
-    object.__setattr__(broken, "trusted_band", ("a", "b"))
-    with pytest.raises(ValueError, match="could not convert"):
-        broken.save(target)
-    assert target.read_bytes() == before
-    assert [file.name for file in tmp_path.iterdir()] == ["copy.nc"]
-    with pytest.raises(FileNotFoundError, match="nowhere"):
-        small().save(tmp_path / "nowhere" / "copy.nc")
-
-
 def test_damaged_foreign_and_other_files_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match="nothing of a known kind"):
-        load_database(tmp_path)
     path, one = tmp_path / "whole.nc", tmp_path / "one.nc"
     shipped_database().save(path)
     data = path.read_bytes()
-    for part in (0.0, 0.02, 0.3, 0.6, 0.9, 0.999):
+    for part in (0.02, 0.6, 0.999):
         one.write_bytes(data[: int(part * len(data))])
         with pytest.raises(FileFormatError, match=r"one\.nc"):
             load_database(one)
-    for missing in ("omega", "force", "memory/A", "memory/row_order"):
+    for missing in ("force", "memory/A"):
         one.write_bytes(data)
         *group, name = missing.split("/")
         with netCDF4.Dataset(one, "a") as file:
             (file[group[0]] if group else file).renameVariable(name, "elsewhere")
         with pytest.raises(FileFormatError, match="damaged"):
             load_database(one)
-    for version in (0, 99):
-        one.write_bytes(data)
-        with netCDF4.Dataset(one, "a") as file:
-            file.format_version = version
-        with pytest.raises(FileFormatError, match=rf"format version {version}, .* version 1"):
-            load_database(one)
-    xarray.Dataset({"x": ("a", [1.0])}).to_netcdf(one)
-    with pytest.raises(FileFormatError, match="not a seacrane"):
+    one.write_bytes(data)
+    with netCDF4.Dataset(one, "a") as file:
+        file.format_version = 99
+    with pytest.raises(FileFormatError, match=r"format version 99, .* version 1"):
         load_database(one)
-    (tmp_path / "some.txt").write_text("hello")
-    with pytest.raises(FileFormatError, match=r"supported: .* Capytaine, .* of seacrane, a ShipX/VERES"):
-        load_database(tmp_path / "some.txt")
-    for read in (load_database, HydroDatabase.load):
-        with pytest.raises(FileFormatError, match="no such file"):
-            read(tmp_path / "absent.nc")
-    with pytest.raises(FileFormatError, match=r"several files .*name one"):
-        load_database(tmp_path)
-    one.unlink()
-    assert load_database(tmp_path).name == shipped_database().name
 
 
 def test_selected_values_are_the_stored_ones() -> None:
@@ -229,13 +192,171 @@ def test_ranges_cross_zero_and_memory_stays_with_all_its_frequencies() -> None:
 
 def test_a_choice_that_makes_no_sense() -> None:
     table: list[tuple[dict[str, Any], str]] = [
-        ({"omega": (2.0, 1.0)}, "no range"), ({"omega": (1.0, np.nan)}, "no range"),
-        ({"omega": (1.0, 2.0, 3.0)}, "no range"), ({"omega": (5.0, 6.0)}, "leaves nothing"),
-        ({"omega": []}, "leaves nothing"), ({"omega": [0, 99]}, "beyond its 61"),
-        ({"omega": [0.5, 1.5]}, "neither a range"), ({"omega": [1, 1]}, "twice"),
-        ({"heading": [[0, 1]]}, "neither a range"), ({"omega": (2.6, 3.0)}, "trusted band 0.3 to 2.5"),
-        ({"every": 0}, "every = 0"), ({"every_heading": 1.5}, "every_heading = 1.5"),
+        ({"omega": (5.0, 6.0)}, "leaves nothing"), ({"omega": [0.5, 1.5]}, "neither a range"),
+        ({"omega": [1, 1]}, "twice"), ({"omega": (2.6, 3.0)}, "trusted band 0.3 to 2.5"),
     ]  # fmt: skip
     for choice, message in table:
         with pytest.raises(ValueError, match=message):
             shipped_database().select(**choice)
+
+
+@contextmanager
+def silence() -> Iterator[None]:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        yield
+
+
+def hull(**changes: Any) -> HydroDatabase:
+    return dataclasses.replace(shipped_database(), **({"memory": None} | changes))
+
+
+def saved(database: HydroDatabase, folder: Path) -> HydroDatabase:
+    database.save(folder / "hull.nc")
+    return load_database(folder / "hull.nc")
+
+
+def test_infinite_frequency_added_mass_that_is_not_there() -> None:
+    database = hull(infinite_frequency_added_mass=None)
+    with pytest.warns(InfiniteFrequencyWarning, match=r"3.1 rad/s"):
+        fit_memory(database=database, kind="per-pair", r2=0.9)
+    with pytest.raises(ValueError, match="infinite_frequency='estimated'"):
+        fit_memory(database=database, infinite_frequency="known")
+
+
+def damped(at: Any = slice(None), **entries: float) -> np.ndarray:
+    """The hull's damping with entries multiplied, given as shares of what their diagonals bound."""
+    damping = shipped_database().damping.copy()
+    for pair, share in entries.items():
+        j, k = (int(one) - 1 for one in pair[1:])
+        bound = np.sqrt(damping[at, j, j] * damping[at, k, k])
+        damping[at, j, k] = damping[at, k, j] = share * bound
+    return damping
+
+
+ROLL = RollDamping(linear=np.full(61, -1.0), quadratic=np.zeros(61), linearised=np.zeros((37, 61)))
+
+
+@pytest.mark.warns(sometimes=["MemoryMismatchWarning", "RollDampingWarning"])
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"damping": damped(12, b33=-1.0)}, r"radiation damping at 0\.7 rad/s"),
+        ({"damping": damped(b35=1.3)}, "radiation damping at"),  # heave and pitch together gain energy
+        ({"linear_damping": np.eye(6)[::-1] * 1e6}, "linear_damping has a negative eigenvalue"),
+        ({"quadratic_damping": np.array([0, 0, 0, -1e7, 0, 0])}, r"-1e\+07, below zero"),
+        ({"roll_damping": ROLL}, "-1, below zero"),
+    ],
+)
+def test_negative_damping_is_named(changes: dict[str, Any], message: str, tmp_path: Path) -> None:
+    database = hull(**changes)
+    with pytest.warns(DampingWarning, match=message):
+        saved(database, tmp_path)
+    with pytest.warns(DampingWarning, match=message) as told:
+        vessel_parameters(database, memory=shipped_database().memory)
+    assert not any(one.category is NonPassiveMemoryWarning for one in told)  # the memory is not to blame
+    with silence():  # noise outside the trusted band is no fault
+        saved(hull(damping=damped(-3, b33=-1.0)), tmp_path)
+
+
+def test_gaps_between_headings_are_told(tmp_path: Path) -> None:
+    base = shipped_database()
+    degrees = np.degrees(base.heading)
+    kept, edge = (list(map(int, np.flatnonzero((degrees < 61) | (degrees > most)))) for most in (119, 104))
+    for database, message, at in (
+        (hull(port_starboard_symmetric=False), "a gap of 180 deg from 180 deg.*not symmetric", -60.0),
+        (base.select(heading=kept), "a gap of 60 deg from 60 deg", 90.0),
+    ):
+        with pytest.warns(HeadingGapWarning, match=message):
+            found = saved(database, tmp_path)
+        with pytest.raises(ValueError, match=f"heading {at:g} deg is not among the stored ones"):
+            found.force_at(1.0, np.radians(at))
+    with silence():
+        saved(hull().at((0.0, 2.0, 0.0)), tmp_path)
+        saved(base.select(heading=edge), tmp_path)  # 45 deg can be bridged
+
+
+def test_frequencies_and_headings_are_never_extrapolated() -> None:
+    base = shipped_database()
+    for omega in (base.omega[0] - 1e-6, base.omega[-1] + 1e-6):
+        with pytest.raises(ValueError, match=r"is outside 0\.1 to 3\.1 rad/s"):
+            base.force_at(omega, 0.0)
+    # Magnitudes or phases alone would give other values between.
+    phase = np.exp(1j * np.outer(np.cos(base.heading), 20.0 * base.omega))[:, :, None]
+    w, b = 0.725, np.radians(42.5)
+    found = hull(force=1e6 * phase * np.ones(6)).force_at(w, b)[2]
+    assert np.abs(found - 1e6 * np.exp(20j * w * np.cos(b))) < 0.02e6
+
+
+def test_units_and_water_that_do_not_fit(tmp_path: Path) -> None:
+    for changes, message in (
+        ({"rho": 1.025}, r"mass .*742\.3 times"), ({"g": 1.62}, r"C33 .*5\.082 times"),
+        ({"length": 11.5}, r"mass .*7\.423 times"),
+    ):  # fmt: skip
+        with pytest.warns(WaterMismatchWarning, match=message):
+            saved(hull(**changes), tmp_path)
+    with silence():  # 9.80665 and 9.81
+        Scene(name="earth").add_vessel(shipped_database())
+    with pytest.warns(WaterMismatchWarning, match=r"9\.81 m/s2, .* 1\.62"):
+        Scene(name="moon", gravity=1.62).add_vessel(shipped_database())
+    omega, shallow = np.array([0.3, 0.8, 2.0]), hull(depth=30.0)
+    with silence():
+        warn_of_water(shallow, gravity=9.81, depth=30.0, omega=omega)
+        warn_of_water(shallow, gravity=9.81, depth=np.inf, omega=omega[1:] * 1.5)  # deep for these waves
+    with pytest.warns(WaterMismatchWarning, match="30 m, the sea has inf m: at 0.3 rad/s"):
+        warn_of_water(shallow, gravity=9.81, depth=np.inf, omega=omega, what="the sea")
+
+
+def test_a_memory_of_another_point_or_tanks_is_found() -> None:
+    base = shipped_database()
+    with silence():
+        vessel_parameters(base)
+        vessel_parameters(base.at((1.0, 0.0, 0.0)))
+        vessel_parameters(base.mirror())
+    for point in ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (-30.0, 0.0, 0.0)):
+        with pytest.warns(MemoryMismatchWarning, match="states R2 = .* for pair"):
+            vessel_parameters(base.at(point), memory=base.memory)
+    tanks = np.zeros((61, 6, 6))
+    tanks[:, 3, 3] = 1e6
+    part = AdditionalMatrices(cause="tanks", added_mass=tanks, damping=tanks, restoring=0.0 * tanks)
+    with pytest.warns(MemoryMismatchWarning, match="holds nothing of tanks"):
+        vessel_parameters(dataclasses.replace(base, additional=(part,)))
+    rows = (*base.memory.rows, dataclasses.replace(base.memory.rows[3], cause="tanks"))
+    with pytest.warns(MemoryMismatchWarning, match="it holds tanks"):
+        vessel_parameters(base, memory=dataclasses.replace(base.memory, rows=rows))
+
+
+@pytest.mark.warns("MemoryMismatchWarning")
+def test_a_memory_that_feeds_the_motions_is_named() -> None:
+    """Blocks off the diagonal half as strong again, and heave whose memory pushes in place of damping."""
+    base = shipped_database()
+
+    def changed(factor: float, heave: float) -> MemoryModel:
+        blocks = []
+        for block in base.memory.blocks:
+            own = list(block.inputs) == list(block.outputs)
+            scale = (heave if list(block.inputs) == [2] else 1.0) if own else factor
+            blocks.append(dataclasses.replace(block, C=scale * block.C))
+        return dataclasses.replace(base.memory, blocks=tuple(blocks))
+
+    forced = changed(1.5, 1.0)  # what the model states about itself is now wrong
+    assert forced.passivity.minimum > -0.05
+    for model, message in ((forced, "of the largest at"), (changed(1.0, -1.0), "free vessel grow with")):
+        with pytest.warns(NonPassiveMemoryWarning, match=message):
+            vessel_parameters(base, memory=model)
+
+
+def test_roll_damping_taken_where_there_is_no_resonance() -> None:
+    roll = dataclasses.replace(ROLL, linear=np.linspace(1e6, 9e6, 61))
+    stiff = shipped_database().restoring.copy()
+    stiff[3, 3] *= 1e3
+    with pytest.warns(RollDampingWarning, match="resonance lies outside 0.1 to 3.1 rad/s"):
+        vessel_parameters(hull(roll_damping=roll, restoring=stiff, memory=shipped_database().memory))
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.MemoryFitWarning")
+def test_any_use_of_a_skew_matrix_warns() -> None:
+    skew = shipped_database().added_mass.copy()
+    skew[:, 0, 4] += 0.5 * np.sqrt(skew[:, 0, 0] * skew[:, 4, 4])
+    with pytest.warns(AsymmetryWarning, match="added_mass is not symmetric: its entries 15 and 51"):
+        vessel_parameters(hull(added_mass=skew))

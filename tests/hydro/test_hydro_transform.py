@@ -11,9 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_hydro_capytaine import solved_barge
 
-from seacrane import cases, simulate
 from seacrane.hydro import (
     AdditionalMatrices,
     DriftCoefficients,
@@ -29,7 +27,7 @@ from seacrane.hydro import (
 from seacrane.hydro.memory.certificate import is_energy_form
 from seacrane.hydro.vessel.memory_stability import free_vessel_system
 from seacrane.sea.dispersion import wavenumber
-from seacrane.warnings import InfiniteFrequencyWarning, QuadraticDampingWarning
+from seacrane.warnings import QuadraticDampingWarning
 
 PARITY = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 POINTS = [(7.0, 0.0, 0.0), (0.0, 0.0, -3.0), (-11.0, 4.0, 2.5)]
@@ -114,7 +112,6 @@ def test_motions_at_the_new_point_are_those_the_rigid_body_has_there(point: Any)
     assert motion_response(there) == pytest.approx(before * phase, rel=1e-9, abs=1e-12)
     assert motion_response(stay) == pytest.approx(before, rel=1e-9, abs=1e-12)
     assert there.motion_rao == pytest.approx(carried(base.motion_rao) * phase, rel=1e-12)
-    assert "zero phase at the latter" in stay.origin
 
 
 def test_moments_and_power_do_not_depend_on_the_point() -> None:
@@ -128,43 +125,16 @@ def test_moments_and_power_do_not_depend_on_the_point() -> None:
     assert there.drift.coefficient @ new == pytest.approx(base.drift.coefficient @ old)
 
 
-@pytest.mark.parametrize("kind", ["per-pair", "passive"])
-def test_the_free_vessel_with_memory_has_the_same_eigenvalues(kind: str) -> None:
+def test_the_free_vessel_with_passive_memory_has_the_same_eigenvalues() -> None:
     base = shipped_database()
-    if kind == "passive":
-        base = dataclasses.replace(base, memory=fit_memory(database=base, kind="passive", r2=0.9))
+    base = dataclasses.replace(base, memory=fit_memory(database=base, kind="passive", r2=0.9))
     there = base.at((12.0, -5.0, 3.0))
     before, after = (np.linalg.eigvals(free_vessel_system(vessel_parameters(d))) for d in (base, there))
     distance = np.abs(before[:, None] - after)
     assert len(before) == len(after)
     assert distance.min(axis=1).max() < 1e-10 and distance.min(axis=0).max() < 1e-10
-    if kind == "passive":
-        assert all(is_energy_form(block) for block in there.memory.blocks)
-        assert passivity_certificate(there.memory).passive
-        return
-    row = next(row for row in there.memory.rows if (row.output, row.input) == (2, 4))  # judged there
-    inside = (there.omega >= 0.3) & (there.omega <= 2.5)
-    data, fitted = there.damping[inside, 2, 4], there.memory.frequency_response(there.omega)[1][inside, 2, 4]
-    assert row.r2_damping == pytest.approx(
-        1.0 - np.sum((data - fitted) ** 2) / np.sum((data - data.mean()) ** 2)
-    )
-
-
-def test_a_run_about_the_new_point_is_the_same_voyage(tmp_path: Path) -> None:
-    """The time domain about two points in the same sea: they differ by products of small motions only."""
-    point, base, errors = (10.0, 4.0, -3.0), shipped_database(), []
-    base.at(point, phase_origin=False).save(tmp_path / "moved.nc")
-    for hs in (0.1, 1.0):
-        runs = []
-        for database in (base, load_database(tmp_path / "moved.nc")):
-            scene = cases.vessel(database=database, hs=hs, mooring_period=None)
-            runs.append(simulate(scene, t_end=20.0, dt_out=0.5, channels=["vessel_motion"])["vessel_motion"])
-        old, new = map(np.asarray, runs)
-        carried = np.concatenate([old[:, :3] + np.cross(old[:, 3:], point), old[:, 3:]], axis=1)
-        assert np.abs(new - old).max() > 0.1 * np.abs(old).max()
-        errors.append((np.abs(new - carried).max(axis=0) / np.abs(old).max(axis=0)).max())
-    assert errors[0] < 5e-3
-    assert 5.0 < errors[1] / errors[0] < 20.0  # grows with the waves: of second order
+    assert all(is_energy_form(block) for block in there.memory.blocks)
+    assert passivity_certificate(there.memory).passive
 
 
 def test_off_the_centreline_both_sides_are_written_out() -> None:
@@ -248,48 +218,8 @@ def test_what_cannot_be_moved_is_named() -> None:
         warnings.simplefilter("error")
         base.at((0.0, 3.0, 0.0))  # sway keeps its velocity when the point moves along y
         dataclasses.replace(base, quadratic_damping=np.array([0, 0, 0, 7e8, 1e9, 9e9])).at((6.0, 2.0, 1.0))
-    for point in ((1.0, 2.0), (1.0, np.nan, 0.0), np.zeros((2, 3))):
-        with pytest.raises(ValueError, match="three finite numbers"):
-            base.at(point)
-    with pytest.raises(ValueError, match="net_lift is nan"):
-        base.at((1.0, 0.0, 0.0), net_lift=float("nan"))
-
-
-@pytest.mark.slow("real ships")
-def test_limits_of_the_closure_follow_the_motions_that_mix(shared: Path) -> None:
-    base = load_database(shared / "veres" / "supply")
-    there = base.at((0.0, 3.0, 0.0))  # heave there holds roll, which the files give with fewer digits
-    assert there.motion_rao_limit == pytest.approx([1e-3, 1e-3, 1e-3, 1e-3, 1e-5, 1e-3])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", InfiniteFrequencyWarning)
-        rows = {row.check: row for row in there.check()}
-    assert all(
-        rows[f"motion_rao_{name}"].verdict == "pass" for name in ("surge", "sway", "roll", "pitch", "yaw")
-    )
-
-
-@pytest.mark.filterwarnings("ignore::UserWarning")
-def test_capytaine_about_two_rotation_centres(tmp_path: Path) -> None:
-    """The same panels, twice solved: what Capytaine gives about the other centre is what at() makes.
-
-    Not its inertia, which mixes the volume's centroid (moments) with the centre of mass (couplings).
-    """
-    import capytaine
-
-    found = []
-    for centre in ((3.0, 0.0, 0.0), (-2.0, 1.5, -1.0)):
-        capytaine.export_dataset(tmp_path / "barge.nc", solved_barge(3.0, 0.0, turn=centre))
-        found.append(
-            dataclasses.replace(load_database(tmp_path / "barge.nc"), port_starboard_symmetric=False)
-        )
-    there, second = found[0].at((-5.0, 1.5, -1.0)), found[1]
-    for name in ("added_mass", "damping", "restoring"):
-        wanted = getattr(second, name)
-        scale = np.sqrt(np.abs(np.diagonal(wanted, axis1=-2, axis2=-1)).reshape(-1, 6).max(axis=0))
-        scale[scale == 0.0] = scale.max()
-        error = np.abs(getattr(there, name) - wanted) / np.outer(scale, scale)
-        assert error.max() < 1e-10, name
-    assert np.abs(there.force - second.force).max() < 1e-12 * np.abs(second.force).max()
+    with pytest.raises(ValueError, match="three finite numbers"):
+        base.at((1.0, np.nan, 0.0))
 
 
 def test_a_mirrored_vessel_answers_mirrored_waves_with_mirrored_motions() -> None:
@@ -299,14 +229,3 @@ def test_a_mirrored_vessel_answers_mirrored_waves_with_mirrored_motions() -> Non
     for m, heading in enumerate(base.heading):
         at = int(np.argmin(np.abs(np.angle(np.exp(1j * (once.heading + heading))))))
         assert motion_response(once)[at] == pytest.approx(motions[m] * PARITY, rel=1e-9, abs=1e-12)
-
-
-def test_a_symmetric_vessel_is_its_own_mirror_image() -> None:
-    base = shipped_database()
-    once = base.mirror()
-    for a, b in zip(base.full_circle(), once.full_circle(), strict=True):
-        assert np.abs(a - b).max() <= 1e-12 * np.abs(a).max()
-    query = np.radians([17.0, 123.0, 291.0])
-    assert once.force_at(0.7, query) == pytest.approx(base.force_at(0.7, query), rel=1e-9, abs=1e-3)
-    before, after = (np.linalg.eigvals(free_vessel_system(vessel_parameters(d))) for d in (base, once))
-    assert np.abs(before[:, None] - after).min(axis=1).max() < 1e-12

@@ -1,21 +1,29 @@
-"""Measured series: what is read of a file, what is refused by line and column, and what is done to it."""
+"""Measured series and hindcasts: what is read of a file, what is refused by line, clocks, masked values."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from contextlib import nullcontext
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import MotionHistory, Scene, simulate
+from seacrane import MotionHistory
 from seacrane.errors import FileFormatError, SceneError
+from seacrane.operability import WaveHindcast
+from seacrane.sea import MeasuredWaves
 from seacrane.series.headings import heading_of, unit_of_words
-from seacrane.statistics import MeasuredSeries
-from seacrane.warnings import ClockDriftWarning, FilledGapWarning, NoisyMotionWarning, OutlierWarning
+from seacrane.statistics import MeasuredSeries, interpolated, record_extremes
+from seacrane.warnings import (
+    ClockDriftWarning,
+    FilledGapWarning,
+    NoisyMotionWarning,
+    OutlierWarning,
+    PoorFitWarning,
+)
 
 TIME = np.arange(0.0, 120.0, 0.1)
 HEAVE, ROLL, PITCH = 1.2 * np.sin(0.7 * TIME), 3.0 * np.sin(0.6 * TIME + 1.0), 1.5 * np.sin(0.65 * TIME)
@@ -26,20 +34,17 @@ Change = Callable[[list[list[str]]], Any]
 
 
 def written(
-    folder: Path, *, head: Any = HEAD, delimiter: str = ",", change: Change = lambda rows: None,
+    folder: Path, *, head: Any = HEAD, change: Change = lambda rows: None,
     columns: tuple[np.ndarray, ...] = (TIME, HEAVE, ROLL, PITCH),
 ) -> Path:  # fmt: skip
     rows = [[f"{value:.6f}" for value in row] for row in zip(*columns, strict=True)]
     change(rows)
     path = folder / "mru.csv"
-    lines = [delimiter.join(head), *(delimiter.join(row) for row in rows)]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    path.write_text("\n".join([",".join(head), *map(",".join, rows)]) + "\n", encoding="utf-8")
     return path
 
 
 def put(*cells: tuple[int, int, str]) -> Change:
-    """A change of cells, by the line of the file and the column."""
-
     def change(rows: list[list[str]]) -> None:
         for line, column, text in cells:
             rows[line - FIRST][column] = text
@@ -58,19 +63,10 @@ def test_headings_are_names_and_units_and_units_become_si() -> None:
     for words, factor, si in (
         ("Degrees", turn, "rad"), ("°", turn, "rad"), ("deg/s", turn, "rad/s"), ("rad_per_s", 1.0, "rad/s"),
         ("mm", 1e-3, "m"), ("ft", 0.3048, "m"), ("t", 9806.65, "N"), ("KN", 1e3, "N"), ("MN", 1e6, "N"),
-        ("m/s²", 1.0, "m/s2"), ("m/s^2", 1.0, "m/s2"), ("kNm", 1e3, "N m"), ("bar", 1e5, "Pa"),
+        ("m/s²", 1.0, "m/s2"), ("kNm", 1e3, "N m"), ("bar", 1e5, "Pa"),
     ):  # fmt: skip
         assert unit_of_words(words) == (pytest.approx(factor, rel=1e-12), si)
     assert not any(map(unit_of_words, ("mN", "mPa", "furlong", "", "m m", "rad/m")))
-
-
-def test_the_delimiter_is_found(tmp_path: Path) -> None:
-    for delimiter in (",", ";", "\t", " "):
-        head = tuple(cell.replace(" ", "") if delimiter == " " else cell for cell in HEAD)
-        read = MeasuredSeries.load(written(tmp_path, delimiter=delimiter, head=head))
-        assert read.units == {"heave": "m", "roll": "rad", "pitch": "rad"}
-        np.testing.assert_allclose(read.time, TIME, atol=1e-6)
-        np.testing.assert_allclose(read["roll"], np.radians(ROLL), atol=1e-7)
 
 
 def test_decimal_commas_time_stamps_and_names_that_are_given(tmp_path: Path) -> None:
@@ -96,32 +92,19 @@ def test_decimal_commas_time_stamps_and_names_that_are_given(tmp_path: Path) -> 
 # What is written, and what the message names: the line and the column, beside the matter.
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no number": ({"change": put((50, 2, "broken"))}, r"line 50, column 'roll \[deg\]'.*'broken'"),
-    "a long word": ({"change": put((50, 2, "x" * 5000))}, "line 50"),
-    "infinite": ({"change": put((50, 1, "inf"))}, r"line 50, column 'heave \[m\]'.*'inf'"),
     "digits apart": ({"change": put((50, 1, "1_0"))}, r"line 50, column 'heave \[m\]'.*'1_0'"),
     "NaN": ({"change": put((50, 3, "NaN"))}, r"line 50, column 'pitch \[deg\]'.*missing.*0.2 s; maximum_gap"),
     "empty at the start": ({"change": put((2, 1, ""))}, r"line 2, column 'heave \[m\]'.*after=0.1"),
     "empty at the end": ({"change": put((1201, 1, "-"))}, r"line 1201.*before=119.8"),
-    "no time": ({"change": put((50, 0, ""))}, r"line 50, column 'time \[s\]'.*no time"),
-    "time that is none": ({"change": put((50, 0, "noon"))}, r"line 50, column 'time.*'noon'.*ISO 8601"),
     "a time twice": ({"change": put((50, 0, "4.700000"))}, r"line 50, column 'time \[s\]'.*4.7 s repeats"),
     "a time that goes back": ({"change": put((50, 0, "4.2"))}, r"line 50, column 'time \[s\]'.*0.5 s before"),
     "a cell too few": ({"change": lambda rows: rows[48].pop()}, r"line 50: has 3 cells.* 4"),
-    "a cell too many": ({"change": lambda rows: rows[48].append("1")}, r"line 50: has 5 cells.* 4"),
-    "lines that are gone": ({"change": lambda rows: rows.__delitem__(slice(300, 312))},
-                            r"line 302, column 'time.*missing; maximum_gap=1.3"),
-    "a roll of 40 rad": ({"change": put((50, 2, "2291.831181"))}, r"line 50, column 'roll.*2292 deg"),
-    "a heave of 150 m": ({"change": put((50, 1, "150"))}, r"line 50, column 'heave.*150 m.*100 m"),
-    "few rows": ({"change": lambda rows: rows.__delitem__(slice(7, None))}, "7 rows.*8"),
     "a clock that jumps": ({"columns": (TIME + 3.0 * (TIME > 60.05), HEAVE, ROLL, PITCH)},
                            r"line 603, column 'time \[s\]'.*3.1 s .*clock jumps"),
-    "no time column": ({"head": ("sample", *HEAD[1:])}, "no line names columns.*time"),
     "no unit": ({"head": ("time", "heave [m]", "roll", "pitch")}, r"line 1, column 'roll'.*units="),
     "an unknown unit": ({"head": ("time", "heave [furlong]", *HEAD[2:])}, r"line 1.*'heave \[furlong\]'"),
-    "a time in metres": ({"head": ("time [m]", *HEAD[1:])}, r"line 1, column 'time \[m\]'"),
     "a heave in degrees": ({"head": ("time", "heave [deg]", *HEAD[2:])}, r"'heave \[deg\]' is in rad"),
     "a rate only": ({"head": ("time", "heave [m]", "roll rate [deg/s]", HEAD[3])}, r"line 1.*no col.*'roll'"),
-    "a column twice": ({"head": ("time", "a roll [deg]", "b roll [deg]", HEAD[3])}, "several.*'roll'"),
 }  # fmt: skip
 
 
@@ -129,47 +112,27 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize("what", REFUSED)
 def test_bad_files_are_refused_by_line_and_column(tmp_path: Path, what: str) -> None:
     given, words = REFUSED[what]
-    path = written(tmp_path, **given)
-    with pytest.raises(FileFormatError, match=words) as caught:
-        MotionHistory.load(path, zero=STILL)
-    assert str(caught.value).startswith(str(path)) and "\n" not in str(caught.value)
-    assert len(str(caught.value)) < 400 + len(str(path))
+    with pytest.raises(FileFormatError, match=words):
+        MotionHistory.load(written(tmp_path, **given), zero=STILL)
 
 
-def test_keywords_files_and_arrays_that_make_no_sense_are_refused(tmp_path: Path) -> None:
+def test_keywords_that_make_no_sense_are_refused(tmp_path: Path) -> None:
     path = written(tmp_path)
     for given, words in (
-        ({"zero": "surge"}, "zero"), ({"zero": ["trim"]}, "zero.*trim"), ({"negated": ["x"]}, "negated.*x"),
-        ({"columns": ["roll"]}, "columns"), ({"columns": {"list": "roll"}}, "columns names list"),
-        ({"filter_hz": 5.0}, "5 Hz"), ({"filter_hz": -1.0}, "filter_hz"), ({"interval": 1e-9}, "10000000"),
+        ({"zero": ["trim"]}, "zero.*trim"), ({"negated": ["x"]}, "negated.*x"),
+        ({"columns": {"list": "roll"}}, "columns names list"), ({"filter_hz": 5.0}, "5 Hz"),
         ({"interval": 8.0}, "slow motion.*filter_hz=0.05"), ({"maximum_gap": -1.0}, "maximum_gap"),
         ({"after": 500.0}, "0 rows .*0 to 119.9 s"), ({"rate_hz": 20.0}, "0.1 s apart"),
     ):  # fmt: skip
         with pytest.raises(SceneError, match=words):
             MotionHistory.load(path, **{"zero": STILL, **given})
-    (tmp_path / "run.csv").write_bytes(b"\x89HDF\r\n\x1a\n\0\0\0")
-    with pytest.raises(FileFormatError, match="NetCDF"):
-        MotionHistory.load(tmp_path / "run.csv")
-    with pytest.raises(FileNotFoundError):
-        MotionHistory.load(tmp_path / "none.csv")
-    for change, words in (
-        ({"time": TIME[:5]}, "time has 5"), ({"time": TIME[::-1]}, "increase"), ({"columns": {}}, "columns"),
-        ({"columns": {"x": TIME[1:]}}, "x has 1199.*1200"), ({"units": {}}, "unit of x"),
-        ({"columns": {"x": np.full(TIME.size, np.nan)}}, r"x\[0\] is nan"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=words):
-            MeasuredSeries(**{"time": TIME, "columns": {"x": HEAVE}, "units": {"x": "m"}, **change})
 
 
 def test_a_clock_that_drifts_is_told(tmp_path: Path) -> None:
     """By the nominal rate, and by a second clock: 4 ms in a second make 0.48 s, more than a sample."""
-    for gain, words in (
-        (0.0, ""),
-        (4e-3, r"gains \+[34]\d{3} us in a second .* 10 Hz"),
-        (-4e-3, r"gains -[34]\d{3}"),
-    ):
+    for gain, words in ((4e-3, r"gains \+[34]\d{3} us in a second .* 10 Hz"), (-4e-3, r"gains -[34]\d{3}")):
         columns = ((1.0 + gain) * TIME, HEAVE, ROLL, PITCH)
-        with pytest.warns(ClockDriftWarning, match=words) if gain else nullcontext():
+        with pytest.warns(ClockDriftWarning, match=words):
             MotionHistory.load(written(tmp_path, columns=columns), zero=STILL, rate_hz=10.0)
     two = written(tmp_path, head=(*HEAD, "GPS time"), columns=(*columns, 7e4 + TIME))
     with pytest.warns(ClockDriftWarning, match="on column 'GPS time'"):
@@ -187,7 +150,6 @@ def test_gaps_are_filled_where_that_is_asked(tmp_path: Path) -> None:
     path = written(tmp_path, change=change)
     with pytest.warns(FilledGapWarning, match="2 gaps .* longest 0.7 s before line"):
         history = MotionHistory.load(path, zero=STILL, maximum_gap=0.8)
-    assert "2 gaps filled by cubic splines, the longest 0.7 s" in history.record
     np.testing.assert_allclose(history.motion[:, 2], 1.2 * np.sin(0.7 * history.time), atol=3e-4)
     assert np.ptp(np.diff(history.time)) < 1e-6
     with pytest.raises(FileFormatError, match="line 100"):
@@ -202,41 +164,20 @@ def test_outliers_are_named_and_dropped_where_that_is_asked(tmp_path: Path) -> N
         pytest.raises(FileFormatError, match="line 800, column 'pit"),
     ):
         MotionHistory.load(path, zero=STILL)
-    with (
-        pytest.warns(OutlierWarning),
-        pytest.raises(FileFormatError, match=r"line 100, .* dropped as outliers"),
-    ):
-        MotionHistory.load(path, zero=STILL, drop_outliers=True)
     with pytest.warns(OutlierWarning, match="4 outliers .*dropped"), pytest.warns(FilledGapWarning):
         history = MotionHistory.load(path, zero=STILL, drop_outliers=True, maximum_gap=0.3)
     np.testing.assert_allclose(history.motion[:, 2], HEAVE, atol=1e-4)
     np.testing.assert_allclose(history.motion[:, 3:5], np.radians([ROLL, PITCH]).T, atol=1e-4)
 
 
-def test_sound_motions_have_no_outliers(tmp_path: Path) -> None:
-    """A random sea of ship's periods, sampled at 10, 4 and 2 Hz, and a decay."""
-    random = np.random.default_rng(5)
-    omega, phase = np.linspace(0.3, 1.6, 80), random.uniform(0.0, 2.0 * np.pi, 80)
-    for step in (0.1, 0.25, 0.5):
-        time = np.arange(0.0, 600.0, step)
-        sea = 0.2 * np.cos(np.outer(time, omega) + phase).sum(axis=1)
-        decay = 0.2 * np.exp(-0.01 * time) * np.cos(0.5 * time)
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            MeasuredSeries.load(written(tmp_path, head=("t", "a [m]", "b [m]"), columns=(time, sea, decay)))
-
-
 def test_signs_headings_and_motions_that_are_not_there(tmp_path: Path) -> None:
     heading = (358.0 + 4.0 * np.sin(0.3 * TIME)) % 360.0
     path = written(tmp_path, head=(*HEAD, "Heading (deg)"), columns=(TIME + 5.0, HEAVE, ROLL, PITCH, heading))
     history = MotionHistory.load(path, zero=("surge", "sway"), negated=("heave", "pitch"))
-    mean = np.degrees(np.unwrap(np.radians(heading))).mean() % 360.0
     yaw = -np.radians(4.0) * (np.sin(0.3 * TIME) - np.sin(0.3 * TIME).mean())
     wanted = np.column_stack([0.0 * TIME, 0.0 * TIME, -HEAVE, np.radians(ROLL), -np.radians(PITCH), yaw])
     np.testing.assert_allclose(history.motion, wanted, atol=1e-6)
     np.testing.assert_allclose(history.time, TIME, atol=1e-9)
-    for words in (f"its mean of {mean:.1f} deg", "heave, pitch with the other sign", "surge, sway zero"):
-        assert words in history.record
 
 
 def test_filter_and_resampling_have_the_gain_and_the_order_that_are_stated() -> None:
@@ -259,11 +200,19 @@ def test_filter_and_resampling_have_the_gain_and_the_order_that_are_stated() -> 
     assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.15)
 
 
-def test_noise_of_5_mm_shakes_the_load_and_the_filter_takes_it_away(tmp_path: Path) -> None:
+def test_a_series_is_written_as_it_is_read(tmp_path: Path) -> None:
+    read = MeasuredSeries.load(written(tmp_path))
+    again = MeasuredSeries.load(read.to_csv(tmp_path / "again.csv"))
+    assert again.units == read.units == read.to_dataframe().attrs["units"]
+    for name, values in read.columns.items():
+        np.testing.assert_array_equal(again[name], values)
+
+
+def test_noise_of_5_mm_is_told_and_the_filter_takes_it_away(tmp_path: Path) -> None:
     random = np.random.default_rng(1)
     path = written(tmp_path, columns=(TIME, HEAVE + random.normal(0.0, 5e-3, TIME.size), ROLL, PITCH))
     with pytest.warns(NoisyMotionWarning, match="filter_hz=0.5"):
-        raw = MotionHistory.load(path, zero=STILL)
+        MotionHistory.load(path, zero=STILL)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         clean = MotionHistory.load(path, zero=STILL, filter_hz=0.5, interval=0.2)
@@ -271,39 +220,69 @@ def test_noise_of_5_mm_shakes_the_load_and_the_filter_takes_it_away(tmp_path: Pa
     error = clean.motion[:, 2] - 1.2 * np.sin(0.7 * clean.time)
     assert error[inner].std() == pytest.approx(5e-3 * np.sqrt(2 * 0.5 / 10.0), rel=0.25)
 
-    def loads(history: MotionHistory) -> np.ndarray:
-        scene = Scene(name="hoist")
-        scene.add_given_vessel(history, ramp=20.0)
-        scene.add_body("load", mass=5e4, inertia=(1e5, 1e5, 1e5), position=(0.0, 0.0, 20.0))
-        ends: dict[str, Any] = {
-            "first": "vessel",
-            "second": "load",
-            "point": (0, 0, 25),
-            "second_point": (0, 0, 20),
-        }
-        scene.add_joint(kind="distance", name="wire", **ends)
-        scene.save(tmp_path / "scene.json")
-        assert Scene.load(tmp_path / "scene.json").provenance["vessel"].record == history.record
-        result = simulate(scene, t_end=110.0, dt_out=0.05)
-        assert result.settings["given_record"] == history.record
-        return result.curve("hook_load") / (5e4 * 9.80665)
 
-    assert loads(raw).max() > 1.5
-    assert loads(clean).max() == pytest.approx(1.0 + 1.2 * 0.49 / 9.80665, abs=0.02)
+START = datetime(2020, 1, 1, tzinfo=UTC)
+HOURS = [START + timedelta(hours=i) for i in range(48)]
+STAMPS = {unit: [f"{one.timestamp() * factor:.0f}" for one in HOURS]
+          for unit, factor in (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9))}  # fmt: skip
+STAMPS |= {
+    form: [f"{one:{form}}" for one in HOURS] for form in ("%Y%m%d%H", "%Y%m%d%H%M", "%Y-%m-%dT%H:%M:%S")
+}
 
 
-def test_a_series_is_written_as_it_is_read(tmp_path: Path) -> None:
-    history = MotionHistory.load(written(tmp_path), zero=STILL, interval=0.5)
-    assert history.record == (
-        "mru.csv; resampled to 0.5 s by cubic splines; 240 samples of 0.5 s; surge, sway, yaw zero"
-    )
-    read = MeasuredSeries.load(written(tmp_path))
-    again = MeasuredSeries.load(read.to_csv(tmp_path / "again.csv"))
-    assert again.units == read.units == read.to_dataframe().attrs["units"]
-    for name, values in read.columns.items():
-        np.testing.assert_array_equal(again[name], values)
-    assert "roll [rad]: -0.05236 to 0.05236" in repr(read)
-    with pytest.raises(SceneError, match=r"no column 'hook'.*heave, roll, pitch"):
-        read["hook"]
-    with pytest.raises(ValueError, match="read-only"):
-        read["roll"][0] = 1.0
+def hindcast(stamps: list[str], path: Path) -> Path:
+    rows = [f"{stamp},{1.0 + 0.1 * (i % 7):.1f},8" for i, stamp in enumerate(stamps)]
+    path.write_text("\n".join(["time,hs,tp", *rows]) + "\n")
+    return path
+
+
+def test_a_hindcast_by_any_clock(tmp_path: Path) -> None:
+    path = tmp_path / "site.csv"
+    for kind, stamps in STAMPS.items():
+        found = WaveHindcast.load(hindcast(stamps, path))
+        assert found.time[0] == np.datetime64("2020-01-01T00:00:00") and found.step_hours == 1.0
+        if "%" not in kind:
+            again = WaveHindcast(time=np.array(stamps, dtype=np.int64), hs=found.hs, tp=found.tp)
+            assert np.array_equal(again.time, found.time)
+    # Numbers that count from nothing known are asked for.
+    for stamps in ([f"{i}" for i in range(48)], [f"{43831 + i / 24:.5f}" for i in range(48)]):
+        with pytest.raises(FileFormatError, match=r"site\.csv: time begins with .*give dates"):
+            WaveHindcast.load(hindcast(stamps, path))
+
+
+def test_the_clock_of_a_logger(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+
+    def load(times: np.ndarray, header: str = "time", **given: Any) -> float:
+        rows = [f"{t:.1f},{0.1 * np.cos(0.05 * i):.6f}" for i, t in enumerate(times)]
+        path.write_text("\n".join([f"{header},heave [m]", *rows]) + "\n")
+        return MeasuredSeries.load(path, **given).interval
+
+    for one in (1.0, 1e3, 1e6):
+        times = np.round((START.timestamp() + 0.5 * np.arange(200)) * one, 1)
+        assert load(times) == pytest.approx(0.5, rel=1e-6)
+    with pytest.raises(FileFormatError, match="50 apart: s, or ms"):
+        load(50.0 * np.arange(100))
+    assert load(50.0 * np.arange(100), units={"time": "ms"}) == pytest.approx(0.05)
+    assert load(50.0 * np.arange(100), "time [s]") == 50.0
+
+
+def test_masked_values_are_refused_and_may_be_interpolated() -> None:
+    time = np.arange(0.0, 600.0, 0.5)
+    wave = np.cos(0.7 * time)
+    masked = np.ma.masked_equal(np.where((time > 99.0) & (time < 101.0), -99.0, wave), -99.0)
+    with pytest.raises(SceneError, match=r"3 masked values, the first at \[199\]; .*interpolated"):
+        MeasuredWaves(time=time, elevation=masked, direction_deg=180.0)
+    with pytest.raises(SceneError, match="masked values"):
+        MeasuredSeries(time=time, columns={"wave": masked}, units={"wave": "m"})
+    assert np.abs(interpolated(time, masked) - wave).max() < 0.02
+
+
+def test_too_few_extremes_are_told() -> None:
+    draw, tension = np.random.default_rng(3), np.zeros(21_600)
+    tension[draw.integers(0, tension.size, 12)] = 8e5
+    with pytest.raises(SceneError, match="too few for a largest value"):
+        record_extremes(tension, interval=0.5)
+    tension[draw.integers(0, tension.size, 60)] = 8e5
+    with pytest.warns(PoorFitWarning, match="too few for peaks over a threshold"):
+        record_extremes(tension, interval=0.5)

@@ -5,11 +5,8 @@ from __future__ import annotations
 import base64
 import copy
 import json
-import os
-import pickle
 import re
 import struct
-import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -23,7 +20,6 @@ from test_view import Page
 from seacrane import FileFormatError, Frame, Lift, Result, Scene, SceneError, cases, simulate, view
 from seacrane.description import meshes
 from seacrane.description.file import scene_digest
-from seacrane.description.meshes import MOST_TRIANGLES
 from seacrane.inputs.gltf import read_gltf
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.pictures.shapes import HullShape, MeshShape
@@ -35,7 +31,6 @@ FACES = np.array(
 )  # fmt: skip
 Y_UP = np.column_stack([CORNERS[:, 0], CORNERS[:, 2], -CORNERS[:, 1]])
 BOX = {"vertices": CORNERS, "faces": FACES}
-LITTLE = 64 * 2**20  # bytes
 
 
 def pendulum(**mesh: Any) -> Scene:
@@ -84,7 +79,6 @@ def written(path: Path, document: Any) -> Path:
 
 
 def glb(path: Path, document: dict[str, Any]) -> Path:
-    """The same as one binary file."""
     document = copy.deepcopy(document)
     data = base64.b64decode(document["buffers"][0].pop("uri").partition(",")[2])
     text = json.dumps(document).encode()
@@ -138,69 +132,22 @@ def test_scale_frame_and_nodes_place_a_mesh(tmp_path: Path) -> None:
     np.testing.assert_allclose(sorted_triangles(found), sorted_triangles(z_up[FACES]), atol=2e-4)
 
 
-def test_our_own_model_comes_back_where_it_stands(tmp_path: Path) -> None:
-    shown = view(cases.case2())
-    found = read_gltf(shown.save_gltf(tmp_path / "lift.glb"), most=MOST_TRIANGLES).reshape(-1, 3)
-    wire = 2 * shown.drawing.wire_radius
-    np.testing.assert_allclose([found.min(axis=0), found.max(axis=0)], shown.drawing.box, atol=wire)
-
-
-def test_a_mesh_moves_nothing() -> None:
+def test_a_mesh_moves_nothing_and_is_what_its_body_is_drawn_by(tmp_path: Path) -> None:
     plain, drawn = pendulum(), pendulum(**BOX)
     assert scene_digest(plain) == scene_digest(drawn)
     first, second = simulate(plain, 1.0), simulate(drawn, 1.0)
     for channel in first:
         np.testing.assert_array_equal(first[channel], second[channel])
-
-
-def test_a_body_is_drawn_by_its_meshes_alone(tmp_path: Path) -> None:
-    scene = pendulum(**BOX)
-    scene.add_mesh(body="ball", name="lug", vertices=0.1 * CORNERS, faces=FACES[:4])  # open, and drawn
-    box, lug = looks(scene)["ball"].shapes
+    (box,) = looks(drawn)["ball"].shapes
     assert isinstance(box, MeshShape)
     np.testing.assert_allclose(box.vertices, CORNERS - (0, 0, 0.5))
-    assert len(lug.faces) == 4  # type: ignore[union-attr]
-    page = Page(view(Result.load(simulate(scene, 0.5).save(tmp_path / "run.nc"))).html)
-    (body,) = page.data["bodies"]
-    assert [shape["kind"] for shape in body["shapes"]] == ["mesh", "mesh"]
-    assert body["shapes"][0]["vertices"]["shape"] == [8, 3]
-    assert body["shapes"][0]["colour"].startswith("#")
+    page = Page(view(Result.load(second.save(tmp_path / "run.nc"))).html)
+    assert [shape["kind"] for body in page.data["bodies"] for shape in body["shapes"]] == ["mesh"]
     scene = cases.vessel()
     scene.add_mesh(body="vessel", **BOX)
     (hull,) = looks(scene)["vessel"].shapes  # painted by the water
     assert isinstance(hull, HullShape)
     assert hull.waterline == -scene.bodies["vessel"].center_of_mass[2]
-
-
-def test_scene_files_hold_the_triangles(tmp_path: Path) -> None:
-    scene, path = pendulum(), tmp_path / "scene.json"
-    file = stl(tmp_path / "box.stl", CORNERS[FACES] / 3.0)
-    mesh = scene.add_mesh(body="ball", file=file)
-    file.unlink()
-    scene.save(path)
-    loaded = Scene.load(path)
-    assert loaded == copy.deepcopy(scene) == scene
-    np.testing.assert_array_equal(loaded.meshes["ball"].vertices, mesh.vertices)
-    np.testing.assert_array_equal(loaded.meshes["ball"].faces, mesh.faces)
-    assert "meshes" in str(scene)
-    twin = pickle.loads(pickle.dumps(mesh))
-    assert twin == mesh and hash(twin) == hash(mesh) and not twin.vertices.flags.writeable
-    assert mesh != pendulum().add_mesh(body="ball", **BOX)
-    sound = path.read_text()
-    far, large = (
-        base64.b64encode((1e3 * CORNERS + size).astype("<f4").tobytes()).decode() for size in (np.inf, 0.0)
-    )
-    for changes, message in (
-        ({"vertices": "?"}, "meshes[0].vertices: "), ({"faces": ""}, "has 0 bytes"),
-        ({"faces": base64.b64encode(b"\xff" * 12).decode()}, "mesh 'ball': faces"), ({"vertices": 3}, "is 3"),
-        ({"vertices": far}, "mesh 'ball': has a vertex"), ({"vertices": large}, "3000 m large"),
-        ({"body": "cube"}, "meshes[0].body is 'cube'"), ({"colour": "red"}, "unknown entry 'colour'"),
-    ):  # fmt: skip
-        data = json.loads(sound)
-        data["meshes"][0] |= changes
-        path.write_text(json.dumps(data))
-        with pytest.raises(FileFormatError, match=re.escape(message)):
-            Scene.load(path)
 
 
 def test_a_lift_names_the_file(tmp_path: Path) -> None:
@@ -212,63 +159,34 @@ def test_a_lift_names_the_file(tmp_path: Path) -> None:
     )
     mesh = Lift.load(tmp_path / "lift.toml").scene().meshes["ball"]
     np.testing.assert_allclose(np.sort(mesh.vertices, axis=0)[[0, -1]], [[0, 0, 5], [2, 3, 6]], atol=1e-6)
-    (tmp_path / "box.stl").write_bytes(b"solid")
-    with pytest.raises(FileFormatError, match=r"lift\.toml line 9: .*mesh.* 1: .*box\.stl: ends before"):
-        Lift.load(tmp_path / "lift.toml").scene()
-
-
-def test_a_mesh_keeps_its_body_until_it_is_removed(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene = pendulum()
-    scene.remove("pivot")
-    scene.add_mesh(body="ball", name="look", **BOX)
-    with pytest.raises(SceneError, match="body 'ball': mesh 'look'"):
-        scene.remove("ball")
-    with pytest.raises(SceneError, match="mesh 'look': is not replaced"):
-        scene.replace("look", body="ball")
-    with pytest.raises(SceneError, match="mesh 'look': the name is used twice"):
-        scene.add_mesh(body="ball", name="look", **BOX)
-    monkeypatch.setattr(meshes, "MOST_TRIANGLES", 20)
-    with pytest.raises(SceneError, match="body 'ball' to 24 triangles, above 20"):
-        scene.add_mesh(body="ball", name="more", **BOX)
-    scene.remove("look")
-    scene.remove("ball")
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [
-    ({**BOX, "body": "bal"}, "body is 'bal'"), ({}, "give file, or vertices"),
-    ({**BOX, "file": "box.stl"}, "give file, or"), ({"vertices": CORNERS}, "give file, or vertices"),
-    ({"file": "box.step"}, "'box.step'; give .stl"), ({"file": 3}, "file is 3"),
+    ({**BOX, "body": "bal"}, "body is 'bal'"), ({**BOX, "file": "box.stl"}, "give file, or"),
+    ({"file": "box.step"}, "'box.step'; give .stl"), ({**BOX, "scale": -1.0}, "scale is -1"),
     ({**BOX, "vertices": 1e3 * CORNERS}, "3000 m large, above 1000 m; if it is in mm give scale=0.001"),
-    ({**BOX, "scale": -1.0}, "scale is -1"), ({**BOX, "scale": "mm"}, "scale is 'mm'"),
-    ({**BOX, "scale": 1e308}, "inf m large"), ({**BOX, "frame": (1, 2, 3)}, "frame is (1, 2, 3)"),
     ({**BOX, "frame": Frame(point=(1e6, 0, 0))}, "100000"), ({**BOX, "vertices": CORNERS * np.nan}, "finite"),
-    ({**BOX, "vertices": 0.0 * CORNERS}, "one point"), ({**BOX, "scale": 1e-60}, "one point"),
-    ({**BOX, "vertices": CORNERS[:, :2]}, "shape (8, 2)"), ({**BOX, "faces": FACES[:, :2]}, "shape (12, 2)"),
+    ({**BOX, "vertices": 0.0 * CORNERS}, "one point"), ({**BOX, "vertices": CORNERS[:, :2]}, "shape (8, 2)"),
     ({**BOX, "faces": 0.5 * FACES}, "whole numbers"), ({**BOX, "faces": FACES + 1}, "none of its 8"),
-    ({**BOX, "faces": FACES[:0]}, "none of its 8"),
     ({**BOX, "faces": np.tile(FACES, (20_000, 1))}, "240000 triangles, above 200000"),
 ]  # fmt: skip
 
 
-def test_what_makes_no_sense_is_refused_by_name() -> None:
+def test_a_mesh_keeps_its_body_and_what_makes_none_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     for given, message in WRONG:
         scene = pendulum()
         with pytest.raises(SceneError, match=re.escape(message)):
             scene.add_mesh(**{"body": "ball", **given})
         assert not scene.meshes
-
-
-def refused(path: Path, message: str) -> None:
-    """By name, with little memory."""
-    tracemalloc.start()
-    try:
-        with pytest.raises(FileFormatError, match=message) as caught:
-            pendulum().add_mesh(body="ball", file=path)
-        assert tracemalloc.get_traced_memory()[1] < LITTLE
-        assert len(str(caught.value)) < 500 + len(str(path))
-        assert path.stem in str(caught.value)
-    finally:
-        tracemalloc.stop()
+    scene.remove("pivot")
+    scene.add_mesh(body="ball", name="look", **BOX)
+    with pytest.raises(SceneError, match="body 'ball': mesh 'look'"):
+        scene.remove("ball")
+    monkeypatch.setattr(meshes, "MOST_TRIANGLES", 20)
+    with pytest.raises(SceneError, match="body 'ball' to 24 triangles, above 20"):
+        scene.add_mesh(body="ball", name="more", **BOX)
+    scene.remove("look")
+    scene.remove("ball")
 
 
 def changed(**changes: Any) -> dict[str, Any]:
@@ -283,18 +201,6 @@ def changed(**changes: Any) -> dict[str, Any]:
     return document
 
 
-@pytest.mark.slow("ten million triangles")
-def test_ten_million_triangles_are_refused_by_their_number(tmp_path: Path) -> None:
-    """Before the 500 MB are read."""
-    path = tmp_path / "scan.stl"
-    path.write_bytes(b"scan".ljust(80) + struct.pack("<I", 10_000_000))
-    os.truncate(path, 84 + 50 * 10_000_000)
-    refused(path, "10000000 triangles, above 200000")
-    document = changed(accessors__1__count=30_000_000)
-    refused(written(tmp_path / "scan.gltf", document), "10000000 triangles, above 200000")
-    refused(written(tmp_path / "many.gltf", changed(scenes__0__nodes=[0] * 19_000)), "triangles, above")
-
-
 def not_finite() -> dict[str, Any]:
     data = bytearray(base64.b64decode(gltf_of_box()["buffers"][0]["uri"].partition(",")[2]))
     data[0:4] = struct.pack("<f", np.nan)
@@ -303,38 +209,29 @@ def not_finite() -> dict[str, Any]:
 
 BEYOND = "beyond the 168 bytes of its buffer"
 HOSTILE: list[tuple[Any, str]] = [
-    ([], "no glTF 2.0"), (changed(asset={"version": "1.0"}), "no glTF 2.0"),
-    ("[" * 100_000, "is no glTF"), ("", "is no glTF"), ("\x00", "is no glTF"),
-    ('{"asset":' + "1" * 10_000 + "}", "is no glTF"),
+    (changed(asset={"version": "1.0"}), "no glTF 2.0"), ("[" * 100_000, "is no glTF"),
     (changed(extensionsRequired=["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression"),
-    (changed(accessors__0__sparse={}), "VEC3"), (changed(accessors__0__componentType=5120), "plain VEC3"),
+    (changed(accessors__0__componentType=5120), "plain VEC3"), (changed(accessors__0__count=9), BEYOND),
     (changed(buffers__0__uri="/etc/passwd"), "buffer in another file"), (not_finite(), "not finite"),
-    (changed(buffers__0__uri="data:x;base64,?"), "glb"), (changed(accessors__0__count=9), BEYOND),
-    (changed(accessors__1__count=-3), BEYOND), (changed(bufferViews__1__byteOffset=2**30), BEYOND),
     (changed(bufferViews__1__byteOffset=-8), BEYOND), (changed(bufferViews__0__byteStride=1), BEYOND),
-    (changed(accessors__0__count=7), "no triangles"), (changed(accessors__1__count=35), "no triangles"),
-    (changed(meshes__0__primitives__0__mode=5), "strip"), (changed(nodes__0__children=[0]), "64 deep"),
-    (changed(meshes__0__primitives__0__mode=1), "no triangles"),
-    (changed(scenes__0__nodes=[7]), r"no nodes\[7\]"), (changed(nodes__0__mesh=-1), r"no meshes\[-1\]"),
-    (changed(nodes__0=3), r"nodes\[0\] is 3"), (changed(nodes__0__scale=[1e308] * 3), "no finite one"),
+    (changed(accessors__1__count=35), "no triangles"), (changed(nodes__0__children=[0]), "64 deep"),
+    (changed(meshes__0__primitives__0__mode=5), "strip"), (changed(nodes__0__mesh=-1), "no meshes"),
+    (changed(accessors__1__count=30_000_000), "10000000 triangles, above 200000"),
+    (changed(scenes__0__nodes=[0] * 19_000), "triangles, above"),
 ]  # fmt: skip
 
 
-def test_hostile_models_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_hostile_and_cut_models_are_refused(tmp_path: Path) -> None:
+    def refused(path: Path, message: str) -> None:
+        with pytest.raises(FileFormatError, match=message) as caught:
+            pendulum().add_mesh(body="ball", file=path)
+        assert path.stem in str(caught.value)
+
     with np.errstate(all="ignore"):
         for document, message in HOSTILE:
             refused(written(tmp_path / "box.gltf", document), message)
-    with pytest.raises(FileFormatError, match="cannot be read"):
-        pendulum().add_mesh(body="ball", file=tmp_path / "absent.glb")
-    monkeypatch.setattr(meshes, "MOST_TRIANGLES", 11)  # of text: counted before they are read
-    refused(written(tmp_path / "box.stl", ascii_stl(CORNERS[FACES])), "has 12 triangles, above 11")
-
-
-def test_a_cut_file_is_refused_wherever_it_is_cut(tmp_path: Path) -> None:
     path = glb(tmp_path / "box.glb", gltf_of_box())
     whole = path.read_bytes()
     for end in range(0, len(whole), 17):
         path.write_bytes(whole[:end])
         refused(path, "truncated or damaged|is no glTF")
-    path.write_bytes(whole[:12] + struct.pack("<I4s", 2**31, b"JSON") + whole[20:])
-    refused(path, "2147483648 bytes leads beyond its end")
