@@ -9,12 +9,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from seeded_faults.fault import Fault
+from seeded_faults.reached import commands, tests_of
 
 PYTEST = ".venv/bin/python -m pytest -q -x -p no:cacheprovider -n 2 --dist loadfile --no-header"
 FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
 PROGRAM = re.compile(r"^\s*\d+ - (\S+) \(", re.MULTILINE)
 LONGEST = 3600.0  # s: a test that does not end has found it too
-NEAREST = 12  # test files
+NEAREST = 30  # tests
 
 
 class Hunt:
@@ -37,8 +38,10 @@ class Hunt:
             "git fetch -q origin", "git reset -q --hard origin/HEAD", "make build",
             "make .venv/.installed-dev", "cmake --build build/package --target seacrane_tests",
         ):  # fmt: skip
-            if not self._succeeds(command):
-                raise RuntimeError(f"{command} fails without a fault; see {self.log}")
+            self._require(command)
+        self._lines = home / "reached"
+        for command in commands(PYTEST.replace(" -x ", " "), self._lines):
+            self._require(command)
 
     def finder(self, fault: Fault, *, first: str = "", by_night: bool = False) -> tuple[str, str]:
         """Who finds a fault first, and the name of a test; ("nobody", "").
@@ -47,8 +50,8 @@ class Hunt:
         tests that name the fault's file, the rest of the day; by night the slow ones too.
         """
         file = self.tree / fault.file
-        sound = file.read_text(encoding="utf-8")
-        file.write_text(fault.seeded(sound), encoding="utf-8")
+        self._sound = file.read_text(encoding="utf-8")
+        file.write_text(fault.seeded(self._sound), encoding="utf-8")
         try:
             for who, command in self._ways(fault, first, by_night=by_night):
                 if not self._succeeds(command):
@@ -56,7 +59,7 @@ class Hunt:
                     return who, names[0] if names else ""
             return "nobody", ""
         finally:
-            file.write_text(sound, encoding="utf-8")
+            file.write_text(self._sound, encoding="utf-8")
 
     def _ways(self, fault: Fault, first: str, *, by_night: bool) -> Iterator[tuple[str, str]]:
         if fault.in_engine:
@@ -68,23 +71,29 @@ class Hunt:
         )
         if known:
             yield "the same test", f"{PYTEST} {shlex.join(known)}"
-        near = self._near(Path(fault.file).stem)
+        near, elsewhere = self._near(fault)
         if near:
-            yield "near tests", f"{PYTEST} {shlex.join(near)}"
-        yield "other tests", PYTEST
+            yield "near tests", f"{PYTEST} {shlex.join(near[:NEAREST])}"
+        if near[NEAREST:]:
+            yield "near tests", f"{PYTEST} {shlex.join(near[NEAREST:])}"
+        if elsewhere:
+            yield "other tests", PYTEST
         if by_night:
             yield "slow tests", f"{PYTEST} -m slow"
 
-    def _near(self, stem: str) -> list[str]:
-        """Test files named after a file, then those whose text has its name most often."""
-        words = [word for word in re.split("_", stem) if len(word) > 3] or [stem]
-        scores = {}
-        for test in sorted((self.tree / "tests").rglob("test_*.py")):
-            text, name = test.read_text(encoding="utf-8"), test.stem
-            count = 100 * sum(word.rstrip("s") in name for word in words) + text.count(stem)
-            if count:
-                scores[str(test.relative_to(self.tree))] = count
-        return sorted(scores, key=lambda name: -scores[name])[:NEAREST]
+    def _near(self, fault: Fault) -> tuple[list[str], bool]:
+        """Tests that reach the fault's line, and whether others may; of the engine, files with its name."""
+        if not fault.in_engine:
+            line = self._sound.partition(fault.old)[0].count("\n") + 1
+            return tests_of(self._lines, fault.file, line)
+        stem, counts = Path(fault.file).stem, {}
+        for path in (self.tree / "tests").rglob("test_*.py"):
+            counts[str(path.relative_to(self.tree))] = path.read_text(encoding="utf-8").count(stem)
+        return sorted(filter(counts.get, counts), key=lambda path: -counts[path]), True
+
+    def _require(self, command: str) -> None:
+        if not self._succeeds(command):
+            raise RuntimeError(f"{command} fails without a fault; see {self.log}")
 
     def _succeeds(self, command: str) -> bool:
         try:
