@@ -45,10 +45,6 @@ def hauled(*, mass: float = 1e6, speed: float = -1.0, seed: int = 1) -> Scene:
     return scene
 
 
-def begun(scene: Scene, start: State, **settings: Any) -> Run:
-    return Run(scene, END, start=start, dt_out=0.05, **settings)
-
-
 def edited(state: State, **changes: Any) -> State:
     names = ("time", "histories", "steps", "closed", "record", "parts", "values", "inputs")
     return State(**{name: getattr(state, name) for name in names} | changes)
@@ -81,14 +77,14 @@ def wrong(seed: int) -> list[str]:
         values[place] = was + by
         if values[place] == was:
             continue
-        going = begun(scene, edited(state, values=values), **settings)
+        going = Run(scene, END, dt_out=0.05, start=edited(state, values=values), **settings)
         begins = np.array(going.core.state.values)
         if begins[place] != values[place]:
             off = begins[place] - values[place]
             out.append(f"place {place} of {values.size}: {was} edited by {by}, begins {off} beside it")
         if not np.allclose(begins, values, rtol=1e-13, atol=1e-13):  # from poses to coordinates and back
             out.append(f"place {place} of {values.size}: edited by {by}, and others begin elsewhere")
-        afresh = begun(scene, edited(state, values=values, steps=type(state.steps)(
+        afresh = Run(scene, END, dt_out=0.05, start=edited(state, values=values, steps=type(state.steps)(
             formulation="", integrator="", values=[], rate=[])), **settings)  # fmt: skip
         for one in (going, afresh):
             one.advance(END)
@@ -132,7 +128,7 @@ def test_an_edited_input_is_felt_at_once() -> None:
         inputs = np.array(run.state.inputs)
         inputs[next(slot for name, slot, _ in run.model.inputs if name == "axle.force")] += by
         starts = (edited(run.state, inputs=inputs), edited(run.state, inputs=inputs, steps=none))
-        going, afresh = (begun(scene, start, rtol=1e-7) for start in starts)
+        going, afresh = (Run(scene, END, dt_out=0.05, start=start, rtol=1e-7) for start in starts)
         for one in (going, afresh):
             assert np.array_equal(one.core.state.inputs, inputs)
             one.advance(END)

@@ -29,14 +29,13 @@ def seeds() -> list[object]:
     return [pytest.param(n, marks=[] if n % USUAL == 0 else many) for n in range(EVERY)]
 
 
-def hung(*, top: float = 0.0, slack: float = 0.0, driven: float = 0.0) -> Scene:
+def hung(*, slack: float, driven: float) -> Scene:
     scene = Scene(name="hung")
     scene.add_body(name="tip", mass=1e3, inertia=(1e3,) * 3, gravity=False)
     scene.add_joint(kind="prismatic", name="up", first="ground", second="tip", axis=(0, 0, 1))
     scene.add_driver(joint="up", curve=driven)
     scene.add_body(name="load", mass=1e5, inertia=(1e5,) * 3, position=(0, 0, -100))
-    ends = [(0, 0, top), (0, 0, 0)]
-    scene.add_line("hoist", bodies=["tip", "load"], points=ends, EA=4e8, length=99.9 + slack)
+    scene.add_line("hoist", bodies=["tip", "load"], points=np.zeros((2, 3)), EA=4e8, length=99.9 + slack)
     return scene
 
 
@@ -90,14 +89,6 @@ def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
     scene.replace(first.name, kind="load", points=points)
     assert equilibrium(scene).values[2] == pytest.approx(up - 100.0, abs=0.1)
     assert moved(scene) < STILL
-
-
-def test_the_line_that_could_hold_a_load_is_named() -> None:
-    scene = Scene(name="far")
-    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=5000.0)
-    with pytest.raises(SceneError, match=r"'load' .* 'hoist', .* slack by 4.99"):
-        equilibrium(scene)
 
 
 def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:

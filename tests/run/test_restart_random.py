@@ -35,6 +35,8 @@ def differences(scene: Scene, path: Path, stop: float, end: float, **method: obj
         b: NDArray[np.float64] = np.asarray(resumed[name])
         if not np.array_equal(a, b, equal_nan=True):
             out[name] = float(np.nanmax(np.abs(a - b)))
+    if [event for event in straight.events if event.time > stop] != list(resumed.events):
+        out["events"] = np.inf
     if not np.array_equal(whole.state.values, later.state.values):
         out["state"] = float(np.abs(np.array(whole.state.values) - later.state.values).max())
     return out

@@ -40,12 +40,10 @@ WORDS = ("heading_deg is 0.785398 deg", "direction_deg is 2.35619 deg")
 def test_a_report_lists_the_warnings_of_the_description(tmp_path: Path) -> None:
     result = quietly(lambda: simulate(told_twice(), t_end=1.0))
     loaded = seacrane.Result.load(result.save(tmp_path / "run.nc"))
-    for one in (result, loaded):
-        assert all(word in str(one.stats["described"]) for word in WORDS)
-        assert all(word in seacrane.report(one).html for word in WORDS)
+    assert all(word in seacrane.report(loaded).html for word in WORDS)
 
 
-def test_what_was_told_before_and_at_the_start_is_listed_once() -> None:
+def test_what_was_told_before_the_start_is_listed_once() -> None:
     scene = quietly(told_twice)
     stages = [Stage(name="one", duration=0.5), Stage(name="two", duration=0.5)]
     for result in (
@@ -53,14 +51,6 @@ def test_what_was_told_before_and_at_the_start_is_listed_once() -> None:
         quietly(lambda: simulate_stages(scene, stages)),
     ):
         assert all(str(result.stats["described"]).count(word) == 1 for word in WORDS)
-    slow = Scene(name="slow winch")
-    slow.add_body(name="load", mass=2e4, inertia=[3e4] * 3, position=(0, 0, -15))
-    slow.add_line("wire", first="ground", second="load", EA=5e7, tension_at_start=2e4 * slow.gravity)
-    slow.add_winch(line="wire", lag=200.0)
-    assert "lag reaches 200 s" in str(quietly(lambda: simulate(slow, t_end=0.1)).stats["described"])
-    quiet = Scene(name="quiet")
-    quiet.add_body(name="load", mass=2e4, inertia=[3e4] * 3, gravity=False)
-    assert "described" not in simulate(quiet, t_end=0.1).stats
 
 
 SYSTEMS = [WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=180.0, count=30_000)] * 2
@@ -69,23 +59,16 @@ SYSTEMS = [WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=180.0, cou
 @pytest.mark.parametrize(
     ("sea", "words"),
     [
-        ({"count": 2.5}, "count is 2.5"),
-        ({"count": 1_000_000}, "count is 1,000,000"),
-        ({"sea": SeaState(systems=SYSTEMS)}, "count is 60,000"),
-        ({"hs": None}, "hs is None"),
-        ({"tp": np.array([1.2, 7.0])}, r"tp is a ndarray of shape \(2,\)"),
-        ({"spreading": -2.0}, "-2"),
+        ({"count": 1_000_000}, "count is 1,000,000"), ({"sea": SeaState(systems=SYSTEMS)}, "count is 60,000"),
+        ({"hs": None}, "hs is None"), ({"spreading": -2.0}, "-2"),
     ],
-)
+)  # fmt: skip
 def test_a_sea_that_cannot_be_is_a_scene_error(sea: dict[str, Any], words: str) -> None:
     scene = Scene(name="ship")
     scene.add_vessel(shipped_database(), memory="none")
-    given = ({} if "sea" in sea else {"hs": 1.0}) | sea
     with pytest.raises(SceneError, match=words):
-        scene.add_sea(**given)
+        scene.add_sea(**(({} if "sea" in sea else {"hs": 1.0}) | sea))
     assert scene.waves is None
-    with pytest.raises(SceneError, match="no vessel 'vessel'"):
-        Scene(name="empty").add_sea(hs=2.0, tp=8.0)
 
 
 @pytest.mark.warns(sometimes=["WavesWithoutLoadWarning"])
@@ -94,8 +77,7 @@ def test_a_peak_period_in_another_unit_is_told(tp: float) -> None:
     scene = Scene(name="ship")
     scene.add_vessel(shipped_database(), memory="none")
     with pytest.warns(UnitWarning, match="sea: tp is"):
-        quiet = {"hs": 1e-6, "count": 5}
-        scene.add_sea(tp=tp, **quiet)
+        scene.add_sea(tp=tp, hs=1e-6, count=5)
 
 
 def test_noise_of_millimetres_is_told() -> None:
