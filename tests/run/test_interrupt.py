@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Result, Run, SampledController, Scene, SceneError, SimulationError, simulate
+from seacrane import Result, SampledController, Scene, SceneError, SimulationError, simulate
 
 GENEROUS = 60.0  # s, far above what a return takes, far below what the run would
 LONG = 1e6  # s of simulated time: hours
@@ -176,18 +176,3 @@ def test_what_was_recorded_before_an_error_is_kept(name: str, tmp_path: Path) ->
         assert partial.state.time == pytest.approx(1.0)
         rest = simulate(diverging(), t_end=2.0, start=partial.state)
         np.testing.assert_array_equal(rest["position"][0], partial["position"][-1])
-
-
-def test_notes_of_every_plain_kind_reach_the_result_and_settings_stay_its_own(tmp_path: Path) -> None:
-    scene = ball_on_a_pin()
-    scene.notes.update(limit=np.inf, table=np.eye(2), place=tmp_path, rtol="looked fine to me")
-    settings = simulate(scene, t_end=0.1).settings
-    assert settings["rtol"] == 1e-6
-    assert settings["notes"] == {
-        "limit": {"$infinite": 1}, "table": [[1.0, 0.0], [0.0, 1.0]], "place": str(tmp_path),
-        "rtol": "looked fine to me",
-    }  # fmt: skip
-    for bad, words in ((object(), r"\['x'\] is a object"), (scene.notes, "contain themselves")):
-        scene.notes["x"] = bad
-        with pytest.raises(SceneError, match=words):
-            Run(scene, t_end=1.0)

@@ -115,16 +115,6 @@ def test_a_tugger_holds_its_tension_at_rest(slack: float, lag: float) -> None:
     assert np.ptp(result["position"], axis=0).max() < 1e-5
 
 
-def test_two_tuggers_that_pull_against_each_other_find_their_tension() -> None:
-    """Just straight as described: no body moves on the way to rest, only the drums wind in."""
-    scene = on_a_hoist("between")
-    for name, side in (("port", 15.0), ("starboard", -15.0)):
-        scene.add_line(name, "ground", "load", first_point=(0, side, -10), EA=1e6)
-        scene.add_winch(name, tension=5e3, tension_gain=1e-4, maximum_rate=1.0)
-    result = simulate(scene, 1.0, start=equilibrium(scene))
-    assert result["line_tension"][:, 1:] == pytest.approx(5e3, abs=1e-2)
-
-
 def test_a_rest_that_grows_is_told_of_and_how_fast() -> None:
     """Two parallel taglines of constant tension turn a load away: k = -2 T arm (1 + arm / length)."""
     arm, tension, length, inertia = 1.0, 500.0, 20.0, 5e4

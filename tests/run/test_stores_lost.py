@@ -15,13 +15,11 @@ import numpy as np
 import pytest
 from ensemble_studies import KEEP, SWING, lowest, pendulum
 from killed_stores import KINDS, STORMS
-from test_study_files import LIFT, STUDY
 
 from seacrane import FileFormatError, SceneError, ensemble
 from seacrane.ensembles import Ensemble
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.drafts import draft_of
-from seacrane.lift.study_run import run_study
 from seacrane.warnings import LostMembersWarning
 
 GIVEN = {"source": pendulum, "over": {"start": [1.0, 2.0, 3.0]}, **SWING}
@@ -111,17 +109,6 @@ def test_a_store_that_was_killed_as_it_was_made_goes_on(tmp_path: Path, whole: E
     left.write_text('{"ver')
     assert ensemble(**GIVEN, store=store).dataset.identical(whole.dataset)
     assert not left.exists()
-
-
-def test_a_study_that_was_killed_as_it_was_made_goes_on(tmp_path: Path) -> None:
-    (tmp_path / "ship.toml").write_text(LIFT)
-    few = STUDY.partition("[until]")[0].replace("40", "1")
-    (tmp_path / "study.toml").write_text(few + "[run]\nt_end_s = 3\n")
-    left = draft_of(tmp_path / "out" / "study.toml")
-    left.parent.mkdir()
-    left.write_text("format")
-    assert len(run_study(tmp_path / "study.toml", tmp_path / "out").members) == 2
-    assert (tmp_path / "out" / "study.toml").exists()
 
 
 def test_drafts_are_removed_once_their_process_is_gone(tmp_path: Path) -> None:

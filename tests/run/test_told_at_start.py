@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import inspect
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -12,7 +11,6 @@ import numpy as np
 import pytest
 
 import seacrane as sc
-from seacrane.errors import KeywordError
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart
 
 SHORT, ALL = {"rtol": 1e-2, "dt_out": 0.1}, [sc.Stage(name="all", duration=0.1)]
@@ -117,17 +115,14 @@ BOX = (4, 3, 2)
 RIGHT = {
     "plate": partial(PlatePart, size=(4, 3), thickness=0.02),
     "cylinder": partial(CylinderPart, length=4.0, diameter=0.3),
-    "box": partial(BoxPart, size=BOX),
     "steel wire": {},
     "fibre rope": ROPE,
     "chain": {"mass_per_length": 126.0, "diameter": 0.076, "EA": 4.9e8},
 }
 SLIPS = {
     "plate, thickness in cm": partial(PlatePart, size=(4, 3), thickness=2.0),
-    "cylinder, diameter in cm": partial(CylinderPart, length=4.0, diameter=30.0),
     "cylinder, length in cm": partial(CylinderPart, length=400.0, diameter=0.3),
     "open box in cm": partial(BoxPart, size=(400, 300, 200), fill=0.0),
-    "box, one side in cm": partial(BoxPart, size=(4, 3, 200), fill=0.2),
     "box, slam as a force": partial(BoxPart, size=BOX, slam=5000.0),
     "sphere in cm": partial(SpherePart, diameter=200.0),
     "wire in N/m": {"mass_per_length": 245.0},
@@ -144,61 +139,3 @@ def test_slips_of_a_unit_in_water_are_told_and_what_is_right_is_not(what: str) -
         sc.simulate(wire(**one) if isinstance(one, dict) else hung(one()), 0.05, **SHORT)
 
     assert ("UnitWarning" in told(run)) == (what in SLIPS)
-
-
-def test_a_ship_whose_motion_is_given_makes_no_slip_of_what_is_on_it() -> None:
-    scene = sc.Scene(name="given")
-    scene.add_given_vessel("rest", size=(100, 20, 5))
-    scene.add_body("box", mass=2e4, size=(4, 3, 2), position=(0, 0, 11.05))
-    feet = [(x, y, -1) for x in (-2, 2) for y in (-1.5, 1.5)]
-    scene.add_contact("box", on="vessel", points=feet, place=(0, 0, 10.0), friction=0.3)
-    pads = {"points": [(0, y, 9.5) for y in (-1.0, 1.0)], "surface": "box", "size": (4, 3, 1)}
-    scene.add_contact("vessel", on="box", place=(0, 0, -2.0), friction=0.2, name="pads", **pads)
-    scene.add_point_force("thrust", body="vessel", force=(2e5, 0, 0))
-    spring = {"stiffness": 1e6, "natural_length": 6.05, "damping": 1e5}
-    scene.add_spring("sea fastening", first="vessel", first_point=(0, 0, 5), second="box", **spring)
-    assert "UnitWarning" not in told(lambda: sc.simulate(scene, 0.05, **SHORT))
-
-
-CALLS: dict[str, Callable[[sc.Scene], Any]] = {
-    "did you mean 'hs'": lambda scene: scene.add_sea(Hs=1.2, tp=7.0),
-    "did you mean 'maximum_rate'": lambda scene: scene.add_hoist(
-        mass=1e4, size=(1, 1, 1), EA=1e7, winch={"max_rate": 1.0}
-    ),
-    "did you mean 'size'": lambda _: BoxPart(sizes=(1, 1, 1)),
-    "did you mean 'dt_out'": lambda scene: sc.simulate(scene, 1.0, dtout=0.1),
-    "name=...": lambda scene: scene.add_point_force(body="vessel", force=(1, 0, 0)),
-}
-
-
-@pytest.mark.parametrize("right", CALLS)
-def test_a_keyword_that_is_not_there_leads_to_the_one_that_is(right: str) -> None:
-    scene = sc.Scene(name="x")
-    scene.add_vessel(sc.shipped_database())
-    scene.add_crane()
-    with pytest.raises(KeywordError, match=right):
-        CALLS[right](scene)
-
-
-def taking_a_scene() -> list[Any]:
-    """What of the public face takes a scene first."""
-    found = [getattr(sc, name) for name in sorted(sc.__all__)]
-    return [one for one in found if callable(one) and next(iter(parameters(one)), None) == "scene"]
-
-
-def parameters(function: Any) -> Mapping[str, inspect.Parameter]:
-    try:
-        return inspect.signature(function).parameters
-    except ValueError:  # of the core
-        return {}
-
-
-def test_what_is_no_scene_is_refused_by_name() -> None:
-    assert len(taking_a_scene()) > 12
-    for function in taking_a_scene():
-        needed = {
-            name: 1.0 for name, one in parameters(function).items()
-            if name != "scene" and one.default is one.empty and one.kind is not one.VAR_KEYWORD
-        }  # fmt: skip
-        with pytest.raises(sc.SceneError, match=f"{function.__name__}: scene is .*; give a Scene"):
-            function(3, **needed)

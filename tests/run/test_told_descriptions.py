@@ -13,9 +13,8 @@ import pytest
 from mistaken_units import raos, record
 
 import seacrane
-from seacrane import Scene, SceneError, SeaState, Stage, WaveSystem, simulate, simulate_stages
+from seacrane import Scene, Stage, simulate, simulate_stages
 from seacrane.hydro import load_database, shipped_database
-from seacrane.sea import jonswap
 from seacrane.warnings import NoisyMotionWarning, RaoPhaseWarning, UnitWarning
 
 
@@ -51,24 +50,6 @@ def test_what_was_told_before_the_start_is_listed_once() -> None:
         quietly(lambda: simulate_stages(scene, stages)),
     ):
         assert all(str(result.stats["described"]).count(word) == 1 for word in WORDS)
-
-
-SYSTEMS = [WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=180.0, count=30_000)] * 2
-
-
-@pytest.mark.parametrize(
-    ("sea", "words"),
-    [
-        ({"count": 1_000_000}, "count is 1,000,000"), ({"sea": SeaState(systems=SYSTEMS)}, "count is 60,000"),
-        ({"hs": None}, "hs is None"), ({"spreading": -2.0}, "-2"),
-    ],
-)  # fmt: skip
-def test_a_sea_that_cannot_be_is_a_scene_error(sea: dict[str, Any], words: str) -> None:
-    scene = Scene(name="ship")
-    scene.add_vessel(shipped_database(), memory="none")
-    with pytest.raises(SceneError, match=words):
-        scene.add_sea(**(({} if "sea" in sea else {"hs": 1.0}) | sea))
-    assert scene.waves is None
 
 
 @pytest.mark.warns(sometimes=["WavesWithoutLoadWarning"])
