@@ -75,14 +75,10 @@ def test_a_copied_scene_moves_alike_to_the_bit(how: str) -> None:
 @pytest.mark.parametrize("how", COPIES)
 def test_every_kind_is_copied_by_value(how: str) -> None:
     scene = all_kinds()
-    other = COPIES[how](scene)
-    assert other == scene
+    assert COPIES[how](scene) == scene
     for field in dataclasses.fields(Scene):
         table = getattr(scene, field.name)
-        if isinstance(table, dict) and field.name not in ("notes", "function_forces"):
-            assert table, field.name
-            for name, element in table.items():
-                assert COPIES[how](element) == element, name
+        assert table or not isinstance(table, dict) or field.name in ("notes", "function_forces"), field.name
 
 
 @pytest.mark.parametrize("how", [*COPIES.values(), Scene.copy, dataclasses.replace])

@@ -64,20 +64,13 @@ RUNS = {
 }
 
 
-def run_script(body: str) -> dict[str, Any]:
-    code = "\n".join([SETUP, body, REPORT])
-    finished = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=GENEROUS, check=False
-    )
-    assert finished.returncode == 0, finished.stderr
-    return dict(json.loads(finished.stdout.splitlines()[-1]))
-
-
 @pytest.mark.parametrize("name", RUNS)
 def test_ctrl_c_returns_what_was_recorded(name: str) -> None:
-    told = run_script(RUNS[name])
-    assert told["interrupted"]
-    assert 0.0 < told["last"] < LONG
+    command = [sys.executable, "-c", "\n".join([SETUP, RUNS[name], REPORT])]
+    finished = subprocess.run(command, capture_output=True, text=True, timeout=GENEROUS, check=False)
+    assert finished.returncode == 0, finished.stderr
+    told = json.loads(finished.stdout.splitlines()[-1])
+    assert told["interrupted"] and 0.0 < told["last"] < LONG
     assert told["outputs"] == told["rows"] > 1
     assert told["more"] in (None, [False, 2.0])
 

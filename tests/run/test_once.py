@@ -148,11 +148,10 @@ def test_warnings_come_at_each_run() -> None:
     scene = Scene(name="loose")
     scene.add_crane(base="ground", s1=1.5, s2=1.0, held=False)
     scene.add_hoist(mass=20e3, size=(4.0, 4.0, 3.0), EA=3e7, rung="elastic")
-    told = [run(scene) for _ in range(3)]
-    assert told[0][1].count(told[0][1][0]) == 1
-    assert FreeCraneWarning in [category for category, *_ in told[0][1]]
-    for later in told[1:]:
-        same(later, told[0])
+    first = run(scene)
+    assert [category for category, *_ in first[1]].count(FreeCraneWarning) == 1
+    for _ in range(2):
+        same(run(scene), first)
 
 
 def test_a_copy_shares_what_is_known_until_it_differs() -> None:
@@ -179,9 +178,8 @@ def test_a_sea_is_not_written_into() -> None:
     waves = Waves(omega=np.ones(1), amplitude=np.ones(1), phase=phase, direction=np.zeros(1), hulls={})
     phase[0] = 1.0
     assert waves.phase[0] == 0.0
-    for one in (waves, pickle.loads(pickle.dumps(waves))):
-        with pytest.raises(ValueError, match="read-only"):
-            one.phase[0] = 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        pickle.loads(pickle.dumps(waves)).phase[0] = 1.0
 
 
 def test_mappings_of_a_description_are_not_written_into() -> None:

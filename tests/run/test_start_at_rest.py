@@ -62,9 +62,6 @@ def test_a_lift_file_begins_at_rest_with_and_without_stages(tmp_path: Path) -> N
         lift = sc.Lift.load(tmp_path / "lift.toml")
         assert lift.start == "rest"
         assert np.ptp(height(lift.simulate())) < 1e-6
-    (tmp_path / "lift.toml").write_text(LIFT)
-    with pytest.warns(match="jumps"):
-        assert np.ptp(height(sc.Lift.load(tmp_path / "lift.toml").simulate())) > 0.1
 
 
 def test_another_word_is_refused() -> None:

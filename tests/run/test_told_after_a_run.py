@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import pytest
-from line_scenes import MASS, G, hung, swinging
+from line_scenes import MASS, G, hung
 from stage_scenes import on_deck
 from test_stages import falling
 
-from seacrane import Result, Scene, Stage, Until, simulate, simulate_stages
-from seacrane.cli.run_command import told
-from seacrane.run.outputs import Outputs
+from seacrane import Result, Scene, Stage, Until, simulate_stages
 from seacrane.run.stages_to_file import simulate_stages_to_file
 from seacrane.run.to_file import simulate_to_file
 
@@ -34,20 +31,11 @@ def test_bounds_of_a_winch_are_events_without_impacts(tmp_path: Path) -> None:
     assert done.load().events[0].kind == "limit"
 
 
-@pytest.mark.parametrize("channels", [None, [], ["energy_balance"]])
-@pytest.mark.parametrize("make", [weak, falling, on_deck, swinging])
-def test_every_run_is_told(make: Any, channels: list[str] | None) -> None:
-    for end in (0.0, 0.3):
-        result = simulate(make(), end, outputs=Outputs(dt_out=0.1, channels=channels))
-        assert told(result).startswith(f"{result.stats['scene']}: {end:g} s in")
-
-
 def test_stages_that_are_met_at_once_have_one_output(tmp_path: Path) -> None:
     whole = simulate_stages(on_deck(), [AT_ONCE], dt_out=0.1)
     assert whole.time.tolist() == [0.0]
     assert [(span.start, span.end, span.ended_by[:5]) for span in whole.stages] == [(0.0, 0.0, "line_")]
     assert whole["position"][0, 0, 2] == 1.0
-    assert "look" in told(whole)
     path, hold = tmp_path / "lift.nc", Stage(name="hold", duration=0.5)
     gone_on = simulate_stages_to_file(on_deck(), [AT_ONCE, hold], path, dt_out=0.1)
     plain = simulate_stages(on_deck(), [hold], dt_out=0.1)
