@@ -22,17 +22,15 @@ AHEAD = np.array([1.0, 0.0, 0.0])
 
 
 class Builder:
-    """One scene from a seed; `leaks` tells whether its oil does."""
+    """One scene from a seed."""
 
     def __init__(self, seed: int) -> None:
         self.rng = np.random.default_rng(seed)
         self.scene = Scene(name=f"rest {seed}")
-        self.leaks, self.moored = False, True
-        self.base = "ground"
+        self.moored, self.base = True, "ground"
         if self.chance(0.5):
             self.add_ship()
         self.tip, self.head = self.holder()
-        self.loads: list[str] = []
         self.hang()
         if self.chance(0.5):
             self.tug()
@@ -92,7 +90,6 @@ class Builder:
             out |= {"overlap": 0.02}
         if self.chance(0.1):
             out |= {"internal_leakage": 1e-13}
-            self.leaks = True
         if self.chance(0.2):
             out |= {"counterbalance_pressure": 35e6, "counterbalance_flow": 0.02}
         return out
@@ -110,14 +107,14 @@ class Builder:
         )
         low, high = foot + np.array([1.0, 0.0, -4.0]), foot + 0.4 * reach * AHEAD
         apart = float(np.linalg.norm(high - low))
-        self.ram = {
+        ram = {
             "name": "ram", "first": self.base, "second": "arm", "first_point": low,
             "second_point": [-0.1 * reach, 0.0, 0.0],
             **SET, **self.oil(), "full_area": 0.3, "rod_side_area": 0.15, "stroke": 3.0,
             "retracted_length": apart - self.between(0.5, 2.5), "hose_volume": 0.05, "hose_volume_rod": 0.05,
             "pressure": 2e7, "pressure_rod": 1e6,
         }  # fmt: skip
-        self.scene.add_hydraulic_cylinder(**self.ram)
+        self.scene.add_hydraulic_cylinder(**ram)
         return "arm", np.array([0.5 * reach, 0.0, 0.0])
 
     def hang(self) -> None:
@@ -130,7 +127,6 @@ class Builder:
         self.scene.add_body(
             name="load", mass=mass, inertia=mass * size**2 * self.rng.uniform(0.15, 0.25, 3), position=place
         )
-        self.loads.append("load")
         falls = int(self.rng.integers(1, 4))
         bodies = ([self.tip, "load"] * 2)[: falls + 1]
         top = np.array([0.0, 0.0, 0.5 * size * self.chance(0.7)])
@@ -166,9 +162,8 @@ class Builder:
 
     def tug(self) -> None:
         """Taglines to the base: fixed, or on tuggers that hold a tension; slack at first or not."""
-        load = self.loads[0]
-        place = np.asarray(self.scene.bodies[load].position)
-        weight = self.scene.bodies[load].mass * G
+        place = np.asarray(self.scene.bodies["load"].position)
+        weight = self.scene.bodies["load"].mass * G
         for i in range(int(self.rng.integers(1, 4))):
             way = self.between(0.0, 2.0 * np.pi)
             far = np.array([np.cos(way), np.sin(way), self.between(-0.2, 0.3)]) * self.between(8.0, 30.0)
@@ -177,27 +172,20 @@ class Builder:
                 end = end - np.asarray(self.scene.bodies[SHIP].position)
             arm = np.array([np.cos(way), np.sin(way), 0.0]) * self.between(0.0, 2.0) * self.chance(0.6)
             length = float(np.linalg.norm(far - arm))
-            name = f"tug {i}"
+            name, ends = f"tug {i}", {"bodies": [self.base, "load"], "points": [end, arm]}
             if self.chance(0.3):
                 length *= self.between(0.9, 1.02)
-                stiffness = 0.02 * weight / 0.01
+                self.scene.add_line(name, **ends, EA=2.0 * weight, length=length)
             else:
                 length *= self.between(0.97, 1.03)
-                stiffness = self.magnitude(5e4, 5e6)
-            self.scene.add_line(
-                name=name, bodies=[self.base, load], points=[end, arm], EA=stiffness, length=length
-            )
-            if stiffness != 0.02 * weight / 0.01:
+                self.scene.add_line(name, **ends, EA=self.magnitude(5e4, 5e6), length=length)
                 self.hold(name, weight)
 
     def hold(self, line: str, weight: float) -> None:
         """A winch that holds a tension."""
         tension = weight * self.magnitude(0.005, 0.1)
-        given = {}
-        if self.chance(0.5):
-            given["lag"] = self.between(0.05, 0.3)
-        if self.chance(0.3):
-            given["dead_band"] = 0.05 * tension
+        given = {"lag": self.between(0.05, 0.3)} if self.chance(0.5) else {}
+        given |= {"dead_band": 0.05 * tension} if self.chance(0.3) else {}
         self.scene.add_winch(
             line=line, tension=tension, tension_gain=self.magnitude(0.05, 0.5) / tension,
             maximum_rate=self.between(0.3, 2.0), **given,
@@ -212,7 +200,6 @@ class Builder:
         self.scene.add_body(
             name="below", mass=mass, inertia=mass * half**2 * np.array([0.5, 0.5, 0.6]), position=place
         )
-        self.loads.append("below")
         for i, (x, y) in enumerate([(-1, -1), (-1, 1), (1, -1), (1, 1)][: int(self.rng.integers(2, 5))]):
             corner = half * np.array([x, y, 0.3])
             self.scene.add_line(
@@ -236,9 +223,6 @@ class Builder:
             self.scene.add_ballast(heel_deg=self.between(-4.0, 4.0))
         elif kind == "tanks":
             side, ends = 0.45 * self.breadth, 1.5 * self.breadth
-            tanks = {
-                f"{x} {y}": Tank(point=(x * ends, y * side, 0.0), capacity=1e8, content=5e7)
-                for x in (-1, 1)
-                for y in (-1, 1)
-            }
+            places = [(x * ends, y * side, 0.0) for x in (-1, 1) for y in (-1, 1)]
+            tanks = {str(place): Tank(point=place, capacity=1e8, content=5e7) for place in places}
             self.scene.add_ballast(tanks=tanks)
