@@ -1,14 +1,16 @@
-"""Random scenes with limits: none crashes, stops for a wrong reason or refuses its own state."""
+"""Random scenes with limits: none crashes or stops for a wrong reason; random lifts in many views."""
 
 from __future__ import annotations
 
 import re
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
+from random_lifts import judged
 
 # Each ended a run once: a crash, dense output outside the last step, a limit passed, sets without end.
 FOUND = [29, 208, 261, 275, 297, 309, 432, 453, 493]
@@ -56,3 +58,24 @@ def test_a_thousand_random_scenes_with_limits_neither_crash_nor_stop_for_a_wrong
     wrong = ("crash", "own state", "dense")
     assert not [text for text in found.values() if any(word in text for word in wrong)], found
     assert len(found) <= 10, found  # sets that no pivoting finds, after a method has left its joints open
+
+
+def found(seeds: range) -> tuple[Counter[str], dict[int, dict[str, str]]]:
+    told = {seed: judged(seed) for seed in seeds}
+    how = Counter(went.split(":")[0] for went, _ in told.values())
+    return how, {seed: wrong for seed, (_, wrong) in told.items() if wrong}
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_some_random_lifts_are_the_same_however_they_are_told() -> None:
+    how, wrong = found(range(200, 203))
+    assert wrong == {}
+    assert how["run"] == 3, how
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.slow("dozens of random lifts, each in eight views")
+def test_many_random_lifts_are_the_same_however_they_are_told() -> None:
+    how, wrong = found(range(300, 360))
+    assert wrong == {}
+    assert how["run"] > 50, how

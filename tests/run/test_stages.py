@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import line_scenes
 import numpy as np
 import pytest
 from multibody_runs import masses, momentum
@@ -27,6 +28,7 @@ from seacrane import (
     cases,
     simulate,
     simulate_stages,
+    simulate_to_file,
     summary,
 )
 from seacrane.inputs.frames import rotation_matrix
@@ -418,3 +420,47 @@ def test_inputs_of_what_is_absent_are_left_out() -> None:
     assert seen == [0.0, 0.25, 0.5, 0.75]
     turned = result.select("coordinate", joint_coordinate="angle")
     assert turned[2] == 0.0 and abs(turned[-1]) == pytest.approx(0.5 * 0.5 * 0.5**2, rel=1e-3)
+
+
+IGNORED = pytest.mark.filterwarnings("ignore")
+
+
+@IGNORED
+def test_bounds_of_a_winch_are_events_without_impacts(tmp_path: Path) -> None:
+    """A motor that cannot hold its load reaches a bound, and the scene knows no impact."""
+    scene = line_scenes.hung(damping=0.1)
+    most = 0.9 * line_scenes.MASS * G
+    scene.add_winch(line="hoist", drum_inertia=1e3, drum_radius=0.5, lag=0.2, maximum_tension=most)
+    for end in (1.0, 1.5):  # counted over a resumption
+        done = simulate_to_file(scene, tmp_path / "again.nc", end, resume=end > 1.0)
+        assert done.stats["events"] == len(done.load().events) > 0
+    assert done.load().events[0].kind == "limit"
+
+
+@IGNORED
+def test_stages_that_are_met_at_once_have_one_output(tmp_path: Path) -> None:
+    longer = Until.length("hoist", minimum=1.0)
+    at_once = Stage(name="look", until=longer, maximum_duration=5.0)
+    whole = simulate_stages(on_deck(), [at_once], dt_out=0.1)
+    assert whole.time.tolist() == [0.0]
+    assert [(span.start, span.end, span.ended_by[:5]) for span in whole.stages] == [(0.0, 0.0, "line_")]
+    assert whole["position"][0, 0, 2] == 1.0
+    path, hold = tmp_path / "lift.nc", Stage(name="hold", duration=0.5)
+    gone_on = simulate_stages_to_file(on_deck(), [at_once, hold], path, dt_out=0.1)
+    plain = simulate_stages(on_deck(), [hold], dt_out=0.1)
+    assert gone_on.time.tolist() == plain.time.tolist() == Result.load(path).time.tolist()
+    assert (gone_on["position"] == plain["position"]).all()
+    assert [event.kind for event in gone_on.events] == ["stage", "stage"]
+
+
+@IGNORED
+@pytest.mark.parametrize("lies", [1.0, 0.3])
+def test_impacts_of_all_stages_are_counted(lies: float) -> None:
+    """m g h of the fall, also where the last stage has another model and no impact."""
+    scene = falling(2.0)
+    scene.add_body(name="other", mass=1.0, inertia=(1.0, 1.0, 1.0), position=(9.0, 0.0, 0.0))
+    scene.add_joint(kind="weld", name="lashing", first="ground", second="other", point=(9.0, 0.0, 0.0))
+    stages = [Stage(name="fall", duration=1.0), Stage(name="let go", duration=lies, release=["lashing"])]
+    result = simulate_stages(scene, stages, dt_out=0.1)
+    fallen = 3.0 * G * 2.0
+    assert result.stats["impact_energy_lost_J"] == pytest.approx(fallen, rel=1e-6)
