@@ -196,4 +196,4 @@ def test_mappings_of_a_description_are_not_written_into() -> None:
             for change, given in changes.items():
                 with pytest.raises(TypeError, match="read-only"):
                     getattr(one, change)(*given)
-            assert type(one) is type(mapping) and one == mapping
+            assert type(one) is type(mapping) and list(one) == list(mapping)
