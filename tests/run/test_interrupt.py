@@ -99,8 +99,9 @@ def test_an_exception_of_another_signal_is_not_taken_for_ctrl_c() -> None:
 
 @pytest.mark.slow("a process")
 def test_the_command_line_saves_what_it_has(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "seacrane", "run", "case1", "--out", str(tmp_path), "--t-end", "1e5"]
-    process = subprocess.Popen([*command, "--progress"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    command = [sys.executable, "-m", "seacrane", "run", "case1", "--out", str(tmp_path), "--t-end"]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+    process = subprocess.Popen([*command, "1e5", "--progress"], **quiet)
     said = b""
     while b"simulated" not in said:  # the bar appears when the loop is about to start
         piece = process.stderr.read1(4096)
@@ -113,7 +114,7 @@ def test_the_command_line_saves_what_it_has(tmp_path: Path) -> None:
     result = Result.load(tmp_path / "case1.nc")
     assert result.interrupted and 0.0 < result.time[-1] < 1e5
     t_end = result.time[-1] + 20.0
-    subprocess.run([*command[:-1], f"{t_end}", "--resume"], check=True, timeout=GENEROUS)
+    subprocess.run([*command, f"{t_end}", "--resume"], check=True, timeout=GENEROUS)
     whole = Result.load(tmp_path / "case1.nc")
     assert not whole.interrupted and whole.time[-1] == pytest.approx(t_end, rel=1e-12)
     assert np.array_equal(whole["position"][: result.time.size], result["position"])
