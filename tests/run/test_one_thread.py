@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from threading import Barrier, Event
 from typing import Any
 
 import numpy as np
@@ -52,31 +51,6 @@ def test_a_block_limits_and_gives_back() -> None:
         _ = 1 / 0
     assert threads() == {BEFORE}
     assert one_thread(threads)() == {1}
-
-
-def test_the_last_of_several_threads_gives_back() -> None:
-    entered, left = Barrier(2, timeout=60.0), Event()
-
-    def first() -> set[int]:
-        with one_thread:
-            entered.wait()
-            return threads()
-
-    def last() -> set[int]:
-        with one_thread:
-            entered.wait()
-            assert left.wait(60.0)
-            return threads()
-
-    with ThreadPoolExecutor(2) as pool:
-        one, other = pool.submit(first), pool.submit(last)
-        try:
-            assert one.result() == {1}
-            assert threads() == {1}
-        finally:
-            left.set()
-        assert other.result() == {1}
-        assert threads() == {BEFORE}, "while the threads that set it are still there"
 
 
 @pytest.fixture

@@ -160,13 +160,6 @@ def quietly(make: Callable[[], Any]) -> Any:
 WORDS = ("heading_deg is 0.785398 deg", "direction_deg is 2.35619 deg")
 
 
-@pytest.mark.slow("a whole lift")
-def test_a_report_lists_the_warnings_of_the_description(tmp_path: Path) -> None:
-    result = quietly(lambda: sc.simulate(told_twice(), t_end=1.0))
-    loaded = sc.Result.load(result.save(tmp_path / "run.nc"))
-    assert all(word in sc.report(loaded).html for word in WORDS)
-
-
 def test_what_was_told_before_the_start_is_listed_once() -> None:
     scene = quietly(told_twice)
     stages = [sc.Stage(name="one", duration=0.5), sc.Stage(name="two", duration=0.5)]
