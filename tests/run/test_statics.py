@@ -25,7 +25,7 @@ def barge() -> sc.Scene:
     scene.add_body("hull", mass=MASS, inertia=np.diag([2e8, 2e9, 2e9]), position=(0, 0, 0), gravity=False)
     scene.add_vessel(
         body="hull", name="hull", added_mass=np.zeros((6, 6)), restoring=np.diag([0, 0, C33, C44, C55, 0]),
-        linear_damping=np.zeros((6, 6)), mooring_stiffness=[1e5, 1e5, 1e7],
+        linear_damping=np.diag([1e6, 1e6, 1e7, 3e8, 3e9, 1e9]), mooring_stiffness=[1e5, 1e5, 1e7],
     )  # fmt: skip
     return scene
 
@@ -42,6 +42,20 @@ def hanging(scene: sc.Scene, *, y: float) -> sc.Scene:
     return scene
 
 
+def lashed(scene: sc.Scene, place: tuple[float, float, float]) -> sc.Scene:
+    scene.add_body(name="box", mass=LOAD, inertia=LOAD * np.eye(3), position=place)
+    scene.add_joint(name="lashed", kind="weld", first="hull", second="box", point=place)
+    return scene
+
+
+def test_a_damped_run_comes_to_rest_there() -> None:
+    scene = lashed(barge(), (0.0, 3.0, 2.0))
+    told, motion = sc.statics(scene), sc.simulate(scene, t_end=120.0, dt_out=1.0)["vessel_motion"][-1]
+    assert (motion[3], -motion[2]) == pytest.approx(
+        (float(told["heel"]), float(told["draught change"])), rel=1e-4
+    )
+
+
 def test_a_hanging_load_counts_at_its_tip() -> None:
     """GM = (C44 - m g h) / (displaced weight); fixed on deck, h is the height of the load itself.
 
@@ -51,10 +65,7 @@ def test_a_hanging_load_counts_at_its_tip() -> None:
     assert sc.statics(barge())["GM"] == pytest.approx(C44 / (MASS * G), rel=1e-9)
     hung = sc.statics(hanging(barge(), y=0.0))
     assert hung["GM"] == pytest.approx((C44 - LOAD * G * HEIGHT) / weight, rel=1e-6)
-    scene, place = barge(), (0.0, 0.0, HEIGHT - 10.0)
-    scene.add_body(name="box", mass=LOAD, inertia=LOAD * np.eye(3), position=place)
-    scene.add_joint(name="lashed", kind="weld", first="hull", second="box", point=place)
-    fixed = sc.statics(scene)
+    fixed = sc.statics(lashed(barge(), (0.0, 0.0, HEIGHT - 10.0)))
     assert fixed["GM"] == pytest.approx((C44 - LOAD * G * (HEIGHT - 10.0)) / weight, rel=1e-6)
     assert hung["draught change"] == pytest.approx(LOAD * G / C33, rel=1e-6)
     assert hung["hook load"] == pytest.approx(LOAD * G, rel=1e-6)
