@@ -45,7 +45,6 @@ def test_values_and_words_make_the_same_run(tmp_path: Path) -> None:
     [
         ({"rtol": 1e-3}, r"rtol=0.001 contradicts method"),
         ({"dt_out": 0.1}, r"dt_out=0.1 contradicts outputs, whose dt_out is 0.25"),
-        ({"tolerence": 1e-3}, "no 'tolerence'"),
     ],
 )
 def test_a_word_that_contradicts_the_value_beside_it_is_refused(words: dict[str, Any], says: str) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from event_scenes import ball
 
 import seacrane as sc
 from seacrane import cases
@@ -110,20 +111,14 @@ def test_a_stopped_run_goes_on_to_the_same_file(memory: str, tmp_path: Path, mon
     assert rest.load().stats["steps"] == whole.stats["steps"]
 
 
-def bouncing() -> sc.Scene:
-    scene = sc.Scene(name="ball")
-    scene.add_body(name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3))
-    scene.add_joint(kind="free", name="air", first="ground", second="ball", point=(0.0, 0.0, 0.0))
-    scene.add_end_stop(joint="air", coordinate="z", minimum=-2.0, restitution=0.9, name="floor")
-    return scene
-
-
 def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
     """A ball that bounces 16 times; the run stops in the air, and once more when the ball lies still."""
-    whole = sc.simulate(bouncing(), t_end=20.0)
+    whole = sc.simulate(ball(restitution=0.9), t_end=20.0)
     assert len(whole.events) > 10
     for t_end in (3.0, 15.0, 20.0):
-        told = sc.simulate_to_file(bouncing(), tmp_path / "run.nc", t_end=t_end, resume=t_end > 3.0)
+        told = sc.simulate_to_file(
+            ball(restitution=0.9), tmp_path / "run.nc", t_end=t_end, resume=t_end > 3.0
+        )
     joined = told.load()
     assert joined.stats["events"] == len(joined.events)
     assert [event.kind for event in joined.events] == [event.kind for event in whole.events]
@@ -181,19 +176,15 @@ def test_a_record_that_was_broken_off_does_not_count(cut: int, tmp_path: Path) -
         sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0)
 
 
-def left_behind(folder: Path, **settings: Any) -> Path:
+def left_behind(folder: Path) -> Path:
     """What a killed run of the spinner leaves."""
     code = (
-        "import os, sys; sys.path.insert(0, sys.argv[1])\n"
-        "from test_streaming import *\n"
+        "import os, sys\nfrom test_streaming import sc, spinner\n"
         "def look(now, measured):\n    if now > 9.0:\n        os._exit(1)\n    return {}\n"
-        "sc.simulate_to_file(spinner(), sys.argv[2], t_end=20.0, checkpoint_every=1.0,"
-        " controllers=[sc.SampledController(period=0.5, function=look)], **eval(sys.argv[3]))"
+        "sc.simulate_to_file(spinner(), sys.argv[1], t_end=20.0, checkpoint_every=1.0,"
+        " controllers=[sc.SampledController(period=0.5, function=look)])"
     )
-    subprocess.run(
-        [sys.executable, "-c", code, str(Path(__file__).parent), str(folder / "run.nc"), repr(settings)],
-        check=False,
-    )
+    subprocess.run([sys.executable, "-c", code, str(folder / "run.nc")], check=False)
     return stream.partial_path(folder / "run.nc")
 
 
