@@ -113,12 +113,11 @@ def test_a_stopped_run_goes_on_to_the_same_file(memory: str, tmp_path: Path, mon
 
 def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
     """A ball that bounces 16 times; the run stops in the air, and once more when the ball lies still."""
-    whole = sc.simulate(ball(restitution=0.9), t_end=20.0)
+    scene, path = ball(restitution=0.9), tmp_path / "run.nc"
+    whole = sc.simulate(scene, t_end=20.0)
     assert len(whole.events) > 10
     for t_end in (3.0, 15.0, 20.0):
-        told = sc.simulate_to_file(
-            ball(restitution=0.9), tmp_path / "run.nc", t_end=t_end, resume=t_end > 3.0
-        )
+        told = sc.simulate_to_file(scene, path, t_end=t_end, resume=t_end > 3.0)
     joined = told.load()
     assert joined.stats["events"] == len(joined.events)
     assert [event.kind for event in joined.events] == [event.kind for event in whole.events]
