@@ -75,20 +75,6 @@ def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> No
     assert state.values[7 + 2] == pytest.approx(-below, abs=1e-6)
 
 
-@pytest.mark.warns("StiffWarning")
-@pytest.mark.parametrize("up", [-0.2, 0.2])
-def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
-    scene = Scene(name="heavy")
-    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -100))
-    wire = {"EA": 4e8, "length": 100.0, "mass_per_length": 20.0, "segments": 8}
-    first, *_ = scene.add_line("hoist", rung="with mass", first="ground", second="load", **wire)
-    points = np.asarray(first.points)
-    points[0, 2] = up
-    scene.replace(first.name, kind="load", points=points)
-    assert equilibrium(scene).values[2] == pytest.approx(up - 100.0, abs=0.1)
-    assert moved(scene) < STILL
-
-
 def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
     scene = Scene(name="heeled")
     scene.add_vessel(shipped_database(), memory="none")
@@ -180,7 +166,6 @@ def test_every_run_takes_the_word_and_begins_as_from_equilibrium(tmp_path: Path)
     assert np.all(kept.dataset["range"].to_numpy() < 1.0)
 
 
-@pytest.mark.warns("LineLengthWarning")
 def test_a_lift_file_begins_at_rest_with_and_without_stages(tmp_path: Path) -> None:
     for end in (
         '[run]\nstart = "rest"\nt_end_s = 2\n',
