@@ -59,7 +59,6 @@ def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept
     assert result.interrupted
 
 
-@pytest.mark.warns("EnergyErrorWarning")
 def test_a_step_beyond_stability_tells_what_has_grown_and_the_longest_step() -> None:
     """100 rad/s: rk4 is stable up to sqrt(8) / 100 = 0.028 s."""
     with pytest.raises(SimulationError, match=r"longer than about 0\.028 s") as caught:
