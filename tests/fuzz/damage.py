@@ -8,19 +8,15 @@ A line holds the target, the edit and ``answer``, a pattern that the refusal has
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from fuzz.targets import CORPUS, TARGETS
 
-SOUND = {  # where a target's sound file is not that of a set
-    "orcaflex": "model", "orcaflex-text": "model", "lift": "every-table"
-}  # fmt: skip
+SOUND = {"orcaflex": "model", "orcaflex-text": "model", "lift": "every-table"}  # where there is no set
 
 
-@dataclass(frozen=True)
-class Damage:
+class Damage(NamedTuple):
     """One line of the list."""
 
     target: str
@@ -28,7 +24,6 @@ class Damage:
     answer: str
 
     def case(self) -> bytes:
-        """The damaged file."""
         if "whole" in self.edit:
             return str(self.edit["whole"]).encode()
         sound = sound_case(self.target)
@@ -40,9 +35,8 @@ class Damage:
             lines, text = sound.decode().splitlines(keepends=True), self.edit["text"]
             lines[self.edit["line"] - 1] = "" if text is None else f"{text}\n"
             return "".join(lines).encode()
-        document = json.loads(sound)
+        document = entry = json.loads(sound)
         (*path, last), value = self.edit["set"]
-        entry = document
         for key in path:
             entry = entry[key]
         if value is None:

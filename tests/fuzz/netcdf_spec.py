@@ -56,38 +56,32 @@ def _plain(value: Any) -> Any:
 
 
 def build(case: bytes, path: Path) -> bool:
-    """Write what the specification says to ``path``; False where it is no object.
-
-    What makes no file is left out.
-    """
-    try:
-        spec = json.loads(case)
-    except (ValueError, RecursionError):
-        return False
-    if not isinstance(spec, dict):
-        return False
+    """Write what the specification says, but what makes no file; False where it is no object."""
     path.unlink(missing_ok=True)  # a file that HDF5 could not close stays locked
     try:
+        spec = json.loads(case)
+        if not isinstance(spec, dict):
+            return False
         with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
             _fill(file, spec, 0)
-    except (OSError, RuntimeError):
+    except (ValueError, OSError, RuntimeError):  # of nesting, too
         return False
     return True
 
 
 def _fill(group: Any, spec: dict[str, Any], depth: int) -> None:
     for name, value in _entries(spec, "attrs"):
-        with _left_out():
+        with contextlib.suppress(*UNWRITABLE):
             group.setncattr(name, _value(value))
     for name, size in _entries(spec, "dims"):
-        with _left_out():
+        with contextlib.suppress(*UNWRITABLE):
             group.createDimension(name, None if size is None else min(int(size), LARGEST))
     for name, variable in _entries(spec, "vars"):
-        with _left_out():
+        with contextlib.suppress(*UNWRITABLE):
             _variable(group, name, variable)
     for name, inner in _entries(spec, "groups"):
         if isinstance(inner, dict) and depth < 8:
-            with _left_out():
+            with contextlib.suppress(*UNWRITABLE):
                 _fill(group.createGroup(name), inner, depth + 1)
 
 
@@ -96,12 +90,10 @@ def _entries(spec: dict[str, Any], key: str) -> list[tuple[str, Any]]:
     return list(found.items()) if isinstance(found, dict) else []
 
 
-def _left_out() -> contextlib.suppress:
-    """Whatever cannot be written is no case for a reader."""
-    return contextlib.suppress(
-        AttributeError, LookupError, MemoryError, OSError, OverflowError, RecursionError, RuntimeError,
-        TypeError, ValueError,
-    )  # fmt: skip
+# Whatever cannot be written is no case for a reader.
+UNWRITABLE = (
+    AttributeError, LookupError, MemoryError, OSError, OverflowError, RuntimeError, TypeError, ValueError
+)  # fmt: skip
 
 
 def _variable(group: Any, name: str, spec: dict[str, Any]) -> None:
@@ -110,7 +102,7 @@ def _variable(group: Any, name: str, spec: dict[str, Any]) -> None:
     large = bool(spec.get("zlib")) or math.prod(sizes) > CONTIGUOUS
     variable = group.createVariable(name, kind, tuple(spec["dims"]), fill_value=False, zlib=large)
     for key, value in _entries(spec, "attrs"):
-        with _left_out():
+        with contextlib.suppress(*UNWRITABLE):
             variable.setncattr(key, _value(value))
     data = spec.get("data")
     if data is not None and math.prod(sizes) <= CONTIGUOUS:  # else nothing is written: refused anyway

@@ -1,9 +1,8 @@
 """Coverage-guided fuzzing of the readers with atheris: python tests/fuzz/run.py [TARGET ...] --cases N.
 
-Each target runs in processes of its own, in slices, so that all counts grow together; counts, cases found
-unsound and the corpus that grew are kept in the folder --out, and a later call goes on from there. A case is
-unsound that raises anything but a refusal by name, takes more time or memory than its size allows (see
-limits.py), returns a number that is not finite, or ends the process.
+Each target runs in processes of its own, in slices; counts, unsound cases and the corpus that grew are kept
+in the folder --out, and a later call goes on from there. Unsound is what raises more than a refusal by name,
+takes more than limits.py allows, returns a number that is not finite, or ends the process.
 """
 
 from __future__ import annotations
@@ -33,7 +32,6 @@ SLICE = 50_000  # cases of one process
 
 
 def main() -> int:
-    """All targets named, in slices, until each has had its cases."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("targets", nargs="*", metavar="TARGET")
     parser.add_argument("--cases", type=int, default=1_000_000, help="of each target, earlier calls included")
@@ -112,9 +110,9 @@ def _child(name: str, options: argparse.Namespace) -> int:
     arguments = [sys.argv[0], str(grown), f"-artifact_prefix={home}/", f"-seed={seed}"]
     arguments += ["-max_len=120000", "-timeout=60", "-rss_limit_mb=4096", "-detect_leaks=0", "-verbosity=0"]
     mutator: dict[str, Any] = {}
-    if target.mutate is not None:
-        mutator["custom_mutator"] = harness.mutate
-        arguments += ["-mutate_depth=1", "-cross_over=0"]  # the mutator decides how much changes at a time
+    if target.mutate is not None:  # by the structure of the file; it decides how much changes at a time
+        mutator["custom_mutator"] = lambda data, size, seed: target.mutate(data, random.Random(seed))[:size]
+        arguments += ["-mutate_depth=1", "-cross_over=0"]
     atheris.Setup(arguments, harness, **mutator)
     taken = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (taken + MEMORY, taken + MEMORY))
@@ -132,10 +130,6 @@ class Harness:
         self.before = self.count["seconds"]
         self.start = time.process_time()
         self.fresh = 0
-
-    def mutate(self, data: bytes, size: int, seed: int) -> bytes:
-        """libFuzzer's custom mutator: by the structure of the file."""
-        return self.target.mutate(data, random.Random(seed))[:size]
 
     def __call__(self, data: bytes) -> None:
         try:

@@ -38,14 +38,11 @@ def put(target: str, name: str, content: bytes | str) -> None:
 def small_hull() -> HydroDatabase:
     """Two frequencies and three headings of the shipped hull, in three digits."""
     hull = shipped_database().select(omega=[20, 40], heading=[0, 9, 18])
+    rounded = np.vectorize(lambda value: float(f"{value:.3g}"))
     short = {name: rounded(getattr(hull, name)) for name in ("added_mass", "damping")}
     less = {"force": hull.force.round(0), "g": 9.80665, "memory": None, "trusted_band": None}
     hull = dataclasses.replace(hull, **short, **less)
     return dataclasses.replace(hull, motion_rao=motion_response(hull))
-
-
-def rounded(matrix: np.ndarray) -> np.ndarray:
-    return np.array([float(f"{value:.3g}") for value in matrix.ravel()]).reshape(matrix.shape)
 
 
 def scene_seeds() -> None:
@@ -85,10 +82,8 @@ def pendulum() -> Result:
     scene.add_body(name="bob", mass=1.0, inertia=np.eye(3), position=(0.0, 0.0, 0.0))
     scene.add_joint(name="slide", kind="prismatic", first="ground", second="bob")
     scene.add_end_stop(joint="slide", minimum=-1.0)
-    full = simulate(scene, t_end=1.0, dt_out=0.5)
-    channels = {name: full[name] for name in ("position", "energy_balance")}
-    coords = {dim: full.coords[dim] for dim in ("body", "axis")}
-    return dataclasses.replace(full, channels=channels, extremes={}, coords=coords)
+    full = simulate(scene, t_end=1.0, dt_out=0.5, channels=["position", "energy_balance"])
+    return dataclasses.replace(full, extremes={}, coords={dim: full.coords[dim] for dim in ("body", "axis")})
 
 
 def main() -> None:

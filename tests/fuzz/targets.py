@@ -6,8 +6,10 @@ import contextlib
 import hashlib
 import json
 import random
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
+from operator import attrgetter, methodcaller
 from pathlib import Path
 from typing import Any
 
@@ -51,11 +53,8 @@ INFINITE = ("depth", "band", "rows")  # may be infinite, or not a number where a
 
 @dataclass(frozen=True)
 class Target:
-    """One kind of case.
-
-    ``file`` is the name a case is written under, beside the files of the corpus folder ``beside``;
-    ``modules`` are the sources whose lines count as the reader's; what ``read`` returns has to be finite.
-    """
+    """One kind of case, written as ``file`` beside the files of the corpus folder ``beside``; lines of
+    ``modules`` count as the reader's; what ``read`` returns has to be finite."""
 
     name: str
     reader: str
@@ -76,11 +75,8 @@ class Target:
                     (folder / file.name).write_bytes(file.read_bytes())
 
     def run(self, case: bytes, folder: Path) -> str:
-        """Read a case: "value", "refused", or "no case"; anything unsound raises.
-
-        That is: another exception, a message that floods or does not name the file, a number that is not
-        finite, more time or memory than its size allows.
-        """
+        """Read a case: "value", "refused", or "no case". What is unsound raises: another exception, a message
+        that floods or does not name the file, a number that is not finite, too much time or memory."""
         path = folder / self.file
         if not self.netcdf:
             path.write_bytes(case)
@@ -92,8 +88,7 @@ class Target:
                 value = self.read(path)
         except self.refusals as error:
             if len(str(error)) > LONGEST_MESSAGE + len(str(path)):
-                length, start = len(str(error)), str(error)[:200]
-                raise AssertionError(f"a message of {length} characters: {start}") from None
+                raise AssertionError(f"a message of {len(str(error))} characters: {error}"[:250]) from None
             if isinstance(error, FileFormatError) and path.stem not in str(error):
                 raise AssertionError(f"a message that does not name the file: {error}") from None
             return "refused"
@@ -129,8 +124,6 @@ def require_finite(place: str, value: Any) -> None:
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
     """Warnings of the readers are not what is looked for; NaN that comes of an overflow is found above."""
-    import warnings
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
@@ -150,24 +143,8 @@ def _of(read: Callable[..., Any], at: Callable[[Path], Path] = Path, *asked: Rea
     return read_it
 
 
-def _folder(path: Path) -> Path:
-    return path.parent
-
-
-def _stem(path: Path) -> Path:
-    return path.with_suffix("")
-
-
-def _listing(path: Path) -> Path:
-    return path.with_suffix(".out")
-
-
-def _hull_of_offsets(path: Path) -> Any:
-    return Hull.from_offsets(path).panels
-
-
-def _hull_of_stl(path: Path) -> Any:
-    return Hull.from_stl(path).panels
+_folder, _stem = attrgetter("parent"), methodcaller("with_suffix", "")
+_listing = methodcaller("with_suffix", ".out")
 
 
 def _scene(path: Path) -> Any:
@@ -318,8 +295,8 @@ _ALL = [
     Target("wamit-listing", "wamit-listing", "box.out", _wamit_pair, _WAMIT_GROUP),
     *_set_targets("nemoh-group", _NEMOH_PAIR, _nemoh_pair, _under(_HYDRO, "nemoh_group")),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
-    Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
-    Target("stl", "stl", "hull.stl", _hull_of_stl, ("inputs/stl.py",), refusals=_SHAPE),
+    Target("offsets", "offsets", "hull.txt", Hull.from_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
+    Target("stl", "stl", "hull.stl", Hull.from_stl, ("inputs/stl.py",), refusals=_SHAPE),
     Target("gltf", "gltf", "box.gltf", _of(read_gltf, most=1000), ("inputs/gltf.py",), mutate_json),
     Target("gltf-bytes", "gltf", "box.glb", _of(read_gltf, most=1000), ("inputs/gltf.py",), None),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),

@@ -23,7 +23,6 @@ def fails(*_: Any) -> Any:
 
 LOOKS: dict[str, tuple[Any, str]] = {
     "a look at its range": (seacrane.validity.left_range, "lifting"),
-    "a look at what follows": (seacrane.validity.left_range, "following"),
     "a look at oil": (seacrane.run.run, "boiled"),
     "modes": (seacrane.run.advance, "slow_findings"),
 }
@@ -45,20 +44,6 @@ def test_a_look_that_fails_keeps_the_run(place: str, tmp_path: Path, monkeypatch
         assert not result.interrupted
         assert "no such thing" in result.stats["validity"]
         np.testing.assert_allclose(result["position"][-1], expected["position"][-1], rtol=1e-6)
-
-
-def test_an_estimate_or_a_derived_channel_that_fails_keeps_the_run(monkeypatch: Any) -> None:
-    with monkeypatch.context() as patch:
-        patch.setattr(seacrane.accuracy.choice, "model_errors", fails)
-        with pytest.warns(UnjudgedWarning, match="error of the model"):
-            result = sc.simulate(pendulum(), 1.0, accuracy={"position": 1e-3})
-    assert result.stats["error_estimate_position"] <= 1e-3
-    run = sc.Run(pendulum(), 1.0)
-    run.advance(1.0)
-    monkeypatch.setattr(seacrane.run.run, "named_channels", fails)
-    result, found = run.judged_result()
-    assert [kind for kind, _ in found] == [UnjudgedWarning]
-    assert result["position"].shape == (result.time.size, 1, 3)
 
 
 def not_finite(run: sc.Run, arrays: Any) -> dict[str, Any]:

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Run, Scene, State
+from seacrane._core import StepHistory
 from seacrane.hydro import StateSpaceBlock
 
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 STOP, END = 3.0, 3.2
+NONE = StepHistory(formulation="", integrator="", values=[], rate=[])
 SETTINGS: list[dict[str, Any]] = [
     {"formulation": "recursive"},
     {"formulation": "redundant"},
@@ -45,10 +47,6 @@ def hauled(*, mass: float = 1e6, speed: float = -1.0, seed: int = 1) -> Scene:
     return scene
 
 
-def begun(scene: Scene, start: State, **settings: Any) -> Run:
-    return Run(scene, END, start=start, dt_out=0.05, **settings)
-
-
 def edited(state: State, **changes: Any) -> State:
     names = ("time", "histories", "steps", "closed", "record", "parts", "values", "inputs")
     return State(**{name: getattr(state, name) for name in names} | changes)
@@ -66,73 +64,44 @@ def free(scene: Scene) -> list[int]:
     return out
 
 
-def wrong(seed: int) -> list[str]:
-    """What is wrong with edits of the state of a random run."""
-    rng = np.random.default_rng(seed)
-    scene = hauled(mass=10.0 ** rng.uniform(3, 7), speed=float(rng.uniform(-2, 2)), seed=seed)
-    settings = SETTINGS[seed % len(SETTINGS)]
-    run = Run(scene, END, dt_out=0.05, **settings)
-    run.advance(STOP)
-    state, out = run.state, []
-    for place in rng.choice(free(scene), 4, replace=False):
-        was = state.values[place]
-        by = 4.0 * np.spacing(was) if rng.random() < 0.3 else 10.0 ** rng.uniform(-13, -1) * (abs(was) + 1e-3)
-        values = np.array(state.values)
-        values[place] = was + by
-        if values[place] == was:
-            continue
-        going = begun(scene, edited(state, values=values), **settings)
-        begins = np.array(going.core.state.values)
-        if begins[place] != values[place]:
-            off = begins[place] - values[place]
-            out.append(f"place {place} of {values.size}: {was} edited by {by}, begins {off} beside it")
-        if not np.allclose(begins, values, rtol=1e-13, atol=1e-13):  # from poses to coordinates and back
-            out.append(f"place {place} of {values.size}: edited by {by}, and others begin elsewhere")
-        afresh = begun(scene, edited(state, values=values, steps=type(state.steps)(
-            formulation="", integrator="", values=[], rate=[])), **settings)  # fmt: skip
-        for one in (going, afresh):
-            one.advance(END)
-        if not np.array_equal(going.core.state.values, afresh.core.state.values):
-            out.append(f"place {place}: edited by {by}, goes on by a derivative of before")
-    return out
+MANY = pytest.param(range(1000, 1600), marks=pytest.mark.slow("many random states"))
 
 
-def test_random_edits_of_random_states_are_taken() -> None:
-    assert {seed: told for seed in range(20) if (told := wrong(seed))} == {}
-
-
-@pytest.mark.slow("many random states")
-def test_many_random_edits_of_random_states_are_taken() -> None:
-    assert {seed: told for seed in range(1000, 1600) if (told := wrong(seed))} == {}
-
-
-def test_a_line_is_as_long_as_it_was_edited_to_be_after_much_work() -> None:
-    """And one that was edited to what it is goes on bit for bit."""
-    scene = hauled()
-    run = Run(scene, END, rtol=1e-7)
-    run.advance(STOP)
-    state = run.state
-    assert abs(state.values[-2]) > 1e6  # J
-    for longer in (0.02, 1e-6, -1e-9, 1e-13):
-        length = state.load_states["hoist.length"] + longer
-        going = Run(scene, END, start=state.with_load_states({"hoist.length": length}), rtol=1e-7)
-        assert going.core.state.load_states["hoist.length"] == length
-    later = Run(scene, END, start=state.with_load_states(state.load_states), rtol=1e-7)
-    for one in (run, later):
-        one.advance(END)
-    assert np.array_equal(later.core.state.values, run.core.state.values)
+@pytest.mark.parametrize("seeds", [range(20), MANY], ids=["some", "many"])
+def test_random_edits_of_random_states_are_taken(seeds: range) -> None:
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        scene = hauled(mass=10.0 ** rng.uniform(3, 7), speed=float(rng.uniform(-2, 2)), seed=seed)
+        settings = SETTINGS[seed % len(SETTINGS)]
+        run = Run(scene, END, dt_out=0.05, **settings)
+        run.advance(STOP)
+        state = run.state
+        for place in rng.choice(free(scene), 4, replace=False):
+            was = state.values[place]
+            tiny, values = rng.random() < 0.3, np.array(state.values)
+            by = 4.0 * np.spacing(was) if tiny else 10.0 ** rng.uniform(-13, -1) * (abs(was) + 1e-3)
+            values[place] = was + by
+            starts = (edited(state, values=values), edited(state, values=values, steps=NONE))
+            going, afresh = (Run(scene, END, dt_out=0.05, start=start, **settings) for start in starts)
+            begins = np.array(going.core.state.values)
+            assert begins[place] == values[place], (seed, place)
+            # from poses to coordinates and back
+            np.testing.assert_allclose(begins, values, rtol=1e-13, atol=1e-13, err_msg=f"{seed} {place}")
+            for one in (going, afresh):
+                one.advance(END)
+            told = "goes on by a derivative of before"
+            assert np.array_equal(going.core.state.values, afresh.core.state.values), (seed, place, told)
 
 
 def test_an_edited_input_is_felt_at_once() -> None:
     scene = hauled()
     run = Run(scene, END, rtol=1e-7)
     run.advance(STOP)
-    none = type(run.state.steps)(formulation="", integrator="", values=[], rate=[])
     for by in (1e-3, 1e-9, 1e-15):
         inputs = np.array(run.state.inputs)
         inputs[next(slot for name, slot, _ in run.model.inputs if name == "axle.force")] += by
-        starts = (edited(run.state, inputs=inputs), edited(run.state, inputs=inputs, steps=none))
-        going, afresh = (begun(scene, start, rtol=1e-7) for start in starts)
+        starts = (edited(run.state, inputs=inputs), edited(run.state, inputs=inputs, steps=NONE))
+        going, afresh = (Run(scene, END, dt_out=0.05, start=start, rtol=1e-7) for start in starts)
         for one in (going, afresh):
             assert np.array_equal(one.core.state.inputs, inputs)
             one.advance(END)

@@ -6,18 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from event_scenes import (
-    FIRST_SPEED,
-    GRAVITY,
-    HEIGHT,
-    INERTIA,
-    LENGTH,
-    MASS,
-    Array,
-    ball,
-    pendulum,
-    scipy_pendulum,
-)
+from event_scenes import FIRST_SPEED, GRAVITY, HEIGHT, INERTIA, LENGTH, MASS, ball, pendulum, scipy_pendulum
 from multibody_runs import momentum
 from scipy.integrate import quad
 
@@ -25,23 +14,14 @@ from seacrane import Run, Scene, SceneError, State, cases, integrator_names, sim
 from seacrane.errors import ChatteringError
 
 
-def bounces(restitution: float, count: int) -> tuple[Array, Array]:
-    """Times of a ball's bounces and the energy lost in each."""
-    fall, speed = np.sqrt(2.0 * HEIGHT / GRAVITY), np.sqrt(2.0 * GRAVITY * HEIGHT)
-    k = np.arange(count)
-    times = fall + np.concatenate([[0.0], np.cumsum(2.0 * restitution ** (k[1:]) * speed / GRAVITY)])
-    return times, 0.5 * MASS * (speed * restitution**k) ** 2 * (1.0 - restitution**2)
-
-
 def test_ball_bounces_at_the_times_and_with_the_energies_of_the_closed_form() -> None:
     """What is lost is booked, the balance stays closed, and all has gone when it lies."""
     result = simulate(ball(), t_end=3.0, dt_out=0.01, rtol=1e-8)
-    times, lost = bounces(0.5, 5)
-    events = result.events[:5]
+    events, speed = result.events[:5], np.sqrt(2.0 * GRAVITY * HEIGHT) * 0.5 ** np.arange(5)
+    times = (speed[0] + np.concatenate([[0.0], np.cumsum(2.0 * speed[1:])])) / GRAVITY
     assert {(e.kind, e.name) for e in events} == {("rebound", "floor")}
     np.testing.assert_allclose([e.time for e in events], times, rtol=0.0, atol=1e-9)
-    np.testing.assert_allclose([e.energy_lost for e in events], lost, rtol=1e-8)
-    speed = np.sqrt(2.0 * GRAVITY * HEIGHT) * 0.5 ** np.arange(5)
+    np.testing.assert_allclose([e.energy_lost for e in events], 0.375 * MASS * speed**2, rtol=1e-8)
     np.testing.assert_allclose([e.speed for e in events], speed, rtol=1e-8)
     np.testing.assert_allclose([e.impulse for e in events], 1.5 * MASS * speed, rtol=1e-8)
     assert np.abs(result["energy_balance"]).max() < 1e-9 * MASS * GRAVITY * HEIGHT
@@ -52,15 +32,6 @@ def test_ball_bounces_at_the_times_and_with_the_energies_of_the_closed_form() ->
     assert result.events[-1].kind == "contact"
     assert result["limit_force"][-1, 0] == pytest.approx(MASS * GRAVITY, rel=1e-9)
     assert abs(result.select("position", body="ball", axis="z")[-1]) < 1e-9
-
-
-def test_no_energy_is_lost_with_restitution_one() -> None:
-    result = simulate(ball(restitution=1.0), t_end=20.0, dt_out=0.5, rtol=1e-9)
-    times = np.array([e.time for e in result.events])
-    period = 2.0 * np.sqrt(2.0 * HEIGHT / GRAVITY)
-    np.testing.assert_allclose(times, period * (np.arange(times.size) + 0.5), rtol=0.0, atol=1e-7)
-    assert times.size == int(20.0 / period + 0.5)
-    assert abs(sum(e.energy_lost for e in result.events)) < 1e-9
 
 
 def test_chattering_ends_in_an_error_that_names_limit_joint_and_time() -> None:
@@ -191,52 +162,13 @@ def test_what_starts_pulled_at_is_let_go_at_once() -> None:
     scene = Scene(name="above")
     above = (0.0, 0.0, LENGTH)
     scene.add_body(name="ball", mass=MASS, inertia=INERTIA, position=above)
-    scene.add_joint(
-        "wire", kind="distance", first="ground", second="ball", point=(0, 0, 0), second_point=above
-    )
+    ends = {"first": "ground", "second": "ball", "point": (0, 0, 0), "second_point": above}
+    scene.add_joint("wire", kind="distance", **ends)
     scene.add_line(joint="wire", rung="rigid")
     result = simulate(scene, t_end=0.5, dt_out=0.1, rtol=1e-9)
     assert (result.events[0].time, result.events[0].kind) == (0.0, "release")
     fallen = LENGTH - 0.5 * GRAVITY * result.time**2
     np.testing.assert_allclose(result.select("position", body="ball", axis="z"), fallen, atol=1e-9)
-
-
-def test_wire_that_stays_taut_changes_nothing_in_a_lift() -> None:
-    plain = cases.case2()
-    limited = plain.copy()
-    limited.add_line(joint="link", rung="rigid")
-    before = simulate(plain, t_end=5.0, dt_out=0.5, rtol=1e-8)
-    after = simulate(limited, t_end=5.0, dt_out=0.5, rtol=1e-8)
-    assert after.events == ()
-    assert after.stats["formulation"] == before.stats["formulation"]
-    np.testing.assert_allclose(after["position"], before["position"], atol=1e-6)
-    np.testing.assert_allclose(after["link_tension"], before["link_tension"], rtol=1e-5)
-
-
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-@pytest.mark.parametrize(
-    ("integrator", "setting"),
-    [("dopri5", {"rtol": 1e-7}), ("rk4", {"dt": 0.01}), ("rosenbrock", {"rtol": 1e-6})],
-)
-def test_a_run_goes_on_bit_for_bit_with_its_limits(
-    formulation: str, integrator: str, setting: Any, tmp_path: Any
-) -> None:
-    """Stopped taut, slack, and taut again, from files: the same events and states follow."""
-    settings = {"integrator": integrator, "formulation": formulation, "t_end": 4.0, **setting}
-    whole = Run(pendulum(restitution=0.2), **settings)
-    for stop, closed in ((0.3, ["wire"]), (1.2, []), (2.3, ["wire"])):
-        whole.advance(stop)
-        whole.state.save(tmp_path / "state")
-        assert whole.state.closed == closed
-        rest = Run(pendulum(restitution=0.2), start=State.load(tmp_path / "state"), **settings)
-        rest.advance(2.8)
-        straight = Run(pendulum(restitution=0.2), **settings)
-        for t in (t for t in (0.3, 1.2, 2.3) if t <= stop):
-            straight.advance(t)
-        straight.advance(2.8)
-        np.testing.assert_array_equal(rest.core.state.values, straight.core.state.values)
-        assert rest.core.events() == [e for e in straight.core.events() if e[0] > stop]
-        assert rest.result()["impact_loss"][-1] == straight.result()["impact_loss"][-1] > 0.0
 
 
 def test_a_state_with_limits_of_another_scene_is_refused() -> None:

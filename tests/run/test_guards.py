@@ -4,28 +4,20 @@ from __future__ import annotations
 
 import ctypes
 import re
-import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from multibody_runs import ramp
 
-from seacrane import Curve, Result, Run, Scene, SceneError, SimulationError, State, _core, simulate
+from seacrane import Result, Run, Scene, SceneError, SimulationError, State, _core, simulate
 from seacrane._core import integrators
-from seacrane.analysis import linearise
 from seacrane.answers import report
-from seacrane.answers.paper_report import Study, study_report
 from seacrane.cases import vessel
 from seacrane.errors import OutputMemoryError
-from seacrane.run import modes
 from seacrane.validity.left_range import findings
 from seacrane.warnings import (
     FullTurnWarning,
-    LargeHeelWarning,
-    MeanHeadingWarning,
-    NearSingularWarning,
     OutsideDatabaseWarning,
     PushingLinkWarning,
     StiffWarning,
@@ -39,14 +31,6 @@ def fails_later(t: float, state: Any, parameters: Any, wrench: Any) -> None:
     wrench[0] = float("nan") if t > 0.55 else 1.0
 
 
-def box() -> Scene:
-    scene = Scene(name="box")
-    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1])
-    scene.add_body(name="mate", mass=1.0, inertia=[1, 1, 1], position=(1, 0, 0))
-    scene.add_joint(kind="spherical", name="ball", first="box", second="mate", point=(1, 0, 0))
-    return scene
-
-
 def slide(stiffness: float) -> Scene:
     """A box of 1 kg on a slide, held by a stiff actuator: an oscillator of sqrt(stiffness) rad/s."""
     scene = Scene(name="slide")
@@ -56,33 +40,12 @@ def slide(stiffness: float) -> Scene:
     return scene
 
 
-def folding(rate: float, start: float = 0.5) -> Scene:
-    """Two equal arms, a turned crank and a link from its tip to a slider: they fold together at 90 deg."""
-    scene = Scene(name="folding", gravity=0.0)
-    tip = (np.cos(start), 0.0, np.sin(start))
-    end = (2.0 * np.cos(start), 0.0, 0.0)
-    scene.add_body(name="crank", mass=1.0, inertia=[1, 1, 1])
-    scene.add_body(name="slider", mass=1.0, inertia=[1, 1, 1], position=end)
-    scene.add_joint(kind="revolute", name="pin", first="ground", second="crank", axis=(0, -1, 0))
-    scene.add_joint("guide", kind="prismatic", first="ground", second="slider", point=end, axis=(1, 0, 0))
-    scene.add_joint(kind="distance", name="link", first="crank", second="slider", point=tip, second_point=end)
-    scene.add_driver(name="turn", joint="pin", curve=ramp(rate))
-    return scene
-
-
-def hanging(length: float = 2.0, **start: Any) -> Scene:
-    scene = Scene(name="hanging")
-    end = (0.0, 0.0, -length)
-    scene.add_body(name="load", mass=10.0, inertia=[1, 1, 1], position=end, **start)
-    scene.add_joint(
-        kind="distance", name="wire", first="ground", second="load", point=(0, 0, 0), second_point=end
-    )
-    return scene
-
-
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept(formulation: str) -> None:
-    scene = box()
+    scene = Scene(name="box")
+    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1])
+    scene.add_body(name="mate", mass=1.0, inertia=[1, 1, 1], position=(1, 0, 0))
+    scene.add_joint(kind="spherical", name="ball", first="box", second="mate", point=(1, 0, 0))
     address = ctypes.cast(fails_later, ctypes.c_void_p).value
     scene.add_function_force(name="pull", body="box", address=address, parameters=[])
     with pytest.raises(SimulationError, match=r"function force 'pull': force \(nan, 0, 0\) N") as caught:
@@ -96,16 +59,11 @@ def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept
     assert result.interrupted
 
 
-@pytest.mark.warns("EnergyErrorWarning")
 def test_a_step_beyond_stability_tells_what_has_grown_and_the_longest_step() -> None:
     """100 rad/s: rk4 is stable up to sqrt(8) / 100 = 0.028 s."""
-    for dt in (0.025, 0.027):
-        simulate(slide(1e4), t_end=3.0, integrator="rk4", dt=dt)
-    with pytest.raises(SimulationError) as caught:
+    with pytest.raises(SimulationError, match=r"longer than about 0\.028 s") as caught:
         simulate(slide(1e4), t_end=100.0, integrator="rk4", dt=0.1)
-    text = str(caught.value)
-    assert "the velocity x of body 'box' had grown to" in text
-    assert "unstable with steps longer than about 0.028 s, and took 0.1 s" in text
+    assert "the velocity x of body 'box' had grown to" in str(caught.value)
 
 
 STABLE_UP_TO = {k.name: k.stable_up_to for k in integrators() if k.stable_up_to}
@@ -143,51 +101,8 @@ def test_a_run_that_one_fast_mode_makes_slow_tells_the_mode_and_the_body(integra
     # A double eigenvalue: half of its digits are told.
     assert float(told[1]) == pytest.approx(5e3, rel=1e-3)
     assert "fastest mode" in str(result.stats["validity"])
-
-
-@pytest.mark.parametrize(
-    ("mode", "given"), [(5e3, {"integrator": "rosenbrock"}), (5.0, {}), (5e3, {"dt_out": 0.001})]
-)
-def test_a_run_that_is_not_slow_looks_for_no_mode(mode: float, given: Any, monkeypatch: Any) -> None:
-    """Nor one that takes as many steps to show what was asked for."""
-    if "dt_out" not in given:
-        monkeypatch.setattr(linearise, "jacobian", None)
-        monkeypatch.setattr(modes, "jacobian", None)
-    result = simulate(held(mode), t_end=20.0, channels=["position"], **given)
-    assert "validity" not in result.stats
-    assert "dt_out" not in given or int(result.stats["steps"]) > 10_000
-
-
-def test_a_collapsed_step_names_the_state_and_what_to_try() -> None:
-    scene = Scene(name="push")
-    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1])
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
-    scene.add_actuator(name="hold", joint="rail", stiffness=10.0, reference=Curve.constant(value=0.1))
-    with pytest.raises(SimulationError, match=r"worst in the \w+ 0 of joint 'rail'") as caught:
-        simulate(scene, t_end=1.0, rtol=1e-34)
-    assert "smooth the jump or give a larger rtol" in str(caught.value)
-
-
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-def test_the_nearest_approach_to_a_singular_position_is_told(formulation: str) -> None:
-    """The crank turns to 0.01 rad before the arms fold: 10 times nearer than at 0.1 rad."""
-    found = []
-    for gap in (0.1, 0.01):
-        t_end = (np.pi / 2.0 - 0.5 - gap) / 0.2
-        result = simulate(folding(0.2), t_end=t_end, formulation=formulation, maximum_step=0.05)
-        assert result.stats["smallest_pivot_joint"] == "link"
-        # The ratio is told to a tenth, which is when the state is kept.
-        assert result.stats["smallest_pivot_at_s"] == pytest.approx(t_end, abs=0.1)
-        assert 0.0 < result.stats["smallest_pivot"] < 0.1
-        found.append(float(result.stats["smallest_singular_value"]))
-    assert found[0] / found[1] == pytest.approx(10.0, rel=0.1)
-
-
-def test_a_run_into_a_singular_position_warns() -> None:
-    t_end = (np.pi / 2.0 - 0.5 - 1e-5) / 0.2
-    with pytest.warns(NearSingularWarning, match=r"joint 'link'.*depend on the others at t = 5.35"):
-        result = simulate(folding(0.2), t_end=t_end, formulation="redundant", maximum_step=0.05)
-    assert "depend on the others" in str(result.stats["validity"])
+    few = simulate(held(5.0), t_end=20.0, channels=["position"])
+    assert "validity" not in few.stats
 
 
 def pendulum() -> Scene:
@@ -217,53 +132,15 @@ def test_settings_that_make_no_sense_are_refused() -> None:
     late = State(time=1e11, values=resting.values, inputs=resting.inputs)
     for kind, given, words in (
         (OutputMemoryError, {"t_end": 1e8, "dt_out": 1.0}, r"100000001 times \d+ values need .* bytes"),
-        (MemoryError, {"t_end": 1e8, "dt_out": 1.0}, "bytes"),
         (SceneError, {"t_end": 1e13, "dt_out": 1e12}, r"beyond 1e\+12 s"),
         (SceneError, {"t_end": 1e11 + 1e-3, "dt_out": 1e-5, "start": late}, r"dt_out is 1e-05 s.* 1e\+11 s"),
         (SimulationError, {"t_end": 1.0, "integrator": "rk4", "dt": 1e-20}, "dt is below"),
-        (SimulationError, {"t_end": 1.0, "maximum_step": 1e-20}, "maximum_step is below"),
-        (SceneError, {"t_end": 1.0, "energy_limit": 0.0}, "energy_limit is"),
         (SceneError, {"t_end": 1.0, "energy_limit": float("nan")}, "energy_limit is"),
-        (SceneError, {"t_end": 1.0, "energy_limit": "tight"}, "energy_limit is"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(kind, match=words):
             simulate(pendulum(), **given)
     with pytest.raises(SceneError, match="'paper' has no energy balance"):
         simulate(vessel(kinematics="paper", hs=0.0), t_end=1.0, energy_limit=1e-3)
-
-
-def judged(scene: Scene, time: Any, channels: dict[str, Any], **stats: Any) -> dict[type[Warning], str]:
-    return dict(findings(scene, np.asarray(time, dtype=float), channels, stats))
-
-
-def test_heel_beyond_the_linear_restoring_warns() -> None:
-    ship = vessel(hs=0.0)
-    righting = np.asarray(ship.vessels["vessel"].restoring)[3, 3]
-    lever = 20.0
-    for angle, expected in ((15.0, 0), (30.0, 1)):  # a weight off the centre line; it overshoots its heel
-        ship.point_forces.clear()
-        weight = 0.5 * np.radians(angle) * righting / lever
-        ship.add_point_force(name="push", body="vessel", point=(0.0, lever, 0.0), force=(0.0, 0.0, -weight))
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            result = simulate(ship, t_end=30.0)
-        told = [w for w in caught if w.category is LargeHeelWarning]
-        assert len(told) == expected
-        assert ("validity" in result.stats) == bool(expected)
-    assert told[0].filename == __file__
-
-
-def test_yaw_away_from_the_mean_heading_warns_with_loads_of_the_mean_only() -> None:
-    ship = vessel(hs=1.0)
-    time, motion = np.linspace(0.0, 100.0, 201), np.zeros((201, 6))
-    motion[:, 5] = 0.5 * np.sin(2.0 * np.pi / 8.0 * time)  # as fast as the waves
-    assert not judged(ship, time, {"vessel_motion": motion})
-    motion[100:, 5] -= 0.5
-    found = judged(ship, time, {"vessel_motion": motion})
-    reached = re.search(r"'vessel': yaw reaches (\S+) deg", found[MeanHeadingWarning])
-    assert reached and float(reached[1]) == pytest.approx(np.degrees(0.5), abs=0.5)
-    assert not judged(vessel(hs=0.0), time, {"vessel_motion": motion})
-    assert not judged(vessel(hs=1.0, phase="actual"), time, {"vessel_motion": motion})
 
 
 def test_motions_beyond_the_database_warn() -> None:
@@ -273,29 +150,28 @@ def test_motions_beyond_the_database_warn() -> None:
     for omega, expected in ((0.5 * top, False), (2.0 * top, True)):
         motion = np.zeros((time.size, 6))
         motion[:, 2] = 0.2 * np.sin(omega * time)
-        found = judged(ship, time, {"vessel_motion": motion})
+        found = dict(findings(ship, time, {"vessel_motion": motion}, {}))
         assert (OutsideDatabaseWarning in found) == expected
     assert "energy of heave is above" in found[OutsideDatabaseWarning]
-    assert not judged(vessel(hs=0.0), time, {"vessel_motion": 1e-4 * motion})
+    assert not findings(ship, time, {"vessel_motion": 1e-4 * motion}, {})
 
 
 def test_a_link_that_pushes_warns_once(tmp_path: Path) -> None:
     """Thrown over the top: v^2 < g l there, and the tension m (v^2 / l - g) is negative."""
-    speed = np.sqrt(4.0 * 9.80665 * 2.0 + 0.2 * 9.80665 * 2.0)
+    speed, end = np.sqrt(4.0 * 9.80665 * 2.0 + 0.2 * 9.80665 * 2.0), (0.0, 0.0, -2.0)
+    scene = Scene(name="hanging")
+    scene.add_body("load", mass=10.0, inertia=[1, 1, 1], position=end, velocity=(speed, 0.0, 0.0))
+    ends = {"first": "ground", "second": "load", "point": (0, 0, 0), "second_point": end}
+    scene.add_joint("wire", kind="distance", **ends)
     with pytest.warns() as caught:
-        result = simulate(hanging(velocity=(speed, 0.0, 0.0)), t_end=3.0)
+        result = simulate(scene, t_end=3.0)
     assert [w.category for w in caught] == [PushingLinkWarning]
     pushed = 10.0 * (0.2 * 9.80665 * 2.0 / 2.0 - 9.80665)
     assert result["tension"].min() == pytest.approx(pushed, rel=1e-2)
     assert f"{-result['tension'].min():.4g} N" in str(caught[0].message)
-    assert str(result.stats["validity"]).count("\n") == 0
     loaded = Result.load(result.save(tmp_path / "thrown.nc"))
     assert loaded.stats["validity"] == result.stats["validity"]
-    for page in (study_report(Study(title="Thrown", runs={"one": loaded})), report(loaded)):
-        assert "link &#x27;wire&#x27;: pushes with " in page.html
-    scene = folding(0.2)  # a rod of a mechanism may push
-    scene.add_point_force(name="squeeze", body="slider", force=(-10.0, 0.0, 0.0))
-    assert simulate(scene, t_end=4.0)["tension"].min() < 0.0
+    assert "link &#x27;wire&#x27;: pushes with " in report(loaded).html
 
 
 def test_an_angle_that_passes_half_a_turn_warns() -> None:

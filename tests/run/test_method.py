@@ -44,12 +44,7 @@ def test_values_and_words_make_the_same_run(tmp_path: Path) -> None:
     ("words", "says"),
     [
         ({"rtol": 1e-3}, r"rtol=0.001 contradicts method"),
-        ({"integrator": "tsit5"}, r"integrator='tsit5' contradicts method, whose integrator is 'rk4'"),
         ({"dt_out": 0.1}, r"dt_out=0.1 contradicts outputs, whose dt_out is 0.25"),
-        ({"channels": ["velocity"]}, r"contradicts outputs, whose channels is \('position',\)"),
-        ({"method": "rk4"}, "method is 'rk4'"),
-        ({"outputs": 0.1}, "outputs is 0.1"),
-        ({"tolerence": 1e-3}, "no 'tolerence'"),
     ],
 )
 def test_a_word_that_contradicts_the_value_beside_it_is_refused(words: dict[str, Any], says: str) -> None:
@@ -57,13 +52,12 @@ def test_a_word_that_contradicts_the_value_beside_it_is_refused(words: dict[str,
         simulate(pendulum(), 1.0, **{"method": METHOD, "outputs": OUTPUTS, **words})
 
 
-def test_a_method_that_makes_no_sense_is_refused_where_it_is_made() -> None:
-    wrong = [("rtol", 0.0), ("rtol", "tight"), ("dt", -0.1), ("dt", 0.0), ("energy_limit", 0.0)]
-    for name, value in [*wrong, ("maximum_step", np.inf), ("integrator", 3), ("formulation", "magic")]:
-        with pytest.raises(SceneError, match=name):
-            Method(**{name: value})
-    with pytest.raises(SceneError, match="positive step"):
-        step_error(pendulum(), 2.0, integrator="rk4")
+@pytest.mark.parametrize(
+    "wrong", [{"rtol": 0.0}, {"dt": -0.1}, {"maximum_step": np.inf}, {"formulation": "x"}]
+)
+def test_a_method_that_makes_no_sense_is_refused_where_it_is_made(wrong: dict[str, Any]) -> None:
+    with pytest.raises(SceneError, match=next(iter(wrong))):
+        Method(**wrong)
 
 
 def test_every_word_has_its_place_and_every_field_its_word() -> None:

@@ -7,7 +7,6 @@ import random
 import resource
 import signal
 import time
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -21,8 +20,6 @@ from seacrane.result.stream import partial_path
 SETTINGS = {"t_end": 40.0, "dt_out": 0.05}
 SAMPLE, MANY = 5, 200
 REFUSED, FULL = 3, 4  # how a writer ends
-
-Check = Callable[[int, Path], None]
 
 
 def pendulum(stiffness: float = 0.0) -> Scene:
@@ -171,7 +168,7 @@ def full_disk(seed: int, path: Path) -> None:
     assert [one.name for one in path.parent.iterdir()] == [path.name]
 
 
-CHECKS: dict[str, Check] = {"kill": kill, "two writers": two_writers, "stale": stale, "full disk": full_disk}
+CHECKS = {check.__name__: check for check in (kill, two_writers, stale, full_disk)}
 
 
 @pytest.mark.parametrize(

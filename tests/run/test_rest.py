@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import warnings
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from random_rests import Builder
 
-from seacrane import Scene, SceneError, equilibrium, simulate
+import seacrane as sc
+from seacrane import Scene, SceneError, equilibrium, simulate, simulate_stages, simulate_to_file
 from seacrane.hydro import shipped_database
+from seacrane.run.stages_to_file import simulate_stages_to_file
 from seacrane.warnings import CreepingRestWarning, LargeHeelWarning, UnstableRestWarning, UnsteadyOilWarning
 
 STILL = 1e-3  # m, and m at 1 m from the centre of mass, in a minute
@@ -18,25 +22,13 @@ EVERY, USUAL = 200, 10  # scenes, and every how many of them on every commit
 G = 9.80665
 
 
-def hunts(scene: Scene) -> bool:
-    """Whether its bodies still move after three minutes, as winches that chase each other make them."""
-    late = simulate(scene, t_end=180.0, dt_out=0.5, channels=["position"])["position"][-60:]
-    return bool(np.ptp(late, axis=0).max() > STILL)
-
-
-def seeds() -> list[object]:
-    many = pytest.mark.slow("hundreds of random rests")
-    return [pytest.param(n, marks=[] if n % USUAL == 0 else many) for n in range(EVERY)]
-
-
-def hung(*, top: float = 0.0, slack: float = 0.0, driven: float = 0.0) -> Scene:
+def hung(*, slack: float, driven: float) -> Scene:
     scene = Scene(name="hung")
     scene.add_body(name="tip", mass=1e3, inertia=(1e3,) * 3, gravity=False)
     scene.add_joint(kind="prismatic", name="up", first="ground", second="tip", axis=(0, 0, 1))
     scene.add_driver(joint="up", curve=driven)
     scene.add_body(name="load", mass=1e5, inertia=(1e5,) * 3, position=(0, 0, -100))
-    ends = [(0, 0, top), (0, 0, 0)]
-    scene.add_line("hoist", bodies=["tip", "load"], points=ends, EA=4e8, length=99.9 + slack)
+    scene.add_line("hoist", bodies=["tip", "load"], points=np.zeros((2, 3)), EA=4e8, length=99.9 + slack)
     return scene
 
 
@@ -56,15 +48,20 @@ def moved(scene: Scene, duration: float = 60.0) -> float:
     return float(max(np.abs(place - place[0]).max(), turned.max()))
 
 
-@pytest.mark.parametrize("seed", seeds())
+MANY = pytest.mark.slow("hundreds of random rests")
+
+
+@pytest.mark.parametrize("seed", [pytest.param(n, marks=MANY if n % USUAL else []) for n in range(EVERY)])
 def test_a_rest_lasts_or_is_told_not_to(seed: int) -> None:
-    """A scene without rest is refused by name, and does not come to rest in a run either."""
+    """A scene without rest, as of winches that chase each other, is refused and still moves after minutes."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
             far = moved(Builder(seed).scene)
         except SceneError as refused:
-            assert "no rest state found" in str(refused) and hunts(Builder(seed).scene), refused
+            assert "no rest state found" in str(refused), refused
+            late = simulate(Builder(seed).scene, t_end=180.0, dt_out=0.5, channels=["position"])["position"]
+            assert np.ptp(late[-60:], axis=0).max() > STILL
             return
     assert far < STILL or any(issubclass(one.category, REPORTED) for one in caught), far
 
@@ -76,28 +73,6 @@ def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> No
     state = equilibrium(scene)
     below = (99.9 + slack) * (1.0 + 1e5 * G / 4e8) - driven
     assert state.values[7 + 2] == pytest.approx(-below, abs=1e-6)
-
-
-@pytest.mark.warns("StiffWarning")
-@pytest.mark.parametrize("up", [-0.2, 0.2])
-def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
-    scene = Scene(name="heavy")
-    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -100))
-    wire = {"EA": 4e8, "length": 100.0, "mass_per_length": 20.0, "segments": 8}
-    first, *_ = scene.add_line("hoist", rung="with mass", first="ground", second="load", **wire)
-    points = np.asarray(first.points)
-    points[0, 2] = up
-    scene.replace(first.name, kind="load", points=points)
-    assert equilibrium(scene).values[2] == pytest.approx(up - 100.0, abs=0.1)
-    assert moved(scene) < STILL
-
-
-def test_the_line_that_could_hold_a_load_is_named() -> None:
-    scene = Scene(name="far")
-    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=1e7, length=5000.0)
-    with pytest.raises(SceneError, match=r"'load' .* 'hoist', .* slack by 4.99"):
-        equilibrium(scene)
 
 
 def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
@@ -122,16 +97,6 @@ def test_a_tugger_holds_its_tension_at_rest(slack: float, lag: float) -> None:
     result = simulate(scene, 5.0, start=equilibrium(scene))
     assert result["line_tension"][:, 1] == pytest.approx(10e3, abs=1e-2)
     assert np.ptp(result["position"], axis=0).max() < 1e-5
-
-
-def test_two_tuggers_that_pull_against_each_other_find_their_tension() -> None:
-    """Just straight as described: no body moves on the way to rest, only the drums wind in."""
-    scene = on_a_hoist("between")
-    for name, side in (("port", 15.0), ("starboard", -15.0)):
-        scene.add_line(name, "ground", "load", first_point=(0, side, -10), EA=1e6)
-        scene.add_winch(name, tension=5e3, tension_gain=1e-4, maximum_rate=1.0)
-    result = simulate(scene, 1.0, start=equilibrium(scene))
-    assert result["line_tension"][:, 1:] == pytest.approx(5e3, abs=1e-2)
 
 
 def test_a_rest_that_grows_is_told_of_and_how_fast() -> None:
@@ -159,3 +124,59 @@ def test_a_rest_beyond_linear_restoring_is_told_of() -> None:
     scene.add_joint(kind="weld", name="lashing", first="vessel", second="deck load", point=(0, 9, 2))
     with pytest.warns(LargeHeelWarning, match="rests with a vessel that leans by"):
         equilibrium(scene)
+
+
+WAIT = [sc.Stage(name="wait", duration=2.0)]
+LIFT = """format = "seacrane lift"
+version = 2
+scene = { name = "hung" }
+body = { name = "load", mass_kg = 20e3, size_m = [2, 2, 2], position_m = [0, 0, -10] }
+line = { name = "hoist", first = "ground", second = "load", EA_N = 3e7, length_m = 8.5 }
+"""
+
+
+def short() -> Scene:
+    """20 t on a line that is half a metre shorter than its path."""
+    scene = Scene(name="hung")
+    scene.add_body(name="load", mass=20e3, size=(2, 2, 2), position=(0, 0, -10))
+    scene.add_line(name="hoist", first="ground", second="load", EA=3e7, length=8.5)
+    return scene
+
+
+def height(result: Any) -> Any:
+    return result.select("position", body="load", axis="z")
+
+
+def test_every_run_takes_the_word_and_begins_as_from_equilibrium(tmp_path: Path) -> None:
+    scene = short()
+    state = equilibrium(scene)
+    by_state = height(simulate(scene, 2.0, start=state))
+    stretched = 8.5 * (1.0 + 20e3 * scene.gravity / 3e7)
+    assert by_state == pytest.approx(-1.0 - stretched, abs=1e-6)
+    assert np.array_equal(sc.Run(scene, 2.0, start="rest").start.values, state.values)
+    for told in (
+        simulate(scene, 2.0, start="rest"),
+        simulate_to_file(scene, tmp_path / "a.nc", 2.0, start="rest").load(),
+        simulate_stages(scene, WAIT, start="rest"),
+        simulate_stages_to_file(scene, WAIT, tmp_path / "b.nc", start="rest"),
+    ):
+        assert np.array_equal(height(told), by_state)
+    over, keep = {"bodies.load.mass": [20e3, 30e3]}, {"range": "line_tension[hoist].std"}
+    kept = sc.ensemble(scene, over=over, keep=keep, t_end=2.0, start="rest")
+    assert np.all(kept.dataset["range"].to_numpy() < 1.0)
+
+
+def test_a_lift_file_begins_at_rest_with_and_without_stages(tmp_path: Path) -> None:
+    for end in (
+        '[run]\nstart = "rest"\nt_end_s = 2\n',
+        '[run]\nstart = "rest"\n[[stage]]\nname = "wait"\nduration_s = 2\n',
+    ):
+        (tmp_path / "lift.toml").write_text(LIFT + end)
+        lift = sc.Lift.load(tmp_path / "lift.toml")
+        assert lift.start == "rest"
+        assert np.ptp(height(lift.simulate())) < 1e-6
+
+
+def test_another_word_is_refused() -> None:
+    with pytest.raises(SceneError, match=r"start is 'calm'.*rest"):
+        simulate(short(), 1.0, start="calm")

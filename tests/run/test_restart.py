@@ -51,9 +51,8 @@ def crank(feed_forward: float = 0.0) -> Scene:
 SCENES: dict[str, Callable[[], Scene]] = {"chain": chain, "crank": crank, "case2": cases.case2}
 
 
-def run(scene: Scene, start: State | None = None, end: float = END, **settings: Any) -> Run:
-    going = Run(scene, t_end=end, dt_out=0.05, start=start, channels=["position"], **settings)
-    return going
+def run(scene: Scene, start: State | None = None, **settings: Any) -> Run:
+    return Run(scene, t_end=END, dt_out=0.05, start=start, channels=["position"], **settings)
 
 
 def values(going: Run) -> Array:

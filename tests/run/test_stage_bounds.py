@@ -1,4 +1,4 @@
-"""What is met as a stage begins, and where the stages before one leave it."""
+"""What is met as a stage begins, and where the stages before one leave it; random lifts begun anew."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from random_staged_lifts import BED, HALF, MASS, hanging
+from numpy.testing import assert_allclose
+from random_staged_lifts import BED, HALF, MASS, hanging, random_stages
 from stage_scenes import MASS as DECK_MASS
 from stage_scenes import G, heaving, lift_off, on_deck
 from test_stages import motored, noted
@@ -31,20 +32,6 @@ def until(condition: Any, commands: dict[str, float], name: str, longest: float 
     return Stage(name=name, until=condition, maximum_duration=longest, commands=commands)
 
 
-def lying(lifted: float = 0.9) -> Scene:
-    """The load stands on the bed above the sea, its wire carries a part of its weight."""
-    scene = Scene(name="lying")
-    scene.add_body("load", mass=MASS, size=(4.0, 3.0, 2.0 * HALF), position=(0.0, 0.0, HALF))
-    scene.add_line(
-        "wire", first="ground", first_point=(0.0, 0.0, 30.0), second="load", EA=1e8, damping_ratio=0.2,
-        tension_at_start=lifted * MASS * scene.gravity,
-    )  # fmt: skip
-    scene.add_winch("wire", lag=0.2)
-    feet = [(x, y, -HALF) for x in (-2.0, 2.0) for y in (-1.5, 1.5)]
-    scene.add_contact("load", on="ground", points=feet, name="feet")
-    return scene
-
-
 HIGH = {"channel": "position", "body": "load", "axis": "z"}
 GAP = {"channel": "contact_least_gap", "contact": "feet"}
 PAIRS: dict[str, tuple[Any, Any, dict[str, float], dict[str, float]]] = {
@@ -67,17 +54,6 @@ def test_what_a_stage_ends_at_is_not_met_in_the_next_until_it_comes_back(kind: s
     assert all(span.ended_by and "from its start on" not in span.ended_by for span in spans)
 
 
-@pytest.mark.parametrize("lifted", [0.9, 1.0])
-def test_a_load_that_stands_on_its_feet_is_released_when_they_leave(lifted: float) -> None:
-    stages = [until(Until.release("feet"), UP, "off"), until(Until.contact("feet"), DOWN, "on")]
-    result = carried_out(lying(lifted), *stages)
-    off, on = result.stages
-    assert off.end > 0.01 and on.end - on.start > 0.05
-    gap = result.curve("contact_least_gap[feet]")
-    assert gap[result.stage("off").stop - 1] == pytest.approx(0.0, abs=1e-8)
-    assert gap[result.stage("on").stop - 1] == pytest.approx(0.0, abs=1e-8)
-
-
 def test_a_bound_that_a_stage_goes_beyond_is_met_from_its_start_on() -> None:
     low = Until.depth("load", minimum=3.0)
     result = carried_out(hanging(), until(low, DOWN, "down"), until(low, DOWN, "same"), until(
@@ -98,7 +74,7 @@ def test_controllers_are_called_once_where_a_stage_begins_at_its_bound() -> None
     with pytest.raises(SimulationError, match="stage 'back': is not over") as raised:
         simulate_stages(motored(), stages, controllers=[noted(calls, 0.1)], dt_out=0.17)
     assert raised.value.result.stages[1].end - raised.value.result.stages[1].start == pytest.approx(0.5)
-    np.testing.assert_allclose(np.diff(calls), 0.1, rtol=1e-9)
+    assert_allclose(np.diff(calls), 0.1, rtol=1e-9)
 
 
 def test_a_stage_alone_takes_over_what_those_before_it_reach() -> None:
@@ -156,22 +132,49 @@ def test_a_stage_alone_begins_at_rest_aboard_a_ship_where_its_motion_has_it(ramp
 def test_what_a_scene_refuses_in_a_stage_names_the_stage() -> None:
     on = Stage(name="on", duration=1.0)
     tight = [until(Until.tension("wire", minimum=1e6), DOWN, "pull", 2.0), on]
-    swell = [until(Until.channel("wave_elevation", minimum=1.0), DOWN, "wait")]
     always = [until(Until.tension("wire", minimum=0.0), DOWN, "x")]
-    for scene, stages, given, message in (
-        (hanging(), swell, {}, "stage 'wait': until wave_elevation"),
-        (hanging(), always, {}, "stage 'x': would end at once"),
-        (hanging(), tight, {"first": "on"}, "first is 'on', and stage 'pull' .*start="),
-        (hanging(), tight, {"first": "on", "start": "rest"}, "first is 'on', and stage 'pull' .*start="),
-        (
-            on_deck(damping_ratio=0.1),
-            [*lift_off(), on],
-            {"first": "on"},
-            "first is 'on'.*no rest state found",
-        ),
+    for stages, given, message in (
+        (always, {}, "stage 'x': would end at once"),
+        (tight, {"first": "on"}, "first is 'on', and stage 'pull' .*start="),
     ):
         with pytest.raises(SceneError, match=message):
-            simulate_stages(scene, stages, **given)
+            simulate_stages(hanging(), stages, **given)
     lost = [on, until(Until.depth("lode", minimum=1.0), DOWN, "down")]
     with pytest.raises(SceneError, match="stage 'down': waits for immersed 'lode'"):
         StagedRun(hanging(), lost)  # before anything runs
+
+
+WITHIN = 0.8  # m: what a winch pays out while it takes up its rate from rest, not from another one
+BY_DAY = (4, 5, 6, 9, 10)  # short ones
+COARSE = {"rtol": 1e-5, "dt_out": 0.2}
+
+
+def heights(result: Result) -> list[float]:
+    """Of the load where each stage ends, m."""
+    z = result.curve("position[load, z]")
+    return [float(z[result.stage(span.name).stop - 1]) for span in result.stages]
+
+
+MANY = pytest.mark.slow("120 random lifts")
+
+
+@pytest.mark.parametrize("seed", [pytest.param(n, marks=() if n in BY_DAY else MANY) for n in range(124)])
+def test_a_stage_of_a_random_lift_begun_anew_goes_as_in_the_whole(seed: int) -> None:
+    stages = random_stages(seed)
+    run = StagedRun(hanging(), stages, **COARSE)
+    while run.advance():
+        pass
+    whole = run.result()
+    for at, (stage, span) in enumerate(zip(stages, whole.stages, strict=True)):
+        begin = run.begun[stage.name]
+        again = StagedRun(begin.scene, stages[at:], start=begin.state, outputs_from=0.0, **COARSE)
+        while again.advance():
+            pass
+        assert again.result().stages == whole.stages[at:]
+        assert np.array_equal(again.state.values, run.state.values)
+        alone = simulate_stages(hanging(), stages, first=stage.name, **COARSE)
+        assert alone.time[0] == pytest.approx(span.start if at else 0.0)
+        there = max(whole.stage(stage.name).start - 1, 0)
+        for channel, within in (("line_unstretched_length[wire]", 1e-9), ("position[load, z]", 0.1)):
+            assert alone.curve(channel)[0] == pytest.approx(whole.curve(channel)[there], abs=within), channel
+        assert_allclose(heights(alone), heights(whole)[at:], atol=WITHIN)

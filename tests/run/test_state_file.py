@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
 import pickle
 import subprocess
@@ -17,7 +15,6 @@ from numpy.typing import NDArray
 from test_restart import SCENES
 
 from seacrane import FileFormatError, Result, Run, Scene, SceneError, State, _core, cases, simulate
-from seacrane.inputs.state import DIGEST, MAGIC
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
@@ -132,29 +129,7 @@ def saved(tmp_path: Path) -> Path:
     return tmp_path / "run.state"
 
 
-def rewritten(path: Path, **changes: Any) -> Path:
-    """The file with another header, and the checksum that belongs to it."""
-    body = path.read_bytes()[:-DIGEST]
-    end = body.index(b"\n", len(MAGIC))
-    header = json.loads(body[len(MAGIC) : end]) | changes
-    body = MAGIC + json.dumps(header).encode() + body[end:]
-    path.write_bytes(body + hashlib.sha256(body).digest())
-    return path
-
-
-def test_a_state_comes_back_bit_for_bit(saved: Path) -> None:
-    run = Run(cases.case2(memory="convolution"), t_end=1.0)
-    run.advance(0.5)
-    one, two = run.state, State.load(saved)
-    assert one == two and (one.time, one.parts) == (two.time, two.parts)
-    assert np.array_equal(one.values, two.values) and np.array_equal(one.inputs, two.inputs)
-    (mine,), (yours,) = one.histories, two.histories
-    assert (mine.start, mine.intervals) == (yours.start, yours.intervals)
-    assert np.array_equal(mine.quadrature, yours.quadrature) and np.array_equal(mine.recent, yours.recent)
-
-
 def test_damaged_files_are_refused_by_name(saved: Path) -> None:
-    """And headers that lie before memory is taken."""
     data = saved.read_bytes()
     cut = [data[:n] for n in (0, 5, 20, 200, len(data) // 2, len(data) - 1)]
     flipped = [bytes([*data[:n], data[n] ^ 1, *data[n + 1 :]]) for n in (3, 30, 500, len(data) - 40)]
@@ -163,19 +138,6 @@ def test_damaged_files_are_refused_by_name(saved: Path) -> None:
         with pytest.raises(FileFormatError, match=r"run\.state: .*; (give|go on from|save)") as caught:
             State.load(saved)
         assert str(saved) in str(caught.value)
-    with pytest.raises(FileNotFoundError, match="no state file"):
-        State.load(saved.with_name("other"))
-    for change, words in (
-        ({"arrays": [["values", 10**12]]}, "does not fit"), ({"arrays": [["values", -8]]}, "does not fit"),
-        ({"arrays": [["values", True]]}, "does not fit"), ({"arrays": [["values", 8]]}, "do not fill"),
-        ({"arrays": [["values", 8], ["values", 8]]}, "does not fit"), ({"arrays": 3}, "unreadable header"),
-        ({"version": "0.5"}, "version '0.5'"), ({"intervals": [1, 2]}, "is not a state"),
-        ({"intervals": [-1]}, "is not a state"), ({"parts": [1]}, "is not a state"),
-        ({"integrator": 3}, "is not a state"),
-    ):  # fmt: skip
-        saved.write_bytes(data)
-        with pytest.raises(FileFormatError, match=words):
-            State.load(rewritten(saved, **change))
 
 
 def test_a_state_of_another_scene_is_refused(saved: Path) -> None:
@@ -187,7 +149,7 @@ def test_a_state_of_another_scene_is_refused(saved: Path) -> None:
             simulate(scene, t_end=1.0, start=State.load(saved))
 
 
-def test_a_state_does_not_replace_a_result(saved: Path, tmp_path: Path, monkeypatch: Any) -> None:
+def test_a_state_does_not_replace_a_result(saved: Path, tmp_path: Path) -> None:
     result = simulate(SCENES["chain"](), t_end=0.5)
     path = result.save(tmp_path / "chain.nc")
     with pytest.raises(FileExistsError, match=r"chain\.nc is there and is not a state file"):
@@ -195,49 +157,28 @@ def test_a_state_does_not_replace_a_result(saved: Path, tmp_path: Path, monkeypa
     assert Result.load(path).time.size == result.time.size
     result.state.save(saved)
     assert State.load(saved) == result.state
-    before, files = saved.read_bytes(), {*tmp_path.iterdir()}
-
-    def full(*given: Any) -> int:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Path, "write_bytes", full)
-    with pytest.raises(OSError, match="No space left"):
-        result.state.save(saved)
-    assert saved.read_bytes() == before and {*tmp_path.iterdir()} == files
 
 
-def test_devices_folders_and_protected_files_are_not_replaced_and_links_are_followed(tmp_path: Path) -> None:
+def test_devices_and_protected_files_are_not_replaced_and_links_are_followed(tmp_path: Path) -> None:
     state = Run(SCENES["chain"](), t_end=1.0).state
     with pytest.raises(OSError, match="is a device"):
         state.save(os.devnull)
-    assert Path(os.devnull).is_char_device()
-    with pytest.raises(OSError, match="is a folder"):
-        state.save(tmp_path)
     path, link = tmp_path / "a.state", tmp_path / "link.state"
     link.symlink_to(path)
-    for _ in range(2):
-        state.save(link)
-        assert link.is_symlink()
-        assert State.load(path) == state
+    state.save(link)
+    assert link.is_symlink() and State.load(path) == state
     path.chmod(0o444)
     with pytest.raises(OSError, match="is write-protected"):
         state.save(path)
 
 
-@pytest.mark.parametrize("kink", [None, 0.75])
-def test_the_kink_at_which_a_step_is_to_end_is_kept(kink: float | None, tmp_path: Path) -> None:
+def test_the_kink_at_which_a_step_is_to_end_is_kept(tmp_path: Path) -> None:
     run = begin(("crank", "dopri5", "recursive"))
     run.advance(STOP)
-    state, steps = run.state, run.state.steps
-    left = State(
-        time=state.time, values=state.values, inputs=state.inputs, record=state.record, parts=state.parts,
-        steps=_core.StepHistory(
-            formulation=steps.formulation, integrator=steps.integrator, values=steps.values, rate=steps.rate,
-            kink=kink,
-        ),
-    )  # fmt: skip
+    state, names = run.state, ("formulation", "integrator", "values", "rate")
+    steps = _core.StepHistory(**{name: getattr(state.steps, name) for name in names}, kink=0.75)
+    names = ("time", "values", "inputs", "record", "parts")
+    left = State(**{name: getattr(state, name) for name in names}, steps=steps)
     left.save(tmp_path / "run.state")
-    header = json.loads((tmp_path / "run.state").read_bytes().split(b"\n")[1])
-    assert ("kink" in dict(header["arrays"])) == (kink is not None)  # versions before it read the others
     assert State.load(tmp_path / "run.state") == left
-    assert pickle.loads(pickle.dumps(left)) == left and left.steps.kink == kink
+    assert pickle.loads(pickle.dumps(left)) == left and left.steps.kink == 0.75

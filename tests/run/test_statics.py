@@ -12,7 +12,6 @@ from seacrane import cases
 from seacrane.analysis import driven
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.crane.data_file import DEFAULT_PATH
-from seacrane.inputs.frames import rotation_matrix
 
 G = 9.80665
 MASS = 4.0e6  # kg, of the barge
@@ -20,36 +19,41 @@ C33, C44, C55 = 1.2e7, 2.4e8, 2.0e9  # N/m, N m/rad
 HEIGHT, LOAD = 20.0, 5.0e4  # m above the waterline, kg
 
 
-def barge(*, damping: float = 0.0) -> sc.Scene:
+def barge() -> sc.Scene:
     """A hull by its matrices, restored in heave, roll and pitch, moored in the plane."""
     scene = sc.Scene(name="barge", gravity=G)
-    scene.add_body(
-        name="hull", mass=MASS, inertia=np.diag([2e8, 2e9, 2e9]), position=(0, 0, 0), gravity=False
-    )
+    scene.add_body("hull", mass=MASS, inertia=np.diag([2e8, 2e9, 2e9]), position=(0, 0, 0), gravity=False)
     scene.add_vessel(
         body="hull", name="hull", added_mass=np.zeros((6, 6)), restoring=np.diag([0, 0, C33, C44, C55, 0]),
-        linear_damping=damping * np.diag([1e6, 1e6, 1e7, 3e8, 3e9, 1e9]), mooring_stiffness=[1e5, 1e5, 1e7],
+        linear_damping=np.diag([1e6, 1e6, 1e7, 3e8, 3e9, 1e9]), mooring_stiffness=[1e5, 1e5, 1e7],
     )  # fmt: skip
     return scene
 
 
-def hanging(scene: sc.Scene, *, y: float, height: float = HEIGHT, mass: float = LOAD) -> sc.Scene:
+def hanging(scene: sc.Scene, *, y: float) -> sc.Scene:
     """A load on a rope of 10 m from a light mast, `y` to port."""
-    mast, low = (0.0, y, height), (0.0, y, height - 10.0)
+    mast, low = (0.0, y, HEIGHT), (0.0, y, HEIGHT - 10.0)
     scene.add_body(name="mast", mass=1e-3, inertia=1e-3 * np.eye(3), position=mast)
     scene.add_joint(name="weld", kind="weld", first="hull", second="mast", point=mast)
-    scene.add_body(name="load", mass=mass, inertia=mass * np.eye(3), position=low)
-    scene.add_joint(
-        "rope", kind="distance", first="mast", second="load", point=mast, second_point=low, length=10
-    )
+    scene.add_body(name="load", mass=LOAD, inertia=LOAD * np.eye(3), position=low)
+    ends = {"first": "mast", "second": "load", "point": mast, "second_point": low}
+    scene.add_joint("rope", kind="distance", **ends, length=10)
     scene.add_roles(link="rope")
     return scene
 
 
-def on_deck(scene: sc.Scene, *, y: float, z: float, mass: float = LOAD) -> sc.Scene:
-    scene.add_body(name="box", mass=mass, inertia=mass * np.eye(3), position=(0.0, y, z))
-    scene.add_joint(name="lashed", kind="weld", first="hull", second="box", point=(0.0, y, z))
+def lashed(scene: sc.Scene, place: tuple[float, float, float]) -> sc.Scene:
+    scene.add_body(name="box", mass=LOAD, inertia=LOAD * np.eye(3), position=place)
+    scene.add_joint(name="lashed", kind="weld", first="hull", second="box", point=place)
     return scene
+
+
+def test_a_damped_run_comes_to_rest_there() -> None:
+    scene = lashed(barge(), (0.0, 3.0, 2.0))
+    told, motion = sc.statics(scene), sc.simulate(scene, t_end=120.0, dt_out=1.0)["vessel_motion"][-1]
+    assert (motion[3], -motion[2]) == pytest.approx(
+        (float(told["heel"]), float(told["draught change"])), rel=1e-4
+    )
 
 
 def test_a_hanging_load_counts_at_its_tip() -> None:
@@ -61,7 +65,7 @@ def test_a_hanging_load_counts_at_its_tip() -> None:
     assert sc.statics(barge())["GM"] == pytest.approx(C44 / (MASS * G), rel=1e-9)
     hung = sc.statics(hanging(barge(), y=0.0))
     assert hung["GM"] == pytest.approx((C44 - LOAD * G * HEIGHT) / weight, rel=1e-6)
-    fixed = sc.statics(on_deck(barge(), y=0.0, z=HEIGHT - 10.0))
+    fixed = sc.statics(lashed(barge(), (0.0, 0.0, HEIGHT - 10.0)))
     assert fixed["GM"] == pytest.approx((C44 - LOAD * G * (HEIGHT - 10.0)) / weight, rel=1e-6)
     assert hung["draught change"] == pytest.approx(LOAD * G / C33, rel=1e-6)
     assert hung["hook load"] == pytest.approx(LOAD * G, rel=1e-6)
@@ -70,29 +74,20 @@ def test_a_hanging_load_counts_at_its_tip() -> None:
     assert phi == pytest.approx(LOAD * G * y / (C44 - LOAD * G * HEIGHT), rel=2e-3)
 
 
-def test_a_damped_run_comes_to_rest_there() -> None:
-    scene = on_deck(barge(damping=1.0), y=3.0, z=2.0)
-    told, run = sc.statics(scene), sc.simulate(scene, t_end=120.0, dt_out=1.0)
-    motion = run["vessel_motion"][-1]
-    assert motion[3] == pytest.approx(float(told["heel"]), rel=1e-4)
-    assert -motion[2] == pytest.approx(float(told["draught change"]), rel=1e-4)
-
-
-def crane_on_ground(*, slew: float = 0.0, s1: float = 1.0, s2: float = 1.5, mass: float = 2e4) -> sc.Scene:
+def crane_on_ground(*, s1: float = 1.0) -> sc.Scene:
     scene = sc.Scene(name="quay", gravity=G)
-    scene.add_crane(base="ground", slew=slew, s1=s1, s2=s2, payload=Payload(mass=mass))
+    scene.add_crane(base="ground", slew=0.0, s1=s1, s2=1.5, payload=Payload(mass=2e4))
     return scene
 
 
 def test_cylinder_forces_are_those_of_virtual_work() -> None:
-    crane, mass = KnuckleBoomCrane.load(), 2e4
+    crane, scene = KnuckleBoomCrane.load(), crane_on_ground()
     pose = {"main": [0.0, 1.0], "knuckle": [-0.5, 1.0]}
-    scene = crane_on_ground(mass=mass)
     told = sc.statics(scene, coordinates=pose)
     assert told["cylinder force main"].shape == (2, 2)
     for i, main in enumerate((1.0, 2.0)):
         for k, knuckle in enumerate((1.0, 2.5)):
-            by_work = crane.static_cylinder_forces(s1=main, s2=knuckle, payload_mass=mass, gravity=G)
+            by_work = crane.static_cylinder_forces(s1=main, s2=knuckle, payload_mass=2e4, gravity=G)
             found = [told[f"cylinder force {label}"][i, k] for label in ("main", "knuckle")]
             assert found == pytest.approx(by_work, rel=1e-6)
     assert np.abs(told["slew torque"]).max() < 1e-6, "the slew axis is vertical"
@@ -160,51 +155,19 @@ def test_each_of_two_cranes_is_told_apart() -> None:
         sc.statics(scene, slew=0.0)
 
 
-def test_gm_of_a_ship_with_its_crane_by_its_weights() -> None:
-    scene = cases.case2(hs=0.0, memory="none")
-    (vessel,), hull = scene.vessels.values(), scene.bodies["vessel"]
-    carried = [body for name, body in scene.bodies.items() if name not in ("vessel", "payload")]
-    moments = [body.mass * (body.position + turned(body)) for body in carried]
-    tip = scene.joints["link"].first_frame.point
-    jib = scene.bodies["knuckle_jib"]
-    load = scene.bodies["payload"].mass * (jib.position + rotation(jib) @ tip)
-    height = float(sum(moments)[2] + load[2])
-    matrix = np.array(vessel.restoring)[2:5, 2:5] - G * height * np.diag([0.0, 1.0, 1.0])
-    by_weights = 1.0 / np.linalg.inv(matrix)[1, 1] / (hull.mass * G)
-    assert sc.statics(scene)["GM"].item() == pytest.approx(by_weights, rel=1e-4)
-
-
-def rotation(body: object) -> np.ndarray:
-    return rotation_matrix(body.quaternion)
-
-
-def turned(body: object) -> np.ndarray:
-    return np.asarray(rotation(body) @ body.center_of_mass)
-
-
 def test_what_cannot_be_reached_is_refused() -> None:
-    jib = sc.Scene()
-    jib.add_body(name="jib", mass=1e3, inertia=1e3 * np.eye(3))
-    jib.add_joint(
-        "pin", kind="revolute", first="ground", second="jib", first_frame=sc.Frame(), second_frame=sc.Frame()
-    )
-    jib.add_roles(slew="pin", cylinders={})
     crane = crane_on_ground()
     for scene, asked, words in (
         (crane, {"radius": 40.0}, "radius 40 m: 'main'"),
         (crane, {"coordinates": {"main": 9.0}}, "main is 9 m.* -1 to"),
-        (crane, {"coordinates": {"boom": 1.0}}, "'boom'"),
         (crane, {"radius": 20.0, "coordinates": {"main": 1.0}}, "'main' is given a stroke"),
-        (crane, {"radius": 20.0, "luff": "hoist"}, "luff is 'hoist'.*'main', 'knuckle'"),
-        (crane, {"slew": [[0.0]]}, r"slew has shape \(1, 1\)"), (crane, {"slew": np.nan}, "slew.* finite"),
-        (crane, {"slew": 0.0, "crane": "aft "}, "crane 'aft '"), (barge(), {"slew": 0.0}, "prefixes none"),
-        (jib, {"radius": 5.0}, "there are none"),
+        (crane, {"slew": [[0.0]]}, r"slew has shape \(1, 1\)"), (barge(), {"slew": 0.0}, "prefixes none"),
     ):  # fmt: skip
         with pytest.raises(sc.SceneError, match=words):
             sc.statics(scene, **asked)
 
 
-def test_pressures_are_forces_over_the_loaded_side(tmp_path: Path) -> None:
+def test_pressures_are_forces_over_the_loaded_side() -> None:
     scene = sc.Scene(name="crane", gravity=G)
     scene.add_crane(base="ground", s1=1.5, s2=1.0)
     force, roles = sc.statics(scene), scene.roles[""]
@@ -218,8 +181,6 @@ def test_pressures_are_forces_over_the_loaded_side(tmp_path: Path) -> None:
         pressure = push / (full if push > 0.0 else ring)
         assert float(found[f"cylinder pressure {label}"]) == pytest.approx(pressure)
         assert found.units[f"cylinder pressure {label}"] == "Pa"
-    scene.save(tmp_path / "scene.json")
-    assert sc.Scene.load(tmp_path / "scene.json").roles[""].areas == areas
 
 
 def test_areas_come_from_the_crane_s_file_and_have_limit_states(tmp_path: Path) -> None:
@@ -241,15 +202,8 @@ def test_areas_come_from_the_crane_s_file_and_have_limit_states(tmp_path: Path) 
     (used,) = result.utilisation
     assert used.unit == "Pa" and used.limit == pytest.approx(200e5)
     assert used.utilisation == pytest.approx(force[:, 0].max() / 0.5 / 20e6)
-    scene.add_limit_state(channel="cylinder_pressure", maximum=1e6, names={"piston": "knuckle"})
-    with pytest.raises(sc.SceneError, match="no piston 'knuckle'"):
-        sc.simulate(scene, 0.1)
-    for wrong, message in (("full_area = 0.5", "rod_side_area is missing"),
-                           ("full_area = 0.5\nrod_side_area = 0.6", "full side")):  # fmt: skip
-        with pytest.raises(sc.FileFormatError, match=message):
-            crane(wrong)
-    with pytest.raises(sc.SceneError, match=r"areas .*'luff'"):
-        sc.Scene().add_roles(areas={"luff": (1.0, 0.5)})
+    with pytest.raises(sc.FileFormatError, match="full side"):
+        crane("full_area = 0.5\nrod_side_area = 0.6")
 
 
 def test_lines_tell_their_lengths() -> None:
@@ -270,12 +224,5 @@ def test_numbers_give_numbers_and_rows_give_axes() -> None:
     one, row = sc.statics(scene, slew=-0.5, radius=20.0), sc.statics(scene, slew=-0.5, radius=[20.0, 22.0])
     assert one["tip radius"].shape == () and row["tip radius"] == pytest.approx([20.0, 22.0])
     assert row["hoist tension"][0] == pytest.approx(one["hoist tension"], rel=1e-6)
-    assert str(one).count("\n") == 2 and str(row).count("\n") == 3
     table = row.to_xarray()
     assert table["tip radius"].dims == ("radius",) and table["tip radius"].coords["slew"].item() == -0.5
-    assert table["cylinder force main"].attrs["units"] == row.units["cylinder force main"] == "N"
-    assert one.to_xarray()["tip radius"].dims == () and one.to_dict()["tip radius"] == pytest.approx(20.0)
-    assert isinstance(sc.statics(scene)["tip radius"], float)
-    assert "slew [deg]" in str(row) and "<td" in row._repr_html_()
-    with pytest.raises(KeyError, match="'roll'"):
-        row["roll"]

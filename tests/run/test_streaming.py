@@ -11,12 +11,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from event_scenes import ball
 
 import seacrane as sc
 from seacrane import cases
 from seacrane.result import stream
 from seacrane.result.partial_file import PartialFile, Piece
-from seacrane.warnings import LargeHeelWarning, SteepSeaWarning
+from seacrane.warnings import LargeHeelWarning
 
 GENEROUS = 60.0  # s
 
@@ -100,10 +101,8 @@ def test_a_stopped_run_goes_on_to_the_same_file(memory: str, tmp_path: Path, mon
         with monkeypatch.context() as patch:
             stopping_after(pieces, patch)
             told = sc.simulate_to_file(scene, tmp_path / "run.nc", resume=pieces > 2, **settings)
-        assert told.interrupted
-        partial = told.load()
-        assert partial.interrupted
-        assert 0 < partial.time.size < 3001
+        assert told.interrupted and told.load().interrupted
+        assert 0 < told.load().time.size < 3001
     whole = sc.simulate(scene, **settings)
     rest = sc.simulate_to_file(scene, tmp_path / "run.nc", resume=True, **settings)
     assert not rest.interrupted
@@ -112,20 +111,13 @@ def test_a_stopped_run_goes_on_to_the_same_file(memory: str, tmp_path: Path, mon
     assert rest.load().stats["steps"] == whole.stats["steps"]
 
 
-def bouncing() -> sc.Scene:
-    scene = sc.Scene(name="ball")
-    scene.add_body(name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3))
-    scene.add_joint(kind="free", name="air", first="ground", second="ball", point=(0.0, 0.0, 0.0))
-    scene.add_end_stop(joint="air", coordinate="z", minimum=-2.0, restitution=0.9, name="floor")
-    return scene
-
-
 def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
     """A ball that bounces 16 times; the run stops in the air, and once more when the ball lies still."""
-    whole = sc.simulate(bouncing(), t_end=20.0)
+    scene, path = ball(restitution=0.9), tmp_path / "run.nc"
+    whole = sc.simulate(scene, t_end=20.0)
     assert len(whole.events) > 10
     for t_end in (3.0, 15.0, 20.0):
-        told = sc.simulate_to_file(bouncing(), tmp_path / "run.nc", t_end=t_end, resume=t_end > 3.0)
+        told = sc.simulate_to_file(scene, path, t_end=t_end, resume=t_end > 3.0)
     joined = told.load()
     assert joined.stats["events"] == len(joined.events)
     assert [event.kind for event in joined.events] == [event.kind for event in whole.events]
@@ -148,8 +140,7 @@ def test_a_write_that_fails_once_is_made_up_for_at_the_end(tmp_path: Path, monke
 
 def test_ctrl_c_while_a_piece_is_written_waits_for_it(tmp_path: Path, monkeypatch: Any) -> None:
     """Pressed before and after every write of it, and while the result's file is made."""
-    append, finish = PartialFile.append, stream.ResultFile.finish
-    seen = []
+    append, finish, seen = PartialFile.append, stream.ResultFile.finish, []
 
     def pressed(file: PartialFile, piece: Piece) -> None:
         seen.append(piece)
@@ -182,23 +173,17 @@ def test_a_record_that_was_broken_off_does_not_count(cut: int, tmp_path: Path) -
         assert np.array_equal(partial["velocity"], whole["velocity"][: partial.time.size])
     with pytest.raises(FileExistsError, match=r"run\.nc\.partial .*resume=True"):
         sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0)
-    with pytest.raises(FileNotFoundError, match=r"run\.nc\.partial"):
-        sc.Result.load(tmp_path / "run.nc")
 
 
-def left_behind(folder: Path, **settings: Any) -> Path:
+def left_behind(folder: Path) -> Path:
     """What a killed run of the spinner leaves."""
     code = (
-        "import os, sys; sys.path.insert(0, sys.argv[1])\n"
-        "from test_streaming import *\n"
+        "import os, sys\nfrom test_streaming import sc, spinner\n"
         "def look(now, measured):\n    if now > 9.0:\n        os._exit(1)\n    return {}\n"
-        "sc.simulate_to_file(spinner(), sys.argv[2], t_end=20.0, checkpoint_every=1.0,"
-        " controllers=[sc.SampledController(period=0.5, function=look)], **eval(sys.argv[3]))"
+        "sc.simulate_to_file(spinner(), sys.argv[1], t_end=20.0, checkpoint_every=1.0,"
+        " controllers=[sc.SampledController(period=0.5, function=look)])"
     )
-    subprocess.run(
-        [sys.executable, "-c", code, str(Path(__file__).parent), str(folder / "run.nc"), repr(settings)],
-        check=False,
-    )
+    subprocess.run([sys.executable, "-c", code, str(folder / "run.nc")], check=False)
     return stream.partial_path(folder / "run.nc")
 
 
@@ -214,21 +199,16 @@ def test_two_runs_of_one_process_do_not_write_one_file(tmp_path: Path) -> None:
 
 
 RESUME = {"resume": True, "t_end": 3.0}
-CONTROLLERS = {"controllers": [sc.SampledController(period=1.0, function=lambda now, measured: {})]}
+TICKS = [sc.SampledController(period=1.0, function=lambda now, measured: {})]
 OTHERS: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"t_end": 1.0}, FileExistsError, "t_end 2.0, this run 1.0"),
     ({"rtol": 1e-8}, FileExistsError, "rtol 1e-06, this run 1e-08"),
-    ({"dt_out": 0.2}, FileExistsError, "dt_out 0.1, this run 0.2"),
     ({"channels": ["velocity"]}, FileExistsError, "channels"),
-    (CONTROLLERS, FileExistsError, "controllers"),
+    ({"controllers": TICKS}, FileExistsError, "controllers"),
     ({"scene": cases.case2}, FileExistsError, "another scene"),
     ({**RESUME, "rtol": 1e-3}, sc.FileFormatError, "rtol 1e-06, this run 0.001"),
-    ({**RESUME, "dt_out": 0.2}, sc.FileFormatError, "dt_out 0.1, this run 0.2"),
-    ({**RESUME, "integrator": "rk4"}, sc.FileFormatError, "integrator 'dopri5', this run 'rk4'"),
     ({**RESUME, "channels": ["velocity"]}, sc.FileFormatError, "channels"),
     ({**RESUME, "scene": cases.case2}, sc.FileFormatError, r"run\.nc is of another scene"),
-    ({**RESUME, "start": "calm"}, sc.SceneError, "start is 'calm'"),
-    ({**RESUME, "checkpoint_every": -1.0}, sc.SceneError, "checkpoint_every|positive"),
     ({**RESUME, "t_end": 1.0}, sc.SceneError, "before the start"),
 ]
 
@@ -255,10 +235,6 @@ def test_only_the_same_run_replaces_a_result_unasked(tmp_path: Path) -> None:
     sc.simulate(spinner(), t_end=1.0).save(path)
     with pytest.raises(FileExistsError, match="is there and"):
         sc.simulate_to_file(spinner(), path, t_end=2.0)
-    with pytest.raises(FileNotFoundError, match=r"no result file .*none\.nc to go on with"):
-        sc.simulate_to_file(spinner(), tmp_path / "none.nc", t_end=2.0, resume=True)
-    with pytest.raises(OSError, match="there is no folder"):
-        sc.simulate_to_file(spinner(), tmp_path / "none" / "run.nc", t_end=2.0)
 
 
 @pytest.mark.warns("FullTurnWarning")
@@ -281,16 +257,6 @@ def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> 
     told = sc.simulate_to_file(spinner(), path, t_end=20.0, resume=True)
     assert told.load().time.size == 201
     assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
-
-
-def test_where_nothing_can_be_written_nothing_is_said_to_be_kept(tmp_path: Path) -> None:
-    """A folder that takes no files: here it is one of the system's, for tests may run as its owner."""
-    for folder in (Path("/proc/self/fdinfo"), Path("/sys")):
-        if folder.is_dir():
-            with pytest.raises(OSError, match=r"could not write .*run\.nc: (?!.*kept)"):
-                sc.simulate_to_file(spinner(), folder / "run.nc", t_end=1.0)
-    with pytest.raises(OSError, match="is a device"):
-        sc.simulate_to_file(spinner(), Path(os.devnull), t_end=1.0)
 
 
 MEMORY = """
@@ -316,16 +282,13 @@ def test_memory_does_not_grow_with_the_outputs(tmp_path: Path) -> None:
     assert float(run.stdout) < 25e3  # kB
 
 
-@pytest.mark.warns("MeanHeadingWarning", "MeanPositionWarning")
+@pytest.mark.warns("MeanHeadingWarning", "MeanPositionWarning", "SteepSeaWarning")
 def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
     """Once for the run, however many pieces it has, and of what was before a stop too."""
-    with pytest.warns(SteepSeaWarning):
-        scene = cases.vessel(hs=24.0)
-    settings = {"dt_out": 0.01, "channels": ["vessel_motion"]}
+    scene, settings = cases.vessel(hs=24.0), {"dt_out": 0.01, "channels": ["vessel_motion"]}
     with pytest.warns(LargeHeelWarning) as caught:
         told = sc.simulate_to_file(scene, tmp_path / "storm.nc", t_end=100.0, **settings)
     assert len([w for w in caught if w.category is LargeHeelWarning]) <= 2  # roll, pitch
-    assert "20 deg" in told.stats["validity"]
     assert told.load().stats["validity"] == told.stats["validity"]
     sc.simulate_to_file(scene, tmp_path / "storm.nc", t_end=101.0, resume=True, **settings)
     assert told.load().stats["validity"].startswith(told.stats["validity"])

@@ -1,15 +1,18 @@
-"""Threads that share a run, and threads that the interpreter's end finds in the loop."""
+"""Threads that share a run, that the interpreter's end finds in the loop, or that are silent alone."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
 import threading
+import warnings
 
 import numpy as np
 import pytest
 
 from seacrane import Run, SimulationError, cases
+from seacrane.inputs.caller import keeping, recorded, silently, warn_caller
+from seacrane.warnings import AssemblyWarning, SteepSeaWarning
 
 GENEROUS = 120.0  # s
 
@@ -40,22 +43,15 @@ def test_a_run_is_read_while_another_thread_advances_it() -> None:
 
 def test_a_run_that_is_advanced_already_says_so() -> None:
     run = Run(cases.case2(), t_end=1e6, dt_out=10.0)
-    told = []
-
-    class Enough(Exception):
-        pass
 
     def look(now: float) -> None:
         assert run.state.time == now
-        try:
+        with pytest.raises(SimulationError, match="is advanced already"):
             run.advance(2e6)
-        except SimulationError as error:
-            told.append(str(error))
-        raise Enough
+        raise InterruptedError
 
-    with pytest.raises(Enough):
+    with pytest.raises(InterruptedError):
         run.advance(1e6, look)
-    assert "is advanced already" in told[0]
     assert run.advance(run.core.time + 1.0)
 
 
@@ -100,3 +96,37 @@ def test_a_forked_process_does_not_wait_for_its_parents_threads() -> None:
     command = [sys.executable, "-W", "ignore", "-c", FORK]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=GENEROUS)
     assert ended.returncode == 0, ended.stderr
+
+
+def test_a_thread_is_silent_by_itself_alone() -> None:
+    """While another thread is silent, and after it, filters are as they were."""
+    inside, over = threading.Event(), threading.Event()
+    before = list(warnings.filters)
+
+    def silent() -> None:
+        with silently():
+            inside.set()
+            over.wait()
+            warn_caller("not shown", SteepSeaWarning)
+
+    other = threading.Thread(target=silent)
+    other.start()
+    inside.wait()
+    try:
+        with pytest.warns(SteepSeaWarning, match="shown"):
+            warn_caller("shown", SteepSeaWarning)
+        assert list(warnings.filters) == before
+    finally:
+        over.set()
+        other.join()
+
+
+def test_one_category_is_silenced() -> None:
+    """Others are shown; who listens hears both, and who repeats repeats what was aloud."""
+    told: dict[str, None] = {}
+    with keeping(told), recorded() as said, pytest.warns(SteepSeaWarning) as seen, silently(AssemblyWarning):
+        warn_caller("moved", AssemblyWarning)
+        warn_caller("breaks", SteepSeaWarning)
+    assert [str(one.message) for one in seen] == ["breaks"]
+    assert list(told) == ["moved", "breaks"]
+    assert [(message, aloud) for message, _, aloud in said] == [("moved", False), ("breaks", True)]

@@ -1,15 +1,14 @@
-"""What contacts carried, in every answer; what they press on, in pictures; lift-offs that were asked for."""
+"""What contacts carried, in every answer; what they press on, in pictures."""
 
 from __future__ import annotations
 
-import re
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from seacrane import Result, Scene, Stage, Until, report, simulate, simulate_stages, summary, view
+from seacrane import Result, Scene, report, simulate, summary, view
 from seacrane.answers import contact_hits
 from seacrane.pictures.shapes import BoxShape, MeshShape, TubeShape
 
@@ -42,34 +41,19 @@ def test_a_landing_tells_its_loads_speeds_and_rehits() -> None:
     assert told.peak == max(hit.peak for hit in hits) and told.speed == max(hit.speed for hit in hits)
     assert told.speed == pytest.approx(np.sqrt(2.0 * 9.80665 * 0.5), rel=1e-3)
     assert told.rehits == sum(hit.number > 1 for hit in hits) > 0
-    assert told.first == min(hit.begin for hit in hits) and told.point in {hit.point for hit in hits}
+    assert told.first == min(hit.begin for hit in hits)
     assert np.isnan(summary(landed()).contacts["guide"].first)
 
 
 def test_every_answer_tells_them(tmp_path: Path) -> None:
-    told = summary(landed())
-    peak = f"{told.contacts['deck'].peak / 1e3:.1f}"
+    peak = f"{summary(landed()).contacts['deck'].peak / 1e3:.1f}"
     loaded = Result.load(landed().save(tmp_path / "landing.nc"))
-    for page in (
-        str(told),
-        told._repr_html_(),
-        report(landed()).html,
-        view(landed()).html,
-        str(summary(loaded)),
-    ):
-        assert "deck" in page and peak in page and "re-hits" in page
-    html = report(landed()).html
-    rows = re.findall(r"<tr><td[^>]*>[\d.]+</td><td>deck\.\d</td><td>contact</td>(.*?)</tr>", html)
-    assert rows and all(row.endswith("<td></td><td></td>") for row in rows)  # no impulse of an instant
-    scene = Scene(name="free")
-    scene.add_body("box", mass=1e3, size=(1, 1, 1))
-    with pytest.raises(KeyError, match="no contact 'deck'"):
-        summary(simulate(scene, 0.1)).contacts["deck"]
+    for page in (report(landed()).html, view(landed()).html, str(summary(loaded))):
+        assert "deck" in page and peak in page
 
 
-def test_what_contacts_press_on_is_drawn_where_it_is(tmp_path: Path) -> None:
-    page = view(landed())
-    drawn = {wheel.name: wheel for wheel in page.drawing.wheels}
+def test_what_contacts_press_on_is_drawn_where_it_is() -> None:
+    drawn = {wheel.name: wheel for wheel in view(landed()).drawing.wheels}
     kinds = {"deck": BoxShape, "guide": TubeShape, "pipe": MeshShape, "bumper": BoxShape}
     assert {name: type(one.shapes[0]) for name, one in drawn.items()} == kinds
     assert drawn["bumper"].at == [-1, 2.0, 0.0, 4.0] and drawn["guide"].at == [0, -1.0, 0.0, 4.0]
@@ -77,19 +61,3 @@ def test_what_contacts_press_on_is_drawn_where_it_is(tmp_path: Path) -> None:
     assert deck[:, 2].max() == pytest.approx(0.0) and np.ptp(deck, axis=0)[0] == pytest.approx(3.0)
     pipe = np.hypot(*drawn["pipe"].shapes[0].points[:, :2].T)
     assert (pipe.min(), pipe.max()) == pytest.approx((0.5, 0.6))
-    assert page.save_gltf(tmp_path / "landing.glb").stat().st_size > 0
-
-
-def test_a_lift_off_that_a_stage_asks_for_is_no_broken_limit() -> None:
-    scene = Scene(name="off")
-    scene.add_body("load", mass=1e3, size=(1, 1, 1), position=(0, 0, 0.5))
-    scene.add_joint("on deck", kind="weld", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1))
-    scene.add_seat("on deck")
-    scene.add_line("wire", first="ground", first_point=(0, 0, 10), second="load", EA=1e6, length=9.0)
-    scene.add_winch("wire", lag=0.1)
-    hoist, least = {"wire.rate": -0.3}, {"maximum_duration": 5.0}
-    asked = [Stage(name="off", until=Until.release("on deck"), commands=hoist, **least)]
-    unasked = [Stage(name="up", duration=2.0, commands=hoist)]
-    for stages, words in ((asked, "all 1 held"), (unasked, "1 of 1 not held")):
-        html = report(simulate_stages(scene, [*stages, Stage(name="on", duration=0.5)])).html
-        assert words in re.sub(r"<[^>]+>", " ", html)

@@ -79,9 +79,7 @@ def test_a_narrower_interval_goes_on_from_the_same_store(grown: Ensemble, tmp_pa
 def test_failures_are_told_and_allowed_for(tmp_path: Path) -> None:
     over = {"seed": range(1, 101), "height": [1.0, 2.0]}
     given = {"over": over, "keep": KEEP, "until": {"reach.mean": 0.2}, **RUN}
-    with pytest.warns(
-        FailedSeedsWarning, match="reach.mean .height=2.0.: all 20 seeds failed .member 1: Val"
-    ):
+    with pytest.warns(FailedSeedsWarning, match=r"height=2.0.: all 20 seeds failed .member 1: Val"):
         there = ensemble(bad_storm, **given, store=tmp_path / "store")
     few, none = there.certainty
     assert (few.seeds, few.failed, few.futile) == (BATCH - 1, 1, False)
@@ -106,12 +104,9 @@ def test_the_worst_seeds_that_fail_leave_no_interval() -> None:
             storm_that_parts, over={"seed": range(1, 401)}, keep=KEEP, until={"reach.mpm": 0.1}, **RUN
         )
     (one,) = there.certainty
-    assert one.failed > 0.2 * (one.seeds + one.failed)
-    assert not one.reached
-    assert one.futile
-    assert one.seeds + one.failed < 400
+    assert one.failed > 0.2 * (one.seeds + one.failed) and one.seeds + one.failed < 400
+    assert one.futile and not one.reached
     assert one.estimate.low == -np.inf
-    assert f"{one.failed} failed: no interval" in str(one)
 
 
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.3])
@@ -163,20 +158,12 @@ def test_intervals_cover_after_stopping(number: str) -> None:
 
 
 def test_bad_input_is_named() -> None:
-    keep = {
-        "reach": REACH,
-        "drift": Kept(channel="position", what="mean", names={"body": "bob", "axis": "x"}),
-        "track": Kept(channel="position", names={"body": "bob", "axis": "x"}),
-        "all": Kept(channel="position", what="maximum"),
-    }
-    usual = {"over": {"seed": range(1, 41)}, "keep": keep, "until": UNTIL, **RUN}
+    track = Kept(channel="position", names={"body": "bob", "axis": "x"})
+    usual = {"over": {"seed": range(1, 41)}, "keep": {"reach": REACH, "track": track}, "until": UNTIL, **RUN}
     for given, message in (
-        ({"until": {}}, "until is {}"), ({"until": {"reach": 0.02}}, "'reach' is no statistic"),
-        ({"until": {"reech.mpm": 0.02}}, "'reech'.*'reach'"), ({"until": {"reach.p99": 0.02}}, "'p99'"),
-        ({"until": {"drift.mpm": 0.02}}, "choose from mean"), ({"until": {"reach.mpm": 2}}, "reach.mpm is 2"),
-        ({"until": {"track.mean": 0.1}}, "track is a series"), ({"until": {"all.mpm": 0.1}}, "at with body="),
+        ({"until": {"reech.mpm": 0.02}}, "'reech'.*'reach'"),
+        ({"until": {"track.mean": 0.1}}, "track is a series"),
         ({"over": {"height": [1.0]}}, "over has none"), ({"over": {"seed": range(1, 60, 2)}}, "gaps"),
-        ({"over": {"seed": range(1, 11)}}, "seed has 10 values"),
         ({"keep": {"reach": REACH, "reach_mean": lowest}}, "'reach_mean'"),
     ):  # fmt: skip
         with pytest.raises(SceneError, match=message):
