@@ -17,8 +17,8 @@ import coverage
 ROOT = Path(__file__).resolve().parents[2]
 LEAST = 90.0
 WRITERS = re.compile(  # functions in the readers' files that write, draw or describe
-    r"(save|add_events|_add_|write|_write|_put|to_xarray|described|scene_digest|element_to_data|_plain$|_block$"
-    r"|waves_to_data|_hull_to_data|roles_to_data|sea_to_data|plain_data|plain_notes|load_to_data|kind_of"
+    r"(save|add_events|_add_|write|_write|_put|to_xarray|described|scene_digest|_elements|_load_entries"
+    r"|_plain_array|_plain_field|_plain_entry|_block$|plain_data|plain_notes|kind_of"
     r"|state_to_bytes|_is_state|shape$|rows$|spectrum)"
 )
 sys.path.extend(map(str, [ROOT / "tests", *(ROOT / "tests").glob("*/")]))

@@ -49,9 +49,9 @@ def scene_seeds() -> None:
     data = json.loads(json.dumps(described(every_kind())))
     put("scene", "every-kind", json.dumps(data))
     zero, headings = np.zeros((2, 3, 6)).tolist(), [0.0, 3.0]
-    data["waves"]["hulls"][0] |= {
-        "force_by_heading": {"heading": headings, "real": zero, "imaginary": zero}, "drift": zero[0],
-        "drift_by_heading": {"heading": headings, "real": zero},
+    data["waves"]["hulls"]["hull"] |= {
+        "force_by_heading": {"heading": headings, "values": {"real": zero, "imaginary": zero}},
+        "drift": zero[0], "drift_by_heading": {"heading": headings, "values": zero},
     }  # fmt: skip
     put("scene", "hull-of-all-headings", json.dumps(data))
     data["vessels"][0]["memory"] = {"step": 0.1, "kernel": np.zeros((3, 6, 6)).tolist()}

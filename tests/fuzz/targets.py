@@ -239,7 +239,7 @@ def _under(folder: str, names: str) -> tuple[str, ...]:
 
 _NETCDF = _under("inputs", "netcdf_limits hdf5_structure")
 _SCENE = (
-    *_under("description", "file file_waves file_text file_origin file_elements"),
+    *_under("description", "file file_text"),
     *_under("inputs", "node plain_data"),
 )
 _HYDRO = "hydro/readers"

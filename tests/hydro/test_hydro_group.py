@@ -67,6 +67,11 @@ def test_a_hull_of_a_group_is_the_database_it_was_made_of_and_moves_as_alone(hul
                 assert moved == pytest.approx(motion_response(group[name]), rel=1e-9, abs=1e-12)
 
 
+def test_a_point_of_a_turned_hull_lies_along_its_own_axes(hull: HydroDatabase) -> None:
+    moved = beside(hull, heading=np.pi / 2).at({"two": (2.0, 1.0, 0.0)})
+    assert moved.bodies[1].position == pytest.approx(np.add(APART, (-1.0, 2.0, 0.0)))
+
+
 def test_names_exchanged_exchange_everything() -> None:
     group = written_pair()
     other = group.ordered(["feeder", "crane"])

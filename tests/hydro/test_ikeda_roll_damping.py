@@ -11,7 +11,13 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, simulate
-from seacrane.hydro import MainParticulars, ikeda_roll_damping, section_eddy_damping, shipped_database
+from seacrane.hydro import (
+    MainParticulars,
+    ikeda_roll_damping,
+    natural_frequency,
+    section_eddy_damping,
+    shipped_database,
+)  # fmt: skip
 from seacrane.hydro.hull.ikeda import bilge_keels, eddy, friction, friction_at_speed, lift
 from seacrane.hydro.hull.section_eddies import eddy_coefficient
 from seacrane.hydro.hull.shipped_hull import shipped_hull
@@ -195,6 +201,8 @@ def test_a_database_takes_the_pair_in_place_of_its_own() -> None:
         database.with_roll_damping(linear=one, fraction=0.05).linear_damping[3, 3] for one in (0.0, 1e6)
     )
     assert both == pytest.approx(share + 1e6)
+    critical = 2.0 * database.restoring[3, 3] / natural_frequency(database, 3)  # 2 sqrt(C (I + A)) = 2 C / w
+    assert share == pytest.approx(0.05 * critical, rel=3e-3)
     scene = Scene()
     scene.add_vessel(pair, memory="none")
     assert scene.vessels["vessel"].quadratic_damping[3] == 3e8

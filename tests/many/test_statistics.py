@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.stats import gumbel_r
+from scipy.stats import genpareto, gumbel_r
 
 import seacrane as sc
 from seacrane import Result, SceneError
@@ -171,6 +171,9 @@ def test_a_known_tail_is_found(kind: str, shape: float) -> None:
     assert tail.accepted
     assert tail.extremal_index == pytest.approx(1.0, abs=0.05)
     assert tail.shape == pytest.approx(shape, abs=0.08)
+    levels = tail.threshold + tail.scale * np.array([0.0, 1.0, 3.0])
+    above = genpareto.sf(levels - tail.threshold, tail.shape, scale=tail.scale)
+    assert tail.crossings(levels, 100.0) == pytest.approx(100.0 * tail.rate * above)
     count = 0.1 * THREE_HOURS
     level = 3.0 + (np.log(count) if shape == 0.0 else ((count / 0.105) ** shape - 1.0) / shape)
     found = tail.maximum(THREE_HOURS)

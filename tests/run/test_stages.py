@@ -150,9 +150,10 @@ def falling(height: float = 10.0) -> Scene:
 @pytest.mark.parametrize("settings", [{"rtol": 1e-9}, {"integrator": "rk4", "dt": 0.013}])
 def test_conditions_are_met_to_their_stated_error(settings: dict[str, Any]) -> None:
     below = Until.channel("position", body="load", axis="z", maximum=6.3)
+    just_below = Until.channel("position", body="load", axis="z", maximum=6.25)
     slow = Until.channel("velocity", body="load", axis="z", maximum=-20.0)
     stages = [
-        Stage(name="fall", until=[slow, below], maximum_duration=5.0),
+        Stage(name="fall", until=[slow, just_below, below], maximum_duration=5.0),  # the first that is met
         Stage(name="land", until=Until.contact("landing"), maximum_duration=5.0),
         Stage(name="lie", duration=0.5),
     ]

@@ -30,12 +30,12 @@ def barge() -> sc.Scene:
     return scene
 
 
-def hanging(scene: sc.Scene, *, y: float) -> sc.Scene:
+def hanging(scene: sc.Scene, *, y: float, mass: float = LOAD) -> sc.Scene:
     """A load on a rope of 10 m from a light mast, `y` to port."""
     mast, low = (0.0, y, HEIGHT), (0.0, y, HEIGHT - 10.0)
     scene.add_body(name="mast", mass=1e-3, inertia=1e-3 * np.eye(3), position=mast)
     scene.add_joint(name="weld", kind="weld", first="hull", second="mast", point=mast)
-    scene.add_body(name="load", mass=LOAD, inertia=LOAD * np.eye(3), position=low)
+    scene.add_body(name="load", mass=mass, inertia=mass * np.eye(3), position=low)
     ends = {"first": "mast", "second": "load", "point": mast, "second_point": low}
     scene.add_joint("rope", kind="distance", **ends, length=10)
     scene.add_roles(link="rope")

@@ -218,7 +218,7 @@ def test_scenes_that_cannot_be_assembled(what: Callable[[], Scene], told: str) -
 @rows(({"hulls": {"b": HullLoads(transfer=np.ones((1, 6)))}}, "wave load.*'b' is not a vessel"),
       ({"heading": NAN}, "heading is nan"), ({"force_by_heading": 3.0}, "force_by_heading is 3.0.*ByHeading"),
       ({"amplitude": [NAN]}, "'a'.*amplitude"), ({"omega": [-1.0]}, "'a'.*omega"),
-      ({"phase": [0.0, 1.0]}, "waves on 'a'"), ({"transfer": np.zeros((1, 5))}, "'a'.*transfer"),
+      ({"phase": [0.0, 1.0]}, "waves: phase"), ({"transfer": np.zeros((1, 5))}, "waves: transfer.*'a'"),
       ({"relative_bound": 0.0}, "'a'.*relative_bound is 0; give"),
       ({"depth": 0.0}, "'a'.*depth"))  # fmt: skip
 def test_waves(what: dict[str, Any], told: str) -> None:

@@ -22,6 +22,7 @@ from seacrane.description.file import described as written
 from seacrane.description.file import scene_from_bytes
 from seacrane.description.loads import LOAD_KINDS, bodies_of
 from seacrane.errors import FileFormatError
+from seacrane.inputs.plain_data import INFINITE
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
@@ -210,13 +211,21 @@ def every_load() -> Scene:
     return scene
 
 
+BY_NAME = (  # objects whose entries the user names
+    "names", "sources", "recorded", "provenance", "hulls", "cylinders", "areas", "luffs", "ropes",
+    "spreading", "sea", "realised_hs_of_systems",
+)  # fmt: skip
+
+
 def objects(data: Any, path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
     """Every object of a file whose entries the program names, with its place."""
-    if isinstance(data, dict):
+    if isinstance(data, dict) and INFINITE not in data:
         yield path, data
     inside = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
     for key, value in inside:
-        if key not in ("notes", "parameters", "names", "provenance"):  # whose entries the user names, or none
+        if key in BY_NAME and isinstance(value, dict):
+            value = [*value.values()]
+        if key not in ("notes", "parameters"):
             yield from objects(value, f"{path}[{key}]" if isinstance(key, int) else f"{path}.{key}")
 
 

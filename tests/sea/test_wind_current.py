@@ -111,6 +111,9 @@ def test_gusts_have_the_variance_of_their_spectrum() -> None:
     assert speed.mean() == pytest.approx(20.0, abs=0.2)
     assert speed.var() == pytest.approx(float(variance), rel=0.15)
     assert npd_spectrum(0.0, mean_speed=10.0) == pytest.approx(320.0)
+    low = npd_spectrum(f, mean_speed=10.0)  # one curve of 172 f (z / 10)^(2/3) (U / 10)^(-3/4)
+    assert npd_spectrum(f * 2.0**0.75, mean_speed=20.0) == pytest.approx(4.0 * low)
+    assert npd_spectrum(f / 4.0, mean_speed=10.0, height=80.0) == pytest.approx(8.0**0.45 * low)
     assert curve.evaluate(np.array([4000.0]))[0, 0] == pytest.approx(speed[-1], abs=2.0)
     other = gust_curve(mean_speed=20.0, duration=3600.0, seed=4).evaluate(times[:100])
     assert np.abs(speed[:100] - other[:, 0]).max() > 1.0

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_statics import C33, C44, C55, LOAD, MASS, G, barge, hanging, on_deck
+from test_statics import C33, C44, C55, LOAD, MASS, G, barge, hanging, lashed
 
 from seacrane import Scene, SceneError, equilibrium, natural_modes, simulate, statics
 from seacrane.crane import Payload
@@ -53,7 +53,7 @@ def test_a_slack_tank_takes_its_moment_over_the_displacement(tmp_path: Path) -> 
     assert told["GM"] == pytest.approx(float(before["GM"]) - 1.5e6 / MASS, rel=1e-9)
     assert told["GM solid"] == pytest.approx(float(before["GM"]), rel=1e-9)
     assert told["GM spread"] == 0.0
-    loaded = on_deck(scene, y=1.0, z=5.0)
+    loaded = lashed(scene, (0.0, 1.0, 5.0))
     lever = LOAD * G * 1.0 / (C44 - 1.5e6 * G - LOAD * G * 5.0)
     assert float(statics(loaded)["heel"]) == pytest.approx(-lever, rel=1e-2)
     loaded.save(tmp_path / "slack.json")
@@ -122,7 +122,7 @@ def rest(scene: Scene) -> tuple[float, float, float]:
 
 
 def test_one_force_carries_the_weights_below_their_centre() -> None:
-    scene = on_deck(barge(), y=3.0, z=2.0)
+    scene = lashed(barge(), (0.0, 3.0, 2.0))
     ballast = scene.add_ballast()
     assert rest(scene) == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
     assert ballast.weight == pytest.approx(-LOAD * G) and ballast.center == pytest.approx([0.0, 3.0, 0.0])
@@ -169,7 +169,7 @@ def test_two_wing_tanks_correct_a_heel_and_leave_the_trim_as_it_comes() -> None:
 
 def test_what_makes_no_ballast_is_refused() -> None:
     """50 t at 3 m take 18.75 t across by 8 m: port gives its 10 t, starboard has room for 1 t of 8.75 t."""
-    scene, dry = on_deck(barge(), y=3.0, z=0.0), tanks(content=1e3)
+    scene, dry = lashed(barge(), (0.0, 3.0, 0.0)), tanks(content=1e3)
     del dry["starboard"]
     for call, words in (
         (lambda: scene.add_ballast(tanks=tanks(capacity=1.1e4, content=1e4)),

@@ -59,7 +59,7 @@ def _scene(result: Result, settings: Mapping[str, Any]) -> Rows:
     bodies, joints = result.coords.get("body", ()), result.coords.get("joint", ())
     hung = str(result.stats.get("payload", "")).splitlines()
     cranes = result.about.cranes
-    cylinders = [f"{crane['prefix']}{one['name']}" for crane in cranes for one in crane["cylinders"]]
+    cylinders = [f"{crane['prefix']}{name}" for crane in cranes for name in crane["cylinders"]]
     found: Rows = [("scene", str(result.stats["scene"]))]
     found += [("bodies", f"{len(bodies)}: {', '.join(bodies)}")] if bodies else []
     found += [("joints", f"{len(joints)}: {', '.join(joints)}")] if joints else []

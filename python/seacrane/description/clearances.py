@@ -1,9 +1,9 @@
-"""Clearances between named points and boxes: added, measured, and as plain data for files."""
+"""Clearances between named points and boxes: added and measured."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,9 @@ from numpy.typing import NDArray
 from seacrane.description.description import GROUND, Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, shaped_of, text_of, texts_of
-from seacrane.inputs.node import Node
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
-KEYS = ("name", "points", "body", "center", "size")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,23 +99,3 @@ def distance_from_box(points: Array, size: Vector) -> Array:
 def _vector(values: Array) -> Vector:
     x, y, z = (float(value) for value in values)
     return x, y, z
-
-
-def clearances_to_data(scene: Description) -> list[dict[str, Any]]:
-    """As plain data."""
-    return [
-        {key: list(value) if isinstance(value, tuple) else value for key, value in asdict(one).items()}
-        for one in scene.clearances.values()
-    ]
-
-
-def clearances_from_node(node: Node, scene: Description) -> None:
-    """Give a scene the clearances that `clearances_to_data` wrote; raises FileFormatError."""
-    for entry in node.items():
-        entry.expect(KEYS)
-        with entry.scene_errors():
-            add_clearance(
-                scene, name=entry.at("name").text(), body=entry.at("body").text(),
-                points=[one.text() for one in entry.at("points").items()],
-                center=entry.at("center").array((3,)), size=entry.at("size").array((3,)),
-            )  # fmt: skip

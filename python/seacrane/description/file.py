@@ -11,78 +11,87 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Callable
-from dataclasses import asdict
+from collections.abc import Callable, Mapping
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, TypeVar
 
 from seacrane import _core
 from seacrane.description.bodies import add_body
-from seacrane.description.clearances import clearances_from_node, clearances_to_data
+from seacrane.description.clearances import Clearance, add_clearance
+from seacrane.description.crane_parts import add_roles
 from seacrane.description.databases import databases_from_node, databases_to_data
 from seacrane.description.description import Description
 from seacrane.description.drives import add_actuator, add_driver
-from seacrane.description.file_elements import (
-    element_from_node,
-    element_to_data,
-    load_from_node,
-    load_to_data,
-)
-from seacrane.description.file_origin import (
-    provenance_from_node,
-    roles_from_node,
-    roles_to_data,
-)
 from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
-from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
 from seacrane.description.holding import free_drives
 from seacrane.description.hydrodynamics import add_group, add_hydrodynamics
 from seacrane.description.joints import add_joint
-from seacrane.description.lift_factors import lift_factors_from_node, lift_factors_to_data
-from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
+from seacrane.description.lift_factors import LiftFactors, add_lift_factors
+from seacrane.description.limit_state import LimitState
+from seacrane.description.limit_states import add_limit_state
+from seacrane.description.loads import LOAD_KINDS, kind_of
 from seacrane.description.meshes import mesh_from_node, mesh_to_data
-from seacrane.description.own_channels import own_channels_from_node, own_channels_to_data
-from seacrane.description.ratings import ratings_from_node, ratings_to_data
+from seacrane.description.own_channels import OwnChannel, add_channel
+from seacrane.description.provenance import VesselProvenance
+from seacrane.description.range import Range
+from seacrane.description.ratings import Rating, note_rating, rating_of
 from seacrane.description.recorded import add_point, add_range, record_coordinate
-from seacrane.description.relatives import relatives_from_node, relatives_to_data
+from seacrane.description.relatives import Relative, add_relative
+from seacrane.description.roles import CraneRoles
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
+from seacrane.description.waves import Waves
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 from seacrane.inputs.node import Node
-from seacrane.inputs.plain_data import notes_from_node, plain_data
+from seacrane.inputs.plain_data import arguments, notes_from_node, plain_data, value_of
 
 FORMAT = "seacrane scene"
 
-_CLASSES: dict[str, type] = {
-    "bodies": _core.Body,
-    "joints": _core.Joint,
-    "drivers": _core.Driver,
-    "actuators": _core.Actuator,
-    "point_forces": _core.PointForce,
-    "springs": _core.Spring,
-    "force_tables": _core.ForceTable,
-    "vessels": VesselHydrodynamics,
-    "groups": _core.GroupHydrodynamics,
-    "points": _core.Point,
-}
-_ADD: dict[str, Callable[..., Any]] = {
-    "bodies": add_body,
-    "joints": add_joint,
-    "drivers": add_driver,
-    "actuators": add_actuator,
-    "point_forces": add_point_force,
-    "springs": add_spring,
-    "force_tables": add_force_table,
-    "vessels": add_hydrodynamics,
-    "groups": add_group,
-    "points": add_point,
+
+def _add_load(scene: Description, load: Any) -> None:
+    add_load(scene, load)
+
+
+def _add_rating(scene: Description, **entries: Any) -> None:
+    note_rating(scene, rating_of(**entries))
+
+
+def _add_lift_factors(scene: Description, name: str, **entries: Any) -> None:
+    add_lift_factors(scene, name, **entries)
+
+
+def _add_force_table(scene: Description, wrenches: Any, **entries: Any) -> None:
+    add_force_table(scene, loads=wrenches, **entries)
+
+
+_ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what it holds, and how it is added
+    "bodies": (_core.Body, add_body),
+    "joints": (_core.Joint, add_joint),
+    "drivers": (_core.Driver, add_driver),
+    "actuators": (_core.Actuator, add_actuator),
+    "point_forces": (_core.PointForce, add_point_force),
+    "springs": (_core.Spring, add_spring),
+    "force_tables": (_core.ForceTable, _add_force_table),
+    "vessels": (VesselHydrodynamics, add_hydrodynamics),
+    "groups": (_core.GroupHydrodynamics, add_group),
+    "points": (_core.Point, add_point),
+    "loads": (_core.Line, _add_load),  # of any kind
+    "ranges": (Range, add_range),
+    "limit_states": (LimitState, add_limit_state),
+    "clearances": (Clearance, add_clearance),
+    "relatives": (Relative, add_relative),
+    "channels": (OwnChannel, add_channel),
+    "ratings": (Rating, _add_rating),
+    "lift_factors": (LiftFactors, _add_lift_factors),
 }
 UNMOVING = (
     "notes", "provenance", "limit_states", "clearances", "ratings", "lift_factors", "meshes",
 )  # tables  # fmt: skip
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
+_FIELDS = tuple(one.name for one in fields(Description) if one.name != "function_forces")
 Some = TypeVar("Some", bound=Description)
 
 
@@ -159,30 +168,7 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
     if not isinstance(root.value, dict) or root.value.get("format") != FORMAT:
         raise FileFormatError(f'{place}: is not a scene file; it has no "format": "{FORMAT}" at its top')
     require_file_version(place, root.value.get("version"))
-    fields = (
-        "format",
-        "version",
-        "name",
-        "orientation",
-        *_SETTINGS,
-        *_ADD,
-        "loads",
-        "waves",
-        "recorded",
-        "ranges",
-        "limit_states",
-        "clearances",
-        "relatives",
-        "channels",
-        "ratings",
-        "lift_factors",
-        "roles",
-        "provenance",
-        "meshes",
-        "notes",
-        "databases",
-    )
-    root.expect(fields)
+    root.expect(("format", "version", *_FIELDS, "databases"))
     return _scene(root, scene)
 
 
@@ -207,37 +193,25 @@ def _scene(root: Node, scene: Some) -> Some:
     for kind in _ADD:
         for node in root.at(kind).items():
             _add(scene, kind, node)
-    for node in root.at("loads").items():
-        element = load_from_node(node)
+    scene.waves = value_of(root.at("waves"), Waves | None)
+    for name, (joint, coordinate) in _by_name(root, "recorded", tuple[str, str]).items():
+        with root.at("recorded").at(name).scene_errors():
+            record_coordinate(scene, joint, coordinate=coordinate, name=name)
+    for node in root.at("roles").items():
+        entries = arguments(CraneRoles, node)
         with node.scene_errors():
-            add_load(scene, element)
-    for node in root.at("recorded").items():
-        node.expect(("name", "joint", "coordinate"))
-        with node.scene_errors():
-            texts = {key: node.at(key).text() for key in ("name", "joint", "coordinate")}
-            record_coordinate(scene, **texts)
-    for node in root.at("ranges").items():
-        node.expect(("name", "joint", "coordinate", "minimum", "maximum"))
-        limits: dict[str, Any] = {key: node.at(key).text() for key in ("name", "joint", "coordinate")}
-        limits |= {key: node.at(key).number() for key in ("minimum", "maximum")}
-        with node.scene_errors():
-            add_range(scene, **limits)
-    limit_states_from_node(root.at("limit_states"), scene)
-    clearances_from_node(root.at("clearances"), scene)
-    relatives_from_node(root.at("relatives"), scene)
-    own_channels_from_node(root.at("channels"), scene)
-    ratings_from_node(root.at("ratings"), scene)
-    lift_factors_from_node(root.at("lift_factors"), scene)
-    waves = root.at("waves")
-    if waves.value is not None:
-        scene.waves = waves_from_node(waves)
+            add_roles(scene, **entries)
+    scene.provenance.update(_by_name(root, "provenance", VesselProvenance))
     for node in root.at("meshes").items():
         mesh_from_node(node, scene)
     scene.notes = notes_from_node(root.at("notes"))
-    roles_from_node(root.at("roles"), scene)
-    provenance_from_node(root.at("provenance"), scene)
     databases_from_node(root.at("databases"), scene)
     return scene
+
+
+def _by_name(root: Node, key: str, kind: Any) -> dict[str, Any]:
+    found: dict[str, Any] = value_of(root.at(key), Mapping[str, kind])
+    return found
 
 
 def described(scene: Description) -> dict[str, Any]:
@@ -247,51 +221,49 @@ def described(scene: Description) -> dict[str, Any]:
 
 def _elements(scene: Description) -> dict[str, Any]:
     """All but the databases of its vessels, on which no motion depends."""
-    out: dict[str, Any] = {
-        "format": FORMAT,
-        "version": FILE_VERSION,
-        "name": scene.name,
-        "orientation": scene.orientation,
-    }
-    out |= {key: float(getattr(scene, key)) for key in _SETTINGS}
-    out |= {kind: [element_to_data(one) for one in getattr(scene, kind).values()] for kind in _CLASSES}
-    for data, joint in zip(out["joints"], scene.joints.values(), strict=True):
-        data["parameters"] = joint.parameters
-    out["loads"] = [load_to_data(element) for element in scene.loads.values()]
-    out["waves"] = None if scene.waves is None else waves_to_data(scene.waves)
-    out["recorded"] = [
-        {"name": name, "joint": joint, "coordinate": coordinate}
-        for name, (joint, coordinate) in scene.recorded.items()
-    ]
-    out["ranges"] = [asdict(limit) for limit in scene.ranges.values()]
-    out["limit_states"] = limit_states_to_data(scene)
-    out["clearances"] = clearances_to_data(scene)
-    out["relatives"] = relatives_to_data(scene)
-    out["channels"] = own_channels_to_data(scene)
-    out["ratings"] = ratings_to_data(scene)
-    out["lift_factors"] = lift_factors_to_data(scene)
-    out["roles"] = [roles_to_data(roles) for roles in scene.roles.values()]
-    out["provenance"] = [{"name": name, **asdict(known)} for name, known in scene.provenance.items()]
-    out["meshes"] = [mesh_to_data(mesh) for mesh in scene.meshes.values()]
-    out["notes"] = plain_data(f"scene {scene.name!r}: notes", scene.notes)
-    return out
+    held = vars(scene) | {key: float(getattr(scene, key)) for key in _SETTINGS}
+    held |= {key: [*held[key].values()] for key in (*_ADD, "roles")}
+    held["loads"] = [{"kind": kind_of(one), **_load_entries(one)} for one in held["loads"]]
+    held["joints"] = [{**plain_data("joint", one), "parameters": one.parameters} for one in held["joints"]]
+    held["meshes"] = [mesh_to_data(mesh) for mesh in scene.meshes.values()]
+    plain = {key: plain_data(f"scene {scene.name!r}: {key}", held[key]) for key in _FIELDS}
+    return {"format": FORMAT, "version": FILE_VERSION, **plain}
+
+
+def _load_entries(load: Any) -> dict[str, Any]:
+    """Of a load; an entry "kind" of its own goes by the kind's name."""
+    return {kind_of(load) if key == "kind" else key: one for key, one in plain_data("load", load).items()}
 
 
 def _add(scene: Description, kind: str, node: Node) -> None:
     """Check one element's entries, then add it as a script would."""
-    entries = dict(node.value) if isinstance(node.value, dict) else node.value
-    parameters = _parameters(node, entries) if kind == "joints" and isinstance(entries, dict) else {}
-    arguments = element_from_node(_CLASSES[kind], Node(entries, node.path)) | parameters
-    if kind == "force_tables":
-        arguments["loads"] = arguments.pop("wrenches")
+    described_as, add = _ADD[kind]
+    if kind == "loads":
+        given = {"load": _load(node)}
+    else:
+        rest, parameters = _parameters(node) if kind == "joints" else (node, {})
+        given = arguments(described_as, rest) | parameters
     with node.scene_errors():
-        _ADD[kind](scene, **arguments)
+        add(scene, **given)
 
 
-def _parameters(node: Node, entries: dict[str, Any]) -> dict[str, float]:
-    """Takes a joint's own numbers out of its entries."""
+def _load(node: Node) -> Any:
+    name = node.at("kind").text()
+    if name not in LOAD_KINDS:
+        node.at("kind").fail(f"give one of {', '.join(LOAD_KINDS)}")
+    rest = {key: one for key, one in node.value.items() if key != "kind"}
+    if any(field.name == "kind" for field in LOAD_KINDS[name].FIELDS):  # type: ignore[attr-defined]
+        rest["kind"] = node.at(name).value
+        del rest[name]
+    given = arguments(LOAD_KINDS[name], Node(rest, node.path))
+    with node.scene_errors():
+        return LOAD_KINDS[name](**given)
+
+
+def _parameters(node: Node) -> tuple[Node, dict[str, float]]:
+    """A joint's entries without its own numbers, and these."""
     given = node.at("parameters")
-    del entries["parameters"]
     if not isinstance(given.value, dict):
         given.fail("give an object with numbers")
-    return {key: given.at(key).number() for key in given.value}
+    rest = {key: one for key, one in node.value.items() if key != "parameters"}
+    return Node(rest, node.path), {key: given.at(key).number() for key in given.value}

@@ -1,10 +1,10 @@
-"""The factors of a lift's calculation sheet, each with its source: added, and as plain data for files."""
+"""The factors of a lift's calculation sheet, each with its source."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 from seacrane.description.description import Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, vector_of
-from seacrane.inputs.node import Node
 from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 
@@ -63,7 +62,6 @@ class LiftFactors:
         object.__setattr__(self, "sources", ReadOnly(self.sources))
 
 
-ROWS = ("center_of_gravity", "skew_load")
 NUMBERS = tuple(one.name for one in fields(LiftFactors) if one.name not in ("name", "sources"))
 
 
@@ -157,26 +155,3 @@ def _sources(what: str, given: Any) -> dict[str, str]:
         if key not in NUMBERS:
             raise SceneError(f"{what}: sources has {shown(key)}; the factors are {', '.join(NUMBERS)}")
     return {key: text_of(f"{what}: source of {key}", value) for key, value in given.items()}
-
-
-def lift_factors_to_data(scene: Description) -> list[dict[str, Any]]:
-    """As plain data."""
-    return [asdict(one) for one in scene.lift_factors.values()]
-
-
-def lift_factors_from_node(node: Node, scene: Description) -> None:
-    """Give a scene what `lift_factors_to_data` wrote; raises FileFormatError."""
-    for entry in node.items():
-        entry.expect(("name", *NUMBERS, "sources"))
-        sources = entry.at("sources")
-        if not isinstance(sources.value, dict):
-            sources.fail("give an object with texts")
-        plain: Any = {key: entry.at(key).number_or_none() for key in NUMBERS if key not in ROWS}
-        with entry.scene_errors():
-            add_lift_factors(
-                scene, entry.at("name").text(),
-                center_of_gravity=entry.at("center_of_gravity").array((3,)),
-                skew_load=[one.number() for one in entry.at("skew_load").items()],
-                sources={key: sources.at(key).text() for key in sources.value},
-                **plain,
-            )  # fmt: skip

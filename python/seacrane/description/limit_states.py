@@ -1,10 +1,9 @@
-"""Limit states of a scene: added, and as plain data for files and results."""
+"""Limit states of a scene."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict
 from typing import Any
 
 from seacrane.description.description import Description, insert
@@ -12,10 +11,8 @@ from seacrane.description.limit_state import LimitState
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
-from seacrane.inputs.node import Node
 from seacrane.inputs.shown import shown
 
-KEYS = ("name", "channel", "maximum", "minimum")
 SLACK = "slack"  # in place of a channel: the margin that marine operations are planned with
 SLACK_MARGIN = 0.1  # of the static tension: 10 % as DNV-RP-N103 is quoted to ask for; unverified
 
@@ -85,23 +82,3 @@ def _bound(name: str, key: str, value: Any) -> float | None:
             "zero: give a small one for a load that may just not vanish"
         )
     return number
-
-
-def limit_states_to_data(scene: Description) -> list[dict[str, Any]]:
-    """As plain data."""
-    return [asdict(state) for state in scene.limit_states.values()]
-
-
-def limit_states_from_node(node: Node, scene: Description) -> None:
-    """Give a scene the limit states that `limit_states_to_data` wrote; raises FileFormatError."""
-    for entry in node.items():
-        entry.expect((*KEYS, "names"))
-        bounds = {key: entry.at(key).number_or_none() for key in ("maximum", "minimum")}
-        names = entry.at("names")
-        if not isinstance(names.value, dict):
-            names.fail("give an object with names")
-        given = {dim: names.at(dim).text() for dim in names.value}
-        with entry.scene_errors():
-            add_limit_state(
-                scene, name=entry.at("name").text(), channel=entry.at("channel").text(), names=given, **bounds
-            )

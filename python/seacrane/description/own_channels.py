@@ -1,10 +1,9 @@
-"""Channels of one's own, expressions of others: added, and as plain data for files."""
+"""Channels of one's own, expressions of others."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
-from typing import Any
 
 from seacrane.description.channels import CHANNELS, COUNTED_ON, OWN, unit_of
 from seacrane.description.description import Description, insert
@@ -14,7 +13,7 @@ from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, text_of
-from seacrane.inputs.node import Node
+from seacrane.inputs.plain_data import DERIVED
 from seacrane.inputs.shown import shown
 
 
@@ -29,7 +28,7 @@ class OwnChannel:
 
     name: str
     expression: str
-    unit: str
+    unit: str = field(metadata=DERIVED)
 
 
 def add_channel(scene: Description, name: str, *, expression: str) -> OwnChannel:
@@ -132,16 +131,3 @@ def _coordinate(scene: Description, pick: Pick) -> str:
         if pick.names.get(dim) in table:
             return str(table[pick.names[dim]].coordinate)
     return ""
-
-
-def own_channels_to_data(scene: Description) -> list[dict[str, Any]]:
-    """As plain data."""
-    return [{"name": one.name, "expression": one.expression} for one in scene.channels.values()]
-
-
-def own_channels_from_node(node: Node, scene: Description) -> None:
-    """Give a scene what `own_channels_to_data` wrote; raises FileFormatError."""
-    for entry in node.items():
-        entry.expect(("name", "expression"))
-        with entry.scene_errors():
-            add_channel(scene, entry.at("name").text(), expression=entry.at("expression").text())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 
@@ -87,10 +87,10 @@ class SeaProvenance:
     sea: Mapping[str, Any] | None = None
     realised_hs_of_systems: Mapping[str, float] | None = None
     seed: int | None = None
-    realised_hs: float | None = None
     wave_components: int | None = None
-    repeat_period_s: float | None = None
     repeat_found: int | None = None
+    realised_hs: float | None = None
+    repeat_period_s: float | None = None
     wave_energy_without_load: float | None = None
     load_variance_without_load: float | None = None
 
@@ -106,14 +106,5 @@ class SeaProvenance:
         return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
 
 
-NUMBER = (int, float)
-SEA_KINDS: Mapping[str, tuple[Any, str]] = {  # types of the values, and their names in messages
-    "spectrum": (str, "a text"),
-    **dict.fromkeys(("hs", "tp", "gamma", "wave_direction_deg"), (NUMBER, "a number")),
-    **dict.fromkeys(("spreading", "sea", "realised_hs_of_systems"), (Mapping, "an object")),
-    **dict.fromkeys(("seed", "wave_components", "repeat_found"), (int, "a whole number")),
-    **dict.fromkeys(("realised_hs", "repeat_period_s"), (NUMBER, "a number")),
-    **dict.fromkeys(("wave_energy_without_load", "load_variance_without_load"), (NUMBER, "a number")),
-}
-SEA_SETTINGS = tuple(SEA_KINDS)[:8]
-SEA_STATS = tuple(SEA_KINDS)[8:]
+SEA_NAMES = tuple(one.name for one in fields(SeaProvenance))
+SEA_SETTINGS, SEA_STATS = SEA_NAMES[:8], SEA_NAMES[8:]

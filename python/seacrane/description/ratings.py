@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 from seacrane.description.description import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of
-from seacrane.inputs.node import Node
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,17 +54,3 @@ def note_rating(scene: Description, rating: Rating | None) -> None:
     """Keep what a line breaks at, where it is known."""
     if rating is not None:
         scene.ratings[rating.name] = rating
-
-
-def ratings_to_data(scene: Description) -> list[dict[str, Any]]:
-    """As plain data."""
-    return [asdict(one) for one in scene.ratings.values()]
-
-
-def ratings_from_node(node: Node, scene: Description) -> None:
-    """Give a scene what `ratings_to_data` wrote; raises FileFormatError."""
-    for entry in node.items():
-        entry.expect(("name", "breaking_load", "safety_factor"))
-        with entry.scene_errors():
-            numbers = (entry.at(key).number_or_none() for key in ("breaking_load", "safety_factor"))
-            note_rating(scene, rating_of(entry.at("name").text(), *numbers))

@@ -1,14 +1,12 @@
-"""Relative motions of two named points: added, and as plain data for files."""
+"""Relative motions of two named points."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 from seacrane.description.description import GROUND, Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, text_of
-from seacrane.inputs.node import Node
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,18 +60,3 @@ def add_relative(scene: Description, name: str, *, point: str, to: str, axes: st
         "relative", scene.relatives, Relative(name=name, point=point, to=to, axes=axes)
     )
     return inserted
-
-
-def relatives_to_data(scene: Description) -> list[dict[str, Any]]:
-    """As plain data."""
-    return [asdict(one) for one in scene.relatives.values()]
-
-
-def relatives_from_node(node: Node, scene: Description) -> None:
-    """Give a scene what `relatives_to_data` wrote; raises FileFormatError."""
-    keys = ("name", "point", "to", "axes")
-    for entry in node.items():
-        entry.expect(keys)
-        with entry.scene_errors():
-            name, point, to, axes = (entry.at(key).text() for key in keys)
-            add_relative(scene, name, point=point, to=to, axes=axes)

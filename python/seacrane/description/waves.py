@@ -175,8 +175,26 @@ class Waves(_ReadOnly):
             raise SceneError(
                 f"waves: provenance is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
             )
+        self._require_shapes()
         object.__setattr__(self, "hulls", ReadOnly(hulls))
         self._close()
+
+    def _require_shapes(self) -> None:
+        """Each array as long as the sea has components."""
+        n = np.size(self.omega)
+        shapes: dict[str, tuple[Any, tuple[int, ...]]] = {
+            key: (getattr(self, key), (n,)) for key in ("omega", "amplitude", "phase", "direction")
+        }
+        for body, hull in self.hulls.items():
+            shapes |= {f"{key} of {body!r}": (getattr(hull, key), (n, 6)) for key in ("transfer", "drift")}
+            for key in ("force_by_heading", "drift_by_heading"):
+                if (table := getattr(hull, key)) is not None:
+                    shapes[f"{key} of {body!r}"] = table.values, (np.size(table.heading), n, 6)
+        for key, (values, shape) in shapes.items():
+            if values is not None and np.shape(values) != shape:
+                raise SceneError(
+                    f"waves: {key} has shape {np.shape(values)}; the sea has {n} components, give {shape}"
+                )
 
     def __repr__(self) -> str:
         on = ", ".join(map(repr, self.hulls)) or "no vessel"

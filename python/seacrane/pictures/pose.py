@@ -114,7 +114,7 @@ def _outlined(about: Mapping[str, Any]) -> list[Array]:
 def _hung(result: Result) -> list[tuple[str, str]]:
     """Bodies that carry a crane's tip, and what hangs there."""
     cranes = result.about.cranes
-    ends = [(crane["tip"]["body"], crane["payload"]) for crane in cranes if crane["tip"] and crane["payload"]]
+    ends = [(crane["tip"][0], crane["payload"]) for crane in cranes if crane["tip"] and crane["payload"]]
     return [(jib, payload) for jib, payload in ends if {jib, payload} <= set(result.coords["body"])]
 
 

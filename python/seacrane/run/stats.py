@@ -7,7 +7,6 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.description.description import Description
-from seacrane.description.file_origin import roles_to_data
 from seacrane.description.once import once
 from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
@@ -53,7 +52,7 @@ def about_of(scene: Scene) -> About:
     """What a result notes of a scene; of its settings nothing."""
     return About(
         limit_states=tuple(scene.limit_states.values()),
-        cranes=[roles_to_data(roles) for roles in scene.roles.values()],
+        cranes=plain_data("cranes", [*scene.roles.values()]),
         outline=outline_of(scene),
         bounds=bounds_of(scene),
         hung=hung_notes(scene),

@@ -126,7 +126,7 @@ def _opening(what: str, given: Any) -> Opening:
     try:
         return Opening(**given)
     except TypeError as error:
-        raise SceneError(f"{what}: opening: {str(error).partition('() ')[2] or error}") from None
+        raise SceneError(f"{what}: {error}") from None
 
 
 def _air(what: str, given: str | None, heights: list[float], top: float) -> str:

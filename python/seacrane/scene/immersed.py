@@ -117,7 +117,7 @@ def _part(what: str, given: Any) -> Part:
     try:
         return MAKERS[kind](**entries)
     except TypeError as error:
-        raise SceneError(f"{what}: {kind}: {str(error).partition('() ')[2] or error}") from None
+        raise SceneError(f"{what}: {error}") from None
 
 
 def _check_place(what: str, body: _core.Body, part: Part) -> None:
