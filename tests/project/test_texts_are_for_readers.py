@@ -13,8 +13,6 @@ KNOWN = {
     "hydro/readers/orcaflex_model.py:_document",
     "lift/build.py:refused_at",
     "run/advance.py:ended",
-    "scene/entrapped.py:_opening",
-    "scene/immersed.py:_part",
 }
 
 

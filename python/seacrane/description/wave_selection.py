@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,7 +51,7 @@ def without_negligible(waves: Waves) -> Waves:
 
 
 def kept_components(waves: Waves) -> NDArray[np.bool_]:
-    """Which components `without_negligible` keeps; all of them where arrays do not fit together."""
+    """Which components `without_negligible` keeps; all of them where one is not finite."""
     limit = number_of("negligible", waves.negligible)
     if not 0.0 <= limit <= 0.1:
         raise ValueError(f"negligible is {limit}; give a share from 0 to 0.1, such as 1e-9")
@@ -60,7 +59,7 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
     if waves.evaluation == "fft":
         return kept
     magnitudes = _magnitudes(waves)
-    if magnitudes is None or len(magnitudes) < 2 or not np.isfinite(magnitudes).all():
+    if len(magnitudes) < 2 or not np.isfinite(magnitudes).all():
         return kept
     whole = magnitudes.sum(axis=0)
     share = np.divide(magnitudes, whole, out=np.zeros_like(magnitudes), where=whole > 0.0)
@@ -70,17 +69,12 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
     return kept
 
 
-def _magnitudes(waves: Waves) -> Array | None:
-    """What each component adds at most, (n, channels); none where arrays do not fit together."""
-    n, hulls = np.size(waves.omega), waves.hulls.values()
-    tables = [np.asarray(table.values) for hull in hulls
-              for table in (hull.force_by_heading, hull.drift_by_heading) if table is not None]  # fmt: skip
-    rows: list[Any] = [waves.omega, waves.amplitude, waves.phase, waves.direction]
-    rows += [array for hull in hulls for array in (hull.transfer, hull.drift) if array is not None]
-    if any(np.shape(a)[:1] != (n,) for a in rows) or any(t.shape[1:2] != (n,) for t in tables):
-        return None
+def _magnitudes(waves: Waves) -> Array:
+    """What each component adds at most, (n, channels)."""
     amplitude = np.abs(np.asarray(waves.amplitude, dtype=float))[:, None]
-    return np.hstack([amplitude, *(part for hull in hulls for part in _loads(amplitude, hull))])
+    return np.hstack(
+        [amplitude, *(part for hull in waves.hulls.values() for part in _loads(amplitude, hull))]
+    )
 
 
 def _loads(amplitude: Array, hull: HullLoads) -> list[Array]:
