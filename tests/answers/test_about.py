@@ -10,7 +10,7 @@ import netCDF4
 import pytest
 
 from seacrane import FileFormatError, Result, Scene, simulate
-from seacrane.result.about import ABOUT, NAMES, About
+from seacrane.result.about import NAMES
 from seacrane.result.partial_file import Piece
 
 
@@ -40,11 +40,6 @@ def with_attributes(path: Path, attributes: dict[str, Any]) -> Path:
     return path
 
 
-def told(**parts: Any) -> dict[str, str]:
-    """An about with other parts."""
-    return {ABOUT: json.dumps(json.loads(About().to_attributes()[ABOUT]) | parts)}
-
-
 def test_what_is_structured_is_typed_kept_and_no_part_of_the_stats(result: Result, tmp_path: Path) -> None:
     assert not set(NAMES) & set(result.stats)
     assert result.settings["t_end"] == 0.5 and result.stages == ()
@@ -52,21 +47,6 @@ def test_what_is_structured_is_typed_kept_and_no_part_of_the_stats(result: Resul
     assert result.about.bounds[0]["kind"] == "range"
     again = Result.load(result.save(tmp_path / "run.nc"))
     assert again.about.to_attributes() == result.about.to_attributes()
-
-
-DAMAGED: dict[str, dict[str, Any]] = {
-    "no JSON": {ABOUT: "{"}, "no about": {ABOUT: None}, "no settings": {"settings": None},
-    "a missing part": {ABOUT: "{}"}, "another kind": told(outline=[5]),
-    "a limit state of numbers": told(limit_states=[1]), "an about without end": {ABOUT: "[" * 100_000},
-}  # fmt: skip
-
-
-def test_notes_that_no_run_writes_are_refused_by_name(result: Result, tmp_path: Path) -> None:
-    for case, attributes in DAMAGED.items():
-        path = with_attributes(result.save(tmp_path / "run.nc"), attributes)
-        with pytest.raises(FileFormatError, match=r"run\.nc.*notes"):
-            Result.load(path)
-            pytest.fail(case)
 
 
 def test_a_file_of_another_version_is_refused_with_both(result: Result, tmp_path: Path) -> None:

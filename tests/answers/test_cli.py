@@ -1,14 +1,12 @@
-"""The command line from end to end: real runs, files, one-line errors, exit codes, Ctrl-C."""
+"""The command line from end to end: real runs, files, one-line errors, exit codes."""
 
 from __future__ import annotations
 
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -227,28 +225,6 @@ def test_a_script_that_fails_is_named_with_its_line_and_may_import_its_neighbour
     script.write_text("from neighbour_of_pendulum import scene\n")
     before = list(sys.path)
     assert run_script(script).name == "pendulum" and sys.path == before
-
-
-def test_ctrl_c_leaves_what_was_computed(tmp_path: Path) -> None:
-    """A run too long to finish is interrupted once it has started; its file holds the outputs so far."""
-    command = [sys.executable, "-m", "seacrane", "run", "vessel", "--out", str(tmp_path), "--t-end", "1e7"]
-    process = subprocess.Popen(
-        [*command, "--dt-out", "1000", "--progress"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        text=True, env={**os.environ, "TQDM_MININTERVAL": "0.01"},
-    )  # fmt: skip
-    assert process.stderr is not None
-    try:
-        while "simulated" not in process.stderr.read(64):
-            assert process.poll() is None, "ended before it was interrupted"
-        time.sleep(1.0)
-        process.send_signal(signal.SIGINT)
-        output, _ = process.communicate(timeout=60)
-    finally:
-        process.kill()
-    assert process.returncode == 130, output
-    assert "interrupted: outputs end at" in output
-    result = Result.load(tmp_path / "vessel.nc")
-    assert result.interrupted and 0 < result.time[-1] < 1e7
 
 
 @pytest.mark.slow("many processes")

@@ -12,11 +12,10 @@ from test_result import BODIES, crane_result, crane_run, smooth_step, vessel_res
 from seacrane import cases, simulate
 from seacrane.hydro import motion_response, shipped_database
 from seacrane.hydro.database.figures import chosen_headings, save_hydro_figures
-from seacrane.pictures import Panel, PaperRuns, Sheet, paper_findings, save_paper_figures, save_sheet
+from seacrane.pictures import PaperRuns, paper_findings, save_paper_figures
 from seacrane.pictures.findings import amplitude_at, slew_stop
 from seacrane.pictures.paper_figures import crane_skeleton
 from seacrane.pictures.pose import complete_skeleton, posed_lines, wire_lines
-from seacrane.plotting.panel import Line, draw
 from seacrane.result import MOTIONS, Result
 
 
@@ -70,22 +69,6 @@ def test_the_cranes_lines_meet_at_its_joints() -> None:
         np.testing.assert_allclose(first, second, atol=1e-6)
     (wire,) = wire_lines(result, complete_skeleton(result, skeleton), -1)
     assert np.linalg.norm(wire[1] - wire[0]) == pytest.approx(8.0, abs=1e-6)
-
-
-def test_names_and_lines_are_drawn_as_they_are(tmp_path: Path) -> None:
-    """Dollars begin no formula."""
-    time, name = np.linspace(0, 1, 11), "$\\frac$ $"
-    lines = (Line(label=name, values=time**2), Line(label="_hidden", values=-time))
-    panel = Panel(quantity="heave", unit="m", lines=lines)
-    sheet = Sheet(title=name, caption="", abscissa=time, panels=(panel,))
-    (axes,) = draw(sheet).axes
-    for drawn_line, line in zip(axes.lines, lines, strict=True):
-        np.testing.assert_array_equal(drawn_line.get_ydata(), line.values)
-    texts = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert [text.replace(r"\$", "$").strip() for text in texts] == [name, "_hidden"]
-    names, numbers = read_csv(save_sheet(sheet, tmp_path, "square").image.with_suffix(".csv"))
-    assert names == ["time [s]", f"heave, {name} [m]", "heave, _hidden [m]"]
-    np.testing.assert_allclose(numbers[:, 1], time**2, rtol=1e-9)
 
 
 def test_the_findings_measure_what_the_runs_contain(runs: PaperRuns) -> None:

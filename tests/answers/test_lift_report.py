@@ -11,7 +11,7 @@ import pytest
 from test_report import Page
 from test_result import crane_run, vessel_result
 
-from seacrane import Frame, Result, Scene, Stage, cases, report, simulate, simulate_stages
+from seacrane import Frame, Result, Scene, Stage, cases, report, shipped_database, simulate, simulate_stages
 from seacrane.answers import Report
 from seacrane.answers.limits_section import judged_bounds
 from seacrane.answers.measures import statistics_of
@@ -111,7 +111,11 @@ def test_any_result_has_a_report() -> None:
 def test_names_are_escaped_everywhere() -> None:
     scene = swinging(wire=True, name=NASTY, body=NASTY)
     scene.notes["<b>note</b>"] = NASTY
-    page = report(simulate(scene, t_end=0.2), title=NASTY)
+    result = simulate(scene, t_end=0.2)
+    for shown in (scene, result, replace(shipped_database(), name=NASTY, source=NASTY)):
+        html = shown._repr_html_()
+        assert "<img src=x" not in html and "&lt;img src=x" in html
+    page = report(result, title=NASTY)
     assert "<img src=x" not in page.html and "<b>note" not in page.html
     read = Page(page.html)
     assert NASTY in read.text and all(one.startswith("data:") for one in read.sources)

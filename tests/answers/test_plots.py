@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.text import Text
-from test_result import crane_result, crane_run, vessel_result
+from test_result import crane_result, vessel_result
 
 from seacrane import cases, motion_rao, plot_overview, simulate
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.pictures import plot_reactions, plot_scene, plot_track
 from seacrane.pictures.plots import rao_sheet, spectrum_sheet
-from seacrane.result import Event, Result
+from seacrane.result import Result
 from seacrane.result.history import history_sheet
 from seacrane.result.traces import traces
 
@@ -41,17 +41,6 @@ def test_traces_have_names_and_units_that_people_read(lift: Result) -> None:
     figure = plot_overview(lift)
     assert [text.get_text() for text in figure.findobj(Text)].count(AXES_NOTE) == 1
     assert not hasattr(figure, "number"), "pyplot does not know it"
-
-
-def test_extremes_and_events_are_marked() -> None:
-    run = crane_run(t_end=20.0)
-    run["arrays"]["link_tension"][73] = 3e5
-    events = [Event(time=7.3, name="link", kind="contact"), Event(time=9.0, name="link", kind="release")]
-    (cell,) = Result.from_arrays(**run, events=events).plot("link_tension").axes
-    (peak,) = [line for line in cell.lines if line.get_marker() == "^"]
-    assert (float(peak.get_xdata()[0]), float(peak.get_ydata()[0])) == pytest.approx((7.3, 300.0))
-    dashed = [float(line.get_xdata()[0]) for line in cell.lines if line.get_linestyle() == "--"]
-    assert dashed == [7.3, 9.0]
 
 
 def test_a_spectrum_keeps_the_variance_and_finds_the_frequency() -> None:

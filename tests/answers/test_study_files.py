@@ -120,14 +120,6 @@ def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixt
     assert "heave-over-bodies.vessel.mass.png" in capsys.readouterr().out
 
 
-@pytest.mark.warns("FailedSeedsWarning")
-def test_a_study_of_failures_is_shown(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    study.write_text(STUDY.replace('body = "vessel"', 'body = "vassal"'))
-    assert main(command(study)) == 0
-    told = capsys.readouterr().out
-    assert "40 of 40 members run, 40 failed" in told and "vassal" in told
-
-
 def started(study: Path, packs: int, *options: str) -> subprocess.Popen[bytes]:
     """The study in a process of its own that has written so many packs."""
     child = subprocess.Popen(

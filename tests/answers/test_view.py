@@ -1,4 +1,4 @@
-"""`view`: the numbers of its pages are those of results and scenes, and what cannot be shown is refused."""
+"""`view`: the numbers of its pages are those of results and scenes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import json
 import pickle
 import re
 from dataclasses import astuple, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -205,18 +204,6 @@ def test_a_scene_alone_stands_at_its_assembled_start() -> None:
     assert start.scene is not None and "later" not in start.scene.bodies
 
 
-def test_a_page_is_saved_anew_and_replaces_no_other_file(tmp_path: Path) -> None:
-    shown, path = view(alone()), tmp_path / "lift.html"
-    path.write_text(shown.html.replace("lift", "earlier"), encoding="utf-8")
-    assert shown.save(path) == path and path.read_text(encoding="utf-8") == shown.html
-    path.write_text("mine")
-    with pytest.raises(FileExistsError, match="not of seacrane"):
-        shown.save(path)
-    assert path.read_text() == "mine"
-    shown.save(path, overwrite=True)
-    assert path.stat().st_size > 1e5 and [one.name for one in tmp_path.iterdir()] == ["lift.html"]
-
-
 def test_a_copy_of_a_result_needs_its_scene() -> None:
     result = alone()
     twin = pickle.loads(pickle.dumps(result))
@@ -225,18 +212,6 @@ def test_a_copy_of_a_result_needs_its_scene() -> None:
     for given, words in (({}, "scene=scene"), ({"scene": cases.case2()}, "not the one")):
         with pytest.raises(SceneError, match=words):
             view(twin, **given)
-
-
-def test_what_cannot_be_shown_is_refused() -> None:
-    few = simulate(cases.vessel(), 1.0, channels=["vessel_motion", "position"])
-    for what, given, words in (
-        (few, {}, "quaternion, velocity, angular_velocity"),
-        (alone(), {"hulls": {"crane": shipped_database}}, "'crane'.*'vessel'"),
-        (case2(), {"channels": ["vessel_motion[rol]"]}, "vessel_motion"),
-        (case2(), {"channels": ["position"]}, "30 lines"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=words):
-            view(what, **given)
 
 
 def test_an_interrupted_run_is_shown_as_far_as_it_is_finite() -> None:

@@ -11,7 +11,7 @@ import chromium
 import numpy as np
 import pytest
 import view_scenes
-from view_scenes import angle_between, case2, thrown
+from view_scenes import angle_between, case2
 
 from seacrane import view
 from seacrane.pictures import View
@@ -64,26 +64,3 @@ def test_the_page_moves_bodies_and_waves_as_the_run_did(tab: chromium.Tab, tmp_p
     for time, x, y in ((0.0, 0.0, 0.0), (31.7, 12.0, -40.0), (10000.3, -60.0, 5.0)):
         expected = float(waves.elevation(time, x=x, y=y))
         assert tab.value(f"seacrane.elevation({x}, {y}, {time})") == pytest.approx(expected, abs=1e-3)
-
-
-@pytest.mark.slow("opens a page")
-def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
-    opened(tab, view(thrown()), tmp_path)
-    for index, wires in ((5, ["link"]), (-5, [])):
-        tab.value(f"seacrane.seek({thrown().time[index]})")
-        assert tab.value("seacrane.slack()") == wires
-
-
-@pytest.mark.slow("opens a page")
-def test_the_page_lives_inside_another_one_as_in_a_notebook(tab: chromium.Tab, tmp_path: Path) -> None:
-    tab.errors.clear()
-    tab.requests.clear()
-    path = tmp_path / "notebook.html"
-    script = "<script>document.documentElement.dataset.ready = 'true'</script>"
-    path.write_text(f"<!DOCTYPE html><body>{view(case2())._repr_html_()}{script}</body>", encoding="utf-8")
-    tab.open(path.as_uri())
-    inside = "document.querySelector('iframe').contentDocument"
-    tab.wait_for(f"{inside}.documentElement.dataset.ready === 'true'")
-    tab.value("document.querySelector('iframe').contentWindow.seacrane.seek(12)")
-    assert tab.value(f"{inside}.getElementById('now').textContent") == "12.00 s" and tab.errors == []
-    assert set(tab.requests) <= {path.as_uri(), "about:srcdoc"}

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.transform import Rotation, Slerp
-from view_scenes import HTML_NAME, angle_between, case2, pair
+from view_scenes import angle_between, case2
 
-from seacrane import SceneError, cases, view
+from seacrane import cases, view
 from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.surfaces import surfaces_of
 
@@ -118,16 +117,3 @@ def test_triangles_face_outwards_and_enclose_their_shape() -> None:
                 length = float(np.linalg.norm(np.ptp(shape.points, axis=0)))
                 expected = length * 8.0 * np.sin(np.pi / 8.0) * shape.radius**2  # type: ignore[union-attr]
             assert np.sum(a * np.cross(b, c)) / 6.0 == pytest.approx(expected)
-
-
-def test_names_are_kept_and_a_model_of_another_program_too(tmp_path: Path) -> None:
-    path = view(pair()).save_gltf(tmp_path / "pair.glb")
-    assert HTML_NAME in Model(path).nodes
-    assert struct.unpack("<II", path.read_bytes()[4:12]) == (2, path.stat().st_size)
-    path.write_bytes(b"glTF of another program")
-    with pytest.raises(FileExistsError, match="not of seacrane"):
-        view(cases.vessel()).save_gltf(path)
-    view(cases.vessel()).save_gltf(path, overwrite=True)
-    with pytest.raises(SceneError, match=r"\.glb"):
-        view(cases.vessel()).save_gltf(tmp_path / "vessel.gltf")
-    assert [one.name for one in tmp_path.iterdir()] == ["pair.glb"]
