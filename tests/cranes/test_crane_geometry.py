@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -150,11 +149,3 @@ BAD = [
 def test_bad_data_names_item_and_fix(old: str, new: str, message: str) -> None:
     with pytest.raises(FileFormatError, match=f"^my_crane.toml: .*{message}"):
         parse(edit(old, new), source="my_crane.toml")
-
-
-def test_own_file_is_used(tmp_path: Path) -> None:
-    path = tmp_path / "crane.toml"
-    path.write_text(edit("height = 6.5", "height = 7.25"), encoding="utf-8")
-    tall, shipped = KnuckleBoomCrane.load(path), KnuckleBoomCrane.load()
-    rise = tall.geometry.tip(slew=0.0, s1=1.0, s2=1.0) - shipped.geometry.tip(slew=0.0, s1=1.0, s2=1.0)
-    np.testing.assert_allclose(rise, [0.0, 0.0, 0.75], atol=1e-12)
