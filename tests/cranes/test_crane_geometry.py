@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -137,7 +136,6 @@ def edit(old: str, new: str) -> str:
 
 
 BAD = [
-    ("height = 6.5", "height = 6.5\nhieght = 1.0", r"unknown key tower\.hieght"),
     ("mass = 80.0e3", "mass = 81.0e3", r"add up to 391000 kg"), ("schema = 1", "schema = 7", r"schema is 7"),
     ("wall = 0.03", "wall = 1.0", r"main_jib\.members\[0\] \(girder\)\.wall is 1 m"),
     ("inner_diameter = 4.4", "inner_diameter = 5.0", r"inner_diameter is 5 m, not below"),
@@ -150,11 +148,3 @@ BAD = [
 def test_bad_data_names_item_and_fix(old: str, new: str, message: str) -> None:
     with pytest.raises(FileFormatError, match=f"^my_crane.toml: .*{message}"):
         parse(edit(old, new), source="my_crane.toml")
-
-
-def test_own_file_is_used(tmp_path: Path) -> None:
-    path = tmp_path / "crane.toml"
-    path.write_text(edit("height = 6.5", "height = 7.25"), encoding="utf-8")
-    tall, shipped = KnuckleBoomCrane.load(path), KnuckleBoomCrane.load()
-    rise = tall.geometry.tip(slew=0.0, s1=1.0, s2=1.0) - shipped.geometry.tip(slew=0.0, s1=1.0, s2=1.0)
-    np.testing.assert_allclose(rise, [0.0, 0.0, 0.75], atol=1e-12)

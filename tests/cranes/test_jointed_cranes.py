@@ -110,17 +110,6 @@ def test_a_frame_cylinder_force_by_virtual_work(a_frame: JointedCrane) -> None:
         assert told == pytest.approx(work, rel=1e-6, abs=1.0)
 
 
-def test_loops_of_a_frame_close_and_keep_the_triangle(a_frame: JointedCrane) -> None:
-    """Law of cosines at the hinge: deck pivot, rod head and cylinder's length."""
-    a, b = math.hypot(5.0, 0.0), 5.2
-    for stroke in (-1.5, 0.0, 1.0, 2.5):
-        length = math.hypot(5.0, 5.2) + stroke
-        opening = math.acos((a**2 + b**2 - length**2) / (2.0 * a * b))
-        lean = opening - 0.5 * math.pi
-        tip = np.array([0.0, 0.0, 0.8]) + 12.0 * np.array([-math.sin(lean), 0.0, math.cos(lean)])
-        assert np.allclose(a_frame.tip(coordinates={"tilt": stroke}), tip, atol=1e-8)
-
-
 def test_statics_find_radii_by_luffing_and_a_heavier_boom(lattice: JointedCrane) -> None:
     scene = fixed(lattice, Payload(mass=20e3, size=(2.0, 2.0, 2.0)), boom=1.0)
     found = seacrane.statics(scene, radius=[20.0, 40.0], slew=[0.0, 0.3])

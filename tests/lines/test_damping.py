@@ -12,7 +12,7 @@ from line_scenes import STIFFNESS, hung
 from numpy.typing import NDArray
 from test_jacobian import largest_error, moving
 
-from seacrane import Curve, Scene, _core, cases, equilibrium, natural_modes, simulate
+from seacrane import Curve, Scene, _core, equilibrium, natural_modes, simulate
 from seacrane.analysis import Evaluator
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
@@ -163,17 +163,6 @@ def test_drag_of_an_oblique_wind_is_that_of_each_area() -> None:
     angle = np.radians(33.0)
     expected = 0.5 * 1.226 * 2.0 * 100.0 * np.array([6.0 * np.cos(angle), 20.0 * np.sin(angle), 0.0])
     assert found == pytest.approx(expected, abs=2e-5 * 0.5 * 1.226 * 2.0 * 100.0 * 20.0)
-
-
-def test_a_crane_without_damping_has_none_and_a_payload_of_each_has_its_own() -> None:
-    bare, damped = Scene(name="crane"), Scene(name="crane")
-    bare.add_crane(base="ground", payload=Payload(), damping=False)
-    damped.add_crane(base="ground", payload=Payload())
-    assert not bare.loads and list(damped.loads) == ["payload swing", "payload drag"]
-    damped.add_crane(base="ground", foot=(0.0, 30.0, 0.0), prefix="aft ", payload=Payload())
-    assert list(damped.loads)[2:] == ["aft payload swing", "aft payload drag"]
-    assert damped.loads["aft payload swing"].first == "aft knuckle_jib"
-    assert not any(case().loads for case in (cases.case1, cases.case2, cases.case3))
 
 
 def below_a_ship(order: int) -> Scene:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,10 +9,8 @@ import pytest
 from heavy_line_scenes import CATENARY_H, CATENARY_V, G, hanging, slung, string, weights_of_shape
 from numpy.typing import NDArray
 
-from seacrane import Result, Scene, SceneError, natural_modes, simulate
-from seacrane.analysis import fastest_mode
+from seacrane import Scene, SceneError, natural_modes, simulate
 from seacrane.result import heavy_line_tension
-from seacrane.warnings import LineLengthWarning
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
@@ -51,15 +48,6 @@ def test_the_first_transverse_period_of_a_taut_string_converges_with_second_orde
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([2.0, 2.0], abs=0.05)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-def test_a_plucked_string_moves_as_its_mode_and_turns_no_node(formulation: str) -> None:
-    result = simulate(string(8, amplitude=0.01), t_end=2.0, formulation=formulation, rtol=1e-9)
-    omega = 2.0 * np.sqrt(1e4 / 2.0) * 8 / 50.0 * np.sin(0.5 * np.pi / 8)
-    middle = result.select("position", body="line.4")[:, 2]
-    assert middle == pytest.approx(0.01 / omega * np.sin(omega * result.time), abs=2e-6)
-    assert np.abs(result["angular_velocity"]).max() < 1e-12
-
-
 def test_drag_slows_a_line_across_and_not_along() -> None:
     """A free fall in still air of a level line, and of an upright one."""
     for along, area in (((50.0, 0.0, 0.0), 0.1 * 50.0), ((0.0, 0.0, 50.0), 0.0)):
@@ -90,21 +78,6 @@ def test_as_its_mass_falls_it_becomes_the_elastic_line_in_first_order() -> None:
     elastic = path(0.0)
     errors = [np.abs(path(mass) - elastic).max() for mass in (1.6, 0.8, 0.4, 0.2)]
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([1.0] * 3, abs=0.03)
-
-
-def test_a_heavy_line_is_kept_in_files_and_told_once_by_its_whole_name(tmp_path: Path) -> None:
-    """Half its masses are carried by the ends; neighbours against each other are its fastest mode."""
-    scene = hanging(4, diameter=0.03)
-    assert scene.bodies["wire.last"].mass == pytest.approx(625.0)
-    total = sum(body.mass for name, body in scene.bodies.items() if name.startswith("wire"))
-    assert total == pytest.approx(5000.0 - 625.0)  # the other half is on the ground
-    bound = 2.0 * 16 / (50.0 / 1.01) * np.sqrt(1e6 / 2.02)
-    assert fastest_mode(string(16).compile()) == pytest.approx(bound * np.cos(0.5 * np.pi / 16), rel=0.02)
-    with pytest.warns(LineLengthWarning, match="line 'wire': starts stretched") as caught:
-        result = simulate(scene, t_end=0.1)
-    assert len(caught) == 1
-    again = Result.load(result.save(tmp_path / "one.nc"))
-    assert np.array_equal(heavy_line_tension(again, line="wire"), heavy_line_tension(result, line="wire"))
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import pytest
 from test_result import crane_run
 from test_summary import LENGTH, MASS, G, pendulum
 
-from seacrane import FileFormatError, Lift, Result, Scene, SceneError, simulate, simulate_to_file, summary
+from seacrane import Lift, Result, Scene, SceneError, simulate, simulate_to_file, summary
 from seacrane.result import About
 from seacrane.scene import LimitState
 
@@ -106,9 +106,3 @@ def test_what_states_no_limit_is_refused_before_the_run(given: dict[str, Any], w
     with pytest.raises(SceneError, match=words):
         scene.add_limit_state(**given)
         simulate(scene, t_end=1.0)
-
-
-def test_a_lift_gives_limits_with_their_unit() -> None:
-    roll = 'channel = "vessel_motion"\nnames = { motion = "roll" }\n'
-    with pytest.raises(FileFormatError, match=r"maximum_m: .* in rad"):
-        lift(roll + "maximum_m = 5")

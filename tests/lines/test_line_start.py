@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import warnings
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 from line_scenes import MASS, G, below, hung
 
-from seacrane import Scene, SceneError, Stage, equilibrium, simulate, simulate_stages
+from seacrane import Scene, SceneError, equilibrium, simulate
 from seacrane.warnings import LiftedStartWarning
 
 
@@ -31,19 +30,6 @@ def test_a_start_that_lifts_far_more_than_the_weight_is_told() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error", LiftedStartWarning)
         simulate(hung(stretch=0.15), 0.05, dt_out=0.05, start=rest)
-
-
-def test_a_stage_that_connects_a_line_too_short_is_told() -> None:
-    for length, words in ((0.71, "stage 'hook on': line 'tag' connects stretched.*by 0.29"), (1.0, "")):
-        scene = hung()
-        path = {"bodies": ["ground", "load"], "points": [(1.0, 0, -10.0), (0, 0, 0)]}
-        scene.add_line(name="tag", EA=1e6, length=length, **path)
-        stages = [Stage(name="wait", duration=0.1), Stage(name="hook on", duration=0.1, connect=["tag"])]
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            simulate_stages(scene, stages)
-        found = [str(one.message) for one in caught if "connects" in str(one.message)]
-        assert len(found) == bool(words) and all(re.search(words, one) for one in found)
 
 
 DRUM: dict[str, float] = {"lag": 0.1, "drum_inertia": 500.0, "drum_radius": 0.5}
@@ -71,18 +57,6 @@ def test_a_winch_that_holds_too_little_or_reached_its_bound_is_told(winch: Any, 
     found = [one for one in told(on_drum(**winch), 0.5) if one.startswith("WinchLimitWarning")]
     assert any(f"line 'hoist': {words}" in one or f"its winch {words}" in one for one in found) == bool(words)
     assert bool(found) == bool(words)
-
-
-def test_lines_that_pull_down_lift_nothing_and_what_is_seated_counts() -> None:
-    scene, deck = hung(stretch=2.0 * MASS * G / 3e6), Scene(name="deck")
-    below_it = {"bodies": ["load", "ground"], "points": [(0, 0, 0), (0, 0, -30.0)]}
-    scene.add_line(name="stay", EA=1e7, tension_at_start=MASS * G, **below_it)
-    assert not any("LiftedStartWarning" in one for one in told(scene))
-    deck.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
-    deck.add_joint(kind="weld", name="deck", first="ground", second="load")
-    deck.add_seat(joint="deck")
-    deck.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=9.9)
-    assert any("LiftedStartWarning" in one and "2.58 times its weight" in one for one in told(deck))
 
 
 DROP, SOFT = 30.0, 1e7  # m, N: the load stretches the line by 1.96 %
@@ -159,11 +133,3 @@ def test_what_a_rung_does_not_take_is_refused_by_name(given: dict[str, Any], mes
     with pytest.raises(SceneError, match=f"line 'hoist': .*{message}"):
         scene.add_line(**words)
     assert not scene.loads and list(scene.bodies) == ["load"]
-
-
-def test_a_winch_on_a_segment_of_a_line_with_mass_is_refused() -> None:
-    scene = below((0.0, 0.0, -100.0))
-    scene.add_line(**BETWEEN, rung="with mass", EA=1e8, length=100.0, mass_per_length=12.0, segments=4)
-    scene.replace("hoist.1", kind="load", winch=True)
-    with pytest.raises(SceneError, match=r"'hoist\.1': is a segment of line 'hoist'"):
-        scene.compile()

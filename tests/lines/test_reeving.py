@@ -177,13 +177,3 @@ def test_what_makes_no_path_is_told(change: dict[str, Any], message: str) -> Non
     scene.replace("hoist", **change)
     with pytest.raises(SceneError, match=f"line 'hoist': .*{message}"):
         scene.compile()
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [({"points": [(1, 0, 0)]}, "1 points"), ({"EA": (1e6, 1e6, 1e6)}, "EA are 3 numbers")],
-)
-def test_what_makes_no_bridle_is_told(given: dict[str, Any], message: str) -> None:
-    slings: dict[str, Any] = {"EA": 1e6, "points": [(1, 0, 0), (0, 1, 0)]} | given
-    with pytest.raises(SceneError, match=f"bridle 'legs': .*{message}"):
-        capstan().add_bridle(name="legs", hook="ground", load="load", **slings)

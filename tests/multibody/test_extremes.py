@@ -13,7 +13,7 @@ from seacrane import Method
 from seacrane.accuracy.quantities import ErrorMeasures
 from seacrane.trading import row as rows
 from seacrane.trading.row import Row
-from stability_atlas import committed, stability_atlas, workers
+from stability_atlas import committed, stability_atlas
 from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES
 from stability_atlas.methods import DEFAULT, QUICK
@@ -85,11 +85,3 @@ def test_a_broken_promise_is_told(row: Row, words: str) -> None:
     assert committed.broken([GOOD, STOPPED, replace(GOOD, **known(0.9, 0.8))], list(AXES)) == []
     (text,) = committed.broken([row], list(AXES))
     assert words in text
-
-
-def test_a_scene_that_cannot_be_made_is_a_row_of_its_own() -> None:
-    groups = [workers.Group(axis=axis, value=-1.0, methods=(DEFAULT,), limit_s=1.0)
-              for axis in ("wave-period", "no such axis")]  # fmt: skip
-    refused, unnamed = list(workers.run_all(groups, 1))
-    assert refused.verdict == rows.REFUSED and "tp is -1" in refused.message
-    assert unnamed.verdict == rows.UNNAMED and "KeyError" in unnamed.message

@@ -12,9 +12,8 @@ from integrator_table import integrator_table
 from kink_scenes import sprung
 from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
 from test_integrator_orders import payload_error, run
-from trade_scenes import pendulum
 
-from seacrane import Run, Scene, SceneError, SimulationError, _core, cases, simulate
+from seacrane import Run, Scene, SceneError, _core, cases, simulate
 from seacrane.analysis import Evaluator
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
@@ -47,15 +46,6 @@ def test_errors_of_ida_on_a_turning_body_fall_with_the_tolerance() -> None:
         assert np.abs(result["energy_balance"]).max() < 1e3 * rtol
     assert errors[0] < 5e-3 and errors[1] < 1e-4 and errors[2] < 1e-6
     assert max(steps) < 10_000
-
-
-def test_ida_where_its_steps_stay_at_order_1_and_fail_for_ever() -> None:
-    with pytest.raises(SimulationError, match=r"stay at order 1 and keep failing") as caught:
-        simulate(pendulum(), 100.0, integrator="ida", rtol=1e-8)
-    reached = caught.value.result
-    assert reached is not None and 1.0 < reached.time[-1] < 100.0
-    right = simulate(pendulum(), float(reached.time[-1]), integrator="dop853", rtol=1e-12)
-    np.testing.assert_allclose(reached["position"], right["position"][: len(reached.time)], atol=1e-3)
 
 
 @pytest.mark.parametrize("integrator, method", [("bs32", RK23), ("dopri5", RK45), ("dop853", DOP853)])

@@ -214,12 +214,3 @@ def test_a_run_goes_on_bit_for_bit_about_a_located_bound(name: str, until: float
     met = [event.time for event in whole.events()]
     assert met == pytest.approx([when], rel=1e-3)
     assert sorted({*met} - {event.time for event in rest.events()}) == [t for t in met if t <= until]
-
-
-@pytest.mark.filterwarnings("ignore")
-def test_a_command_that_jumps_beyond_a_bound_is_told_as_it_jumps() -> None:
-    jump = Curve.constant(value=-0.1).then(time=0.5, curve=Curve.constant(value=-0.6))
-    scene = hoisted(rate=jump, lag=0.1, minimum=5.0)
-    scene.replace("hoist", maximum_rate=0.4)
-    result = simulate(scene, 1.0, dt_out=0.1)
-    assert [(event.name, event.time) for event in result.events] == [("hoist.maximum_rate", 0.5)]

@@ -10,7 +10,7 @@ import pytest
 from multibody_runs import Array, quaternion_about, record
 from named import on_joint
 
-from seacrane import SampledController, Scene, SceneError, simulate
+from seacrane import SampledController, Scene, simulate
 
 MASS, INERTIA = 2.0, (0.3, 0.4, 0.5)
 
@@ -182,10 +182,3 @@ def test_sampled_controller_at_20_hz_equals_its_difference_equation() -> None:
     np.testing.assert_allclose(result.channels["coordinate"][:, 0], expected, atol=1e-10)
     np.testing.assert_allclose([x for _, x in calls], expected[:40], atol=1e-10)
     assert abs(expected[-1] - 1.0) < 0.1
-
-
-def test_controller_mistakes_name_what_is_wrong() -> None:
-    for given, words in (({"engine.force": 1.0}, "'engine.force'"), ({"motor.force": np.nan}, "finite")):
-        controller = SampledController(period=0.1, function=lambda *_, given=given: given)
-        with pytest.raises(SceneError, match=words):
-            simulate(cart(), t_end=1.0, controllers=[controller])

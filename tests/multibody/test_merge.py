@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from element_runs import goes_on
 from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SeacraneError, _core, cases, shipped_database, simulate
@@ -174,23 +173,6 @@ def test_what_stays_apart() -> None:
         assert (merge["bodies"], merge["dropped"], merge["locked_by"]) == ({}, [], [])
 
 
-# Without projection a scene of its own is compiled, with Baumgarte's terms.
-@pytest.mark.parametrize("integrator", [m.name for m in _core.integrators() if m.projects])
-def test_merging_costs_no_integrator_evaluations(integrator: str) -> None:
-    """A Jacobian lost on the way to the merged bodies costs several times as many."""
-    counts = []
-    for merge in (True, False):
-        scene = arm(Curve.constant(value=0.3))
-        scene.add_actuator(name="spring", joint="pin", stiffness=5.0, damping=0.1)
-        run = Run(
-            scene, t_end=1.0, model=scene.compile(merge=merge), integrator=integrator,
-            formulation="redundant", rtol=1e-4,
-        )  # fmt: skip
-        run.advance(1.0)
-        counts.append(run.core.statistics()["evaluations"])
-    assert counts[0] < 1.2 * counts[1]
-
-
 def test_inputs_and_restarts_reach_the_merged_bodies() -> None:
     scene = with_loads(askew())
     ends = []
@@ -316,8 +298,3 @@ def test_a_state_that_closes_in_the_other_way_is_refused_by_name() -> None:
     with pytest.raises(SeacraneError, match=r"body '(coupler|rocker)' is .* m from where it is held"):
         simulate(scene, 1.0, start=start)
     Run(scene, t_end=0.1, model=scene.compile(merge=False), start=start).advance(0.1)
-
-
-@pytest.mark.warns("BallastWarning")
-def test_a_restart_of_a_held_crane_keeps_its_bits() -> None:
-    goes_on(lift, 6.0, 3.0, dt_out=0.5)

@@ -28,14 +28,6 @@ def test_a_stability_polynomial_is_the_exponential_up_to_its_order(name: str) ->
         assert coefficients[order + 1] != pytest.approx(exact[-1], rel=1e-3)
 
 
-def test_known_intervals_of_stability() -> None:
-    """Real axis: 2.785 for order 4 in four stages, 3.307 for dopri5 [Hairer, Wanner II, IV.2]."""
-    for name, limit in (("rk4", 2.7853), ("bs32", 2.5127), ("dopri5", 3.3066)):
-        polynomial = Polynomial(_core.stability_polynomial(name))
-        assert abs(polynomial(-limit * 0.999)) < 1.0 < abs(polynomial(-limit * 1.001))
-    assert _core.stability_polynomial("cvode-bdf") == []
-
-
 @pytest.mark.parametrize("name", ["semi-implicit-euler", "rk4", "rk-low-storage", "bs32", "tsit5", "dop853"])
 def test_the_longest_stable_step_of_an_oscillator(name: str) -> None:
     scene = sprung(20.0, 0.2)

@@ -47,13 +47,6 @@ def prism(section: ArrayLike, length: float) -> Array:
     return hull_of(np.concatenate(ends))
 
 
-def circle(radius: float, corners: int = 24) -> Array:
-    """A regular polygon (n, 2) of the area of a circle, with a side below."""
-    angle = 2.0 * np.pi * (np.arange(corners) + 0.5) / corners
-    area = 0.5 * corners * np.sin(2.0 * np.pi / corners)
-    return np.asarray(radius * np.sqrt(np.pi / area) * np.stack([np.sin(angle), -np.cos(angle)], axis=1))
-
-
 def wedge(deadrise_deg: float, height: float) -> Array:
     """A section (3, 2), its edge below."""
     half = height / np.tan(np.radians(deadrise_deg))

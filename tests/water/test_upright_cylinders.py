@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
-from seacrane import Scene, SceneError, simulate
+from seacrane import Scene, simulate
 from seacrane.water import CylinderPart, circle_added_mass
 
 Array = NDArray[np.float64]
@@ -77,12 +77,6 @@ def test_ends_are_told_apart_and_the_whole_may_be_turned_over(ends: tuple[str, s
     assert added(pile(30.0, ends=ends[::-1], axes=over, **tube)) == pytest.approx(one, rel=1e-12, abs=1e-9)
     ring = np.pi / 8.0 * 0.5**2 * np.pi * 7.5
     assert one[2, 2] == pytest.approx({"closed": DISC, "open": ring, "joined": 0.0}[ends[0]], rel=1e-6)
-    for given, message in (
-        ({"flooded": True}, "thickness of its wall"),
-        ({"ends": ("open",) * 2}, "its wall"),
-    ):
-        with pytest.raises(SceneError, match=message):
-            CylinderPart(length=LENGTH, diameter=D, **given)
 
 
 def test_a_flooded_tube_carries_its_water_across_always_and_along_where_an_end_is_shut() -> None:

@@ -227,15 +227,3 @@ def test_what_came_out_and_was_struck_again_is_run_again_with_elastic_lines() ->
         run = simulate(scene, 12.0, dt_out=0.1)
     assert run.stats["line_rungs"].startswith("w: elastic: a first run was not")
     assert run["position"][:, 0, 2].max() > 0.1, "it was out"
-
-
-def test_the_seabed_of_a_chain_counts_too() -> None:
-    scene = Scene(name="chain", gravity=G)
-    scene.add_body("buoy", mass=1e4, inertia=(1e4,) * 3)
-    line: dict[str, Any] = {"EA": 1e7, "length": 45.0, "mass_per_length": 40.0, "segments": 4}
-    line["seabed"] = {"depth": 14.0, "stiffness": 1e5, "friction": 0.0}
-    ends: dict[str, Any] = {"first": "ground", "first_point": (40.0, 0.0, -14.0), "second": "buoy"}
-    scene.add_line("chain", rung="with mass", **ends, **line)
-    scene.add_sea(vessel=None, hs=1.5, tp=8.0)
-    with pytest.raises(SceneError, match=r"seabed of 'chain.*14 m"):
-        scene.compile()
