@@ -203,7 +203,7 @@ CASES ?= 1000000
 fuzz: build .venv/.installed-dev
 	$(BIN)/python .ci/requirements.py fuzz > .venv/requirements-fuzz.txt
 	$(INSTALL) -r .venv/requirements-fuzz.txt
-	$(BIN)/python tests/fuzz/run.py --cases $(CASES) $(FUZZ_ARGS)
+	$(BIN)/python tools/fuzzing/run.py --cases $(CASES) $(FUZZ_ARGS)
 
 # Notebooks are kept as text; what opens in JupyterLab are copies, made again where the text has changed.
 .venv/.installed-notebooks: .venv/.installed-run

@@ -1,1 +1,1 @@
-"""Hostile input: fuzz targets, mutators, driver and corpus; see docs/contributing.md."""
+"""Hostile input: fuzz targets, mutators and corpus; driven by tools/fuzzing, see docs/contributing.md."""

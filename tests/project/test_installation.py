@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -11,13 +10,10 @@ import pytest
 
 from seacrane.cli import doctor_command
 from seacrane.cli.command_line import main
-from seacrane.cli.doctor_command import chosen_packages
 from seacrane.inputs import sole_writer
 from seacrane.result.partial_file import PartialFile
 from seacrane.run.lanes import lanes_of
 
-LINES = ["numpy>=2.9", "scipy >=1.10", 'tomli>=2; python_version < "3.11"', 'pytest>=7; extra == "dev"',
-         'capytaine>=3.0; extra == "hydro"', "PyYAML; extra == 'orcaflex'"]  # fmt: skip
 WITHOUT_POSIX = """
 import sys, types
 locked = {}
@@ -85,26 +81,6 @@ def test_a_file_has_one_writer(open_files_go: bool, tmp_path: Path, monkeypatch:
     two.claim()
     two.release(remove=True)
     assert not list(tmp_path.iterdir())
-
-
-def test_a_system_that_cannot_lock_counts_as_free(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sole_writer, "_module", lambda name: None)
-    number = sole_writer.opened(tmp_path / "file")
-    try:
-        assert sole_writer.claim(number) and sole_writer.write_at(number, b"abc", 2) == 3
-    finally:
-        os.close(number)
-    assert (tmp_path / "file").read_bytes() == b"\0\0abc"
-
-
-def test_requirements_become_packages() -> None:
-    """Versions are compared as numbers."""
-    installed = {"numpy": "2.10.0rc1", "scipy": "1.9.3"}
-    found = chosen_packages(LINES, lambda name: installed.get(name, ""))
-    assert [(one.name, one.extra, one.good) for one in found] == [
-        ("numpy", "", True), ("scipy", "", False), ("capytaine", "hydro", False),
-        ("PyYAML", "orcaflex", False),
-    ]  # fmt: skip
 
 
 def test_the_doctor_finds_all_that_is_needed_or_names_it(

@@ -115,7 +115,7 @@ def test_the_corpus_reaches_the_readers_lines() -> None:
     """At least 90 % of the lines of every reader; prints the table."""
     pytest.importorskip("coverage", reason="needs the package 'coverage'")
     pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
-    script = Path(__file__).parents[1] / "fuzz" / "line_coverage.py"
+    script = Path(__file__).parents[2] / "tools" / "fuzzing" / "line_coverage.py"
     done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=False)
     print(done.stdout)
     assert done.returncode == 0, done.stdout + done.stderr[-2000:]

@@ -234,10 +234,3 @@ def test_memory_of_a_scene_file(entry: str, tmp_path: Path) -> None:
         except FileFormatError as error:
             assert "would take" in str(error)
             assert entry != "0"
-
-
-def test_a_number_of_many_digits_in_a_hydrostatics_file(tmp_path: Path) -> None:
-    """Its pattern tried every way to part the digits."""
-    target = placed("veres-hyd", tmp_path)
-    text = (CORPUS / "veres" / "box.hyd").read_text().replace("60.000", "6" * 200_000 + "x")
-    assert target.run(text.encode(), tmp_path) == "refused"

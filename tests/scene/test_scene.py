@@ -247,15 +247,6 @@ def test_counts_and_elements_of_case_2() -> None:
     assert {f"{part} [ns]" for part in parts} <= set(cost) and min(cost.values()) > 0.0
 
 
-def test_euler_angles_and_kinks() -> None:
-    size = section(pendulum(orientation="euler_xyz"), "size")
-    assert size["pose states"] == 6 and size["states"] == 6 + 6 + 2
-    scene = pendulum()
-    jump = Curve.constant(value=0.0).then(time=3.0, curve=Curve.constant(value=1.0))
-    scene.add_actuator("pin", stiffness=1.0, reference=jump)
-    assert section(scene, "size")["times where a curve has a kink"] == 1
-
-
 def test_assembly_tells_what_it_moved() -> None:
     exact = section(pendulum(), "assembly")
     assert exact["constraint residual as described [m or rad]"] == 0.0

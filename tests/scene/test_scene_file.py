@@ -219,16 +219,6 @@ def test_numbers_and_keys_that_are_none(tmp_path: Path, text: str) -> None:
     refused(tmp_path, text.replace(key, key + key), "'version' occurs twice")
 
 
-def test_a_file_larger_than_the_bound_is_not_parsed(tmp_path: Path, text: str,
-                                                    monkeypatch: pytest.MonkeyPatch) -> None:  # fmt: skip
-    for place in ("file", "file_text"):
-        monkeypatch.setattr(f"seacrane.description.{place}.LARGEST_FILE", len(text) - 1)
-    refused(tmp_path, text, "larger than")
-    with pytest.raises(SceneError, match="above"):
-        every_kind().save(tmp_path / "other.json")
-    assert not (tmp_path / "other.json").exists()
-
-
 OTHERS: dict[str, tuple[bytes, str]] = {
     "crane.toml": (b"name = 'crane'\n", "TOML, as of a crane"), "lift.py": (b"import a\n", "a Python script"),
     "run.nc": (b"\x89HDF\r\n\x1a\n", "a NetCDF file"), "run.state": (b"seacrane state\n{}", "a state"),

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Curve, Scene, cases
+from seacrane import Curve, Scene
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -70,17 +70,6 @@ def reeved() -> Scene:
     tugger = Curve.harmonic(start_time=0.0, offset=7.2, amplitude=0.1, omega=3.0)
     scene.add_line(name="tugger", bodies=["ground", "load"], points=[(10.0, 3.0, -5.0), (0.5, 0, 0)], EA=2e4,
                    length=tugger)  # fmt: skip
-    return scene
-
-
-def case2_on_a_line(rung: str, stiffness: float) -> Scene:
-    """Case 2 with a line of EA (N) in the place of its link, as long under the payload's weight."""
-    scene = cases.case2()
-    link = scene.joints["link"]
-    points = [link.first_frame.point, link.second_frame.point]
-    scene.remove("link")
-    scene.add_line(name="link", bodies=[link.first, link.second], points=points, EA=stiffness,
-                   length=8.0 / (1.0 + 1e4 * G / stiffness), rung=rung)  # fmt: skip
     return scene
 
 

@@ -1,4 +1,4 @@
-"""Writes sound files of our own formats into the corpus, once one has changed: python tests/fuzz/seeds.py.
+"""Writes sound files of our own formats into the corpus, once one has changed: python tools/fuzzing/seeds.py.
 
 Other programs' files stay as they were committed, as do those that HDF5 allows and no writer of NetCDF makes.
 """
@@ -14,15 +14,15 @@ from typing import Any
 
 import numpy as np
 
-sys.path.extend(map(str, Path(__file__).resolve().parents[1].glob("*/")))
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.extend(map(str, (Path(__file__).resolve().parents[2] / "tests").glob("*/")))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
+from fuzz.netcdf_spec import spec_of
+from fuzz.targets import CORPUS
 from lift_examples import EVERY_TABLE
 from test_elements import every_load
 from test_scene_file import every_kind
 
-from fuzz.netcdf_spec import spec_of
-from fuzz.targets import CORPUS
 from seacrane import Result, Scene, cases, shipped_database, simulate
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description.file import described

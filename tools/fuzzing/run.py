@@ -1,8 +1,8 @@
-"""Coverage-guided fuzzing of the readers with atheris: python tests/fuzz/run.py [TARGET ...] --cases N.
+"""Coverage-guided fuzzing of the readers with atheris: python tools/fuzzing/run.py [TARGET ...] --cases N.
 
 Each target runs in processes of its own, in slices; counts, unsound cases and the corpus that grew are kept
 in the folder --out, and a later call goes on from there. Unsound is what raises more than a refusal by name,
-takes more than limits.py allows, returns a number that is not finite, or ends the process.
+takes more than tests/fuzz/limits.py allows, returns a number that is not finite, or ends the process.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ import traceback
 from pathlib import Path
 from typing import Any
 
-sys.path.extend(map(str, Path(__file__).resolve().parents[1].glob("*/")))
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.extend(map(str, (Path(__file__).resolve().parents[2] / "tests").glob("*/")))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
 from fuzz.limits import Hang
 
