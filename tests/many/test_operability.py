@@ -61,6 +61,16 @@ def test_hs_is_what_the_linear_statistics_say() -> None:
     assert down == pytest.approx(up, rel=0.01)  # the ship trims under the load: rest is not quite the weight
 
 
+def test_a_turned_ship_in_turned_seas_is_the_same() -> None:
+    def found(turned: float) -> Any:
+        scene = sc.Scene()
+        scene.add_vessel(sc.shipped_database(), heading_deg=turned)
+        scene.add_sea(hs=1.0, tp=9.0, direction_deg=135.0 + turned, seed=1)
+        return by_frequency(scene, [PITCH], direction_deg=135.0 + turned).dataset["by_criterion"].item()
+
+    assert found(70.0) == pytest.approx(found(0.0), rel=1e-6)
+
+
 def test_every_channel_of_the_linear_model_is_that_of_a_run() -> None:
     """From the same state in small waves: forces, velocities, angles. What differs is of second order."""
     criteria = (

@@ -82,6 +82,10 @@ def test_default_coordinates_and_names() -> None:
     assert scene.add_actuator("sleeve").coordinate == "displacement"
     scene.record_coordinate(joint="sleeve", coordinate="angle", name="turn")
     assert scene.recorded == {"turn": ("sleeve", "angle")}
+    crane = Scene()
+    crane.add_crane(base="ground", held=False)
+    assert crane.add_actuator("main").name == "main"  # as the crane calls its cylinder
+    assert crane.add_driver("knuckle", curve=0.0).name == "knuckle_cylinder.displacement"
 
 
 def test_inputs_hold_until_they_are_set_again() -> None:

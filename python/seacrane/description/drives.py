@@ -18,7 +18,8 @@ def add_driver(
 ) -> _core.Driver:
     """Prescribe a joint coordinate (m or rad) as a function of time; a number holds it there.
 
-    `joint` may be what a crane calls its drive, such as "slew" or "main".
+    `joint` may be what a crane calls its drive, such as "slew" or "main"; the default name is that of the
+    joint itself and of its coordinate, such as "main_cylinder.displacement".
     `coordinate`: "angle" of revolute, "displacement" of prismatic and cylindrical joints (their default),
     "x y z roll pitch yaw" of a free joint.
     """
@@ -46,7 +47,7 @@ def add_actuator(
     Load along q on both bodies: feed_forward + stiffness (reference - q) + damping (reference' - q'), N
     with N/m and N s/m, or N m with N m/rad and N m s/rad. `feed_forward` and `reference` are numbers or
     curves of time. Inputs "<name>.force" and "<name>.reference" add to them during a run. `joint` may be what
-    a crane calls its drive, such as "slew" or "main".
+    a crane calls its drive, such as "slew" or "main"; as it is given, it is the default name.
     """
     name = name_of("actuator", name, joint)
     joint, coordinate = _place(scene, "actuator", joint, coordinate)
