@@ -16,13 +16,12 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.operability import WaveHindcast
 from seacrane.sea import MeasuredWaves
 from seacrane.series.headings import heading_of, unit_of_words
-from seacrane.statistics import MeasuredSeries, interpolated, record_extremes
+from seacrane.statistics import MeasuredSeries, interpolated
 from seacrane.warnings import (
     ClockDriftWarning,
     FilledGapWarning,
     NoisyMotionWarning,
     OutlierWarning,
-    PoorFitWarning,
 )
 
 TIME = np.arange(0.0, 120.0, 0.1)
@@ -276,13 +275,3 @@ def test_masked_values_are_refused_and_may_be_interpolated() -> None:
     with pytest.raises(SceneError, match="masked values"):
         MeasuredSeries(time=time, columns={"wave": masked}, units={"wave": "m"})
     assert np.abs(interpolated(time, masked) - wave).max() < 0.02
-
-
-def test_too_few_extremes_are_told() -> None:
-    draw, tension = np.random.default_rng(3), np.zeros(21_600)
-    tension[draw.integers(0, tension.size, 12)] = 8e5
-    with pytest.raises(SceneError, match="too few for a largest value"):
-        record_extremes(tension, interval=0.5)
-    tension[draw.integers(0, tension.size, 60)] = 8e5
-    with pytest.warns(PoorFitWarning, match="too few for peaks over a threshold"):
-        record_extremes(tension, interval=0.5)
