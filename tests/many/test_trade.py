@@ -1,4 +1,4 @@
-"""trade(): its reference, rows, front, choice and file; less physics, and lines on other rungs."""
+"""trade(): its rows, front, choice and file; less physics, and lines on other rungs."""
 
 from __future__ import annotations
 
@@ -47,18 +47,6 @@ def measured(case2: sc.Scene, folder: Path) -> Trade:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Spending, "spend", a_run_each)
         return sc.trade(case2, t_end=T_END, budget=BUDGET, progress=False, out=folder)
-
-
-@pytest.mark.slow("a trade study")
-def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade) -> None:
-    names = ["payload_position", "tip_velocity", "roll", "cylinder_force", "hook_load"]
-    assert list(measured.quantities) == names
-    assert 0.0 < measured.reference.uncertainty["payload_position"] < 1e-10
-    assert len(measured.reference.runs) == 2
-    rows = [r for r in measured.rows if r.method.integrator == "verner76" and r.case == measured.full_case]
-    errors = {row.method.rtol: row.error("payload_position") for row in rows}
-    assert len(errors) >= 2
-    assert [errors[rtol] for rtol in sorted(errors)] == sorted(errors.values())
 
 
 def test_a_row_holds_what_its_settings_give(case2: sc.Scene, measured: Trade) -> None:
