@@ -45,17 +45,6 @@ def test_energy_is_kept_and_phases_of_radiated_waves_give_the_reflection(flume: 
     assert np.diag(found.damping) == pytest.approx(radiated, rel=0.01)
 
 
-def test_a_wall_in_shallow_water_is_pushed_more_than_in_deep(flume: Any) -> None:
-    k = importlib.import_module("panels_in_flume").wavenumber_of(4.1, flume.DEPTH, flume.G)
-    assert flume.G * k * np.tanh(k * flume.DEPTH) == pytest.approx(4.1**2, rel=1e-12)
-    wall = flume.SectionInFlume(
-        omega=4.1, wavenumber=float(k), added_mass=np.zeros((3, 3)), damping=np.zeros((3, 3)),
-        force=np.zeros(3), reflected=1.0, transmitted=0.0, radiated=np.zeros(3),
-    )  # fmt: skip
-    half = 0.5 * flume.RHO * flume.G * flume.LENGTH
-    assert flume.drift_of(wall) / half == pytest.approx(1.19, abs=0.005)
-
-
 def test_the_committed_database_is_what_the_script_computes(flume: Any) -> None:
     database = HydroDatabase.load(flume.PLACE)
     at = int(np.argmin(np.abs(database.omega - 7.004)))

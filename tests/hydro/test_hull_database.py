@@ -92,18 +92,6 @@ def test_port_starboard_symmetry_and_missing_surge() -> None:
 SMALL: dict[str, Any] = {"center_of_gravity": [0.0, 0.0, -1.0], "omega": [0.5, 1.0], "heading": [0.0, 1.5]}
 
 
-def test_bad_values_are_refused() -> None:
-    table: list[tuple[dict[str, Any], str]] = [
-        ({"method": "magic"}, "strip or capytaine"), ({"speed": 3.0}, "zero speed"),
-        ({"center_of_gravity": [0.0, 0.5, 0.0]}, "y = 0.5"), ({"rho": np.nan}, "rho is nan"),
-        ({"center_of_gravity": [0.0, 0.0, 9.0]}, "capsizes"), ({"heading": [-0.5, 0.0]}, "2 pi"),
-        ({"roll_damping_fraction": 0.05, "omega": [2.0, 3.0]}, "roll natural frequency"),
-    ]  # fmt: skip
-    for options, message in table:
-        with pytest.raises(ValueError, match=message):
-            hydro_from_hull(barge(), **(SMALL | options))
-
-
 def test_hulls_that_would_not_float_as_drawn_or_have_a_bulb_warn() -> None:
     with pytest.warns(FloatingPositionWarning, match=r"\+20\.0 %"):
         hydro_from_hull(barge(), mass=1.2 * RHO * 1600.0, **SMALL)

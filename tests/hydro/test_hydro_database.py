@@ -36,7 +36,6 @@ from seacrane.warnings import (
     InfiniteFrequencyWarning,
     MemoryMismatchWarning,
     NonPassiveMemoryWarning,
-    RollDampingWarning,
     WaterMismatchWarning,
 )
 
@@ -190,16 +189,6 @@ def test_ranges_cross_zero_and_memory_stays_with_all_its_frequencies() -> None:
     assert base.select(omega=[20]).trusted_band == base.trusted_band
 
 
-def test_a_choice_that_makes_no_sense() -> None:
-    table: list[tuple[dict[str, Any], str]] = [
-        ({"omega": (5.0, 6.0)}, "leaves nothing"), ({"omega": [0.5, 1.5]}, "neither a range"),
-        ({"omega": [1, 1]}, "twice"), ({"omega": (2.6, 3.0)}, "trusted band 0.3 to 2.5"),
-    ]  # fmt: skip
-    for choice, message in table:
-        with pytest.raises(ValueError, match=message):
-            shipped_database().select(**choice)
-
-
 @contextmanager
 def silence() -> Iterator[None]:
     with warnings.catch_warnings():
@@ -344,14 +333,6 @@ def test_a_memory_that_feeds_the_motions_is_named() -> None:
     for model, message in ((forced, "of the largest at"), (changed(1.0, -1.0), "free vessel grow with")):
         with pytest.warns(NonPassiveMemoryWarning, match=message):
             vessel_parameters(base, memory=model)
-
-
-def test_roll_damping_taken_where_there_is_no_resonance() -> None:
-    roll = dataclasses.replace(ROLL, linear=np.linspace(1e6, 9e6, 61))
-    stiff = shipped_database().restoring.copy()
-    stiff[3, 3] *= 1e3
-    with pytest.warns(RollDampingWarning, match="resonance lies outside 0.1 to 3.1 rad/s"):
-        vessel_parameters(hull(roll_damping=roll, restoring=stiff, memory=shipped_database().memory))
 
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.MemoryFitWarning")

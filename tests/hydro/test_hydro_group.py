@@ -320,16 +320,10 @@ def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
     folder = nemoh_folder(pair, wamit_files(pair, tmp_path))
     with pytest.raises(FileFormatError, match="motion 7 is not one of 1 to 6"):
         read_wamit(folder / "pair")
-    for name, old, new, message, read in (
-        ("pair.1", " 12 ", " 13 ", "motion 13 .* 1 to 12", read_wamit_group),
-        ("Nemoh.cal", "2 ! Number", "3 ! Number", "3 bodies .* 12", read_nemoh_group),
-        ("Nemoh.cal", "38.0", "39.0", "body 2 turn about 2", read_nemoh_group),
-    ):
-        sound = (folder / name).read_text()
-        (folder / name).write_text(sound.replace(old, new, 1))
-        with pytest.raises(FileFormatError, match=message):
-            read(folder, mass_matrices=masses(pair))
-        (folder / name).write_text(sound)
+    control = folder / "Nemoh.cal"
+    control.write_text(control.read_text().replace("38.0", "39.0", 1))
+    with pytest.raises(FileFormatError, match="body 2 turn about 2"):
+        read_nemoh_group(folder, mass_matrices=masses(pair))
     path = bemio_file(pair, tmp_path)
     with pytest.raises(FileFormatError, match=r"mass_matrices .* crane, barge"):
         read_bemio_group(path, mass_matrices={"crane": np.eye(6), "barge": np.eye(6)})

@@ -152,13 +152,3 @@ def test_it_is_the_gap_with_that_damping() -> None:
         peaks.append(found.damping[:, HEAVE, HEAVE].max())
     assert peaks[0] > 1.3 * peaks[1] > 1.5 * peaks[2]
     assert np.linalg.eigvalsh(found.damping[:, MOVING][:, :, MOVING])[:, 0].min() > -1e-3 * peaks[0]
-
-
-def test_what_cannot_have_a_lid_is_told() -> None:
-    bare = with_gap(LIGHT)
-    for group, message in (
-        (replace(bare, lid_damping=0.02), "damping 0.02 already"),
-        (group_in(known_water(0.3)), "no narrow peak"),
-    ):
-        with pytest.raises(ValueError, match=message):
-            group.with_lid_damping(0.02)

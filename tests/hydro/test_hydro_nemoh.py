@@ -181,14 +181,3 @@ def test_what_was_written_for_bemio_comes_back(along: float, tmp_path: Path) -> 
     found = read_bemio(written(values, path), mass_matrix=mass)
     assert np.abs(found.mass_matrix - base.mass_matrix).max() <= 1e-9 * np.abs(base.mass_matrix).max()
     assert found.depth == 40.0
-
-
-def test_damage_of_bemio_is_named(tmp_path: Path) -> None:
-    base, path, of = shipped_part(), tmp_path / "ship.h5", "simulation_parameters"
-    sound = bemio_values(base)
-    for name, value, message in (
-        (f"{of}/scaled", 1.0, "scaled is set"), (f"{of}/water_depth", b"deep", "b'deep'"),
-        ("body2/properties/dof", 6, "body1, body2; one body"), (f"{of}/w", np.ones(3), r"shape \(6, 6, "),
-    ):  # fmt: skip
-        with pytest.raises(FileFormatError, match=rf"ship\.h5: .*{message}"):
-            read_bemio(written(sound | {name: value}, path), mass_matrix=base.mass_matrix)

@@ -240,15 +240,3 @@ def test_bow_and_stern_alike(hull: HydroDatabase, tmp_path: Path) -> None:
             other = np.conj([rao.get_value(omega, degrees) for rao in data._force]) * 1e3
             ours = found.force_at(omega, np.radians(degrees))
             assert ours == pytest.approx(other, rel=1e-6, abs=1e-3), (degrees, k)
-
-
-def test_altered_dhyd(hull: HydroDatabase, tmp_path: Path) -> None:
-    for group, name, value, message in (
-        ("damping", "omega", 9.0, "different frequencies"), ("Yaw", "wave_direction", 7.0, "yaw and surge"),
-        ("mass", "radiating_dof", 3, "radiating_dof"),
-    ):  # fmt: skip
-        path = dhyd(hull, tmp_path)
-        with netCDF4.Dataset(path, "a") as file:
-            file[group][name][0] = value
-        with pytest.raises(FileFormatError, match=r"ship\.dhyd: .*" + message):
-            read_dhyd(path, hull)

@@ -141,16 +141,6 @@ def test_drift_against_the_reference_values(database: HydroDatabase, expected: d
     assert np.array_equal(drift.omega, database.omega) and np.array_equal(drift.heading, database.heading)
 
 
-def test_one_stem_of_a_folder_and_suffixes_in_capitals(copy: Path) -> None:
-    for file in list(copy.iterdir()):
-        file.rename(file.with_suffix(file.suffix.upper()))
-    assert len(load_database(copy / "input").omega) == 36
-    for suffix in (".RE7", ".RE8"):
-        shutil.copyfile(copy / f"input{suffix}", copy / f"other{suffix}")
-    with pytest.raises(FileFormatError, match="input, other"):
-        load_database(copy)
-
-
 def test_wave_forces_follow_from_motions_and_what_is_missing_is_told(
     copy: Path, database: HydroDatabase
 ) -> None:

@@ -201,18 +201,12 @@ def changed(**changes: Any) -> dict[str, Any]:
     return document
 
 
-def not_finite() -> dict[str, Any]:
-    data = bytearray(base64.b64decode(gltf_of_box()["buffers"][0]["uri"].partition(",")[2]))
-    data[0:4] = struct.pack("<f", np.nan)
-    return changed(buffers__0__uri="data:;base64," + base64.b64encode(data).decode())
-
-
 BEYOND = "beyond the 168 bytes of its buffer"
 HOSTILE: list[tuple[Any, str]] = [
     (changed(asset={"version": "1.0"}), "no glTF 2.0"), ("[" * 100_000, "is no glTF"),
     (changed(extensionsRequired=["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression"),
     (changed(accessors__0__componentType=5120), "plain VEC3"), (changed(accessors__0__count=9), BEYOND),
-    (changed(buffers__0__uri="/etc/passwd"), "buffer in another file"), (not_finite(), "not finite"),
+    (changed(buffers__0__uri="/etc/passwd"), "buffer in another file"),
     (changed(bufferViews__1__byteOffset=-8), BEYOND), (changed(bufferViews__0__byteStride=1), BEYOND),
     (changed(accessors__1__count=35), "no triangles"), (changed(nodes__0__children=[0]), "64 deep"),
     (changed(meshes__0__primitives__0__mode=5), "strip"), (changed(nodes__0__mesh=-1), "no meshes"),

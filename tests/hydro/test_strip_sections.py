@@ -319,12 +319,3 @@ def test_sections_answer_at_the_encounter_frequency() -> None:
         heave = (found["force"] - found["froude_krylov"])[0, 0, 2]
         loads.append(heave / (along + u / (1j * encounter) * end))
     assert loads[1] == pytest.approx(-np.conj(loads[0]), rel=1e-9)
-
-
-def test_bad_stations() -> None:
-    for change, message in (
-        ({"x": [0.0, 0.0, 1.0]}, r"x\[1\] is 0"), ({"sections": [BOX, -BOX, BOX]}, "section 1 at x = 1 m"),
-        ({"speed": 9.81, "omega": [1.0], "heading": [0.0]}, "keeps up with the wave of 1"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=f"strip theory: .*{message}"):
-            strips(**({"x": [0.0, 1.0, 2.0], "sections": [BOX] * 3} | change))

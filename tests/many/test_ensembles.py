@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
-import subprocess
-import sys
-import time
 import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
@@ -134,35 +130,6 @@ def test_a_killed_worker_loses_only_what_was_in_flight(tmp_path: Path, monkeypat
         resumed = ensemble(dies_once, executor=executor, **given)
     assert all(path.stat().st_mtime_ns == kept for path, kept in before.items())
     assert resumed.dataset.identical(ensemble(dies_once, over=over, keep=KEEP, **SWING).dataset)
-
-
-INTERRUPTED = """
-import sys
-from concurrent.futures import ThreadPoolExecutor
-from ensemble_studies import KEEP, pendulum
-from seacrane import ensemble
-with ThreadPoolExecutor(2) as pool:
-    ensemble(pendulum, over={"start": [1.0 + 0.01 * k for k in range(4000)]}, keep=KEEP,
-             t_end=200.0, rtol=1e-9, executor=pool if sys.argv[2] == "threads" else None, store=sys.argv[1])
-"""
-
-
-@pytest.mark.parametrize(
-    "where", ["serial", pytest.param("threads", marks=pytest.mark.slow("a process and its threads"))]
-)
-def test_ctrl_c_keeps_what_came_back(where: str, tmp_path: Path) -> None:
-    store = tmp_path / "store"
-    child = subprocess.Popen([sys.executable, "-c", INTERRUPTED, str(store), where], stderr=subprocess.PIPE)
-    until = time.monotonic() + 60.0
-    while len(list(store.glob("pack_*.nc"))) < 3 and time.monotonic() < until:
-        time.sleep(0.01)
-    child.send_signal(signal.SIGINT)
-    _, told = child.communicate(timeout=60)
-    assert b"KeyboardInterrupt" in told
-    left = Ensemble.load(store)
-    done = left.dataset.failure.to_numpy() == ""
-    assert 3 <= done.sum() < 4000
-    assert np.isfinite(left.dataset.lowest.to_numpy()[done]).all()
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -158,16 +157,6 @@ def test_a_scene_is_compiled_once_for_all_its_seas(monkeypatch: Any) -> None:
     heavier = with_sea(with_values(scene, {path: masses[1]}), {"seed": 2})
     alone = simulate(heavier, **given, channels=["position"]).select("position", body="vessel")
     assert np.array_equal(there.dataset.track.sel({path: masses[1], "seed": 2}), alone)
-
-
-def test_a_run_in_no_sea_or_a_sea_on_others_is_refused() -> None:
-    scene = cases.vessel(database=DATABASE)
-    waves, run, calm = scene.waves, Run(scene, 1.0), Run(cases.vessel(database=DATABASE, hs=0.0), 1.0)
-    scene.use_actual_position()
-    for one, sea, words in ((calm, waves, "no sea"), (run, replace(waves, hulls={}), "other vessels"),
-                            (run, scene.waves, "another kind of position")):  # fmt: skip
-        with pytest.raises(SceneError, match=words):
-            one.in_sea(sea)
 
 
 @pytest.mark.parametrize(("count", "heading"), [(1, 0.0), (7, 0.3), (311, -2.5)])

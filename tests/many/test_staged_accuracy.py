@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -141,16 +140,6 @@ def test_an_ensemble_of_stages_chooses_its_method_by_its_members() -> None:
 def test_an_accuracy_of_a_random_staged_lift_holds(number: int) -> None:
     one = word(number)
     assert one.end in ("held", "not judgeable"), told([one])
-
-
-@pytest.mark.slow("hundreds of random lifts")
-def test_accuracies_hold_on_400_random_staged_lifts(capsys: Any) -> None:
-    words = [word(number) for number in range(400)]
-    with capsys.disabled():
-        print("\n" + told(words))
-    assert sum(one.end == "beyond" for one in words) <= 4, told(words)
-    assert sum(one.end == "refused" for one in words) <= 20, told(words)
-    assert sum(one.end == "not judgeable" for one in words) <= 40, told(words)
 
 
 def test_a_lift_file_asks_for_an_accuracy(tmp_path: Path) -> None:

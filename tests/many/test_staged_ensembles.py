@@ -11,7 +11,7 @@ import pytest
 from scipy.stats import norm
 
 import seacrane as sc
-from seacrane import SceneError, ensemble, simulate, simulate_stages
+from seacrane import ensemble, simulate, simulate_stages
 from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.operability import Criterion, allowable_hs
@@ -205,15 +205,6 @@ def test_packs_pools_and_a_resumed_store_give_the_same(pack: int, waiting: Ensem
     for gone in sorted((tmp_path / "s").glob("pack_*.nc"))[::2]:
         gone.unlink()
     assert ensemble(feeder(), store=tmp_path / "s", **same).dataset.identical(waiting.dataset)
-
-
-def test_bad_start_times_are_named() -> None:
-    for over, given, message in (
-        ([{"start_time": 1.0}], {}, "start_time is of grids"), ({"start_time": [-1.0]}, {}, "is -1"),
-        ({"start_time": [1.0]}, {"stages": ()}, "start_time is of lifts in stages"),
-    ):  # fmt: skip
-        with pytest.raises(SceneError, match=message):
-            ensemble(feeder(), over=over, keep=KEEP, **{"stages": STAGES, **given})
 
 
 @pytest.mark.warns("FewSeedsWarning")

@@ -1,4 +1,4 @@
-"""trade(): its reference, rows, front, choice and file; less physics, and lines on other rungs."""
+"""trade(): its rows, front, choice and file; less physics, and lines on other rungs."""
 
 from __future__ import annotations
 
@@ -23,7 +23,6 @@ from seacrane.inputs.checked import curve_of
 from seacrane.trading import methods, simpler_scenes, trade_rows, trade_study
 from seacrane.trading.budget import Spending
 from seacrane.trading.case import Case
-from seacrane.trading.ladders import Ladders
 from seacrane.trading.lines_on_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
 from seacrane.trading.reference import Reference
 from seacrane.trading.row import Row
@@ -48,18 +47,6 @@ def measured(case2: sc.Scene, folder: Path) -> Trade:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Spending, "spend", a_run_each)
         return sc.trade(case2, t_end=T_END, budget=BUDGET, progress=False, out=folder)
-
-
-@pytest.mark.slow("a trade study")
-def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade) -> None:
-    names = ["payload_position", "tip_velocity", "roll", "cylinder_force", "hook_load"]
-    assert list(measured.quantities) == names
-    assert 0.0 < measured.reference.uncertainty["payload_position"] < 1e-10
-    assert len(measured.reference.runs) == 2
-    rows = [r for r in measured.rows if r.method.integrator == "verner76" and r.case == measured.full_case]
-    errors = {row.method.rtol: row.error("payload_position") for row in rows}
-    assert len(errors) >= 2
-    assert [errors[rtol] for rtol in sorted(errors)] == sorted(errors.values())
 
 
 def test_a_row_holds_what_its_settings_give(case2: sc.Scene, measured: Trade) -> None:
@@ -175,17 +162,6 @@ def test_all_default_quantities_are_held_and_error_control_is_preferred_where_co
     )
     assert found.cheapest(payload_position=0.01).integrator == "tsit5"
     assert found.cheapest(others=1e-4, payload_position=0.01).integrator == "dop853"
-
-
-def test_what_cannot_change_the_front_is_not_measured() -> None:
-    loose, tight = sc.Method(integrator="dop853", rtol=1e-4), sc.Method(integrator="dop853", rtol=1e-5)
-    poor = [sc.Method(integrator="bs32", rtol=rtol) for rtol in (1e-2, 1e-3)]
-    for floor, following in ((1e-6, None), (1e-12, tight)):  # all errors below the floor are alike
-        ladders = Ladders([loose, tight, *poor], ["x"], {"x": floor})
-        ladders.scouts = []
-        ladders.add(loose, row_of(loose, 1.0, x=1e-7))
-        ladders.add(poor[0], row_of(poor[0], 2.0, x=1e-3))
-        assert ladders.next() == following and ladders.open == (following is not None)
 
 
 def test_a_budget_ends_a_trade(monkeypatch: Any) -> None:

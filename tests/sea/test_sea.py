@@ -116,13 +116,3 @@ def test_exact_load_against_numpy() -> None:
     assert np.all(table.error_bound <= 1e-7 * load.magnitude() * (1.0 + 1e-12))
     assert np.all(error <= table.error_bound + 1e-13 * load.magnitude())
     assert np.all(error >= 0.01 * table.error_bound)
-
-
-def test_arrays_that_do_not_fit_are_refused() -> None:
-    waves = _core.WaveComponents(omega=[0.5, 0.6], amplitude=1.0)
-    undefined = [[0.0] * 6, [0.0, 0.0, np.nan, 0.0, 0.0, 0.0]]
-    for transfer, message in ((undefined, r"transfer\(1, 2\)"), (np.zeros((3, 6)), r"transfer is \(3, 6\)")):
-        with pytest.raises(ValueError, match=message):
-            _core.ExactWaveLoad(waves, transfer=transfer)
-    with pytest.raises(ValueError, match="amplitude is 2"):
-        _core.WaveComponents(omega=[0.5, 0.6, 0.7], amplitude=[1.0, 1.0])

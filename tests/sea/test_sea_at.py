@@ -139,14 +139,6 @@ def test_files_keep_current_and_stretching(tmp_path: Path) -> None:
     assert waves.current == current and waves.stretching == "none"
 
 
-def test_a_second_vessel_shares_the_current() -> None:
-    scene = ship_in_a_sea(current=Current(speed=0.4, direction_deg=0.0))
-    scene.add_vessel(shipped_database(), name="barge", position=(0.0, 60.0, 0.0))
-    with pytest.raises(SceneError, match="one current"):
-        scene.add_sea(vessel="barge", current=Current(speed=0.5, direction_deg=0.0))
-    assert scene.add_sea(vessel="barge").current == Current(speed=0.4, direction_deg=0.0)
-
-
 def test_another_sea_for_a_compiled_model_is_another_field() -> None:
     scenes = [ship_in_a_sea(seed=seed) for seed in (3, 7)]
     for scene in scenes:
