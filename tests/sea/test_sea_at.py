@@ -194,3 +194,11 @@ def test_a_current_along_the_waves_is_named_from_a_tenth_on(
         warnings.simplefilter("always")
         simulate(scene, t_end=1.0)
     assert [one.category for one in seen].count(CurrentInWavesWarning) == told
+
+
+def test_a_second_vessel_shares_the_current() -> None:
+    scene = ship_in_a_sea(current=Current(speed=0.4, direction_deg=0.0))
+    scene.add_vessel(shipped_database(), name="barge", position=(0.0, 60.0, 0.0))
+    with pytest.raises(SceneError, match="one current"):
+        scene.add_sea(vessel="barge", current=Current(speed=0.5, direction_deg=0.0))
+    assert scene.add_sea(vessel="barge").current == Current(speed=0.4, direction_deg=0.0)
