@@ -20,7 +20,7 @@ from seacrane.analysis import response_summed
 from seacrane.analysis.rest_state import held
 from seacrane.operability import AllowableHs, AlphaFactor
 from seacrane.operability.allowable import steady_start
-from seacrane.operability.allowable_table import over_circle
+from seacrane.operability.allowable_table import breaking_height, over_circle
 from seacrane.operability.levels import gaussian_level, reached, record_numbers, seeds_level
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.time_domain import first_crossing
@@ -69,6 +69,12 @@ def test_a_turned_ship_in_turned_seas_is_the_same() -> None:
         return by_frequency(scene, [PITCH], direction_deg=135.0 + turned).dataset["by_criterion"].item()
 
     assert found(70.0) == pytest.approx(found(0.0), rel=1e-6)
+
+
+@pytest.mark.parametrize(("tp", "steepness"), [(6.0, 1.0 / 15.0), (11.5, 4.0 / 75.0), (15.0, 1.0 / 25.0)])
+def test_waves_break_at_the_steepness_of_dnv_rp_c205(tp: float, steepness: float) -> None:
+    assert breaking_height(tp) == pytest.approx(steepness * 9.80665 * tp**2 / (2.0 * np.pi))
+    assert jonswap(hs=breaking_height(tp), tp=tp).steepness() == pytest.approx(steepness)
 
 
 def test_every_channel_of_the_linear_model_is_that_of_a_run() -> None:
