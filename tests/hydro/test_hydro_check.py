@@ -27,6 +27,7 @@ from seacrane.hydro.data.relations import (
     infinite_added_mass_from_damping,
     retardation_from_damping,
 )
+from seacrane.hydro.database.figures import added_mass_sheet, retardation_sheet
 from seacrane.hydro.readers.band_of_data import first_rough_value
 from seacrane.warnings import DampingWarning, RoughDataWarning
 
@@ -225,3 +226,18 @@ def test_retardation_of_the_memory_is_its_impulse_response() -> None:
         expected = 2.0 / np.pi * np.trapezoid(waves, omega, axis=1)
         found = memory.impulse_response(time)[:, j, k]
         assert found == pytest.approx(expected, abs=1e-3 * np.abs(memory.impulse_response([0.0])[0, j, k]))
+
+
+def test_fits_in_the_figures_are_those_of_the_memory() -> None:
+    database = shipped_database()
+    memory = database.memory
+    drawn = [added_mass_sheet(database, memory), retardation_sheet(database, memory)]
+    a35, k33 = (
+        {line.label: line.values for panel in sheet.panels if panel.quantity == name for line in panel.lines}
+        for sheet, name in zip(drawn, ("A35", "K33"), strict=True)
+    )
+    assert np.array_equal(a35["database"], database.added_mass[:, 2, 4])
+    assert a35["memory model"] == pytest.approx(memory.frequency_response(database.omega)[0][:, 2, 4])
+    assert np.all(a35["model, infinite frequency"] == memory.added_mass[2, 4])
+    data, model = k33.values()
+    assert np.sqrt(np.mean((data - model) ** 2) / np.mean(data**2)) < 0.06

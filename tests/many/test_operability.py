@@ -121,6 +121,16 @@ def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs) -> No
     assert cell["allowable_hs"] == pytest.approx(float(linear["allowable_hs"]), rel=0.1)
 
 
+def test_what_is_drawn_is_the_table(tested: AllowableHs, slack: AllowableHs) -> None:
+    axes = sc.pictures.plot_allowable_hs(tested).axes[0]
+    values = tested.dataset["allowable_hs"].to_numpy().ravel()
+    told = sorted(float(text.get_text().split()[0].lstrip(">")) for text in axes.texts)
+    assert told == pytest.approx(sorted(values), abs=0.06)
+    assert len(sc.pictures.plot_allowable_hs(slack, forecast=True).axes[0].patches) == 1  # a frame: by runs
+    rosette = sc.pictures.plot_allowable_hs(tested, kind="rosette").axes[0]
+    assert [len(line.get_xdata()) for line in rosette.lines] == [2, 2]
+
+
 def test_runs_begin_without_the_transient_of_a_soft_mooring() -> None:
     """From rest a beam sea sets off a sway of minutes, and first waves count as motion."""
     sway = sc.Criterion(channel="vessel_motion", names={"motion": "sway"}, maximum=0.5, motion=True,

@@ -45,8 +45,8 @@ def driven_by(element: str, curve: Curve) -> Scene:
     scene.add_body("rod", mass=1.0, inertia=(0.1,) * 3, position=(0, 0, -0.8))
     scene.add_joint("pin", kind="revolute", first="cart", second="rod", point=(0, 0, 0), axis=(0, 1, 0))
     if element in ("feed-forward", "force table", "wind"):
-        scene.add_spring("hold", first="ground", second="cart", first_point=(-20, 0, 0), stiffness=6.0,
-                         damping=1.0, natural_length=20.0)  # fmt: skip
+        scene.add_spring("hold", first="ground", second="cart", first_point=(-500, 0, 0), stiffness=6.0,
+                         damping=1.0, natural_length=500.0)  # fmt: skip
     if element == "feed-forward":
         scene.add_actuator("rail", name="drive", feed_forward=curve)
     elif element == "reference":

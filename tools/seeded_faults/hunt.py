@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +12,7 @@ from pathlib import Path
 from seeded_faults.fault import Fault
 from seeded_faults.reached import commands, tests_of
 
-PYTEST = ".venv/bin/python -m pytest -q -x -p no:cacheprovider -n 2 --dist loadfile --no-header"
+PYTEST = ".venv/bin/python -m pytest -q -x -p no:cacheprovider -n 2 --dist loadfile --no-header --hypothesis-seed=1"
 FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
 PROGRAM = re.compile(r"^\s*\d+ - (\S+) \(", re.MULTILINE)
 LONGEST = 3600.0  # s: a test that does not end has found it too
@@ -52,6 +53,9 @@ class Hunt:
         file = self.tree / fault.file
         self._sound = file.read_text(encoding="utf-8")
         file.write_text(fault.seeded(self._sound), encoding="utf-8")
+        shutil.rmtree(
+            self.tree / ".hypothesis", ignore_errors=True
+        )  # what another fault made fail is no news
         try:
             for who, command in self._ways(fault, first, by_night=by_night):
                 if not self._succeeds(command):
