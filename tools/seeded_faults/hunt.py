@@ -12,7 +12,8 @@ from pathlib import Path
 from seeded_faults.fault import Fault
 from seeded_faults.reached import commands, tests_of
 
-PYTEST = ".venv/bin/python -m pytest -q -x -p no:cacheprovider -n 2 --dist loadfile --no-header --hypothesis-seed=1"
+ALIKE = "-p no:cacheprovider --no-header --hypothesis-seed=1"
+PYTEST = f".venv/bin/python -m pytest -qx -n 2 --dist loadfile {ALIKE}"
 FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
 PROGRAM = re.compile(r"^\s*\d+ - (\S+) \(", re.MULTILINE)
 LONGEST = 3600.0  # s: a test that does not end has found it too
@@ -41,7 +42,7 @@ class Hunt:
         ):  # fmt: skip
             self._require(command)
         self._lines = home / "reached"
-        for command in commands(PYTEST.replace(" -x ", " "), self._lines):
+        for command in commands(PYTEST.replace(" -qx ", " -q "), self._lines):
             self._require(command)
 
     def finder(self, fault: Fault, *, first: str = "", by_night: bool = False) -> tuple[str, str]:
