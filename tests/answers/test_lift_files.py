@@ -266,8 +266,7 @@ CALLS = {
 } | {name: f"add_{name}" for name in TABLES if hasattr(Scene, f"add_{name}")}  # fmt: skip
 # A C function is no data, kinds of loads have tables of their own, a group of hulls is read in a script; the
 # others are keys of [sea].
-LEFT_OUT = {"add_function_force", "add_load", "add_vessels", "add_drift", "use_actual_position",
-            "use_slow_position"}  # fmt: skip
+LEFT_OUT = {"add_function_force", "add_load", "add_vessels"}
 
 
 def test_every_call_that_adds_has_its_table_and_every_keyword_its_key() -> None:

@@ -79,11 +79,11 @@ def on_oil() -> sc.Scene:
     return scene
 
 
-def drifting(*, drift: bool = True) -> sc.Scene:
+def drifting(*, drift: bool = True, phase: Any = "mean") -> sc.Scene:
     """A ship whose database knows its drift."""
     scene = sc.Scene(name="drifting")
     scene.add_vessel(drifting_hull())
-    scene.add_sea(hs=2.0, tp=8.0, direction_deg=180.0, count=20, drift=drift)
+    scene.add_sea(hs=2.0, tp=8.0, direction_deg=180.0, count=20, drift=drift, phase=phase)
     return scene
 
 
@@ -181,8 +181,7 @@ def test_oil_that_holds_is_as_good_as_a_driver() -> None:
 
 
 def test_fewer_waves_keep_their_loads_over_the_heading_and_drift_is_left_out_or_missed() -> None:
-    scene = drifting()
-    scene.use_actual_position()
+    scene = drifting(phase="actual")
     few, all_of_them = needs.strongest(scene.waves, 5), needs.strongest(scene.waves, 20)
     kept = np.isin(scene.waves.omega, few.omega)
     assert kept.sum() == 5

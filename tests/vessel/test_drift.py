@@ -97,8 +97,7 @@ def moored(database: HydroDatabase | None = None, **sea_options: Any) -> Scene:
 
 def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -> None:
     for direction_deg in (135.0, 225.0, -10.0):
-        scene = moored(direction_deg=direction_deg)
-        scene.add_drift()
+        scene = moored(direction_deg=direction_deg, drift=True)
         expected = np.array([ship(w, np.radians(direction_deg)) for w in scene.waves.omega])
         scale = np.abs(expected).max(axis=0) + 1e-9
         # Cubic in frequency exactly; a sine over 15 deg to 4e-4 by splines.
@@ -107,8 +106,7 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
 
 @pytest.mark.warns("MeanHeadingWarning")
 def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp_path: Path) -> None:
-    scene = moored()
-    scene.add_drift()
+    scene = moored(drift=True)
     result = simulate(scene, t_end=100.0, dt_out=0.5, rtol=1e-8)
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
     waves, drift = scene.waves, scene.waves.hull().drift
@@ -122,18 +120,14 @@ def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp
     np.testing.assert_array_equal(again["drift_force"], result["drift_force"][:11])
 
 
-@pytest.mark.parametrize("drift_first", [True, False])
-def test_drift_at_the_actual_position(drift_first: bool) -> None:
-    scene = moored()
-    for step in ("add_drift", "use_actual_position")[:: 1 if drift_first else -1]:
-        getattr(scene, step)()
+def test_drift_at_the_actual_position() -> None:
+    scene = moored(drift=True, phase="actual")
     waves, hull, yaw = scene.waves, scene.waves.hull(), 0.35
     load = _core.PositionedWaveLoad(
         waves.components(), headings=hull.force_by_heading.heading, transfer=hull.force_by_heading.values,
         drift_headings=hull.drift_by_heading.heading, drift=hull.drift_by_heading.values,
     )  # fmt: skip
-    turned = moored(direction_deg=135.0 - np.degrees(yaw))
-    turned.add_drift()
+    turned = moored(direction_deg=135.0 - np.degrees(yaw), drift=True)
     drift = turned.waves.hull().drift
     scale = np.array(waves.amplitude) @ np.abs(drift) * np.sum(waves.amplitude) + 1e-6
     for t in TIMES:
@@ -146,13 +140,18 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
 
 
 def test_what_is_missing_is_named() -> None:
-    narrow, few = moored(drifting(lowest=0.6, highest=2.0)), drifting(headings=3)
-    for call, message in (
-        (moored(shipped_database()).add_drift, "no drift coefficients"),
-        (narrow.add_drift, r"omega = 0\.\d+ rad/s is outside"),
-        (moored(few, direction_deg=100.0).add_drift, "gaps above 45 deg"),
-    ):
+    few = drifting(headings=3)
+    for database, direction, message in (
+        (shipped_database(), 135.0, "no drift coefficients"), (few, 100.0, "gaps above 45 deg"),
+    ):  # fmt: skip
         with pytest.raises(SceneError, match=message):
-            call()
-    narrow.add_drift(outside="hold")
-    moored(few, direction_deg=90.0).add_drift()  # a stored heading needs none
+            moored(database, direction_deg=direction, drift=True)
+    moored(few, direction_deg=90.0, drift=True)  # a stored heading needs none
+
+
+def test_beyond_the_coefficients_those_of_the_nearest_count() -> None:
+    scene = moored(drifting(lowest=0.6, highest=0.9), drift=True)
+    omega, drift = scene.waves.omega, scene.waves.hull().drift
+    below, above = drift[omega < 0.6], drift[omega > 0.9]
+    assert len(below) > 1 < len(above)
+    assert np.ptp(below, axis=0) == pytest.approx(0.0, abs=1e-9) and np.abs(below[0] - above[0]).max() > 1.0

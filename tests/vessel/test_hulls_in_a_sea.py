@@ -80,10 +80,7 @@ def moved_to_the_origin(pose: Any, wind_deg: float | None, sea: dict[str, Any]) 
         direction=direction,
         hulls={"hull": HullLoads(transfer=database().force_at(asked.omega, direction))},
     )  # fmt: skip
-    if sea["drift"]:
-        scene.add_drift()
-    if sea["phase"] != "mean":
-        scene.use_actual_position() if sea["phase"] == "actual" else scene.use_slow_position()
+    scene.add_sea(vessel="hull", drift=sea["drift"], phase=sea["phase"])
     if wind_deg is not None:
         blown(scene, "hull", wind_deg - pose[2])
     return scene

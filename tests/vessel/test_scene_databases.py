@@ -8,7 +8,7 @@ import pickle
 import zlib
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -118,7 +118,7 @@ def test_a_vessel_without_its_database_and_one_of_another_are_told() -> None:
     for call, told in (
         (lambda: ensemble(bare, over={"seed": [1]}, keep=HEAVE), "has no database"),
         (lambda: motion_rao(bare, **asked), "has no database"),
-        (bare.use_actual_position, "has no database"),
+        (partial(bare.add_sea, phase="actual"), "has no database"),
         (lambda: ensemble(loud, over={"seed": [1]}, keep=HEAVE), "the waves load vessel 'vessel' otherwise"),
         (lambda: bare.replace("vessel", kind="vessel", database=other), "'hull_115'.*'other'"),
         (lambda: scene.replace("vessel", kind="vessel", database=other), both),

@@ -69,11 +69,7 @@ def driven(*, cutoff: float = CUTOFF, phase: str | None = None, **curves: Curve)
     for name in ("x", "y", "z", "roll", "pitch", "yaw"):
         scene.add_driver(joint="tow", coordinate=name, curve=curves.get(name, Curve.constant(value=0.0)))
     if phase:
-        scene.add_sea(hs=2.0, tp=8.0, count=12)
-    if phase == "slow":
-        scene.use_slow_position(cutoff=cutoff)
-    if phase == "actual":
-        scene.use_actual_position()
+        scene.add_sea(hs=2.0, tp=8.0, count=12, phase=phase, cutoff=cutoff if phase == "slow" else None)
     return scene
 
 
@@ -107,8 +103,7 @@ def steady(start: float, speed: float, **more: Any) -> Curve:
 def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
     scene = Scene(name="actual")
     scene.add_vessel(database(), mooring_period=100.0)
-    scene.add_sea(hs=3.0, tp=8.0, direction_deg=60.0, count=40)
-    scene.use_actual_position()
+    scene.add_sea(hs=3.0, tp=8.0, direction_deg=60.0, count=40, phase="actual")
     scene.waves = replace(scene.waves.changed(**changes), evaluation=evaluation)
     return scene
 
@@ -245,5 +240,5 @@ def test_files_keep_positions_and_actual_ones_have_no_filter_left(tmp_path: Path
     first, second = (simulate(s, t_end=3.0, dt_out=1.0)["vessel_motion"] for s in (scene, again))
     np.testing.assert_array_equal(first, second)
     states = scene.compile().memory_states
-    scene.use_actual_position()
+    scene.add_sea(phase="actual")
     assert scene.compile().memory_states == states - 9

@@ -17,7 +17,7 @@ PYTEST = f".venv/bin/python -m pytest -qx -n 2 --dist loadfile {ALIKE}"
 FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
 PROGRAM = re.compile(r"^\s*\d+ - (\S+) \(", re.MULTILINE)
 LONGEST = 3600.0  # s: a test that does not end has found it too
-NEAREST = 30  # tests
+NEAREST, FILES = 30, 12
 
 
 class Hunt:
@@ -87,14 +87,16 @@ class Hunt:
             yield "slow tests", f"{PYTEST} -m slow"
 
     def _near(self, fault: Fault) -> tuple[list[str], bool]:
-        """Tests that reach the fault's line, and whether others may; of the engine, files with its name."""
+        """Tests that reach the fault's line, and whether others may; of the engine, files after its name."""
         if not fault.in_engine:
             line = self._sound.partition(fault.old)[0].count("\n") + 1
             return tests_of(self._lines, fault.file, line)
-        stem, counts = Path(fault.file).stem, {}
+        stem = Path(fault.file).stem
+        words, scores = [word for word in stem.split("_") if len(word) > 3] or [stem], {}
         for path in (self.tree / "tests").rglob("test_*.py"):
-            counts[str(path.relative_to(self.tree))] = path.read_text(encoding="utf-8").count(stem)
-        return sorted(filter(counts.get, counts), key=lambda path: -counts[path]), True
+            alike = 100 * sum(word.rstrip("s") in path.stem for word in words)
+            scores[str(path.relative_to(self.tree))] = alike + path.read_text(encoding="utf-8").count(stem)
+        return sorted(filter(scores.get, scores), key=lambda path: -scores[path])[:FILES], True
 
     def _require(self, command: str) -> None:
         if not self._succeeds(command):

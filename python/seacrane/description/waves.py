@@ -98,6 +98,11 @@ class HullLoads(_ReadOnly):
 
     __repr__ = brief
 
+    @property
+    def phase(self) -> str:
+        """Where loads are taken, as `Scene.add_sea` says it: "mean", "slow" or "actual"."""
+        return "mean" if self.force_by_heading is None else "slow" if self.cutoff else "actual"
+
     def __post_init__(self) -> None:
         if not np.isfinite(number_of("waves: heading", self.heading)):
             raise SceneError(f"waves: heading is {self.heading}; give a finite number, rad")
@@ -109,7 +114,7 @@ class HullLoads(_ReadOnly):
         if cutoff and self.force_by_heading is None:
             raise SceneError(
                 f"waves: cutoff is {self.cutoff} rad/s and there is no force_by_heading; loads at one place "
-                "have no slow position, take Scene.use_slow_position, or cutoff=0"
+                "have no slow position, take phase='slow' in add_sea, or cutoff=0"
             )
         for name in ("force_by_heading", "drift_by_heading"):
             table = getattr(self, name)

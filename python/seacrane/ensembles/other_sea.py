@@ -9,15 +9,12 @@ from typing import Any
 import numpy as np
 
 from seacrane.description.databases import database_of
-from seacrane.description.waves import HullLoads, Waves
+from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
-from seacrane.inputs.frames import heading_of
-from seacrane.scene.drift import add_drift
-from seacrane.scene.position import SLOW_SHARE, use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.scene import Scene
+from seacrane.scene.sea import as_put
 from seacrane.sea import SeaState, Spectrum, Spreading, WaveSystem, jonswap, pierson_moskowitz
-from seacrane.validity.hull_range import peak_frequency
 
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
 SAME = 1e-9  # relative
@@ -32,8 +29,8 @@ def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
     assert scene.waves is not None
     old = scene.waves
     out = scene.copy(waves=replace(_realised(scene, given), stretching=old.stretching))
-    for body, hull in old.hulls.items():
-        _put(out, body, hull, old)
+    for body in old.hulls:
+        _put(out, body, old)
     return out
 
 
@@ -103,22 +100,9 @@ def _settings(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _put(scene: Scene, body: str, hull: HullLoads, old: Waves) -> None:
+def _put(scene: Scene, body: str, old: Waves) -> None:
     """Put a vessel into the sea of the scene as it was put into the old one."""
-    as_at_start = hull.heading == heading_of(scene.bodies[body].quaternion)
-    scene.add_sea(
-        vessel=body, position=hull.position, relative_bound=old.relative_bound,
-        evaluation=old.evaluation, heading_deg=None if as_at_start else float(np.degrees(hull.heading)),
-    )  # fmt: skip
-    if hull.drift is not None:
-        add_drift(scene, vessel=body, outside="hold")
-    if hull.force_by_heading is None:
-        return
-    if hull.cutoff:
-        usual = hull.cutoff == SLOW_SHARE * peak_frequency(old)
-        use_slow_position(scene, vessel=body, cutoff=None if usual else hull.cutoff)
-    else:
-        use_actual_position(scene, vessel=body)
+    scene.add_sea(**as_put(scene, old, body), relative_bound=old.relative_bound, evaluation=old.evaluation)
 
 
 def sea_state_of(record: Mapping[str, Any], seed: Any) -> SeaState:

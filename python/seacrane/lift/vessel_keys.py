@@ -126,7 +126,8 @@ def sea_keys() -> tuple[Key, ...]:
         sea.add_sea,
         more=CHOSEN | {
             "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
-            "position": POINT | {"shapes": ((2,),)}, "stretching": {"choices": STRETCHING},
+            "cutoff": {"unit": "rad/s"}, "position": POINT | {"shapes": ((2,),)},
+            "stretching": {"choices": STRETCHING},
             "current": {"type": "table", "keys": _current_keys()},
         },
         without=("sea",),

@@ -15,6 +15,7 @@ from seacrane.description.wet_parts import immersed_parts
 from seacrane.hydro import HydroDatabase
 from seacrane.needs.choice import Choice
 from seacrane.scene.scene import Scene
+from seacrane.scene.sea import as_put
 from seacrane.trading.simpler_scenes import memory_name, strongest, with_memory
 
 SHARES = (0.5, 0.25)  # of the components, the strongest
@@ -86,16 +87,23 @@ def more_drift(scene: Scene) -> Iterator[Choice]:
         if hull.drift is None and isinstance(source, HydroDatabase) and source.drift is not None:
             yield Choice(
                 name=f"slow drift of {body}",
-                script=f'scene.add_drift(vessel="{body}", outside="hold")',
+                script=f"scene.add_sea({_words(scene, body)})",
                 made=partial(_with_drift, body=body),
                 of=f"slow drift of {body}",
             )
 
 
 def _with_drift(scene: Scene, *, body: str) -> Scene:
+    assert scene.waves is not None
     out = scene.copy()
-    out.add_drift(vessel=body, outside="hold")
+    out.add_sea(**as_put(scene, scene.waves, body) | {"drift": True})
     return out
+
+
+def _words(scene: Scene, body: str) -> str:
+    assert scene.waves is not None
+    words = as_put(scene, scene.waves, body) | {"drift": True}
+    return ", ".join(f"{key}={value!r}" for key, value in words.items() if value is not None)
 
 
 def less_memory(scene: Scene) -> Iterator[Choice]:

@@ -109,8 +109,8 @@ def origin_settings(scene: Description) -> Mapping[str, Any]:
             found.setdefault(key, {})[vessel.body] = value
     hulls = {} if scene.waves is None else scene.waves.hulls
     for body, hull in hulls.items():
-        if hull.force_by_heading is not None:
-            found.setdefault("wave_phase", {})[body] = "slow" if hull.cutoff else "actual"
+        if hull.phase != "mean":
+            found.setdefault("wave_phase", {})[body] = hull.phase
         if hull.drift is not None:
             found.setdefault("drift", {})[body] = "newman"
     told = {key: one for key, by_body in found.items() if (one := _one(by_body)) is not None}

@@ -36,7 +36,6 @@ from seacrane.plotting.html import notebook_table
 from seacrane.scene import (
     bridles,
     contact,
-    drift,
     entrapped,
     given_vessel,
     heave,
@@ -46,7 +45,6 @@ from seacrane.scene import (
     limits,
     lines,
     luffing,
-    position,
     sea,
     slack_tank,
     vessel,
@@ -159,9 +157,6 @@ class Scene(Description):
     add_sea = sea.add_sea
     sea_at = sea_at
     add_ballast = add_ballast
-    add_drift = drift.add_drift
-    use_actual_position = position.use_actual_position
-    use_slow_position = position.use_slow_position
     add_wind = wind_current.add_wind
     add_current = wind_current.add_current
 

@@ -25,9 +25,9 @@ from seacrane.inputs.checked import flag_of, number_of, shaped_of, text_of
 from seacrane.inputs.frames import MOTIONS, heading_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.drift import add_drift
+from seacrane.scene.drift import with_drift
 from seacrane.scene.given_vessel import put_into_sea
-from seacrane.scene.position import use_actual_position, use_slow_position
+from seacrane.scene.position import slow_below, with_actual_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.wave_force import force_of_components
 from seacrane.sea import Current, SeaState, Spreading
@@ -63,6 +63,7 @@ def add_sea(
     relative_bound: float | None = None,
     evaluation: str | None = None,
     phase: Literal["mean", "slow", "actual"] = "mean",
+    cutoff: float | None = None,
     drift: bool = False,
     current: Current | None = None,
     stretching: str | None = None,
@@ -70,9 +71,9 @@ def add_sea(
     """Add a sea and its force-RAO loads on a vessel, or put one more vessel into the sea that is there.
 
     A scene has one sea, with phases from the origin of the inertial frame. For every further vessel call it
-    again, with the same sea or without any argument of it. The forces are those of the vessel's database, at
-    the direction of every component. A ship of `Scene.add_given_vessel` takes no load: one that follows RAOs
-    begins to move by them.
+    again, with the same sea or without any argument of it; a vessel that is in it is put there anew. The
+    forces are those of the vessel's database, at the direction of every component. A ship of
+    `Scene.add_given_vessel` takes no load: one that follows RAOs begins to move by them.
 
     Parameters
     ----------
@@ -104,11 +105,14 @@ def add_sea(
     evaluation : str
         "table" (default), "fft" (needs components of uniform placement) or "exact"; see `Waves`.
     phase : str
-        "mean": loads at that position and heading. "slow": at the slow part of those of the moment, see
-        `use_slow_position`. "actual": at those of the moment, see `use_actual_position`.
+        "mean": loads at that position and heading. "actual": at those of the moment: a vessel under way meets
+        the encounter frequency. "slow": at the slow part of those of the moment, since a motion in the waves
+        would count a second time. The last two sum all components in every evaluation.
+    cutoff : float
+        With "slow", below which frequency a motion is slow, rad/s; default: a fifth of that of the peak.
     drift : bool
-        Adds Newman's slow drift, see `add_drift`; components beyond its coefficients take those of
-        the nearest.
+        Adds Newman's slowly varying drift by the database's mean coefficients; components beyond their
+        frequencies take those of the nearest.
     current : Current, optional
         The current of the scene, a profile over depth. Waves travel on it, with the frequencies that a fixed
         observer sees; `sea_at`, lines in the sea and `add_current` read it.
@@ -155,6 +159,8 @@ def add_sea(
     if text_of("sea: phase", phase) not in ("mean", "slow", "actual"):
         raise SceneError(f"sea: phase is {phase!r}; choose 'mean', 'slow' or 'actual'")
     flag_of("sea: drift", drift)
+    if cutoff is not None and phase != "slow":
+        raise SceneError(f"sea: cutoff is {shown(cutoff)} and phase {phase!r}; it belongs to phase='slow'")
     if current is not None and not isinstance(current, Current):
         raise SceneError(f"sea: current is {shown(current)}; give a seacrane.sea.Current")
     if sea is not None and given:
@@ -193,14 +199,27 @@ def add_sea(
     transfer = force_of_components(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
     provenance = _with_shares(waves, database, vessel, hull)
-    scene.waves = replace(waves, hulls={**waves.hulls, vessel: hull}, provenance=provenance)
+    waves = replace(waves, hulls={**waves.hulls, vessel: hull}, provenance=provenance)
     if drift:
-        add_drift(scene, vessel=vessel, outside="hold")
-    if phase == "actual":
-        use_actual_position(scene, vessel=vessel)
-    if phase == "slow":
-        use_slow_position(scene, vessel=vessel)
-    return scene.waves
+        waves = with_drift(scene, waves, vessel)
+    if phase != "mean":
+        slow = slow_below(waves, cutoff) if phase == "slow" else 0.0
+        waves = with_actual_position(scene, waves, vessel, slow)
+    scene.waves = waves
+    return waves
+
+
+def as_put(scene: Description, waves: Waves, vessel: str) -> dict[str, Any]:
+    """The words of `add_sea` that put a vessel into a sea as it is in it."""
+    hull = waves.hulls[vessel]
+    as_at_start = hull.heading == heading_of(scene.bodies[vessel].quaternion)
+    usual = not hull.cutoff or hull.cutoff == slow_below(waves, None)
+    return {
+        "vessel": vessel, "position": hull.position,
+        "phase": hull.phase, "cutoff": None if usual else hull.cutoff,
+        "heading_deg": None if as_at_start else float(np.degrees(hull.heading)),
+        "drift": hull.drift is not None,
+    }  # fmt: skip
 
 
 def _known(hs: Any) -> Any:

@@ -151,7 +151,7 @@ def _posed(
     found: list[Finding] = []
     far, turned = peak.phase(slow[:, :2]), np.abs(slow[:, 2])
     way_out = (
-        "take them where the vessel slowly goes by phase='slow' in add_sea (Scene.use_slow_position), "
+        "take them where the vessel slowly goes by phase='slow' in add_sea, "
         "where it is on the average by position and heading_deg there, or moor it stiffer"
     )
     if far.max() > LARGEST_PHASE:
