@@ -12,17 +12,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import erf
 
-from seacrane import (
-    Curve,
-    Move,
-    Result,
-    Scene,
-    Stage,
-    Until,
-    natural_modes,
-    shipped_database,
-    simulate_stages,
-)
+from seacrane import Curve, Move, Result, Scene, Stage, Until, natural_modes, shipped_database, simulate
 from seacrane.result import heavy_line_tension
 from seacrane.warnings import ScatteredWavesWarning, StiffWarning
 from seacrane.water import BoxPart
@@ -87,7 +77,7 @@ def lowered(hs: float) -> Result:
               maximum_duration=150.0, commands={"wire.rate": ramp(0.0, LAST, over=DEEP)}),
         Stage(name="stop", duration=150.0, commands={"wire.rate": ramp(LAST, 0.0, over=DEEP)}),
     ]  # fmt: skip
-    return simulate_stages(manifold(hs), stages, dt_out=0.25, start="rest")
+    return simulate(manifold(hs), stages, dt_out=0.25, start="rest")
 
 
 def by_hand(depth: float) -> float:

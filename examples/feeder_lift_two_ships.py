@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Outputs, Result, Scene, Stage, State, Until, ensemble, linear_model, simulate_stages
+from seacrane import Outputs, Result, Scene, Stage, State, Until, ensemble, linear_model, simulate
 from seacrane.analysis import LinearModel, response_summed
 from seacrane.answers import contact_hits
 from seacrane.crane import load_crane
@@ -79,7 +79,7 @@ def main() -> None:
     for water, lid in WATERS.items():
         scene = feeder_lift(lid, seed=SHOWN)
         start = swaying(linear_model(scene, vessel="feeder"))
-        runs[water] = simulate_stages(scene, LIFT, start=start(scene), outputs=RECORDED, rtol=1e-3)
+        runs[water] = simulate(scene, LIFT, start=start(scene), outputs=RECORDED, rtol=0.001)
         seas = ensemble(
             scene,
             over={"seed": range(1, 13)},

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Move, Scene, Stage, Until, simulate_stages
+from seacrane import Curve, Move, Scene, Stage, Until, simulate
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
 G, MASS, DECK, PLATFORM = 9.80665, 20e3, 2.0, 8.0  # m/s2, kg, m, m
@@ -48,7 +48,7 @@ stages = [
     Stage(name="slacken", until=Until.tension("hoist", maximum=0.0), maximum_duration=20.0),
     Stage(name="let go", duration=3.0, release=["hoist"]),
 ]  # fmt: skip
-result = simulate_stages(scene, stages, rtol=1e-5)
+result = simulate(scene, stages, rtol=1e-05)
 
 hook = result.select("line_tension", line="hoist") / 1e3
 for span in result.stages:

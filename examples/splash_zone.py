@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Result, Scene, Stage, Until, shipped_database, simulate_stages
+from seacrane import Result, Scene, Stage, Until, shipped_database, simulate
 from seacrane.warnings import ScatteredWavesWarning
 from seacrane.water import BoxPart, PlatePart
 
@@ -54,7 +54,7 @@ def lowered(hs: float, seed: int = 1) -> Result:
         Stage(name="lower", until=under, maximum_duration=90.0, commands={"hoist.rate": RATE}),
         Stage(name="below", duration=20.0, commands={"hoist.rate": 0.0}),
     ]
-    return simulate_stages(template(hs, seed), stages, dt_out=0.05)
+    return simulate(template(hs, seed), stages, dt_out=0.05)
 
 
 def simplified(draught: float, tip: tuple[float, float, float]) -> tuple[float, float]:

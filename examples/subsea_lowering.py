@@ -19,7 +19,7 @@ from seacrane import (
     equilibrium,
     natural_modes,
     shipped_database,
-    simulate_stages,
+    simulate,
 )
 from seacrane.warnings import ScatteredWavesWarning
 from seacrane.water import BoxPart
@@ -76,7 +76,7 @@ def lowered(hs: float, seed: int = 1) -> Result:
               commands={"hoist.rate": ramp(0.0, LAST)}),
         Stage(name="stop", duration=60.0, commands={"hoist.rate": ramp(LAST, 0.0)}),
     ]  # fmt: skip
-    return simulate_stages(template(hs, seed), stages, dt_out=0.1, start="rest")
+    return simulate(template(hs, seed), stages, dt_out=0.1, start="rest")
 
 
 def resonance(depth: float) -> tuple[float, float]:

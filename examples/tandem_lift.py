@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Result, Scene, Stage, Until, equilibrium, shipped_database, simulate_stages
+from seacrane import Result, Scene, Stage, Until, equilibrium, shipped_database, simulate
 
 MASS, LENGTH, HEIGHT, START = 60e3, 30.0, 3.0, 6.0  # kg, m, m of the load; m of its centre above the water
 FEET = {"fore": 40.0, "aft": 16.0}  # m, along the ship
@@ -50,7 +50,7 @@ def lift(hs: float) -> Result:
               commands={"aft.rate": -RATE}),
         Stage(name="tilted", duration=60.0, commands={"aft.rate": 0.0}),
     ]  # fmt: skip
-    return simulate_stages(scene, stages, start=rest, dt_out=0.1)
+    return simulate(scene, stages, start=rest, dt_out=0.1)
 
 
 calm, waves = lift(0.0), lift(1.0)

@@ -17,50 +17,81 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Call:
-    """What takes the place of a method: its name, keywords with their values, and those that go."""
+    """What takes the place of a method or a function.
+
+    Its name; what its arguments by place are called now ("" for one that stays by place); keywords with their
+    values, and those that go.
+    """
 
     name: str
+    places: tuple[str, ...] = ()
     words: Mapping[str, str] = field(default_factory=dict)
     dropped: tuple[str, ...] = ()
+    renamed: Mapping[str, str] = field(default_factory=dict)
     note: str = ""
 
 
 AGAIN = "add_sea puts the vessel into the sea anew: repeat its position, heading_deg, phase and drift there"
+LOADED = "it returns what is on disk: .load() is the Result"
 CALLS = {
-    "add_drift": Call("add_sea", {"drift": "True"}, ("outside",), AGAIN),
-    "use_actual_position": Call("add_sea", {"phase": '"actual"'}, (), AGAIN),
-    "use_slow_position": Call("add_sea", {"phase": '"slow"'}, (), AGAIN),
+    "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),
+    "use_actual_position": Call("add_sea", words={"phase": '"actual"'}, note=AGAIN),
+    "use_slow_position": Call("add_sea", words={"phase": '"slow"'}, note=AGAIN),
+    "simulate_stages": Call("simulate", renamed={"stages": "t_end"}),
+    "simulate_to_file": Call("simulate", places=("", "to", ""), renamed={"path": "to"}),
+    "simulate_stages_to_file": Call(
+        "simulate", places=("", "", "to"), renamed={"stages": "t_end", "path": "to"}, note=LOADED
+    ),
 }
 
 
 def ported(text: str) -> tuple[str, list[str]]:
     """The script with the calls of today, and notes with their lines."""
-    lines = [0]
+    starts = [0]
     for line in text.encode().splitlines(keepends=True):
-        lines.append(lines[-1] + len(line))
+        starts.append(starts[-1] + len(line))
     data, notes = text.encode(), []
-    for node in sorted(_calls(ast.parse(text)), key=lambda one: (one.lineno, one.col_offset), reverse=True):
-        assert isinstance(node.func, ast.Attribute) and node.end_lineno and node.end_col_offset is not None
-        new = CALLS[node.func.attr]
-        begin = lines[node.lineno - 1] + node.col_offset
-        end = lines[node.end_lineno - 1] + node.end_col_offset
-        data = data[:begin] + _written(node, new).encode() + data[end:]
-        notes.append(f"line {node.lineno}: {node.func.attr} is {new.name}; {new.note}".rstrip("; "))
+    for node, new_text, note in sorted(_changes(ast.parse(text)), key=_place, reverse=True):
+        assert node.end_lineno and node.end_col_offset is not None
+        begin = starts[node.lineno - 1] + node.col_offset
+        end = starts[node.end_lineno - 1] + node.end_col_offset
+        data = data[:begin] + new_text.encode() + data[end:]
+        notes += [f"line {node.lineno}: {note}"] if note else []
     return data.decode(), notes[::-1]
 
 
-def _calls(tree: ast.AST) -> Iterator[ast.Call]:
+Change = tuple[ast.expr | ast.stmt, str, str]
+
+
+def _place(change: Change) -> tuple[int, int]:
+    return change[0].lineno, change[0].col_offset
+
+
+def _changes(tree: ast.AST) -> Iterator[Change]:
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in CALLS:
-            yield node
+        if isinstance(node, ast.Call) and (old := _called(node.func)) in CALLS:
+            new = CALLS[old]
+            yield node, _written(node, new), f"{old} is {new.name}; {new.note}".rstrip("; ")
+        elif isinstance(node, ast.ImportFrom) and any(one.name in CALLS for one in node.names):
+            names = [CALLS[one.name].name if one.name in CALLS else ast.unparse(one) for one in node.names]
+            yield node, f"from {node.module} import {', '.join(dict.fromkeys(names))}", ""
+
+
+def _called(function: ast.expr) -> str:
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
 
 
 def _written(node: ast.Call, new: Call) -> str:
-    assert isinstance(node.func, ast.Attribute)
-    given = [ast.unparse(one) for one in node.args]
-    given += [ast.unparse(one) for one in node.keywords if one.arg not in new.dropped]
-    given += [f"{key}={value}" for key, value in new.words.items()]
-    return f"{ast.unparse(node.func.value)}.{new.name}({', '.join(given)})"
+    places = [*new.places, *[""] * len(node.args)]
+    by_place = [ast.unparse(one) for one, word in zip(node.args, places, strict=False) if not word]
+    words = [f"{word}={ast.unparse(one)}" for one, word in zip(node.args, places, strict=False) if word]
+    for one in node.keywords:
+        if one.arg not in new.dropped:
+            key = new.renamed.get(one.arg or "", one.arg)
+            words.append(f"{key}={ast.unparse(one.value)}" if key else ast.unparse(one))
+    words += [f"{key}={value}" for key, value in new.words.items()]
+    owner = f"{ast.unparse(node.func.value)}." if isinstance(node.func, ast.Attribute) else ""
+    return f"{owner}{new.name}({', '.join([*by_place, *words])})"
 
 
 def main() -> int:

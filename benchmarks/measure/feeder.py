@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from seacrane import Scene, Stage, Until, simulate, simulate_stages
+from seacrane import Scene, Stage, Until, simulate
 from seacrane.analysis import Evaluator
 from seacrane.crane import load_crane
 from seacrane.hydro import two_barges
@@ -84,7 +84,7 @@ def _timed(name: str, scene: Scene, stages: Sequence[Stage]) -> list[object]:
 
     def run() -> object:
         if stages:
-            return simulate_stages(scene, stages, dt_out=0.1, rtol=1e-3, channels=["contact_least_gap"])
+            return simulate(scene, stages, dt_out=0.1, rtol=0.001, channels=["contact_least_gap"])
         return simulate(scene, T_END, dt_out=0.1, rtol=1e-3, channels=["vessel_motion"])
 
     with warnings.catch_warnings():

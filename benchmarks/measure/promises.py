@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Result, Scene, SeacraneError, simulate, simulate_stages
+from seacrane import Result, Scene, SeacraneError, simulate
 from seacrane.accuracy.matching import curve_apart, matched
 from seacrane.accuracy.quantities import Quantity, quantities_of
 from seacrane.description.loads import any_stiff, lines_of
@@ -85,7 +85,7 @@ class Lift:
     def run(self, integrator: str, rtol: float) -> Result:
         how: dict[str, Any] = {"integrator": integrator, "rtol": rtol}
         if self.stages:
-            return simulate_stages(self.scene, self.stages, dt_out=0.2, **how)
+            return simulate(self.scene, self.stages, dt_out=0.2, **how)
         return simulate(self.scene, 40.0 if self.kind == KINDS[0] else 8.0, dt_out=0.1, **how)
 
     def errors(self, truth: Result, found: Result) -> dict[str, float]:
@@ -211,9 +211,9 @@ COST = Section(
 OF_STAGES = Section(
     title="Accuracy of staged lifts",
     text=(
-        f"`simulate_stages(accuracy=...)` on {STAGED} random lifts: through the water and onto the bed, off "
-        "a seat by a slack wire, swinging, welded as two bodies meet, from a ship that heaves. Each is "
-        "judged by two other methods at tighter tolerances; not judgeable where these are a tenth of the "
+        f"`simulate(scene, stages, accuracy=...)` on {STAGED} random lifts: through the water and onto the "
+        "bed, off a seat by a slack wire, swinging, welded as two bodies meet, from a ship that heaves. Each "
+        "is judged by two other methods at tighter tolerances; not judgeable where these are a tenth of the "
         "limit apart. `make campaign NAME=stages` judges 400."
     ),
     head=["lifts", "number", "held", "beyond", "refused", "not judgeable", "above their estimate",

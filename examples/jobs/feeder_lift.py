@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from seacrane import MotionRaos, Scene, Stage, Until, simulate_stages
+from seacrane import MotionRaos, Scene, Stage, Until, simulate
 
 MASS, EA, RATE, LATE, DECK, SLACK = 50e3, 2e8, 0.4, 0.7, 3.0, 0.25  # kg, N, m/s, s by ramp and lag, m, m
 OMEGA = [0.3, 0.5, 0.7, 0.9, 1.1, 1.4, 1.8, 2.4]  # rad/s
@@ -19,7 +19,7 @@ lift = Stage(
     name="lift", until=Until.release("load on barge"), maximum_duration=60.0, commands={"hoist.rate": -RATE}
 )
 stages = [Stage(name="wait", duration=30.0), lift, Stage(name="raised", duration=30.0)]
-result = simulate_stages(scene, stages, dt_out=0.02)
+result = simulate(scene, stages, dt_out=0.02)
 
 at = np.searchsorted(result.time, result.stages[1].end)
 heave, rise = (result.select(name, body="barge", axis="z") for name in ("position", "velocity"))

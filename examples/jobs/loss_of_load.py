@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from seacrane import Scene, Stage, natural_modes, shipped_database, simulate_stages, statics
+from seacrane import Scene, Stage, natural_modes, shipped_database, simulate, statics
 from seacrane.crane import KnuckleBoomCrane
 
 MASS, HEEL, POSE = 100e3, -3.0, {"s1": 1.5, "s2": 3.0}  # kg, deg, m
@@ -23,7 +23,7 @@ def ship(load: float) -> Scene:
 
 scene, bare = ship(MASS), ship(0.0)
 stages = [Stage(name="hang", duration=20.0), Stage(name="lost", duration=60.0, release=["hoist"])]
-result = simulate_stages(scene, stages, start="rest", dt_out=0.02, integrator="rosenbrock")
+result = simulate(scene, stages, start="rest", dt_out=0.02, integrator="rosenbrock")
 roll, lost = np.degrees(result.curve("roll")), result.stage("lost")
 peak = roll[lost].argmax()
 

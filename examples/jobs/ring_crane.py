@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, Stage, load_chart, simulate_stages, statics
+from seacrane import Scene, Stage, load_chart, simulate, statics
 from seacrane.crane import load_crane
 
 BOOM, OWN, FALLS, LIMIT, MASS, TIME = 70.0, 100e3, 20, 250e3, 100e3, 120.0  # m, kg, -, N, kg, s
@@ -39,7 +39,7 @@ scene.add_luffing_rope(lag=0.3, maximum_rate=3.0)
 luff = {"luffing rope.rate": -FALLS * (low - high) / TIME}
 stages = [Stage(name="hold", duration=10.0), Stage(name="luff", duration=TIME + 1.0, commands=luff)]
 stages += [Stage(name="stop", duration=60.0, commands={"luffing rope.rate": 0.0})]
-result = simulate_stages(scene, stages, start="rest")
+result = simulate(scene, stages, start="rest")
 tip, rope = result.place_of("tip"), result.select("line_tension", line="luffing rope") / 1e3
 for name, at in (("before", slice(0, 50)), ("after ", slice(-100, None))):
     angle = np.degrees(np.arctan2(tip[at, 2] - HINGE[1], -tip[at, 0] - HINGE[0])).mean()

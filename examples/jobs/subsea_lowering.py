@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from seacrane import Scene, Stage, Until, shipped_database, simulate_stages
+from seacrane import Scene, Stage, Until, shipped_database, simulate
 
 MASS, EA, START, DEPTH, RATE = 20e3, 40e9 * 0.035**2, 5.0, 50.0, 0.5  # kg, N (35 mm), m, m, m/s
 
@@ -18,7 +18,7 @@ lower = Stage(
     name="lower", until=Until.length("wire", minimum=deep), maximum_duration=300, commands={"wire.rate": RATE}
 )
 stop = Stage(name="stop", duration=30.0, commands={"wire.rate": 0.0})
-result = simulate_stages(scene, [lower, stop, Stage(name="hold", duration=200.0)], dt_out=0.1)
+result = simulate(scene, [lower, stop, Stage(name="hold", duration=200.0)], dt_out=0.1)
 
 hold, late = result.stage("hold"), 0.5 + 0.2  # s: half of the second that a rate is reached in, and the lag
 rise = result.select("tip_velocity", axis="z")[hold]

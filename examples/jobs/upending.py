@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from seacrane import Move, Scene, Stage, simulate_stages
+from seacrane import Move, Scene, Stage, simulate
 from seacrane.crane import load_crane
 
 MASS, LONG, WIDE, EA, TOP, LOW = 60e3, 50.0, 3.0, 1.5e8, 40.0, 8.0  # kg, m, m, N, m: trolley, lug of the tail
@@ -36,7 +36,7 @@ names, stages = ("head.length", "tail.length", "rail.displacement"), [Stage(name
 for angle in ANGLES[1:]:
     to = zip(names, by_hand(angle)[1:4] - (0, 0, rail), strict=True)
     stages.append(Stage(name=str(angle), duration=300.0, commands={k: Move(to=v, over=240.0) for k, v in to}))
-result = simulate_stages(scene, [*stages, Stage(name="let go", duration=120.0, release=["tail"])], dt_out=0.5)
+result = simulate(scene, [*stages, Stage(name="let go", duration=120.0, release=["tail"])], dt_out=0.5)
 for name, hand in ((str(angle), by_hand(angle)[0] / 1e3) for angle in ANGLES):
     pull = result.select("line_tension", line="tail")[result.stage(name)][-60:].mean() / 1e3
     print(f"at {name:>2} deg the tail carries {pull:6.2f} kN, by hand {hand:6.2f} kN")

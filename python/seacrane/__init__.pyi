@@ -27,7 +27,6 @@ from seacrane import cases as cases
 
 # Run it
 from seacrane.simulation import simulate as simulate
-from seacrane.run.to_file import simulate_to_file as simulate_to_file
 from seacrane.run.run import Run as Run
 from seacrane.run.method import Method as Method
 from seacrane.run.outputs import Outputs as Outputs
@@ -41,7 +40,6 @@ from seacrane import run as run
 from seacrane.run.stage import Stage as Stage
 from seacrane.run.move import Move as Move
 from seacrane.run.until import Until as Until
-from seacrane.simulation import simulate_stages as simulate_stages
 
 # Look at what came of it
 from seacrane.result.result import Result as Result

@@ -11,7 +11,7 @@ import pytest
 from test_report import Page
 from test_result import crane_run, vessel_result
 
-from seacrane import Frame, Result, Scene, Stage, cases, report, shipped_database, simulate, simulate_stages
+from seacrane import Frame, Result, Scene, Stage, cases, report, shipped_database, simulate
 from seacrane.answers import Report
 from seacrane.answers.limits_section import judged_bounds
 from seacrane.answers.measures import statistics_of
@@ -66,7 +66,7 @@ def test_a_staged_lift_tells_what_was_lifted_by_what_and_when() -> None:
     rig = {"block_mass": 1e3, "slings": {"angle_deg": 60, "EA": 5e7}, "winch": {"maximum_rate": 0.5}}
     scene.add_hoist(mass=20e3, size=(3, 3, 2), EA=4e7, falls=2, **rig)
     hoist = Stage(name="hoist", duration=3.0, commands={"hoist.rate": -0.4})
-    result = simulate_stages(scene, [Stage(name="hang", duration=2.0), hoist], dt_out=0.1)
+    result = simulate(scene, [Stage(name="hang", duration=2.0), hoist], dt_out=0.1)
     read = Page(report(result).html)
     assert read.row("load") == ["load, 20 t, 3 x 3 x 2 m, 4 slings, block and rigging 1 t"]
     rope = 2.0 * (8.0 - 8.0 * 21e3 * result.scene.gravity / 2.0 / 4e7)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from lift_examples import HEAD, ON_DECK
 
-from seacrane import Curve, FileFormatError, Lift, Move, Result, Scene, Stage, Until, simulate_stages
+from seacrane import Curve, FileFormatError, Lift, Move, Result, Scene, Stage, Until, simulate
 from seacrane.cli import main
 from seacrane.hydro import shipped_database
 from seacrane.scene import Tank
@@ -72,7 +72,7 @@ def test_a_channel_is_waited_for_in_its_unit(tmp_path: Path) -> None:
 @pytest.mark.warns("ThroughSeatWarning")
 def test_a_lift_in_stages_runs_as_by_calls(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     lift = lift_of(ON_DECK, tmp_path)
-    direct = simulate_stages(lift.scene(), STAGES, outputs=lift.outputs)
+    direct = simulate(lift.scene(), STAGES, outputs=lift.outputs)
     result = lift.simulate()
     assert [span.ended_by for span in result.stages] == [span.ended_by for span in direct.stages]
     np.testing.assert_array_equal(result["position"], direct["position"])

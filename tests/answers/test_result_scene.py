@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from view_scenes import alone
 
-from seacrane import Result, Scene, cases, report, simulate, simulate_to_file, view
+from seacrane import Result, Scene, cases, report, simulate, view
 from seacrane.cli.command_line import main
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.result import kept_scene
@@ -57,15 +57,15 @@ def test_a_run_to_a_file_keeps_its_scene(tmp_path: Path, monkeypatch: pytest.Mon
     path, scene = tmp_path / "run.nc", pendulum()
     with monkeypatch.context() as patch:
         patch.setattr(ResultFile, "finish", lambda self, reached_end: self._partial.path)
-        partial = simulate_to_file(scene, path, 1.0, checkpoint_every=0.3).path
+        partial = simulate(scene, 1.0, to=path, checkpoint_every=0.3).path
     assert partial.suffix == ".partial"
     so_far = Result.load(partial)
     assert so_far.scene == scene.copy(notes={})
     assert partial.read_bytes().count(b'"seacrane scene"') == 1
-    simulate_to_file(scene, path, 1.0, resume=True)
+    simulate(scene, 1.0, to=path, resume=True)
     finished = Result.load(path)
     assert finished.scene == so_far.scene
-    longer = simulate_to_file(scene, path, 2.0, resume=True).load()
+    longer = simulate(scene, 2.0, to=path, resume=True).load()
     assert longer.scene == so_far.scene and view(longer).motion.end == 2.0
 
 
@@ -93,7 +93,7 @@ def test_a_scene_too_large_for_a_file_is_left_out(tmp_path: Path, monkeypatch: p
     assert loaded.scene is None
     with pytest.raises(SceneError, match=r"takes \d+ bytes, above 100"):
         view(loaded)
-    told = simulate_to_file(pendulum(), tmp_path / "streamed.nc", 0.5)
+    told = simulate(pendulum(), 0.5, to=tmp_path / "streamed.nc")
     assert str(told.load().stats[NOT_KEPT]).startswith("the scene: takes")
 
 

@@ -12,7 +12,7 @@ import pytest
 from stage_scenes import HEIGHT, STIFFNESS, on_deck
 from test_view_gltf import Model
 
-from seacrane import Result, Stage, simulate_stages, view
+from seacrane import Result, Stage, simulate, view
 from seacrane.pictures.drawing import drawing_of
 
 PULL = 25e3  # N
@@ -30,7 +30,7 @@ def lifted() -> Result:
         Stage(name="let go", duration=1.0, release=["hoist"]),
         Stage(name="take", duration=1.0, connect=["hoist"]),
     ]
-    return simulate_stages(scene, stages, dt_out=0.2)
+    return simulate(scene, stages, dt_out=0.2)
 
 
 def test_wires_are_absent_from_release_to_connection() -> None:
@@ -56,7 +56,7 @@ def marked() -> Result:
     scene.add_point(name="corner", body="load", point=(1.0, 0.0, 0.0))
     scene.add_clearance(name="mast", points=["corner"], center=(5.0, 0.0, 1.0), size=(2.0, 2.0, 4.0))
     stages = [Stage(name="hold", duration=1.0), Stage(name="wait", duration=1.0)]
-    return simulate_stages(scene, stages, dt_out=0.2)
+    return simulate(scene, stages, dt_out=0.2)
 
 
 def test_stages_points_clearances_and_forces_are_on_the_page() -> None:

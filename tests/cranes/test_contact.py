@@ -10,18 +10,7 @@ import pytest
 from contact_scenes import FEET, GRAVITY, MASS, REBOUNDS, STIFFNESS
 from element_runs import FORMULATIONS, goes_on
 
-from seacrane import (
-    Curve,
-    Result,
-    Scene,
-    SceneError,
-    Stage,
-    Until,
-    equilibrium,
-    shipped_database,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Curve, Result, Scene, SceneError, Stage, Until, equilibrium, shipped_database, simulate
 from seacrane.answers import contact_hits
 from seacrane.warnings import ContactStartWarning, SeabedWarning
 
@@ -160,7 +149,7 @@ def test_what_starts_inside_a_surface_is_told_and_refused_of_a_stage() -> None:
         simulate(scene, 0.01)
     stages = [Stage(name="fall", duration=1.0), Stage(name="on", duration=1.0, connect=["deck"])]
     with pytest.raises(SceneError, match=r"stage 'on': contact 'deck' .* point 1 .* inside 'ground'"):
-        simulate_stages(scene, stages)
+        simulate(scene, stages)
 
 
 def test_feet_sink_by_what_they_bear_in_a_seabed_or_under_what_is_welded_to_them() -> None:
@@ -256,7 +245,7 @@ def test_stages_end_on_contact_and_when_all_feet_are_clear() -> None:
         Stage(name="lift", until=Until.release("feet"), commands=up, **long),
         Stage(name="raise", until=Until.clear("feet", minimum=0.5), **long),
     ]
-    result = simulate_stages(hung(0.5), stages)
+    result = simulate(hung(0.5), stages)
     gap = np.asarray(result["contact_least_gap"])[:, 0]
     spans = {span.name: span for span in result.stages}
     for name, level in (("lower", 0.0), ("lift", 0.0), ("raise", 0.5)):

@@ -20,7 +20,6 @@ from seacrane import (
     equilibrium,
     shipped_database,
     simulate,
-    simulate_stages,
     statics,
 )
 from seacrane.crane import Payload, load_crane
@@ -83,7 +82,7 @@ def test_a_snap_follows_the_combined_stiffness(stiffness: float | None) -> None:
     load = {"mass": mass, "size": (6, 6, 4), "EA": 1e8, "on": "ground", "length": None}
     scene = hung(stiffness, slack=0.3, winch={"lag": 0.0}, damping=False, **load)
     lift = Stage(name="lift", duration=8.0, commands={"hoist.rate": -rate})
-    peak = simulate_stages(scene, [lift], dt_out=0.005).curve("line_tension[hoist]").max()
+    peak = simulate(scene, [lift], dt_out=0.005).curve("line_tension[hoist]").max()
     line = 1e8 / (float(scene.loads["hoist"].length.evaluate([0.0])[0, 0]) - 0.3)
     series = line if stiffness is None else 1.0 / (1.0 / line + 1.0 / stiffness)
     assert peak == pytest.approx(mass * G + rate * np.sqrt(series * mass), rel=0.02)

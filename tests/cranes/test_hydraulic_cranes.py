@@ -12,7 +12,7 @@ from hydraulic_scenes import RETRACTED, SET, START, lifted, raised
 from line_scenes import add_led
 from multibody_runs import record
 
-from seacrane import Curve, Move, Scene, Stage, Until, natural_modes, simulate, simulate_stages, statics
+from seacrane import Curve, Move, Scene, Stage, Until, natural_modes, simulate, statics
 from seacrane.crane import KnuckleBoomCrane, Payload, data_file, load_crane
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
@@ -178,7 +178,7 @@ HOLE = 4e-6  # m2
 def test_a_stage_moves_the_reference_and_the_cylinder_follows() -> None:
     up = Stage(name="up", duration=3.0, commands={"ram.reference": Move(by=0.1, over=2.0)})
     down = Stage(name="down", duration=3.0, commands={"ram.reference": Move(to=START, over=2.0)})
-    result = simulate_stages(raised(**FOLLOWS), [up, down], dt_out=0.1)
+    result = simulate(raised(**FOLLOWS), [up, down], dt_out=0.1)
     stroke = result["hydraulic_stroke"][:, 0]
     assert stroke[result.time <= 3.0][-1] == pytest.approx(START + 0.1, abs=2e-4)
     assert stroke[-1] == pytest.approx(START, abs=2e-4)
@@ -199,7 +199,7 @@ def test_a_hose_bursts_where_its_pressure_passes_a_bound() -> None:
         Stage(name="lift", until=high, maximum_duration=2.0),
         Stage(name="burst", duration=1.0, commands={"ram.rupture": HOLE}),
     ]
-    result = simulate_stages(scene, stages, dt_out=0.05, rtol=1e-8)
+    result = simulate(scene, stages, dt_out=0.05, rtol=1e-08)
     at = result.stages[0].end
     assert 0.5 < at < 0.6
     burst = ("ram.rupture", at)
@@ -226,14 +226,11 @@ def test_a_run_goes_on_bit_for_bit_across_a_burst(formulation: str) -> None:
 
 
 def test_a_stage_opens_the_spool_and_one_alone_starts_on_oil_that_holds_its_load() -> None:
-    opened = simulate_stages(
-        raised(),
-        [Stage(name="open", duration=1.5, commands={"ram.command": 0.3}),
-         Stage(name="shut", duration=1.5, commands={"ram.command": Move(to=0.0, over=0.5)})],
-    )  # fmt: skip
+    shut = Stage(name="shut", duration=1.5, commands={"ram.command": Move(to=0.0, over=0.5)})
+    opened = simulate(raised(), [Stage(name="open", duration=1.5, commands={"ram.command": 0.3}), shut])
     spool = opened["hydraulic_spool"][:, 0]
     assert np.max(spool) == pytest.approx(0.3, rel=1e-3) and spool[-1] == pytest.approx(0.0, abs=1e-6)
     up = Stage(name="up", duration=3.0, commands={"ram.reference": Move(by=0.1, over=2.0)})
-    alone = simulate_stages(raised(**FOLLOWS), [up, Stage(name="wait", duration=1.0)], first="wait")
+    alone = simulate(raised(**FOLLOWS), [up, Stage(name="wait", duration=1.0)], first="wait")
     np.testing.assert_allclose(alone["hydraulic_stroke"][:, 0], START + 0.1, atol=1e-6)
     np.testing.assert_allclose(alone["hydraulic_force"][:, 0], 1000.0 * 9.80665, rtol=1e-6)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from seacrane import Scene, SceneError, Stage, Until, shipped_database, simulate, simulate_stages
+from seacrane import Scene, SceneError, Stage, Until, shipped_database, simulate
 from seacrane.analysis import equilibrium, natural_modes
 from seacrane.scene import Slings
 
@@ -81,7 +81,7 @@ def test_it_hangs_at_a_height_or_stands_on_a_deck_and_is_lifted_off() -> None:
     assert np.ptp(still.curve("position[load, z]")) < 1e-6
     until = Until.release("load on vessel")
     lift = Stage(name="lift", until=until, maximum_duration=30.0, commands={"hoist.rate": -0.1})
-    lifted = simulate_stages(scene, [lift, Stage(name="up", duration=20.0)])
+    lifted = simulate(scene, [lift, Stage(name="up", duration=20.0)])
     assert lifted.stages[0].ended_by and lifted.curve("position[load, z]")[-1] > 10.0
     assert lifted.select("hook_load", suspension="hoist")[-1] == pytest.approx(20.5e3 * G, rel=0.02)
 
@@ -95,7 +95,7 @@ def test_slack_is_what_the_winch_takes_in_before_the_line_pulls() -> None:
     assert scene.loads["hoist"].length.evaluate([0.0])[0, 0] == pytest.approx(falls * (path + 0.2), rel=1e-9)
     lift = Stage(name="lift", until=Until.release("load on ground"), maximum_duration=30.0,
                  commands={"hoist.rate": -0.4})  # fmt: skip
-    (span,) = simulate_stages(scene, [lift]).stages
+    (span,) = simulate(scene, [lift]).stages
     stretch = 20e3 * G * path / (falls * 3e8)
     assert span.end == pytest.approx(0.5 + (0.2 + stretch) * falls / 0.4, rel=0.01)
 

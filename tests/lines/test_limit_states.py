@@ -11,7 +11,7 @@ import pytest
 from test_result import crane_run
 from test_summary import LENGTH, MASS, G, pendulum
 
-from seacrane import Lift, Result, Scene, SceneError, simulate, simulate_to_file, summary
+from seacrane import Lift, Result, Scene, SceneError, simulate, summary
 from seacrane.result import About
 from seacrane.scene import LimitState
 
@@ -76,7 +76,7 @@ def test_files_keep_them_and_the_worst_of_a_name_left_open_counts(swinging: Resu
     loaded = Result.load(swinging.save(tmp_path / "swing.nc"))
     assert loaded.utilisation == swinging.utilisation
     assert "1.48 exceeded" in str(summary(loaded))
-    told = simulate_to_file(limited(), tmp_path / "long.nc", t_end=20.0, dt_out=0.02)
+    told = simulate(limited(), to=tmp_path / "long.nc", t_end=20.0, dt_out=0.02)
     assert told.load().utilisation == swinging.utilisation
     limited().save(tmp_path / "scene.json")
     assert Scene.load(tmp_path / "scene.json").limit_states == limited().copy().limit_states

@@ -16,7 +16,6 @@ from seacrane.analysis import equilibrium, natural_modes
 from seacrane.analysis.line_dynamics import line_dynamics
 from seacrane.analysis.linearise import jacobian
 from seacrane.errors import LineSlackError
-from seacrane.run import simulate_to_file
 from seacrane.run.line_rungs import curve_frequency, excitations, tension_error
 from seacrane.warnings import LineRungWarning, PushingLineWarning, QuasiStaticLineWarning
 
@@ -205,7 +204,7 @@ def test_it_stays_elastic_where_the_bound_does_not_hold() -> None:
 @pytest.mark.warns("UnitWarning")
 def test_what_cannot_begin_anew_stays_elastic(tmp_path: Path) -> None:
     """A store on the disk, a model that was compiled before, and inputs that will be set."""
-    simulate_to_file(heaved(), tmp_path / "a.nc", 0.2, dt_out=0.1)
+    simulate(heaved(), 0.2, to=tmp_path / "a.nc", dt_out=0.1)
     told = Result.load(tmp_path / "a.nc").stats["line_rungs"]
     assert told.startswith("hoist: elastic: outputs leave memory")
     assert rung_of(heaved(), model=heaved().compile())[0] == "elastic"

@@ -10,7 +10,7 @@ import pytest
 from dropped import GRAVITY, METHODS, drops
 from marks import needs_lanes
 
-from seacrane import Run, Scene, SimulationError, Stage, Until, simulate, simulate_stages
+from seacrane import Run, Scene, SimulationError, Stage, Until, simulate
 from seacrane.run.lanes import advance_side_by_side
 
 FORMULATIONS = ("recursive", "redundant")
@@ -81,9 +81,9 @@ def test_a_load_that_a_stage_lets_go_hits_the_deck_and_ends_the_stage_there() ->
                    tension_at_start=5e3 * GRAVITY)  # fmt: skip
     hold = Stage(name="hold", duration=2.0)
     until = {"until": Until.contact("deck"), "maximum_duration": 9.0}
-    ended = simulate_stages(scene, [hold, Stage(name="lost", release=["w"], **until)])
+    ended = simulate(scene, [hold, Stage(name="lost", release=["w"], **until)])
     assert ended.stages[-1].end == pytest.approx(2.0 + np.sqrt(2.0 * 5.0 / GRAVITY), abs=2e-3)
-    result = simulate_stages(scene, [hold, Stage(name="lost", duration=4.0, release=["w"])])
+    result = simulate(scene, [hold, Stage(name="lost", duration=4.0, release=["w"])])
     hit = next(event for event in result.events if event.kind == "contact")
     assert hit.speed == pytest.approx(np.sqrt(2.0 * GRAVITY * 5.0), rel=1e-3)
     assert result["position"][-1, 0, 2] > 0.9

@@ -10,7 +10,7 @@ from line_scenes import MASS, STIFFNESS, G, add_led, busy, hung, swinging
 from multibody_runs import ramp, record
 from numpy.testing import assert_allclose
 
-from seacrane import Curve, Move, Run, Scene, SceneError, Stage, State, equilibrium, simulate, simulate_stages
+from seacrane import Curve, Move, Run, Scene, SceneError, Stage, State, equilibrium, simulate
 from seacrane.warnings import WinchLimitWarning
 
 RADIUS, DRUM = 0.5, 5e3  # m; kg, inertia over radius^2
@@ -197,11 +197,11 @@ def test_stages_command_the_brake_and_the_tension() -> None:
     scene = on_drum(damping=0.1, brake_capacity=CAPACITY)
     stages = [Stage(name="hold", duration=1.0),
               Stage(name="park", duration=6.0, commands={"hoist.brake": Move(to=1.0, over=0.2)})]  # fmt: skip
-    parked = simulate_stages(scene, stages, dt_out=0.5, rtol=1e-8)
+    parked = simulate(scene, stages, dt_out=0.5, rtol=1e-08)
     assert_allclose(parked["drum_motor_torque"][[0, -1], 0], [-MASS * G * RADIUS, 0.0], rtol=1e-9)
     assert parked["drum_brake_torque"][-1, 0] == pytest.approx(MASS * G * RADIUS, rel=1e-4)
     stages = [Stage(name="slack off", duration=9.0, commands={"tugger.tension": 12e3})]
-    let_go = simulate_stages(pulled(0.0, dead_band=1e3), stages, dt_out=0.5, rtol=1e-8)
+    let_go = simulate(pulled(0.0, dead_band=1000.0), stages, dt_out=0.5, rtol=1e-08)
     assert let_go["line_tension"][-1, 0] == pytest.approx(13e3, rel=1e-4)
 
 

@@ -11,7 +11,7 @@ from line_scenes import add_led
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from seacrane import Curve, Move, Scene, SceneError, SimulationError, Stage, Until, simulate, simulate_stages
+from seacrane import Curve, Move, Scene, SceneError, SimulationError, Stage, Until, simulate
 from seacrane.analysis import equilibrium, natural_modes
 from seacrane.result import heavy_line_tension
 
@@ -93,7 +93,7 @@ def test_stages_command_it_and_wait_for_it() -> None:
     for connect in ([], ["pin"]):
         slow = {"wire.rate": Move(to=0.0, over=4.0)}
         stop = Stage(name="stop", duration=8.0, commands=slow, connect=connect)
-        runs.append(simulate_stages(scene, [out, stop], dt_out=0.5, channels=channels))
+        runs.append(simulate(scene, [out, stop], dt_out=0.5, channels=channels))
     one, other = (np.asarray(result.select("position", body="load", axis="z")) for result in runs)
     assert other == pytest.approx(one, abs=1e-4)
     length = runs[1].select("load_state", state_name="wire.length")[-1]

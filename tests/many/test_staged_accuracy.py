@@ -39,7 +39,7 @@ FALL = [
 @pytest.mark.parametrize("limit", [1e-2, 1e-4])
 def test_a_drop_onto_a_surface_is_as_exact_as_told(limit: float) -> None:
     asked = {"stage[fall].end": limit, "contact_press.max": limit * PEAK, "event_times": limit}
-    result = sc.simulate_stages(dropped(), FALL, dt_out=0.002, accuracy=asked)
+    result = sc.simulate(dropped(), FALL, dt_out=0.002, accuracy=asked)
     errors = {
         "stage[fall].end": abs(result.stages[0].end - TOUCHES),
         "contact_press.max": abs(float(result.reached("contact_press")[1].max()) - PEAK),
@@ -64,7 +64,7 @@ def test_curves_of_an_oscillation_that_ends_at_a_place_are_as_exact_as_told() ->
     half = sc.Until.channel("position", body="load", axis="x", maximum=0.5)
     stages = [sc.Stage(name="in", until=half, maximum_duration=2.0), sc.Stage(name="on", duration=3.0)]
     for limit in (1e-2, 1e-5):
-        result = sc.simulate_stages(swinging_mass(), stages, dt_out=0.1, accuracy={"position": limit})
+        result = sc.simulate(swinging_mass(), stages, dt_out=0.1, accuracy={"position": limit})
         time = result.time - (result.stages[0].end - np.arccos(0.5) / OMEGA)  # at equal phase of "on"
         error = np.abs(result.select("position", body="load", axis="x") - np.cos(OMEGA * time)).max()
         estimate = float(result.stats["error_estimate_position"])
@@ -91,7 +91,7 @@ def test_a_jump_that_is_late_by_4_ms_is_an_error_of_time_alone() -> None:
 
 def bounced(height: float, duration: float) -> sc.Result:
     stages = [sc.Stage(name="bounce", duration=duration)]
-    return sc.simulate_stages(dropped(height), stages, dt_out=0.01, rtol=1e-9, integrator="dop853")
+    return sc.simulate(dropped(height), stages, dt_out=0.01, rtol=1e-09, integrator="dop853")
 
 
 def test_a_hit_more_is_another_course() -> None:
@@ -108,7 +108,7 @@ def test_a_lift_that_takes_another_course_at_every_tolerance_says_so() -> None:
     """Four feet graze the bed: rounding says which of them touches again."""
     scene, stages = lift_of(10)
     with pytest.warns(AnotherCourseWarning, match=r"(contact|release) of 'feet\.\d' \d+ times in one run, "):
-        result = sc.simulate_stages(scene, stages, dt_out=DT_OUT, accuracy={"position": 0.006})
+        result = sc.simulate(scene, stages, dt_out=DT_OUT, accuracy={"position": 0.006})
     assert "extremes" in str(result.stats["accuracy_course"])
     assert 0.0 < float(result.stats["error_estimate_position"]) <= 0.006
 

@@ -11,7 +11,7 @@ import pytest
 from scipy.stats import norm
 
 import seacrane as sc
-from seacrane import ensemble, simulate, simulate_stages
+from seacrane import ensemble, simulate
 from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.operability import Criterion, allowable_hs
@@ -56,7 +56,7 @@ def lifts() -> Ensemble:
 @pytest.mark.warns("LineLengthWarning")
 def test_members_are_their_staged_runs_to_the_bit(lifts: Ensemble) -> None:
     for place, seed in enumerate((1, 2, 3)):
-        run = sc.simulate_stages(with_sea(feeder(), {"seed": seed}), STAGES, **HOW)
+        run = sc.simulate(with_sea(feeder(), {"seed": seed}), STAGES, **HOW)
         lift = run.stages[1]
         member = lifts.dataset.isel(seed=place)
         assert float(member.whole.squeeze()) == run.reached("hook_load", suspension="hoist")[1].max()
@@ -96,7 +96,7 @@ def test_numbers_of_stages_vary_by_path(lifts: Ensemble) -> None:
             for rate, wait in ((-0.5, 5.0), (-0.25, 5.0), (-0.5, 7.0))]  # fmt: skip
     told = sc.ensemble(feeder(), stages=STAGES, over=over, keep=KEEP, **HOW).dataset
     assert float(told.lifted[0]) == float(lifts.dataset.lifted[1])
-    run = sc.simulate_stages(with_sea(feeder(), {"seed": 2}), lift_at(-0.25), **HOW)
+    run = sc.simulate(with_sea(feeder(), {"seed": 2}), lift_at(-0.25), **HOW)
     assert float(told.lifted[1]) == run.stages[1].end
     assert float(told.lifted[2] - told.took[2]) == 7.0
 
@@ -141,12 +141,12 @@ def test_allowable_hs_of_a_lift_in_stages() -> None:
     told = allowable_hs(scene, criteria=criteria, tp=[8.0], direction_deg=[180.0], hs=heights, seeds=seeds,
                         stages=STAGES, **how)  # fmt: skip
     how["start"] = sc.equilibrium(scene)
-    rest = _reached(sc.simulate_stages(scene.copy(waves=None), STAGES, **how), "up")
+    rest = _reached(sc.simulate(scene.copy(waves=None), STAGES, **how), "up")
     assert MASS * G < rest < bound
     levels = []
     for hs in heights:
         storms = (with_sea(scene, {"hs": hs, "seed": seed}) for seed in seeds)
-        peaks = np.array([_reached(sc.simulate_stages(storm, STAGES, **how), "up") for storm in storms])
+        peaks = np.array([_reached(sc.simulate(storm, STAGES, **how), "up") for storm in storms])
         levels.append(float(seed_extremes(peaks - rest, duration=1.0, exposure=1.0).gumbel.p90.value))
     expected = np.interp(bound - rest, [0.0, *levels], [0.0, *heights])
     found = told.dataset.by_criterion.sel(criterion="hook load in up").item()
@@ -187,7 +187,7 @@ def test_each_begins_in_the_state_of_its_sea_to_the_bit(waiting: Ensemble) -> No
         state = None
         for begin in sorted(STARTS["start_time"]):
             state = simulate(scene, begin, start=state, **HOW).state if begin else state
-            run = simulate_stages(scene, STAGES, start=state, **HOW)
+            run = simulate(scene, STAGES, start=state, **HOW)
             member = waiting.dataset.sel(seed=seed, start_time=begin)
             up = run.reached("hook_load", suspension="hoist", part=run.stage("up"))[1]
             assert float(member.peak.squeeze()) == up.max()

@@ -36,8 +36,8 @@ def test_a_look_that_fails_keeps_the_run(place: str, tmp_path: Path, monkeypatch
     monkeypatch.setattr(module, name, fails)
     for run in (
         lambda: sc.simulate(pendulum(), 1.0),
-        lambda: sc.simulate_to_file(pendulum(), tmp_path / "run.nc", 1.0).load(),
-        lambda: sc.simulate_stages(pendulum(), HALVES),
+        lambda: sc.simulate(pendulum(), 1.0, to=tmp_path / "run.nc").load(),
+        lambda: sc.simulate(pendulum(), HALVES),
     ):
         with pytest.warns(UnjudgedWarning, match="which is kept: ValueError: no such thing"):
             result = run()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from trade_scenes import pendulum
 
-from seacrane import Method, Outputs, Run, SceneError, simulate, simulate_to_file, step_error
+from seacrane import Method, Outputs, Run, SceneError, simulate, step_error
 from seacrane.run.shorthand import METHOD_WORDS, OUTPUT_WORDS, Shorthand
 
 METHOD = Method(integrator="rk4", dt=0.05, formulation="redundant", maximum_step=0.5)
@@ -22,7 +22,7 @@ WORDS = {
 
 def test_values_and_words_make_the_same_run(tmp_path: Path) -> None:
     by_value = simulate(pendulum(), 1.0, method=METHOD, outputs=OUTPUTS)
-    to_file = simulate_to_file(pendulum(), tmp_path / "run.nc", 1.0, method=METHOD, outputs=OUTPUTS)
+    to_file = simulate(pendulum(), 1.0, to=tmp_path / "run.nc", method=METHOD, outputs=OUTPUTS)
     run = Run(pendulum(), 1.0, method=METHOD, outputs=OUTPUTS)
     assert run.advance(1.0)
     both = simulate(pendulum(), 1.0, method=METHOD, outputs=OUTPUTS, **WORDS)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Result, Scene, simulate, simulate_to_file
+from seacrane import Result, Scene, simulate
 from seacrane.result.stream import partial_path
 
 SETTINGS = {"t_end": 40.0, "dt_out": 0.05}
@@ -44,7 +44,7 @@ def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settin
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
         if room is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
-        simulate_to_file(pendulum(stiffness), path, **{**SETTINGS, "checkpoint_every": 0.5, **settings})
+        simulate(pendulum(stiffness), to=path, **{**SETTINGS, "checkpoint_every": 0.5, **settings})
         ends = 0
     except FileExistsError:
         ends = REFUSED
@@ -92,7 +92,7 @@ def kill(seed: int, path: Path) -> None:
     for result in left_at(path):
         assert is_start_of(result, reference())
         assert result.state is None or result.state.time >= result.time[-1]
-    told = simulate_to_file(pendulum(), path, resume=True, **SETTINGS)
+    told = simulate(pendulum(), to=path, resume=True, **SETTINGS)
     assert told.outputs == reference().time.size
     assert is_start_of(told.load(), reference())
 
@@ -138,7 +138,7 @@ def stale(seed: int, path: Path) -> None:
         resume, overwrite = rng.random() < 0.5, rng.random() < 0.3
         given = {"resume": resume, "overwrite": overwrite, **SETTINGS, "t_end": t_end}
         try:
-            told = simulate_to_file(pendulum(stiffness), path, **given)
+            told = simulate(pendulum(stiffness), to=path, **given)
         except (OSError, ValueError):
             assert contents(path) == before
             continue
@@ -163,7 +163,7 @@ def full_disk(seed: int, path: Path) -> None:
     whole_there = left_at_once(path)
     for result in left_at(path) if whole_there else []:
         assert is_start_of(result, reference()) and result.state is not None
-    told = simulate_to_file(pendulum(), path, resume=whole_there, **SETTINGS)
+    told = simulate(pendulum(), to=path, resume=whole_there, **SETTINGS)
     assert is_start_of(told.load(), reference())
     assert [one.name for one in path.parent.iterdir()] == [path.name]
 

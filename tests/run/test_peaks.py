@@ -110,9 +110,9 @@ def test_files_and_stages_hold_them(tmp_path: Path) -> None:
         np.testing.assert_array_equal(both, again.extremes[name])
     some = sc.Result.load(tmp_path / "whole.nc", channels=["line_tension"])
     assert set(some.extremes) == {"line_tension"}
-    streamed = sc.simulate_to_file(scene, tmp_path / "streamed.nc", 2.0, dt_out=0.25, checkpoint_every=0.6)
+    streamed = sc.simulate(scene, 2.0, to=tmp_path / "streamed.nc", dt_out=0.25, checkpoint_every=0.6)
     stages = [sc.Stage(name="a", duration=0.7), sc.Stage(name="b", duration=1.3)]
-    for other in (streamed.load(), sc.simulate_stages(scene, stages, dt_out=0.25)):
+    for other in (streamed.load(), sc.simulate(scene, stages, dt_out=0.25)):
         for channel in ("line_tension", "hook_load"):
             assert largest(other, channel) == pytest.approx(largest(whole, channel), rel=1e-3)
     assert "line_tension_largest" in whole.to_xarray()

@@ -11,9 +11,8 @@ import pytest
 from random_rests import Builder
 
 import seacrane as sc
-from seacrane import Scene, SceneError, equilibrium, simulate, simulate_stages, simulate_to_file
+from seacrane import Scene, SceneError, equilibrium, simulate
 from seacrane.hydro import shipped_database
-from seacrane.run.stages_to_file import simulate_stages_to_file
 from seacrane.warnings import CreepingRestWarning, LargeHeelWarning, UnstableRestWarning, UnsteadyOilWarning
 
 STILL = 1e-3  # m, and m at 1 m from the centre of mass, in a minute
@@ -156,9 +155,9 @@ def test_every_run_takes_the_word_and_begins_as_from_equilibrium(tmp_path: Path)
     assert np.array_equal(sc.Run(scene, 2.0, start="rest").start.values, state.values)
     for told in (
         simulate(scene, 2.0, start="rest"),
-        simulate_to_file(scene, tmp_path / "a.nc", 2.0, start="rest").load(),
-        simulate_stages(scene, WAIT, start="rest"),
-        simulate_stages_to_file(scene, WAIT, tmp_path / "b.nc", start="rest"),
+        simulate(scene, 2.0, to=tmp_path / "a.nc", start="rest").load(),
+        simulate(scene, WAIT, start="rest"),
+        simulate(scene, WAIT, to=tmp_path / "b.nc", start="rest").load(),
     ):
         assert np.array_equal(height(told), by_state)
     over, keep = {"bodies.load.mass": [20e3, 30e3]}, {"range": "line_tension[hoist].std"}

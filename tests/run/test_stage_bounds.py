@@ -12,7 +12,7 @@ from stage_scenes import MASS as DECK_MASS
 from stage_scenes import G, heaving, lift_off, on_deck
 from test_stages import motored, noted
 
-from seacrane import Result, Scene, SceneError, SimulationError, Stage, Until, simulate_stages
+from seacrane import Result, Scene, SceneError, SimulationError, Stage, Until, simulate
 from seacrane.run import StagedRun
 
 DOWN, UP, STOP = ({"wire.rate": rate} for rate in (0.4, -0.4, 0.0))
@@ -23,7 +23,7 @@ LYING = BED + HALF  # m
 def carried_out(scene: Scene, *stages: Stage) -> Result:
     """All that was recorded, also where the last stage is not over in time."""
     try:
-        return simulate_stages(scene, stages, **HOW)
+        return simulate(scene, stages, **HOW)
     except SimulationError as error:
         return error.result
 
@@ -72,7 +72,7 @@ def test_controllers_are_called_once_where_a_stage_begins_at_its_bound() -> None
         Stage(name="go on", duration=0.5),
     ]  # fmt: skip
     with pytest.raises(SimulationError, match="stage 'back': is not over") as raised:
-        simulate_stages(motored(), stages, controllers=[noted(calls, 0.1)], dt_out=0.17)
+        simulate(motored(), stages, controllers=[noted(calls, 0.1)], dt_out=0.17)
     assert raised.value.result.stages[1].end - raised.value.result.stages[1].start == pytest.approx(0.5)
     assert_allclose(np.diff(calls), 0.1, rtol=1e-9)
 
@@ -85,16 +85,16 @@ def test_a_stage_alone_takes_over_what_those_before_it_reach() -> None:
         Stage(name="stop", duration=2.0, commands=STOP),
     ]  # fmt: skip
     for first, height in (("clear", LYING), ("stop", LYING + 0.5)):
-        alone = simulate_stages(hanging(), stages, first=first, **HOW)
+        alone = simulate(hanging(), stages, first=first, **HOW)
         assert alone.curve("position[load, z]")[0] == pytest.approx(height, abs=0.02)
         assert alone["velocity"][0].max() == 0.0
     stages = [Stage(name="down", duration=4.0, commands=DOWN), Stage(name="on", duration=4.0)]
-    going = simulate_stages(hanging(), stages, first="on", **HOW)
+    going = simulate(hanging(), stages, first="on", **HOW)
     paid = np.diff(going.curve("line_unstretched_length[wire]")[[0, -1]])[0]
     assert paid == pytest.approx(0.4 * (4.0 - 0.5 - 0.2), abs=1e-3)  # from rest, within 1 s and the lag
-    raised = simulate_stages(on_deck(damping_ratio=0.1), lift_off(), first="raise", rtol=1e-8)
+    raised = simulate(on_deck(damping_ratio=0.1), lift_off(), first="raise", rtol=1e-08)
     assert raised.curve("position[load, z]")[0] == pytest.approx(1.0, abs=1e-3)
-    stop = simulate_stages(on_deck(damping_ratio=0.1), lift_off(), first="stop", rtol=1e-8)
+    stop = simulate(on_deck(damping_ratio=0.1), lift_off(), first="stop", rtol=1e-08)
     assert stop["line_tension"][0, 0] == pytest.approx(DECK_MASS * G, rel=1e-6)
     assert stop["line_unstretched_length"][0, 0] == pytest.approx(18.5)
 
@@ -117,8 +117,8 @@ def test_a_stage_alone_begins_at_rest_aboard_a_ship_where_its_motion_has_it(ramp
         until(Until.length("wire", minimum=20.0), DOWN, "down"),
         Stage(name="hang", duration=4.0, commands=STOP),
     ]
-    alone = simulate_stages(heaving(2.0, ramp), stages, first="hang", **HOW)
-    whole = simulate_stages(heaving(2.0, ramp), stages, start="rest", **HOW)
+    alone = simulate(heaving(2.0, ramp), stages, first="hang", **HOW)
+    whole = simulate(heaving(2.0, ramp), stages, start="rest", **HOW)
     part = whole.stage("hang")
     assert alone.time[0] == pytest.approx(whole.time[part.start - 1])
     ship = [result.curve("vessel_motion[heave]") for result in (alone, whole)]
@@ -138,7 +138,7 @@ def test_what_a_scene_refuses_in_a_stage_names_the_stage() -> None:
         (tight, {"first": "on"}, "first is 'on', and stage 'pull' .*start="),
     ):
         with pytest.raises(SceneError, match=message):
-            simulate_stages(hanging(), stages, **given)
+            simulate(hanging(), stages, **given)
     lost = [on, until(Until.depth("lode", minimum=1.0), DOWN, "down")]
     with pytest.raises(SceneError, match="stage 'down': waits for immersed 'lode'"):
         StagedRun(hanging(), lost)  # before anything runs
@@ -172,7 +172,7 @@ def test_a_stage_of_a_random_lift_begun_anew_goes_as_in_the_whole(seed: int) -> 
             pass
         assert again.result().stages == whole.stages[at:]
         assert np.array_equal(again.state.values, run.state.values)
-        alone = simulate_stages(hanging(), stages, first=stage.name, **COARSE)
+        alone = simulate(hanging(), stages, first=stage.name, **COARSE)
         assert alone.time[0] == pytest.approx(span.start if at else 0.0)
         there = max(whole.stage(stage.name).start - 1, 0)
         for channel, within in (("line_unstretched_length[wire]", 1e-9), ("position[load, z]", 0.1)):

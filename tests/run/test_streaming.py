@@ -69,7 +69,7 @@ def stopping_after(pieces: int, monkeypatch: Any, error: type[BaseException] | N
 @pytest.mark.parametrize("outputs", [1, 16, 17, 200])
 def test_a_file_holds_what_simulate_returns(outputs: int, tmp_path: Path) -> None:
     settings = {"t_end": 0.1 * (outputs - 1), "dt_out": 0.1}
-    told = sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", **settings)
+    told = sc.simulate(cases.case2(), to=tmp_path / "run.nc", **settings)
     assert (told.outputs, told.interrupted) == (outputs, False)
     whole, read = sc.simulate(cases.case2(), **settings), told.load()
     same(whole, read)
@@ -86,7 +86,7 @@ def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -
     assert whole["slew_angle"][-1] > 250.0
     for t_end in (2000.0, 4000.0):
         path, resume = tmp_path / "run.nc", t_end > 3000.0
-        told = sc.simulate_to_file(spinner(), path, t_end=t_end, dt_out=0.2, resume=resume)
+        told = sc.simulate(spinner(), to=path, t_end=t_end, dt_out=0.2, resume=resume)
     np.testing.assert_allclose(told.load()["slew_angle"], whole["slew_angle"], atol=1e-3)
 
 
@@ -100,11 +100,11 @@ def test_a_stopped_run_goes_on_to_the_same_file(memory: str, tmp_path: Path, mon
     for pieces in (2, 3):
         with monkeypatch.context() as patch:
             stopping_after(pieces, patch)
-            told = sc.simulate_to_file(scene, tmp_path / "run.nc", resume=pieces > 2, **settings)
+            told = sc.simulate(scene, to=tmp_path / "run.nc", resume=pieces > 2, **settings)
         assert told.interrupted and told.load().interrupted
         assert 0 < told.load().time.size < 3001
     whole = sc.simulate(scene, **settings)
-    rest = sc.simulate_to_file(scene, tmp_path / "run.nc", resume=True, **settings)
+    rest = sc.simulate(scene, to=tmp_path / "run.nc", resume=True, **settings)
     assert not rest.interrupted
     same(whole, rest.load())
     assert rest.load().stats["simulated_s"] == pytest.approx(300.0)
@@ -117,7 +117,7 @@ def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
     whole = sc.simulate(scene, t_end=20.0)
     assert len(whole.events) > 10
     for t_end in (3.0, 15.0, 20.0):
-        told = sc.simulate_to_file(scene, path, t_end=t_end, resume=t_end > 3.0)
+        told = sc.simulate(scene, to=path, t_end=t_end, resume=t_end > 3.0)
     joined = told.load()
     assert joined.stats["events"] == len(joined.events)
     assert [event.kind for event in joined.events] == [event.kind for event in whole.events]
@@ -131,7 +131,7 @@ def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
 def test_a_write_that_fails_once_is_made_up_for_at_the_end(tmp_path: Path, monkeypatch: Any) -> None:
     stopping_after(3, monkeypatch, MemoryError)
     with pytest.raises(sc.SimulationError, match="memory ran out"):
-        sc.simulate_to_file(cases.case2(), tmp_path / "run.nc", t_end=1e4, dt_out=0.5)
+        sc.simulate(cases.case2(), to=tmp_path / "run.nc", t_end=10000.0, dt_out=0.5)
     partial = sc.Result.load(tmp_path / "run.nc")
     same_piece = sc.simulate(cases.case2(), t_end=float(partial.time[-1]), dt_out=0.5)
     assert partial.time.size > 32  # the output at the start, and two pieces of at least 16
@@ -154,7 +154,7 @@ def test_ctrl_c_while_a_piece_is_written_waits_for_it(tmp_path: Path, monkeypatc
 
     monkeypatch.setattr(PartialFile, "append", pressed)
     monkeypatch.setattr(stream.ResultFile, "finish", pressed_again)
-    told = sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1e5, dt_out=1.0)
+    told = sc.simulate(spinner(), to=tmp_path / "run.nc", t_end=100000.0, dt_out=1.0)
     assert told.interrupted
     assert told.outputs == told.load().time.size == sum(piece.outputs for piece in seen) >= 1
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -172,7 +172,7 @@ def test_a_record_that_was_broken_off_does_not_count(cut: int, tmp_path: Path) -
         assert partial.time[-1] <= partial.state.time < whole.time[-1]
         assert np.array_equal(partial["velocity"], whole["velocity"][: partial.time.size])
     with pytest.raises(FileExistsError, match=r"run\.nc\.partial .*resume=True"):
-        sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0)
+        sc.simulate(spinner(), to=tmp_path / "run.nc", t_end=20.0)
 
 
 def left_behind(folder: Path) -> Path:
@@ -180,7 +180,7 @@ def left_behind(folder: Path) -> Path:
     code = (
         "import os, sys\nfrom test_streaming import sc, spinner\n"
         "def look(now, measured):\n    if now > 9.0:\n        os._exit(1)\n    return {}\n"
-        "sc.simulate_to_file(spinner(), sys.argv[1], t_end=20.0, checkpoint_every=1.0,"
+        "sc.simulate(spinner(), 20.0, to=sys.argv[1], checkpoint_every=1.0,"
         " controllers=[sc.SampledController(period=0.5, function=look)])"
     )
     subprocess.run([sys.executable, "-c", code, str(folder / "run.nc")], check=False)
@@ -191,11 +191,11 @@ def left_behind(folder: Path) -> Path:
 def test_two_runs_of_one_process_do_not_write_one_file(tmp_path: Path) -> None:
     def second(now: float, measured: Any) -> dict[str, float]:
         with pytest.raises(FileExistsError, match=r"run\.nc\.partial is being written by another run"):
-            sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1.0, overwrite=True)
+            sc.simulate(spinner(), to=tmp_path / "run.nc", t_end=1.0, overwrite=True)
         return {}
 
     ticks = [sc.SampledController(period=5.0, function=second)]
-    assert sc.simulate_to_file(spinner(), tmp_path / "run.nc", t_end=10.0, controllers=ticks).outputs == 101
+    assert sc.simulate(spinner(), to=tmp_path / "run.nc", t_end=10.0, controllers=ticks).outputs == 101
 
 
 RESUME = {"resume": True, "t_end": 3.0}
@@ -217,30 +217,30 @@ OTHERS: list[tuple[dict[str, Any], type[Exception], str]] = [
 def test_only_the_same_run_replaces_a_result_unasked(tmp_path: Path) -> None:
     """Nor does another go on with it: it is refused and leaves the file alone."""
     path = tmp_path / "run.nc"
-    sc.simulate_to_file(spinner(), path, t_end=2.0)
+    sc.simulate(spinner(), to=path, t_end=2.0)
     before = path.read_bytes()
     for change, kind, words in OTHERS:
         given = {"t_end": 2.0, **change}
         scene = given.pop("scene", spinner)()
         with pytest.raises(kind, match=words):
-            sc.simulate_to_file(scene, path, **given)
+            sc.simulate(scene, to=path, **given)
         assert path.read_bytes() == before and [p.name for p in tmp_path.iterdir()] == ["run.nc"], words
     for given in ({}, {"t_end": 3.0}, {"t_end": 1.0, "overwrite": True}):  # the same, a later end, asked
         given = {"t_end": 2.0, **given}
-        assert sc.simulate_to_file(spinner(), path, **given).load().time[-1] == given["t_end"]
+        assert sc.simulate(spinner(), to=path, **given).load().time[-1] == given["t_end"]
     path.write_text("a letter")
     for given in ({}, {"resume": True}):
         with pytest.raises((FileExistsError, sc.FileFormatError), match=r"is there and|is not a result"):
-            sc.simulate_to_file(spinner(), path, t_end=2.0, **given)
+            sc.simulate(spinner(), to=path, t_end=2.0, **given)
     sc.simulate(spinner(), t_end=1.0).save(path)
     with pytest.raises(FileExistsError, match="is there and"):
-        sc.simulate_to_file(spinner(), path, t_end=2.0)
+        sc.simulate(spinner(), to=path, t_end=2.0)
 
 
 @pytest.mark.warns("FullTurnWarning")
 def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
-    sc.simulate_to_file(spinner(), path, t_end=20.0)
+    sc.simulate(spinner(), to=path, t_end=20.0)
     before = path.read_bytes()
 
     def fail(now: float, measured: Any) -> dict[str, float]:
@@ -249,12 +249,12 @@ def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> 
         return {}
 
     ticks = [sc.SampledController(period=0.5, function=fail)]
-    told = sc.simulate_to_file(spinner(), path, t_end=20.0, controllers=ticks, overwrite=True)
+    told = sc.simulate(spinner(), to=path, t_end=20.0, controllers=ticks, overwrite=True)
     assert told.interrupted
     assert path.read_bytes() == before
     assert told.path == stream.partial_path(path)
     assert told.load().time[-1] == pytest.approx(5.5)
-    told = sc.simulate_to_file(spinner(), path, t_end=20.0, resume=True)
+    told = sc.simulate(spinner(), to=path, t_end=20.0, resume=True)
     assert told.load().time.size == 201
     assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
@@ -262,11 +262,11 @@ def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> 
 MEMORY = """
 import re, sys
 from pathlib import Path
-from seacrane import cases, simulate_to_file
+from seacrane import cases, simulate
 path = Path(sys.argv[1]) / "run.nc"
 peak = []
 for dt_out in (0.02, 0.005):
-    simulate_to_file(cases.case2(), path, t_end=400.0, dt_out=dt_out, overwrite=True)
+    simulate(cases.case2(), 400.0, to=path, dt_out=dt_out, overwrite=True)
     status = Path("/proc/self/status").read_text()  # getrusage would count what the parent once had
     peak.append(int(re.search(r"VmHWM:\\s+([0-9]+) kB", status)[1]))
 print(peak[1] - peak[0])
@@ -287,8 +287,8 @@ def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
     """Once for the run, however many pieces it has, and of what was before a stop too."""
     scene, settings = cases.vessel(hs=24.0), {"dt_out": 0.01, "channels": ["vessel_motion"]}
     with pytest.warns(LargeHeelWarning) as caught:
-        told = sc.simulate_to_file(scene, tmp_path / "storm.nc", t_end=100.0, **settings)
+        told = sc.simulate(scene, to=tmp_path / "storm.nc", t_end=100.0, **settings)
     assert len([w for w in caught if w.category is LargeHeelWarning]) <= 2  # roll, pitch
     assert told.load().stats["validity"] == told.stats["validity"]
-    sc.simulate_to_file(scene, tmp_path / "storm.nc", t_end=101.0, resume=True, **settings)
+    sc.simulate(scene, to=tmp_path / "storm.nc", t_end=101.0, resume=True, **settings)
     assert told.load().stats["validity"].startswith(told.stats["validity"])

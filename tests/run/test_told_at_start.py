@@ -42,8 +42,8 @@ def told(run: Callable[[], Any]) -> dict[str, str]:
 RUNS: dict[str, Callable[[sc.Scene], Any]] = {
     "described": lambda scene: sc.simulate(scene, 0.1, **SHORT),
     "rest": lambda scene: sc.simulate(scene, 0.1, start="rest", **SHORT),
-    "stages": lambda scene: sc.simulate_stages(scene, ALL, **SHORT),
-    "stages from rest": lambda scene: sc.simulate_stages(scene, ALL, start="rest", **SHORT),
+    "stages": lambda scene: sc.simulate(scene, ALL, **SHORT),
+    "stages from rest": lambda scene: sc.simulate(scene, ALL, start="rest", **SHORT),
 }
 
 
@@ -152,7 +152,7 @@ def test_what_was_told_before_the_start_is_listed_once() -> None:
     scene.add_vessel(sc.shipped_database(), heading_deg=np.pi / 4)
     scene.add_sea(hs=1.0, tp=8.0, count=20, direction_deg=np.pi * 3 / 4)
     stages = [sc.Stage(name="one", duration=0.5), sc.Stage(name="two", duration=0.5)]
-    for result in (sc.simulate(scene.copy(name="copy"), t_end=0.5), sc.simulate_stages(scene, stages)):
+    for result in (sc.simulate(scene.copy(name="copy"), t_end=0.5), sc.simulate(scene, stages)):
         assert all(str(result.stats["described"]).count(word) == 1 for word in WORDS)
 
 

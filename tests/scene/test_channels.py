@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from test_relative_motion import hoisting, tumbling
 from test_restart import chain, crank
 
-from seacrane import Kept, Result, Run, Scene, Stage, Until, _core, cases, ensemble, simulate, simulate_stages
+from seacrane import Kept, Result, Run, Scene, Stage, Until, _core, cases, ensemble, simulate
 from seacrane.analysis import linear_model
 from seacrane.description.channels import CHANNELS, DERIVED, FIXED, NAMED, OWN
 from seacrane.description.expression import DEEPEST, LONGEST
@@ -131,7 +131,7 @@ def test_what_a_later_stage_connects_is_recorded_there_and_its_limits_hold() -> 
     scene = ship(hoist=True)
     scene.add_limit_state("swing", maximum=1.0)
     stages = [Stage(name="before", duration=0.2), Stage(name="hooked", connect=["hoist"], duration=0.2)]
-    run = simulate_stages(scene, stages, channels=["swing", "position"], rtol=1e-3)
+    run = simulate(scene, stages, channels=["swing", "position"], rtol=0.001)
     assert np.isnan(run["swing"][0]) and np.isfinite(run["swing"][-1])
     assert np.isfinite(run.utilisation.largest)
 
@@ -298,7 +298,7 @@ def test_a_stage_ends_where_it_says(tmp_path: Path) -> None:
     up = {"until": Until.channel("own[raised]", minimum=1.0), "maximum_duration": 20.0}
     stages = [Stage(name="up", **up), Stage(name="on", duration=1.0)]
     for asked in (None, ["own", "position", "hook_speed"]):
-        result = simulate_stages(scene, stages, dt_out=0.05, channels=asked)
+        result = simulate(scene, stages, dt_out=0.05, channels=asked)
         end = result.stages[0].end
         assert 1.5 < end < 3.0
         assert np.interp(end, result.time, result.curve("own[raised]")) == pytest.approx(1.0, abs=1e-3)

@@ -23,7 +23,7 @@ from slipped_scenes import MASS, G, with_load
 from stage_scenes import lift_off, on_deck
 
 import seacrane
-from seacrane import Curve, MotionRaos, SampledController, Scene, Stage, Until, simulate, simulate_stages
+from seacrane import Curve, MotionRaos, SampledController, Scene, Stage, Until, simulate
 from seacrane.analysis import balance, driven, equilibrium, reflected_inertia
 from seacrane.crane import Payload
 from seacrane.hydro import HydroGroup, ikeda_roll_damping, shipped_database
@@ -135,7 +135,7 @@ def lowered(depth: float, *, stages: bool) -> None:
     scene.add_immersed("load", parts=[BoxPart(size=(2.0, 2.0, 2.0), fill=0.5)])
     down: dict[str, Any] = {"commands": {"hoist.rate": 5.0}}
     deep = Stage(name="down", until=Until.depth("load", minimum=97.0), maximum_duration=60.0, **down)
-    simulate_stages(scene, [deep if stages else Stage(name="down", duration=2.0, **down)], start="rest")
+    simulate(scene, [deep if stages else Stage(name="down", duration=2.0, **down)], start="rest")
 
 
 def waves(hs: float = 2.0, tp: float = 8.0) -> WaveSystem:
@@ -242,7 +242,7 @@ def a_tagline_connected_short() -> None:
     scene = on_wire()
     scene.add_line("tag", "ground", "load", first_point=(6.5, 0, -10), EA=1e6, length=5.0)
     stages = [Stage(name="wait", duration=0.1), Stage(name="on", duration=0.1, connect=["tag"])]
-    simulate_stages(scene, stages)
+    simulate(scene, stages)
 
 
 def a_resonant_wire_as_quasi_static() -> None:
@@ -335,7 +335,7 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "a record with noise": [lambda: record(1.5, noise=5e-3)],
     "phases of the other sign, or in degrees": [lambda: raos(np.conj),
         lambda: raos(lambda v: np.abs(v) * np.exp(1j * np.degrees(np.angle(v))))],
-    "a load that comes back to its deck": [lambda: simulate_stages(on_deck(), lift_off())],
+    "a load that comes back to its deck": [lambda: simulate(on_deck(), lift_off())],
     "a deck upside down, or above the feet": [lambda: above_a_deck(axis=(0, 0, -1), place=(0, 0, 1)),
         lambda: above_a_deck(place=(0, 0, 2.8))],
 }  # fmt: skip

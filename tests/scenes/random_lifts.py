@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Result, Run, Scene, SeacraneError, Stage, State, Until, shipped_database, simulate_stages
+from seacrane import Result, Run, Scene, SeacraneError, Stage, State, Until, shipped_database, simulate
 from seacrane.hydro import HydroGroup, two_barges
 from seacrane.sea.dispersion import wavenumber
 from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart, SpherePart
@@ -244,7 +244,7 @@ class Lift:
         both = {"recursive": "redundant", "redundant": "recursive"}
         formulation = both[self.lift.formulation] if self.view.other else self.lift.formulation
         how: dict[str, Any] = {"formulation": formulation, "integrator": self.lift.integrator, "rtol": 1e-9}
-        return simulate_stages(self.scene, self.stages(), start=self.begun(), dt_out=0.05, **how)
+        return simulate(self.scene, self.stages(), start=self.begun(), dt_out=0.05, **how)
 
     def begun(self) -> State | None:
         """As described, at the time of the view: a load that turns freely rests at any angle."""

@@ -18,7 +18,7 @@ from accuracy_scenes import AGREED, ENDS, said, told
 from random_staged_lifts import hanging, random_stages
 from stage_scenes import heaving, hoisting, lift_off, meeting, on_deck, swinging
 
-from seacrane import Result, Scene, SeacraneError, Stage, Until, simulate_stages
+from seacrane import Result, Scene, SeacraneError, Stage, Until, simulate
 from seacrane.accuracy.matching import curve_apart, extremes_apart, matched
 from seacrane.accuracy.quantities import quantities_of
 
@@ -95,13 +95,13 @@ def _word(number: int) -> SimpleNamespace:
     quantity = ASKED[int(rng.integers(len(ASKED)))]
     part = float(10.0 ** rng.uniform(-4.5, -2.0))
     scene, stages = lift_of(number)
-    rough = simulate_stages(scene, stages, dt_out=DT_OUT, integrator="verner76", rtol=1e-6)
+    rough = simulate(scene, stages, dt_out=DT_OUT, integrator="verner76", rtol=1e-06)
     limit = part * _size(scene, quantity, rough)
     kind = KINDS[number % len(KINDS)].__name__
     about: dict[str, Any] = {"number": number, "kind": kind, "quantity": quantity, "limit": limit}
     about |= {"other_course": False, "cost": 0.0}
     try:
-        found = simulate_stages(scene, stages, dt_out=DT_OUT, accuracy={quantity: limit})
+        found = simulate(scene, stages, dt_out=DT_OUT, accuracy={quantity: limit})
     except SeacraneError as refused:
         return said(**about, end="refused", why=str(refused))
     stats = found.stats
@@ -119,7 +119,7 @@ def _word(number: int) -> SimpleNamespace:
 def _judges(scene: Scene, stages: list[Stage], found: Result) -> tuple[Result, Result]:
     rtol = float(found.settings["rtol"])
     names = [name for name in OTHERS if name != found.stats["integrator"]]
-    one, other = (simulate_stages(scene, stages, dt_out=DT_OUT, integrator=name, rtol=min(part * rtol, most))
+    one, other = (simulate(scene, stages, dt_out=DT_OUT, integrator=name, rtol=min(part * rtol, most))
                   for name, part, most in zip(names, (0.1, 0.01), (1e-7, 1e-8), strict=False))  # fmt: skip
     return one, other
 

@@ -20,7 +20,7 @@ from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.answers import statics, summary
 from seacrane.ensembles import coefficient_scatter
 from seacrane.ensembles.coefficient_scatter import SHARES
-from seacrane.run import Stage, Until, simulate_stages
+from seacrane.run import Stage, Until
 from seacrane.sea import Current, jonswap
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
 from seacrane.water.added_mass import sphere_table
@@ -242,7 +242,7 @@ def test_a_stage_ends_at_the_depth_of_the_lowest_point_of_all_parts() -> None:
     stage = Stage(name="lower", until=Until.depth("load", minimum=3.0), maximum_duration=60.0,
                   commands={"wire.rate": 0.5})  # fmt: skip
     channels = ["position", "quaternion", "immersed_depth"]
-    result = simulate_stages(scene, [stage], dt_out=0.1, start="rest", channels=channels)
+    result = simulate(scene, [stage], dt_out=0.1, start="rest", channels=channels)
     found = result.select("immersed_depth", immersed="load")
     corners = np.array(list(np.ndindex(2, 2, 2))) * SIZE - 0.5 * np.array(SIZE) + [0.0, 0.0, 0.5]
     angle = np.linspace(0.0, 2.0 * np.pi, 2001)

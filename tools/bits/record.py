@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bits.case import CASES, Case, Settings
-from seacrane import Result, Scene, ensemble, simulate, simulate_stages
+from seacrane import Result, Scene, ensemble, simulate
 from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.loads import kind_of
 from seacrane.run.channel_names import core_channels, missing_names
@@ -60,7 +60,7 @@ def _result(case: Case, method: Settings) -> Result:
     scene = case.build()
     told: dict[str, Any] = {**method, "dt_out": case.dt_out, "start": case.start}
     if case.stages is not None:
-        return simulate_stages(scene, case.stages(), controllers=case.controllers, **told)
+        return simulate(scene, case.stages(), controllers=case.controllers, **told)
     return simulate(scene, case.t_end, controllers=case.controllers, channels=offered(scene), **told)
 
 

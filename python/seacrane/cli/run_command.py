@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seacrane.cli.command_line import INTERRUPTED
 from seacrane.cli.output_folder import output_folder
@@ -12,14 +12,12 @@ from seacrane.errors import SceneError
 from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
     from seacrane.result import Result
     from seacrane.run.method import Method
     from seacrane.run.outputs import Outputs
 
 KEPT = ("constraint_error", "energy_balance", "absolute_work")
+USUAL_END = 100.0  # s
 SPANS = ("t_end", "checkpoint_every", "resume", "progress")
 ESTIMATE = "error_estimate_"
 SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
@@ -27,79 +25,26 @@ SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulatio
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and summarise; 130 if the run was interrupted."""
+    from seacrane.answers.reported_curves import CHANNELS
+    from seacrane.simulation import simulate
+
     source = load_source(arguments.scene, arguments, scripts=True)
     if source.stages:
         _require_no_span(arguments)
     folder = output_folder(arguments.out)
     path = folder / f"{source.name}.nc"
-    if source.accuracy is not None:
-        result, saved = _exactly(arguments, source, path)
-    else:
-        result, saved = _staged(arguments, source, path) if source.stages else _whole(arguments, source, path)
-    try:
-        found = result()
-        print(told(found))
-    finally:  # whatever happens to its summary, the run is there
-        print(f"saved {saved}")
-    return INTERRUPTED if found.interrupted else 0
-
-
-def _whole(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Callable[[], Result], Path]:
-    """One run, written as it is stepped; what reads of it what the summary needs, and where it is."""
-    from seacrane.answers.reported_curves import CHANNELS
-    from seacrane.run.to_file import simulate_to_file
-
     method, outputs = _settings(arguments, source)
     t_end = source.t_end if arguments.t_end is None else arguments.t_end
-    span: dict[str, Any] = {} if t_end is None else {"t_end": t_end}
-    done = simulate_to_file(
-        source.scene, path, **span, start=source.start, method=method, outputs=outputs,
-        checkpoint_every=arguments.checkpoint_every, resume=arguments.resume, overwrite=arguments.overwrite,
-        progress=arguments.progress,
+    done = simulate(
+        source.scene, source.stages or (USUAL_END if t_end is None else t_end), to=path, start=source.start,
+        method=method, outputs=outputs, accuracy=source.accuracy, checkpoint_every=arguments.checkpoint_every,
+        resume=arguments.resume, overwrite=arguments.overwrite, progress=arguments.progress,
     )  # fmt: skip
-
-    def read() -> Result:
-        return done.load((*KEPT, *CHANNELS, *(state.channel for state in done.about.limit_states)))
-
-    return read, done.path
-
-
-def _staged(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Callable[[], Result], Path]:
-    """The stages of a lift, written after each of them."""
-    from seacrane.run.stages_to_file import simulate_stages_to_file
-
-    method, outputs = _settings(arguments, source)
-    result = simulate_stages_to_file(
-        source.scene, source.stages, path, start=source.start, method=method, outputs=outputs,
-        overwrite=arguments.overwrite,
-    )  # fmt: skip
-    return lambda: result, path
-
-
-def _exactly(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Callable[[], Result], Path]:
-    """What an accuracy chooses after more than one run, written at its end."""
-    from seacrane.simulation import simulate, simulate_stages
-
-    given = [name for name in ("checkpoint_every", "resume") if getattr(arguments, name) not in (None, False)]
-    if given:
-        raise SceneError(
-            f"--{given[0].replace('_', '-')} does not go with accuracy, which runs a lift more than once and "
-            "writes it at its end; leave one out"
-        )
-    if path.exists() and not arguments.overwrite:
-        raise FileExistsError(f"{path.name} is there already; give another name, or --overwrite")
-    method, outputs = _settings(arguments, source)
-    how: dict[str, Any] = {
-        "start": source.start, "method": method, "outputs": outputs, "accuracy": source.accuracy
-    }  # fmt: skip
-    if source.stages:
-        result = simulate_stages(source.scene, source.stages, **how)
-    else:
-        t_end = source.t_end if arguments.t_end is None else arguments.t_end
-        how |= {} if t_end is None else {"t_end": t_end}
-        result = simulate(source.scene, **how, progress=arguments.progress)
-    result.save(path)
-    return lambda: result, path
+    try:
+        print(told(done.load((*KEPT, *CHANNELS, *(state.channel for state in done.about.limit_states)))))
+    finally:  # whatever happens to its summary, the run is there
+        print(f"saved {done.path}")
+    return INTERRUPTED if done.interrupted else 0
 
 
 def _settings(arguments: argparse.Namespace, source: Source) -> tuple[Method, Outputs]:

@@ -195,7 +195,7 @@ def ensemble(
     t_end : float, optional
         End time, s; default 100. Stages tell it themselves.
     stages : sequence of Stage, or callable
-        The members are lifts in these stages, as `simulate_stages` runs them, or in those that a function
+        The members are lifts in these stages, as `simulate` runs them, or in those that a function
         of the scene tells. Their numbers vary by paths such as "stages.lift.duration",
         "stages.lift.commands.hoist.rate" or, of a `Move`, "stages.lift.commands.slew.to". What is kept may
         be of one stage, "hook_load[stage=lift].max", and its time, "stage[lift].end" ("start", "duration").

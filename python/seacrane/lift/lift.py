@@ -24,7 +24,7 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
-from seacrane.simulation import simulate, simulate_stages
+from seacrane.simulation import simulate
 
 T_END = float(inspect.signature(simulate).parameters["t_end"].default)
 LIFTS = ("case1", "case2", "case3", "vessel")
@@ -132,16 +132,11 @@ class Lift:
     def simulate(self, *, progress: bool = False) -> Result:
         """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`.
 
-        A lift with stages is carried out stage by stage, without a progress bar; see `simulate_stages`.
+        A lift with stages is carried out stage by stage, without a progress bar.
         """
-        if self.stages:
-            return simulate_stages(
-                self.scene(), self.stages, start=self.start, method=self.method, outputs=self.outputs,
-                accuracy=self.accuracy,
-            )  # fmt: skip
         return simulate(
-            self.scene(), self.t_end, start=self.start, method=self.method, outputs=self.outputs,
-            progress=progress, accuracy=self.accuracy,
+            self.scene(), self.stages or self.t_end, start=self.start, method=self.method,
+            outputs=self.outputs, progress=progress, accuracy=self.accuracy,
         )  # fmt: skip
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -27,7 +27,7 @@ from seacrane.run.shorthand import settled
 from seacrane.run.stage import Stage
 from seacrane.run.start import Start
 from seacrane.scene.scene import Scene
-from seacrane.simulation import simulate, simulate_stages
+from seacrane.simulation import simulate
 
 TIGHTER = 1e-2  # times the tolerance, of the run that tells how well the numbers are known
 SHORTER = 0.5  # times the step, likewise
@@ -63,7 +63,7 @@ def required(
     ----------
     scene : Scene
     t_end, stages, start, method, outputs, **shorthand
-        As of `simulate`, or with stages of `simulate_stages`. `start` may be a function of the scene, as of
+        As of `simulate`. `start` may be a function of the scene, as of
         `ensemble`: what leaves states out does not run from the state of the scene as it stands.
     keep : mapping, optional
         Single numbers of a run by name, as of `ensemble`: ``{"peak": "hook_load.max"}``, or functions of the
@@ -136,9 +136,7 @@ class _Runs:
 
     def __call__(self, scene: Scene, *, method: Method) -> Any:
         start = self.start(scene) if callable(self.start) else self.start
-        if self.stages:
-            return simulate_stages(scene, self.stages, start=start, method=method, outputs=self.outputs)
-        return simulate(scene, self.t_end, start=start, method=method, outputs=self.outputs)
+        return simulate(scene, self.stages or self.t_end, start=start, method=method, outputs=self.outputs)
 
 
 def _limits(within: float | Mapping[str, float], values: Mapping[str, float]) -> dict[str, float]:

@@ -42,7 +42,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
-from seacrane.simulation import simulate_stages
+from seacrane.simulation import simulate
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -250,7 +250,7 @@ class _Still:
         state = equilibrium(calm, time=time)
         if asked.stages:
             stages = asked.stages(calm) if callable(asked.stages) else asked.stages
-            result = simulate_stages(
+            result = simulate(
                 calm, stages, start=state, method=method, outputs=outputs, accuracy=asked.accuracy
             )
             return cls(scene=scene, state=state, rest=_extremes(result, asked.criteria))

@@ -207,7 +207,7 @@ def absences(result: Result | None) -> dict[str, Spans]:
     """Times from which and up to which elements are absent, s, by name; only those that ever are.
 
     What a lift connects before it releases it is absent from the start. What stages that were not run
-    released (`first` of `simulate_stages`) is not known.
+    released (`first` of `simulate`) is not known.
     """
     found: dict[str, Spans] = {}
     if result is None:

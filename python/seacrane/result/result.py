@@ -570,7 +570,7 @@ class Result(Mapping[str, Array]):
         channels: Sequence[str] | None = None,
         largest: int = LARGEST_RESULT,
     ) -> Result:
-        """Read a result that `save` or `simulate_to_file` wrote.
+        """Read a result that `save` or `simulate` wrote.
 
         Parameters
         ----------

@@ -1,7 +1,6 @@
 """Runs, at once or in stages: settings, stepping, outputs to memory or to a file."""
 
 from seacrane.simulation import simulate as simulate
-from seacrane.run.to_file import simulate_to_file as simulate_to_file
 from seacrane.run.run import Run as Run
 from seacrane.run.method import Method as Method
 from seacrane.run.outputs import Outputs as Outputs
@@ -12,6 +11,4 @@ from seacrane._core import integrator_names as integrator_names
 from seacrane.run.stage import Stage as Stage
 from seacrane.run.move import Move as Move
 from seacrane.run.until import Until as Until
-from seacrane.simulation import simulate_stages as simulate_stages
-from seacrane.run.stages_to_file import simulate_stages_to_file as simulate_stages_to_file
 from seacrane.run.staged_run import StagedRun as StagedRun

@@ -56,14 +56,14 @@ LARGEST_GAP = 0.01  # m times the scene's length scale, or rad: joints that open
 
 
 class StagedRun:
-    """A lift to be carried out stage by stage; see `simulate_stages`.
+    """A lift to be carried out stage by stage; see `simulate`.
 
     Parameters
     ----------
     scene : Scene
     stages : sequence of Stage
     start, first, method, outputs, controllers, **shorthand
-        As `simulate_stages`.
+        As `simulate`.
     outputs_from : float, optional
         As of `Run`: time from which output times are counted, s; default: the start.
     before : sequence of (warning, str)

@@ -1,10 +1,9 @@
-"""simulate_to_file(): runs of any length, in bounded memory and with nothing lost when they stop."""
+"""Runs of any length to a file, in bounded memory and with nothing lost when they stop."""
 
 from __future__ import annotations
 
 import contextlib
 import math
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,7 +14,6 @@ import numpy as np
 from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
-from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_from_bytes, state_to_bytes
 from seacrane.result.about import About
@@ -29,14 +27,11 @@ from seacrane.run.interrupts import Interrupts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
-from seacrane.run.sampled_controller import SampledController, checked_controllers
-from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.sampled_controller import SampledController
 from seacrane.run.start import REST
 from seacrane.validity.left_range import Finding, as_text, warn_of
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack
-
     from seacrane.scene.scene import Scene
 
 CAPACITY = 1024  # outputs to take memory for at first
@@ -44,7 +39,7 @@ CAPACITY = 1024  # outputs to take memory for at first
 
 @dataclass(frozen=True, kw_only=True)
 class StreamedResult:
-    """What `simulate_to_file` left on disk.
+    """What `simulate` left on disk.
 
     Attributes
     ----------
@@ -71,69 +66,31 @@ class StreamedResult:
         """All of it, or those channels, in memory."""
         return Result.load(self.path, channels=channels)
 
+    @classmethod
+    def saved(cls, result: Result, path: Path) -> StreamedResult:
+        """Of a result that is written as a whole."""
+        result.save(path)
+        return cls(
+            path=path, outputs=int(result.time.size), stats=result.stats, about=result.about,
+            interrupted=result.interrupted,
+        )  # fmt: skip
 
-@named
-def simulate_to_file(
+
+def run_to_file(
     scene: Scene,
-    path: str | os.PathLike[str],
-    t_end: float = 100.0,
+    path: Path,
+    t_end: float,
     *,
-    start: Literal["rest"] | None = None,
-    method: Method | None = None,
-    outputs: Outputs | None = None,
-    checkpoint_every: float | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    controllers: Sequence[SampledController] = (),
-    progress: bool = False,
-    **shorthand: Unpack[Shorthand],
+    start: Any,
+    method: Method,
+    outputs: Outputs,
+    checkpoint_every: float | None,
+    resume: bool,
+    overwrite: bool,
+    controllers: Sequence[SampledController],
+    progress: bool,
 ) -> StreamedResult:
-    """Simulate a scene and write its outputs to a file as it is stepped.
-
-    Outputs leave memory in pieces, each with the state where it ends. Until the run ends, they are added to
-    <name>.partial, which `Result.load` reads at any time and which is whole whenever the process is killed.
-    The result's own file is made of it when the run ends, or is stopped by Ctrl-C or an error.
-    ``resume=True`` continues from either: the file then holds, bit for bit, the outputs of a run that was not
-    stopped (methods of SUNDIALS restart there).
-
-    Parameters
-    ----------
-    path : path
-        NetCDF file. An older one is replaced when the run has reached its end, if it is of the same scene,
-        method and outputs and does not end later.
-    t_end : float
-        End time, s.
-    start : "rest", optional
-        Begin at rest; default: the assembled start of the scene.
-    method, outputs
-        As `simulate`.
-    checkpoint_every : float, optional
-        Simulated time between two pieces, s, for runs that may be killed; default: where a piece has 2 MiB
-        or 4096 outputs.
-    resume : bool
-        Go on with what an earlier call left, with its scene and its settings; `t_end` may be later.
-    overwrite : bool
-        Replace whatever has the name, and drop what a killed run left.
-    controllers : sequence of SampledController
-        As `simulate`. A run that is resumed calls them anew from there.
-    progress : bool
-        Show a progress bar.
-    **shorthand
-        As `simulate`.
-
-    Raises
-    ------
-    SceneError, SimulationError
-        As `simulate`; the file holds the outputs until then.
-    FileFormatError
-        If what is to be gone on from is damaged, or of another scene or other settings.
-    FileExistsError
-        If another run writes this file, or left something that `overwrite` would have to allow to replace.
-    OSError
-        If the disk is full, or the folder is missing; the message says where the outputs until then are.
-    """
-    if "accuracy" in shorthand:
-        raise SceneError("accuracy cannot be given to a run that is written to a file; leave it out")
+    """`simulate` with `to`, to a time."""
     if start not in (None, REST):
         raise SceneError(
             f"start is {shown(start)}; a run that is written to a file begins as its scene, or at {REST!r}"
@@ -141,9 +98,7 @@ def simulate_to_file(
     every = math.inf if checkpoint_every is None else number_of("checkpoint_every", checkpoint_every)
     if not every > 0.0:
         raise SceneError(f"checkpoint_every is {every} s; make it positive")
-    given = checked_controllers(controllers)
-    method, outputs = settled(method, outputs, shorthand)
-    file = ResultFile(Path(path))
+    file = ResultFile(path)
     with Interrupts() as interrupts:
         file.claim()
         try:
@@ -153,9 +108,11 @@ def simulate_to_file(
             digest = scene_digest(scene)
             run = _begun(scene, t_end, method, outputs, digest, left, start)
             writer = _Writer(run, digest, file, every)
-            writer.begin(left, overwrite=overwrite, unlike=_unlike(scene, given))
+            writer.begin(left, overwrite=overwrite, unlike=_unlike(scene, controllers))
             try:
-                drive(run, Calls(given, run.start.time), interrupts, progress=progress, watch=writer.look)
+                drive(
+                    run, Calls(controllers, run.start.time), interrupts, progress=progress, watch=writer.look
+                )
             except BaseException:
                 with contextlib.suppress(OSError):  # the error at hand tells more
                     writer.close()

@@ -78,7 +78,7 @@ def trade(
     t_end : float
         End time, s.
     stages : sequence of Stage
-        Carried out instead, as by `simulate_stages`.
+        Carried out instead, as by `simulate`.
     start : State or "rest", optional
         As of `simulate`.
     outputs : Outputs, optional
