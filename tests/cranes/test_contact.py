@@ -161,8 +161,15 @@ def test_feet_sink_by_what_they_bear_in_a_seabed_or_under_what_is_welded_to_them
     assert simulate(scene, 10.0, dt_out=1.0)["contact_gap"][-1] == pytest.approx(-0.01, rel=1e-3)
     scene = Scene(name="seabed", gravity=GRAVITY)
     scene.add_body(name="load", mass=MASS, inertia=(1e3,) * 3, position=(0.0, 0.0, -39.99))
+    for wrong in (
+        {"on": "seabed"},
+        {"on": "ground", "depth": 3.0},
+        {"on": "seabed", "depth": 3.0, "place": FEET[0]},
+    ):
+        with pytest.raises(SceneError, match=r"load on .*(depth|place)"):
+            scene.add_contact("load", points=FEET, **wrong)
     with pytest.warns(SeabedWarning, match="'load on seabed'"):
-        made = scene.add_seabed("load", points=FEET, depth=40.0)
+        made = scene.add_contact("load", on="seabed", points=FEET, depth=40.0)
     assert made.stiffness == pytest.approx(MASS * GRAVITY / 4.0 / 0.01)
     gap = simulate(scene, t_end=5.0, dt_out=0.5)["contact_gap"]
     assert float(gap[-1].mean()) == pytest.approx(-0.01, abs=1e-4)

@@ -148,7 +148,8 @@ place_m = [0, 0, -30]; size_m = [8, 4, 0.5]; stiffness_N_per_m = 1e5; damping_s_
 hold_m = 2e-3
 [[contact]]; body = "bob"; points_m = [[0.5, 0, 0.5]]; on = "hull"; surface = "plane"; axis = [0, -1, 0]
 place_m = [0, 50, 0]; table = [[0, 0], [0.1, 2e3], [0.3, 2e4]]
-[seabed]; body = "box"; points_m = [[0, 0, -0.5]]; depth_m = 80; stiffness_N_per_m = 2e5; friction = 0.4
+[[contact]]; body = "box"; points_m = [[0, 0, -0.5]]; on = "seabed"; depth_m = 80; stiffness_N_per_m = 2e5
+friction = 0.4
 [range]; joint = "sleeve"; minimum_m = -1; maximum_m = 3
 [[point]]; name = "corner"; body = "box"; point_m = [0.1, 0.2, 0.3]
 [[point]]; name = "edge"; body = "hull"; point_m = [1, 2, 3]

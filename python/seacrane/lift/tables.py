@@ -357,7 +357,6 @@ _ALL = (
     _call("soft_stop", limits.add_soft_stop, _core.SoftStop),
     _call("friction", limits.add_friction, _core.Friction),
     _call("contact", contact.add_contact, _core.Contact, **CONTACT),
-    _call("seabed", contact.add_seabed, _core.Contact, **CONTACT),
     _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
     _call("record", recorded.record_coordinate),
     _call("point", recorded.add_point, _core.Point),

@@ -1,4 +1,4 @@
-"""add_contact() and add_seabed(): points of a body that press and rub on the surface of another."""
+"""add_contact(): points of a body that press and rub on the surface of another, or on the seabed."""
 
 from __future__ import annotations
 
@@ -15,20 +15,22 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, not_negative_of, positive_of, rows_of, shaped_of, text_of
 from seacrane.inputs.frames import axes_along
+from seacrane.inputs.shown import shown
 from seacrane.warnings import SeabedWarning
 
 Array = NDArray[np.float64]
 SINKS = 0.01  # m, under its own weight
 HOLD = 1e-3  # m
 DAMPING = 1.0  # s/m
+SEABED, BED_FRICTION = "seabed", 0.5
 SURFACES = ("plane", "box", "post", "pipe")
 
 
 def add_contact(
     scene: Description, body: str, *, points: Any, on: str, surface: str = "plane",
     place: Any = (0.0, 0.0, 0.0), axis: Any = (0.0, 0.0, 1.0), size: Any = None, edge: float | None = None,
-    stiffness: float | None = None, damping: float = DAMPING, table: Any = None, friction: float = 0.0,
-    hold: float = HOLD, name: str | None = None,
+    stiffness: float | None = None, damping: float = DAMPING, table: Any = None,
+    friction: float | None = None, hold: float = HOLD, depth: float | None = None, name: str | None = None,
 ) -> _core.Contact:  # fmt: skip
     """Let points of a body touch the surface of another: they press, never pull, stick and slide.
 
@@ -45,7 +47,7 @@ def add_contact(
     points : array_like, shape (n, 3)
         Feet, corners or bumpers, m, coordinates of `body`; 15 at most.
     on : str
-        Whose surface it is: another body, or "ground".
+        Whose surface it is: another body, "ground", or "seabed", a level plane of the ground.
     surface : str
         "plane": all below it is inside; "box", "post" (a round bar), "pipe" (a round wall, hollow).
     place : array_like, shape (3,)
@@ -65,10 +67,12 @@ def add_contact(
     table : array_like, shape (n, 2), optional
         Compression (m) and elastic force (N) of each point, both from 0, in place of `stiffness`: a fender.
         Its last slope goes on.
-    friction : float
-        Coefficient, of sticking and sliding.
+    friction : float, optional
+        Coefficient, of sticking and sliding; default: 0.5 on the seabed, else 0.
     hold : float
         m: what a point gives before it slides under its share of the weight.
+    depth : float, optional
+        m, of the seabed below z = 0.
     name : str, optional
         Default: "<body> on <on>".
 
@@ -82,6 +86,11 @@ def add_contact(
         For bodies that are not there, friction without stiffness, a wall thinner than its edges are round,
         bad numbers; with `Scene.compile`, for points that start deep inside.
 
+    Warns
+    -----
+    SeabedWarning
+        Of a seabed: it is no model of soil: nothing sinks in, sticks or flows.
+
     Notes
     -----
     Normal force: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975). The spring of friction is
@@ -91,6 +100,18 @@ def add_contact(
     owner, other = text_of("contact: body", body), text_of("contact: on", on)
     label = name_of("contact", name, f"{owner} on {other}")
     what = f"contact {label!r}"
+    at = shaped_of(f"{what}: place", place, (3,))
+    bed = other == SEABED and SEABED not in scene.bodies
+    if bed != (depth is not None):
+        raise SceneError(
+            f"{what}: on is {other!r} and depth {shown(depth)}; a seabed has a depth, m below z = 0"
+        )
+    if bed:
+        if surface != "plane" or at.any():
+            raise SceneError(f"{what}: surface or place is given; the seabed is a level plane at its depth")
+        other, at = GROUND, np.array([0.0, 0.0, -positive_of(f"{what}: depth", depth, "m")])
+    if friction is None:
+        friction = BED_FRICTION if bed else 0.0
     for key in (owner, other):
         if key != GROUND and key not in scene.bodies:
             raise SceneError(f"{what}: there is no body {key!r}; add it first")
@@ -109,57 +130,20 @@ def add_contact(
     shear = mu * (weight if weight > 0.0 else k * SINKS) / give
     element = _core.Contact(
         name=label, body=owner, on=other, points=rows, surface=shape,
-        place=shaped_of(f"{what}: place", place, (3,)), axes=axes_along(f"{what}: axis", axis), size=extent,
+        place=at, axes=axes_along(f"{what}: axis", axis), size=extent,
         edge=_edge(what, shape, extent, edge), stiffness=k,
         damping=not_negative_of(f"{what}: damping", damping, "s/m"),
         compressions=[] if steps is None else steps[:, 0], forces=[] if steps is None else steps[:, 1],
         friction=mu, shear_stiffness=shear, shear_damping=np.sqrt(shear * share), hold=give,
     )  # fmt: skip
     add_load(scene, element)
+    if bed:
+        warn_caller(
+            f"{what}: the seabed is a plane with {element.stiffness:.3g} N/m at each point, and no model "
+            "of soil: give a stiffness from the soil's own, and look at how the result depends on it",
+            SeabedWarning,
+        )
     return element
-
-
-def add_seabed(
-    scene: Description, body: str, *, points: Any, depth: float, stiffness: float | None = None,
-    damping: float = DAMPING, friction: float = 0.5, hold: float = HOLD, name: str | None = None,
-) -> _core.Contact:  # fmt: skip
-    """Let points of a body stand on a flat seabed: a plane of the ground that gives, with friction.
-
-    Parameters
-    ----------
-    body, points, stiffness, damping, friction, hold
-        As `add_contact`.
-    depth : float
-        m, of the seabed below z = 0.
-    name : str, optional
-        Default: "<body> on seabed".
-
-    Returns
-    -------
-    Contact
-
-    Raises
-    ------
-    SceneError
-        As `add_contact`.
-
-    Warns
-    -----
-    SeabedWarning
-        It is no model of soil: nothing sinks in, sticks or flows.
-    """
-    label = name_of("contact", name, f"{text_of('seabed: body', body)} on seabed")
-    down = positive_of(f"contact {label!r}: depth", depth, "m")
-    made = add_contact(
-        scene, body, points=points, on=GROUND, place=(0.0, 0.0, -down), stiffness=stiffness,
-        damping=damping, friction=friction, hold=hold, name=label,
-    )  # fmt: skip
-    warn_caller(
-        f"contact {label!r}: the seabed is a plane with {made.stiffness:.3g} N/m at each point, and no model "
-        "of soil: give a stiffness from the soil's own, and look at how the result depends on it",
-        SeabedWarning,
-    )
-    return made
 
 
 def _extent(what: str, surface: str, size: Any) -> Array:

@@ -142,7 +142,6 @@ class Scene(Description):
     add_bridle = bridles.add_bridle
     add_friction = limits.add_friction
     add_contact = contact.add_contact
-    add_seabed = contact.add_seabed
     add_heave_compensation = heave.add_heave_compensation
     add_gas_spring = heave.add_gas_spring
     add_hydraulic_cylinder = hydraulics.add_hydraulic_cylinder

@@ -44,7 +44,7 @@ def on_a_box_a_post_and_a_seabed() -> Scene:
     scene.add_contact(
         "load", on="ground", axis=(-1, 0, 0), place=(1.05, 0, 0), points=[(1, 0, 0)], table=rows, name="wall"
     )
-    scene.add_seabed("load", points=[(0, 0, -0.6)], depth=0.05, stiffness=2e5, friction=0.4)
+    scene.add_contact("load", on="seabed", points=[(0, 0, -0.6)], depth=0.05, stiffness=2e5, friction=0.4)
     return scene
 
 
