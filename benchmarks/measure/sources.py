@@ -8,7 +8,7 @@ import json
 import re
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from functools import lru_cache
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -55,7 +55,7 @@ def python_of(text: str) -> str:
     return ast.dump(tree)
 
 
-@lru_cache
+@cache
 def _digest_of(path: Path) -> str:
     """Of the code of one file."""
     if path.suffix in (".hpp", ".cpp", ".in"):
