@@ -56,6 +56,8 @@ def ported(text: str) -> tuple[str, list[str]]:
         assert node.end_lineno and node.end_col_offset is not None
         begin = starts[node.lineno - 1] + node.col_offset
         end = starts[node.end_lineno - 1] + node.end_col_offset
+        if b"#" in data[begin:end]:
+            note = f"{note}; comments inside it are lost" if note else "comments inside it are lost"
         data = data[:begin] + new_text.encode() + data[end:]
         notes += [f"line {node.lineno}: {note}"] if note else []
     return data.decode(), notes[::-1]

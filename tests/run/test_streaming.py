@@ -292,3 +292,11 @@ def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
     assert told.load().stats["validity"] == told.stats["validity"]
     sc.simulate(scene, to=tmp_path / "storm.nc", t_end=101.0, resume=True, **settings)
     assert told.load().stats["validity"].startswith(told.stats["validity"])
+
+
+@pytest.mark.parametrize(
+    "word", [{"first": "lift"}, {"resume": True}, {"overwrite": True}, {"checkpoint_every": 1.0}]
+)
+def test_words_that_a_run_in_memory_has_no_use_for_are_refused(word: dict[str, Any]) -> None:
+    with pytest.raises(sc.SceneError, match=next(iter(word))):
+        sc.simulate(spinner(), 1.0, **word)

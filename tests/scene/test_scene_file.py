@@ -194,6 +194,7 @@ BROKEN: list[tuple[str, Any, str]] = [  # the entry, what it becomes, and what i
     ("vessels 0 memory 0 inputs", [1.5, 2], r"vessels\[0\].memory\[0\].inputs\[0\] is 1.5.*whole number"),
     ("vessels 0 memory 0 b", [[1.0, 0.0]], r"memory\[0\].b: has 1 entries"),
     ("waves phase", [0.0, 1.0], "waves.*phase.*3"),
+    ("waves depth", {"$infinite": "deep"}, "waves.depth is .*number"),
     ("waves hulls hull transfer imaginary 1", [0.0] * 5, r"hulls.hull.transfer.imaginary.*lengths"),
     ("waves hulls hull transfer real", [[0.0] * 6], r"hulls.hull.transfer: real.*imaginary"),
     ("recorded turn 0", "x", r"recorded.turn.*no joint 'x'"),

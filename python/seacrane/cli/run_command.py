@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from seacrane.run.outputs import Outputs
 
 KEPT = ("constraint_error", "energy_balance", "absolute_work")
-USUAL_END = 100.0  # s
 SPANS = ("t_end", "checkpoint_every", "resume", "progress")
 ESTIMATE = "error_estimate_"
 SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
@@ -35,9 +34,10 @@ def run(arguments: argparse.Namespace) -> int:
     path = folder / f"{source.name}.nc"
     method, outputs = _settings(arguments, source)
     t_end = source.t_end if arguments.t_end is None else arguments.t_end
+    span = source.stages or t_end
     done = simulate(
-        source.scene, source.stages or (USUAL_END if t_end is None else t_end), to=path, start=source.start,
-        method=method, outputs=outputs, accuracy=source.accuracy, checkpoint_every=arguments.checkpoint_every,
+        source.scene, *([] if span is None else [span]), to=path, start=source.start, method=method,
+        outputs=outputs, accuracy=source.accuracy, checkpoint_every=arguments.checkpoint_every,
         resume=arguments.resume, overwrite=arguments.overwrite, progress=arguments.progress,
     )  # fmt: skip
     try:

@@ -51,10 +51,6 @@ from seacrane.inputs.plain_data import arguments, notes_from_node, plain_data, v
 FORMAT = "seacrane scene"
 
 
-def _add_load(scene: Description, load: Any) -> None:
-    add_load(scene, load)
-
-
 def _add_rating(scene: Description, **entries: Any) -> None:
     note_rating(scene, rating_of(**entries))
 
@@ -78,7 +74,7 @@ _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what i
     "vessels": (VesselHydrodynamics, add_hydrodynamics),
     "groups": (_core.GroupHydrodynamics, add_group),
     "points": (_core.Point, add_point),
-    "loads": (_core.Line, _add_load),  # of any kind
+    "loads": (object, add_load),  # of any kind
     "ranges": (Range, add_range),
     "limit_states": (LimitState, add_limit_state),
     "clearances": (Clearance, add_clearance),
@@ -223,10 +219,13 @@ def _elements(scene: Description) -> dict[str, Any]:
     """All but the databases of its vessels, on which no motion depends."""
     held = vars(scene) | {key: float(getattr(scene, key)) for key in _SETTINGS}
     held |= {key: [*held[key].values()] for key in (*_ADD, "roles")}
-    held["loads"] = [{"kind": kind_of(one), **_load_entries(one)} for one in held["loads"]]
-    held["joints"] = [{**plain_data("joint", one), "parameters": one.parameters} for one in held["joints"]]
-    held["meshes"] = [mesh_to_data(mesh) for mesh in scene.meshes.values()]
-    plain = {key: plain_data(f"scene {scene.name!r}: {key}", held[key]) for key in _FIELDS}
+    made = {
+        "loads": [{"kind": kind_of(one), **_load_entries(one)} for one in held["loads"]],
+        "joints": [{**plain_data("joint", one), "parameters": one.parameters} for one in held["joints"]],
+        "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
+    }
+    what = f"scene {scene.name!r}"
+    plain = {key: made[key] if key in made else plain_data(f"{what}: {key}", held[key]) for key in _FIELDS}
     return {"format": FORMAT, "version": FILE_VERSION, **plain}
 
 
@@ -239,7 +238,7 @@ def _add(scene: Description, kind: str, node: Node) -> None:
     """Check one element's entries, then add it as a script would."""
     described_as, add = _ADD[kind]
     if kind == "loads":
-        given = {"load": _load(node)}
+        given = {"element": _load(node)}
     else:
         rest, parameters = _parameters(node) if kind == "joints" else (node, {})
         given = arguments(described_as, rest) | parameters

@@ -129,8 +129,8 @@ def _whole(node: Node) -> int:
 
 
 def _number(node: Node) -> float:
-    infinite = isinstance(node.value, dict) and node.value.keys() == {INFINITE}
-    return math.copysign(math.inf, node.value[INFINITE]) if infinite else node.number()
+    value = _restored(node.value) if isinstance(node.value, dict) else node.value
+    return value if isinstance(value, float) and math.isinf(value) else node.number()
 
 
 def _row(node: Node, kinds: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -85,25 +85,21 @@ def more_drift(scene: Scene) -> Iterator[Choice]:
     for body, hull in {} if scene.waves is None else scene.waves.hulls.items():
         source = source_of(scene, body)
         if hull.drift is None and isinstance(source, HydroDatabase) and source.drift is not None:
+            assert scene.waves is not None
+            words = as_put(scene, scene.waves, body) | {"drift": True}
+            words = {key: one for key, one in words.items() if one is not None}
             yield Choice(
                 name=f"slow drift of {body}",
-                script=f"scene.add_sea({_words(scene, body)})",
-                made=partial(_with_drift, body=body),
+                script=f"scene.add_sea({', '.join(f'{key}={one!r}' for key, one in words.items())})",
+                made=partial(_put_anew, words=words),
                 of=f"slow drift of {body}",
             )
 
 
-def _with_drift(scene: Scene, *, body: str) -> Scene:
-    assert scene.waves is not None
+def _put_anew(scene: Scene, *, words: dict[str, Any]) -> Scene:
     out = scene.copy()
-    out.add_sea(**as_put(scene, scene.waves, body) | {"drift": True})
+    out.add_sea(**words)
     return out
-
-
-def _words(scene: Scene, body: str) -> str:
-    assert scene.waves is not None
-    words = as_put(scene, scene.waves, body) | {"drift": True}
-    return ", ".join(f"{key}={value!r}" for key, value in words.items() if value is not None)
 
 
 def less_memory(scene: Scene) -> Iterator[Choice]:
