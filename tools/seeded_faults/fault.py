@@ -11,12 +11,13 @@ HERE = Path(__file__).resolve().parent
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault, its file from the root of the tree."""
+    """One fault, its file from the root of the tree; of a part of a statement in C++ its type."""
 
     name: str
     file: str
     old: str
     new: str
+    kind: str = ""
 
     @property
     def in_engine(self) -> bool:

@@ -1,7 +1,8 @@
-"""A tree of its own in which one fault after the other is built and looked for."""
+"""A tree of its own in which one fault after the other is looked for; those of the engine are compiled together."""
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 import shutil
@@ -9,8 +10,9 @@ import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
-from seeded_faults.fault import Fault
+from seeded_faults.fault import Fault, faults
 from seeded_faults.reached import commands, tests_of
+from seeded_faults.switched import PRELUDE, VARIABLE, switched
 
 ALIKE = "-p no:cacheprovider --no-header --hypothesis-seed=1"
 PYTEST = f".venv/bin/python -m pytest -qx -n 2 --dist loadfile {ALIKE}"
@@ -31,32 +33,37 @@ class Hunt:
 
     def __init__(self, root: Path, home: Path) -> None:
         self.tree = home / "tree"
-        self.log, self._said = home / "log", ""
+        self.log, self._said, self._flags, self._awake = home / "log", "", "", ""
         if not self.tree.exists():
             home.mkdir(parents=True, exist_ok=True)
             subprocess.run(["git", "clone", "-q", root, self.tree], check=True)
             (home / "shared").symlink_to((root.parent / "shared").resolve())
+        self._require("git fetch -q origin")
+        self._require("git reset -q --hard origin/HEAD")
+        self._numbers = self._switch(home / "seeded_fault.hpp")
         for command in (
-            "git fetch -q origin", "git reset -q --hard origin/HEAD", "make build",
-            "make .venv/.installed-dev", "cmake --build build/package --target seacrane_tests",
+            "make build", "make .venv/.installed-dev", "cmake --build build/package --target seacrane_tests"
         ):  # fmt: skip
             self._require(command)
         self._lines = home / "reached"
-        for command in commands(PYTEST.replace(" -qx ", " -q "), self._lines):
-            self._require(command)
 
     def finder(self, fault: Fault, *, first: str = "", by_night: bool = False) -> tuple[str, str]:
         """Who finds a fault first, and the name of a test; ("nobody", "").
 
-        The compiler, the engine's own tests, the file of the test that found it another time (`first`), the
-        tests that name the fault's file, the rest of the day; by night the slow ones too.
+        The engine's own tests, the file of the test that found it another time (`first`), the tests that name
+        the fault's file, the rest of the day; by night the slow ones too.
         """
-        file = self.tree / fault.file
-        self._sound = file.read_text(encoding="utf-8")
-        file.write_text(fault.seeded(self._sound), encoding="utf-8")
         shutil.rmtree(
             self.tree / ".hypothesis", ignore_errors=True
         )  # what another fault made fail is no news
+        file = self.tree / fault.file
+        sound = self._sound = file.read_text(encoding="utf-8")
+        if fault.in_engine:
+            self._awake = str(self._numbers[fault.name])
+        else:
+            for command in commands(PYTEST.replace(" -qx ", " -q "), self._lines):
+                self._require(command)
+            file.write_text(fault.seeded(sound), encoding="utf-8")
         try:
             for who, command in self._ways(fault, first, by_night=by_night):
                 if not self._succeeds(command):
@@ -64,13 +71,27 @@ class Hunt:
                     return who, names[0] if names else ""
             return "nobody", ""
         finally:
-            file.write_text(self._sound, encoding="utf-8")
+            self._awake = ""
+            if not fault.in_engine:
+                file.write_text(sound, encoding="utf-8")
+
+    def _switch(self, prelude: Path) -> dict[str, int]:
+        """Put all faults of the engine into the tree, asleep; their numbers."""
+        prelude.write_text(PRELUDE, encoding="utf-8")
+        numbers = {fault.name: i for i, fault in enumerate(filter(lambda one: one.in_engine, faults()), 1)}
+        for fault in faults():
+            if fault.in_engine:
+                file = self.tree / fault.file
+                text = switched(file.read_text(encoding="utf-8"), fault, numbers[fault.name])
+                file.write_text(text, encoding="utf-8")
+        self._flags = f"-include {prelude}"
+        return numbers
 
     def _ways(self, fault: Fault, first: str, *, by_night: bool) -> Iterator[tuple[str, str]]:
         if fault.in_engine:
-            yield "compiler", "cmake --build build/package --target seacrane_tests"
             yield "engine's tests", "ctest --test-dir build/package --stop-on-failure -j 2"
-        yield "compiler", "make build"
+        else:
+            yield "compiler", "make build"
         known = sorted(
             str(path) for path in (self.tree / "tests").rglob(Path(first.partition("::")[0]).name or "-")
         )
@@ -107,6 +128,7 @@ class Hunt:
             done = subprocess.run(
                 shlex.split(command), cwd=self.tree, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT, text=True, errors="replace", timeout=LONGEST, check=False,
+                env=os.environ | {"CXXFLAGS": self._flags, VARIABLE: self._awake},
             )  # fmt: skip
         except subprocess.TimeoutExpired:
             self._said = f"it did not end in {LONGEST:g} s"
