@@ -1,4 +1,4 @@
-"""A tree of its own in which one fault after the other is looked for; those of the engine are compiled together."""
+"""A tree of its own in which one fault after the other is looked for; the engine's are compiled together."""
 
 from __future__ import annotations
 

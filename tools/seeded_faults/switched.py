@@ -1,7 +1,7 @@
 """Faults of the engine compiled all at once, each asleep until the environment names it.
 
-What holds a fault's text, a statement, stands twice in the source: as it is, and with the fault. So the compiler runs
-once for all of them, and not for each ("mutant schemata": Untch, Offutt and Harrold, ISSTA 1993).
+What holds a fault's text, a statement, stands twice in the source: as it is, and with the fault. So the
+compiler runs once for all of them ("mutant schemata": Untch, Offutt and Harrold, ISSTA 1993).
 """
 
 from __future__ import annotations
@@ -29,7 +29,10 @@ def switched(text: str, fault: Fault, number: int) -> str:
     fault.seeded(text)  # raises where it has lost its place
     at = text.index(fault.old)
     ends = ";{}" if not fault.kind else ";{},=("
-    start, end = _start(text, at, ends), _end(text, at, at + len(fault.old), ";" if not fault.kind else ";,)}")
+    start, end = (
+        _start(text, at, ends),
+        _end(text, at, at + len(fault.old), ";" if not fault.kind else ";,)}"),
+    )
     start = COMMENTS.match(text, start, at).end()  # type: ignore[union-attr]
     sound = text[start:end]
     both = _both(sound, sound.replace(fault.old, fault.new), fault.kind, f"seacrane_seeded_fault == {number}")
@@ -57,7 +60,7 @@ def _start(text: str, at: int, ends: str) -> int:
 
 
 def _end(text: str, first: int, at: int, ends: str) -> int:
-    """At the next of `ends` that is not within brackets; of a statement after it, and after all that is its `else`."""
+    """At the next of `ends` that is not within brackets; of a statement after it and what is its `else`."""
     depth = sum(DEEPER.get(one, 0) for one in text[first:at])
     at -= text[at - 1] == ";"
     while text[at] not in ends or depth > 0:
