@@ -11,7 +11,7 @@ from multibody_runs import record
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from seacrane import Scene, SceneError, linear_model, simulate
+from seacrane import SampledController, Scene, SceneError, linear_model, simulate
 from seacrane.crane import KnuckleBoomCrane
 
 OMEGA = 0.7
@@ -109,24 +109,50 @@ def test_bounds_on_rate_and_stroke_are_kept_located_and_told() -> None:
     assert_allclose([event.time for event in told], fine[entered], atol=3e-3)
 
 
-def test_a_cylinder_leaves_the_load_the_residual() -> None:
-    """A ship with a slide at its tip, whose position an actuator controls; the load sits on the slide. The
-    loop of stiffness and damping follows its reference by (k + c p) / (m p^2 + c p + k)."""
-    settings: dict[str, Any] = {"lag": 0.2, "high_pass": 0.08}
-    k, c = 4e4, 8e3  # a loop as soft as to be seen
+def cylinder(k: float, c: float, **settings: Any) -> Scene:
+    """A ship with a slide at its tip, whose position an actuator controls; the load sits on the slide."""
     scene, top = heaving(omega=OMEGA), (0, 0, TIP)
     scene.add_body(name="slide", mass=MASS, inertia=(1e3, 1e3, 1e3), position=top)
     scene.add_joint(
         kind="prismatic", name="cylinder", first="ship", second="slide", point=top, axis=(0, 0, 1)
     )
     scene.add_actuator(joint="cylinder", stiffness=k, damping=c, feed_forward=MASS * G)
-    scene.add_heave_compensation("ahc", body="ship", point=top, actuator="cylinder", ratio=-1.0, **settings)
-    out = record(scene, 40.0, dt_out=0.1, rtol=1e-8)
+    if settings:
+        scene.add_heave_compensation(
+            "ahc", body="ship", point=top, actuator="cylinder", ratio=-1.0, **settings
+        )
+    return scene
+
+
+def test_a_cylinder_leaves_the_load_the_residual() -> None:
+    """The loop of stiffness and damping follows its reference by (k + c p) / (m p^2 + c p + k)."""
+    settings: dict[str, Any] = {"lag": 0.2, "high_pass": 0.08}
+    k, c = 4e4, 8e3  # a loop as soft as to be seen
+    out = record(cylinder(k, c, **settings), 40.0, dt_out=0.1, rtol=1e-8)
     found = amplitude_of(out["time"], out["position"][:, 1, 2], OMEGA, 20.0)
     p = 1j * OMEGA
     loop = k + c * p  # m x'' = (k + c p)(z - H z - x)
     expected = -1j * loop * (1.0 - transfer(OMEGA, **settings)) / (MASS * p**2 + loop)
     assert found == pytest.approx(expected, abs=1e-5)
+
+
+def test_a_controller_in_python_takes_the_place_of_the_compiled_one() -> None:
+    """Within what sampling loses, which is of the first order in the period."""
+    lag, errors, how = 0.3, [], {"dt_out": 0.1, "rtol": 1e-8}
+    compiled = simulate(cylinder(4e5, 4e4, lag=lag, high_pass=0.0), 6.0, **how)
+    for period in (0.02, 0.01):
+        lagged = [0.0]
+
+        def control(_: float, measured: Any, period: float = period, lagged: list[float] = lagged) -> Any:
+            held = lagged[0]
+            rate = (float(measured["position"][0, 2]) - held) / lag
+            lagged[0] += rate * period * (1.0 - 0.5 * period / lag)
+            return {"cylinder.reference": -held, "cylinder.reference_rate": -rate}
+
+        ticks = [SampledController(period=period, function=control)]
+        by_hand = simulate(cylinder(4e5, 4e4), 6.0, controllers=ticks, **how)
+        errors.append(np.max(np.abs(by_hand["position"][:, 1, 2] - compiled["position"][:, 1, 2])))
+    assert errors[1] < 0.01 and 1.5 < errors[0] / errors[1] < 3.0
 
 
 def test_the_ratio_of_a_cylinder_is_that_of_the_tip() -> None:

@@ -54,6 +54,21 @@ def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settin
         os._exit(ends)
 
 
+def saver(path: Path, room: int) -> int:
+    """The number of a process that saves a result where no more than `room` bytes are left."""
+    whole = reference()
+    if number := os.fork():
+        return number
+    ends = 1
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
+        whole.save(path)
+    except OSError as error:
+        ends = FULL if "could not write" in str(error) else ends
+    finally:
+        os._exit(ends)
+
+
 def ended(number: int) -> int:
     """How a writer ended; -9 where it was killed."""
     return os.waitstatus_to_exitcode(os.waitpid(number, 0)[1])
@@ -166,6 +181,13 @@ def full_disk(seed: int, path: Path) -> None:
     told = simulate(pendulum(), to=path, resume=whole_there, **SETTINGS)
     assert is_start_of(told.load(), reference())
     assert [one.name for one in path.parent.iterdir()] == [path.name]
+
+
+def test_a_result_that_finds_no_room_leaves_the_older_file(tmp_path: Path) -> None:
+    path = tmp_path / "run.nc"
+    path.write_text("an older file", encoding="utf-8")
+    assert ended(saver(path, room=20_000)) == FULL
+    assert path.read_text(encoding="utf-8") == "an older file" and list(tmp_path.iterdir()) == [path]
 
 
 CHECKS = {check.__name__: check for check in (kill, two_writers, stale, full_disk)}
