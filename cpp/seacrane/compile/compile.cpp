@@ -13,7 +13,7 @@
 #include "seacrane/compile/groups.hpp"
 #include "seacrane/compile/line_bounces.hpp"
 #include "seacrane/compile/locked_loops.hpp"
-#include "seacrane/compile/start_contacts.hpp"
+#include "seacrane/compile/start_loads.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/heave_signal.hpp"
@@ -504,7 +504,7 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
   model->merges = merge;
   assemble(*model);
   start_fast_motions(*model);
-  start_contacts(*model);
+  start_loads(*model);
   check_start(*model);
   const std::shared_ptr<Model> open = when_open(model, closed);
   hang_on_lines(*model, find_line_bounces(*open));

@@ -1,7 +1,7 @@
 #include "seacrane/lanes/lane_system.hpp"
 
 #include "seacrane/dynamics/recursive/body_tree.hpp"
-#include "seacrane/elements/loads/contact.hpp"
+#include "seacrane/elements/loads/load_kind.hpp"
 
 namespace seacrane {
 namespace {
@@ -24,8 +24,10 @@ std::string kept_out_of_lanes(const Model& model) {
   for (const Vessel& vessel : m.vessels) {
     if (std::holds_alternative<Convolution>(vessel.memory)) return "its fluid memory is a convolution";
   }
-  for (const Contact& one : m.loads.of<Contact>()) {
-    if (one.states.count > 0) return "its contacts take their anchors where they touch";
+  for (const auto& list : m.loads.lists) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      if (list->jumps(i, 0, ~0)) return "states of " + name_of(*list, i) + " jump where it is touched";
+    }
   }
   for (const WaveLoad& wave : m.wave_loads) {
     const std::string why = kept_out_by_waves(wave);

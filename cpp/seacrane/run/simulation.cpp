@@ -148,7 +148,7 @@ void Simulation::reset_integrator() {
 
 /// Whether loads may have kinks inside a step, see retake_to_switch().
 bool Simulation::steps_over_kinks() const {
-  return switches_ && integrator().steps_lost_by_reset() > 0.0 && !Switches::any_jumps(*model_);
+  return switches_ && integrator().steps_lost_by_reset() > 0.0 && Switches::first_that_jumps(*model_).empty();
 }
 
 /// Takes a step that crossed a kink of a load again, up to the crossing: what was stepped has seen both

@@ -7,7 +7,6 @@
 
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/elements/check.hpp"
-#include "seacrane/elements/loads/contact.hpp"
 #include "seacrane/integrate/registry.hpp"
 #include "seacrane/run/run_options.hpp"
 #include "seacrane/run/switches.hpp"
@@ -36,12 +35,12 @@ void add_growth(const Model& model, const RunOptions& run, IntegratorOptions& ou
 }
 
 /// A step of no length at a kink fails where residuals are solved for by a method of many steps.
-void check_contacts(const Model& model, const Integrator& integrator, const std::string& name) {
-  if (!Switches::any_jumps(model) || !integrator_of(name).residual_form) return;
-  if (!(integrator.steps_lost_by_reset() > 0.0)) return;
-  throw std::invalid_argument("integrator \"" + name + "\" cannot restart where contact '" +
-                              model.loads.of<Contact>().front().d.name +
-                              "' is touched; choose 'dopri5', or 'cvode-bdf' where the contact is stiff");
+void check_jumps(const Model& model, const Integrator& integrator, const std::string& name) {
+  if (!integrator_of(name).residual_form || !(integrator.steps_lost_by_reset() > 0.0)) return;
+  const std::string load = Switches::first_that_jumps(model);
+  if (load.empty()) return;
+  throw std::invalid_argument("integrator \"" + name + "\" cannot restart where " + load +
+                              " is touched; choose 'dopri5', or 'cvode-bdf' where it is stiff");
 }
 
 }  // namespace
@@ -79,7 +78,7 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
   }
   integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr, &stiff},
                                integrator_options(stepped, *model, options));
-  check_contacts(*model, *integrator, options.integrator);
+  check_jumps(*model, *integrator, options.integrator);
 }
 
 }  // namespace seacrane

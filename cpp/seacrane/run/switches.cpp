@@ -7,8 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "seacrane/elements/loads/contact.hpp"
-#include "seacrane/elements/loads/load_kind.hpp"
 #include "seacrane/integrate/one_step.hpp"
 
 namespace seacrane {
@@ -56,16 +54,11 @@ void for_each_switch(const Model& model, F&& f) {
   });
 }
 
-/// Null for a load of another kind.
-const Contact* contact_of(const LoadList& list, std::size_t i) {
-  if (&list.kind != &load_kind<Contact>()) return nullptr;
-  return &static_cast<const LoadsOf<Contact>&>(list).items[i];
-}
-
-bool presses(const Contact& contact, int side) {
-  bool out = false;
-  for (std::size_t i = 0; i < contact.points.size(); ++i) out = out || (side & Contact::closed(i)) != 0;
-  return out;
+/// The fastest that a load came near to what it saw within a step of length h; 0 where it could not reach it.
+double pace_between(const Sight& from, const Sight& to, double clear_at_end, double h) {
+  if (!(from.clear < Sight::kFar && h > 0.0)) return 0.0;
+  const double pace = fastest(from, to, h);
+  return from.clear + clear_at_end > pace * h ? 0.0 : pace;
 }
 
 /// Closes in on the time between two at which something is nearest, until it is met there, or is not. Looks
@@ -82,24 +75,14 @@ void look_into_dip(double first, double last, double pace, F&& clear_at, const M
   }
 }
 
-const char* kind_of(Contact::Change change) {
-  switch (change) {
-    case Contact::Change::touch:
-      return "contact";
-    case Contact::Change::lift:
-      return "release";
-    case Contact::Change::slip:
-      return "slip";
-    case Contact::Change::stick:
-      break;
-  }
-  return "stick";
-}
-
 }  // namespace
 
-bool Switches::any_jumps(const Model& model) {
-  return std::ranges::any_of(model.loads.of<Contact>(), [](const Contact& c) { return c.states.count > 0; });
+std::string Switches::first_that_jumps(const Model& model) {
+  std::string out;
+  model.loads.for_each([&](const LoadList& list, std::size_t i) {
+    if (out.empty() && list.jumps(i, 0, ~0)) out = name_of(list, i);
+  });
+  return out;
 }
 
 bool Switches::any(const Model& model) {
@@ -122,74 +105,69 @@ LoadInput<double> Switches::read(Stepper& at, double t, const double* y) {
   return terms.load_input(t, bodies_.data() + at.model->layout.memory);
 }
 
-void Switches::find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides,
-                          std::vector<Sight>& sights) {
+/// Takes the sides at the end of a step, and what is seen from there.
+void Switches::look(Stepper& at, double t, const double* y) {
   const LoadInput<double> in = read(at, t, y);
-  sides.clear();
-  sights.clear();
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    sights.push_back(look(list, i, in));
-    sides.push_back(sights.back().side);
-  });
+  for (Watched& one : watched_) {
+    one.to = one.list->look(one.place, in);
+    one.after = one.to.side;
+    one.instant = t;
+  }
 }
 
 /// The next step starts where the last one ended.
 void Switches::turn() {
-  before_.swap(after_);
-  seen_before_.swap(seen_after_);
+  for (Watched& one : watched_) {
+    std::swap(one.before, one.after);
+    std::swap(one.from, one.to);
+  }
 }
 
-double Switches::across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to) {
-  double out = 1.0;
-  std::size_t k = 0;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    if (k++ == load) out = list.across(i, in, from, to);
-  });
-  return out;
-}
-
-void Switches::refuse(const Stepper& at, double t, const std::vector<int>& sides) const {
-  std::size_t k = 0;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    const int side = sides[k++];
-    const std::string why = list.refused(i, side);
-    if (why.empty()) return;
+void Switches::refuse(double t) const {
+  for (const Watched& one : watched_) {
+    const std::string why = one.list->refused(one.place, one.after);
+    if (why.empty()) continue;
     const std::string text = why + ", at t = " + to_text(t) + " s";
-    if (list.slack(i, side)) throw LineSlackError(text);
+    if (one.list->slack(one.place, one.after)) throw LineSlackError(text);
     throw std::domain_error(text);
-  });
+  }
 }
 
 void Switches::watch(Stepper& at, double t, const double* y) {
-  make_room(at);
-  find_sides(at, t, y, after_, seen_after_);
+  list_loads(at);
+  look(at, t, y);
   begin_from(at, t, y);
 }
 
 /// From the sides just found there, behind a step.
 void Switches::begin_from(Stepper& at, double t, const double* y, LastStep* step) {
-  refuse(at, t, after_);
-  const bool begins = before_.empty();
-  if (begins) before_.assign(after_.size(), 0);
-  if (before_.size() != after_.size()) before_ = after_;  // of another set of limits
-  instants_.assign(after_.size(), t);
-  for (std::size_t i = 0; step != nullptr && i < after_.size(); ++i) {
-    if (after_[i] == before_[i]) continue;
-    const auto margin_at = [&](double now, const double* state) {
-      return across(at, read(at, now, state), i, before_[i], after_[i]);
-    };
-    instants_[i] = step->locate(std::cref(margin_at)).value_or(t);
+  refuse(t);
+  const bool begins = !std::exchange(has_begun_, true);
+  for (Watched& one : watched_) {
+    if (is_new_ && !begins) one.before = one.after;
+    if (step == nullptr || !one.changes()) continue;
+    const auto margin_at = [&](double now, const double* state) { return one.across(read(at, now, state)); };
+    one.instant = step->locate(std::cref(margin_at)).value_or(t);
   }
-  note(at);
-  if (!begins) note_contacts(at, t, y);  // what stands as a run begins has not touched
+  is_new_ = false;
+  note();
+  if (!begins) note_happenings(at, t, y);  // what stands as a run begins has not touched
   turn();
 }
 
-void Switches::make_room(const Stepper& at) {
+/// Of a stepper. Another set of limits may leave others.
+void Switches::list_loads(const Stepper& at) {
   std::size_t count = 0;
   for_each_switch(*at.model, [&](const LoadList&, std::size_t) { ++count; });
-  for (std::vector<int>* sides : {&before_, &after_, &passed_, &left_}) sides->reserve(count);
-  for (std::vector<Sight>* sights : {&seen_before_, &seen_after_, &seen_passed_}) sights->reserve(count);
+  if (watched_.size() != count) {
+    is_new_ = true;
+    watched_.assign(count, Watched{});
+  }
+  count = 0;
+  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+    watched_[count].list = &list;
+    watched_[count++].place = i;
+  });
   for (std::vector<double>* values : {&state_, &rate_, &late_rate_, &end_rate_}) {
     values->resize(at.stepped.size());
   }
@@ -197,58 +175,49 @@ void Switches::make_room(const Stepper& at) {
 }
 
 void Switches::resume(Stepper& at, double t, const double* y) {
-  make_room(at);
-  find_sides(at, t, y, before_, seen_before_);
-  refuse(at, t, before_);
+  list_loads(at);
+  look(at, t, y);
+  refuse(t);
+  turn();
+  has_begun_ = true;
+  is_new_ = false;
   settled_at_ = t;
 }
 
-void Switches::note(const Stepper& at) {
-  std::size_t k = 0;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    const int from = before_[k], to = after_[k];
-    const double t = instants_[k++];
-    if (from == to) return;
-    for (const std::string& name : list.reached(i, from, to)) {
-      if (!name.empty()) reached_.push_back({t, name});
+void Switches::note() {
+  for (const Watched& one : watched_) {
+    if (!one.changes()) continue;
+    for (const std::string& name : one.list->reached(one.place, one.before, one.after)) {
+      if (!name.empty()) reached_.push_back({one.instant, name});
     }
-  });
+  }
 }
 
-/// What points of contacts did until (t, y), where it is read.
-void Switches::note_contacts(Stepper& at, double t, const double* y) {
-  std::size_t k = 0;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    const int from = before_[k], to = after_[k];
-    const double instant = instants_[k++];
-    const Contact* const contact = contact_of(list, i);
-    if (from == to || contact == nullptr) return;
-    for (const auto& [point, change] : contact->happened(from, to)) {
-      const bool touches = change == Contact::Change::touch;
-      const double speed = touches ? std::max(contact->touch(read(at, t, y), point).rate, 0.0) : 0.0;
-      reached_.push_back({instant, contact->point_name(point), kind_of(change), speed});
+/// What loads did until (t, y), where it is read.
+void Switches::note_happenings(Stepper& at, double t, const double* y) {
+  for (const Watched& one : watched_) {
+    if (!one.changes()) continue;
+    for (const Happening& now : one.list->happened(one.place, read(at, t, y), one.before, one.after)) {
+      reached_.push_back({one.instant, now.name, now.kind, now.speed});
     }
-  });
+  }
 }
 
 /// The step ends where it does: the next one begins on the sides there.
 void Switches::finish(Stepper& at, const LastStep& step) {
-  note(at);
-  note_contacts(at, step.time(), step.state());
+  note();
+  note_happenings(at, step.time(), step.state());
   has_jumped_ = false;
   strike_pace_ = 0.0;
   strike_thin_ = Sight::kFar;
-  std::size_t k = 0;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    const Contact* const contact = contact_of(list, i);
-    has_jumped_ = has_jumped_ || (contact != nullptr && contact->touches(left_[k], after_[k]));
-    const Sight &from = seen_before_[k], &to = seen_after_[k];
-    if (from.strikes && ((left_[k] ^ after_[k]) & from.watched) != 0) {
-      strike_pace_ = std::max({strike_pace_, from.pace, to.pace});
-      strike_thin_ = std::min(strike_thin_, from.thin);
+  for (const Watched& one : watched_) {
+    const int left = one.left.value_or(one.before);
+    has_jumped_ = has_jumped_ || one.list->jumps(one.place, left, one.after);
+    if (one.from.strikes && ((left ^ one.after) & one.from.watched) != 0) {
+      strike_pace_ = std::max({strike_pace_, one.from.pace, one.to.pace});
+      strike_thin_ = std::min(strike_thin_, one.from.thin);
     }
-    ++k;
-  });
+  }
   turn();
 }
 
@@ -261,14 +230,10 @@ double Switches::end_of_strike(double now, double step) const {
 
 void Switches::settle(Stepper& at, double t, const double* y, double* load_states) {
   settled_at_ = t;
-  std::size_t k = 0;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    const std::optional<int> side = left_.empty() ? std::nullopt : std::optional(left_[k]);
-    ++k;
-    if (const Contact* const contact = contact_of(list, i)) {
-      contact->take_anchors(read(at, t, y), side, load_states);
-    }
-  });
+  list_loads(at);
+  for (const Watched& one : watched_) {
+    if (one.list->jumps(one.place, 0, ~0)) one.list->settle(one.place, read(at, t, y), one.left, load_states);
+  }
 }
 
 void Switches::shorten(double t) {
@@ -281,8 +246,13 @@ void Switches::shorten(double t) {
 bool Switches::began_behind(Stepper& at, const LastStep& step, double margin) {
   const double start = step.previous_time();
   step.interpolate(start + margin, state_.data());
-  find_sides(at, start + margin, state_.data(), passed_, seen_passed_);
-  if (passed_ == before_) return false;
+  const LoadInput<double> in = read(at, start + margin, state_.data());
+  bool is_passed = false;
+  for (Watched& one : watched_) {
+    one.passed = one.list->look(one.place, in).side;
+    is_passed = is_passed || one.passed != one.before;
+  }
+  if (!is_passed) return false;
   at.stepped.derivative(start, step.previous_state(), rate_.data());
   at.stepped.derivative(start + margin, state_.data(), late_rate_.data());
   at.stepped.derivative(step.time(), step.state(), end_rate_.data());
@@ -296,32 +266,36 @@ bool Switches::began_behind(Stepper& at, const LastStep& step, double margin) {
 
 /// Takes as passed what the step crossed as it began: a crossing that the last one ended on.
 void Switches::pass_start(Stepper& at, const LastStep& step) {
-  passed_.swap(after_);
-  instants_.assign(after_.size(), step.previous_time());
-  note(at);
-  note_contacts(at, step.previous_time(), step.previous_state());
-  if (settled_at_ == step.previous_time()) left_ = after_;
-  before_.swap(after_);
-  passed_.swap(after_);
+  const double start = step.previous_time();
+  for (Watched& one : watched_) {
+    std::swap(one.passed, one.after);
+    one.instant = start;
+  }
+  note();
+  note_happenings(at, start, step.previous_state());
+  for (Watched& one : watched_) {
+    if (settled_at_ == start) one.left = one.after;
+    one.before = one.after;
+    one.after = one.passed;
+  }
 }
 
 /// Whether the step was taken up to a crossing and came no nearer to it. An explicit method weighs its last
 /// stages by more than one: where these fall on the new side of a jump, the step turns back, however short.
 bool Switches::fell_short(Stepper& at, const LastStep& step) {
   const Aim aim = std::exchange(aim_, {});
-  if (step.time() != aim.time || after_[aim.load] != before_[aim.load]) return false;
+  const Watched& load = watched_[aim.load];
+  if (step.time() != aim.time || load.changes()) return false;
   if (aim.time - step.previous_time() > kNear * aim.length) return false;
-  const LoadInput<double> in = read(at, step.time(), step.state());
-  const double left = across(at, in, aim.load, before_[aim.load], aim.to);
+  const double left = load.across(read(at, step.time(), step.state()), load.before, aim.to);
   return std::abs(left) > kShort * std::abs(aim.from_start);
 }
 
 std::optional<double> Switches::find(Stepper& at, LastStep& step) {
-  find_sides(at, step.time(), step.state(), after_, seen_after_);
+  look(at, step.time(), step.state());
   const double start = step.previous_time(), end = step.time(), margin = rounding_of(step);
-  refuse(at, end, after_);
-  instants_.assign(after_.size(), end);
-  left_ = before_;
+  refuse(end);
+  for (Watched& one : watched_) one.left = one.before;
   if (std::exchange(leads_across_, false)) {
     finish(at, step);
     return std::nullopt;
@@ -331,27 +305,26 @@ std::optional<double> Switches::find(Stepper& at, LastStep& step) {
     return start + 2.0 * (end - start);
   }
   std::optional<double> first;
-  if (after_ != before_ && start + margin < end) {
+  if (start + margin < end && std::ranges::any_of(watched_, &Watched::changes)) {
     leads_across_ = began_behind(at, step, margin);
     if (leads_across_) return start + margin;
     pass_start(at, step);
-    instants_.assign(after_.size(), end);
+    for (Watched& one : watched_) one.instant = end;
   }
-  for (std::size_t i = 0; i < after_.size(); ++i) {
-    if (after_[i] == before_[i]) continue;
-    const auto margin_at = [&](double t, const double* y) {
-      return across(at, read(at, t, y), i, before_[i], after_[i]);
-    };
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    Watched& one = watched_[i];
+    if (!one.changes()) continue;
+    const auto margin_at = [&](double t, const double* y) { return one.across(read(at, t, y)); };
     const std::optional<double> found = step.locate(std::cref(margin_at));
     if (!found) continue;
-    instants_[i] = *found;
+    one.instant = *found;
     if (*found - start <= margin || end - *found <= margin) continue;
     if (first && *first <= *found) continue;
     first = found;
     aim_ = {.time = *found,
             .length = end - start,
             .load = i,
-            .to = after_[i],
+            .to = one.after,
             .from_start = margin_at(start, step.previous_state())};
   }
   if (!first) first = look_between(at, step);
@@ -361,7 +334,7 @@ std::optional<double> Switches::find(Stepper& at, LastStep& step) {
 
 std::optional<double> Switches::find_between(Stepper& at, LastStep& step, bool ends_before) {
   ends_before_ = ends_before;
-  find_sides(at, step.time(), step.state(), after_, seen_after_);
+  look(at, step.time(), step.state());
   const std::optional<double> found = look_between(at, step);
   if (!found) begin_from(at, step.time(), step.state(), ends_before ? &step : nullptr);
   return found;
@@ -377,26 +350,24 @@ std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
     refuse_long(at, step);
     return std::nullopt;
   }
+  const double h = step.time() - step.previous_time();
   std::optional<double> first;
-  std::size_t k = 0;
   bool has_slopes = false;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    const std::size_t load = k++;
-    const double pace = pace_between(step, load);
-    const Sight& from = seen_before_[load];
-    const bool ends_in_it = ends_before_ && ((after_[load] ^ before_[load]) & from.watched) != 0;
-    if (!(pace > 0.0) || (ends_in_it && from.thin == Sight::kFar)) return;
-    std::optional<Between> met = look_between(at, step, list, i, load, pace, false);
-    const double h = step.time() - step.previous_time();
-    if (!met && leads_far(pace * h, from.thin)) {
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const Watched& load = watched_[i];
+    const double pace = pace_between(load.from, load.to, load.clear_at_end(), h);
+    const bool ends_in_it = ends_before_ && ((load.after ^ load.before) & load.from.watched) != 0;
+    if (!(pace > 0.0) || (ends_in_it && load.from.thin == Sight::kFar)) continue;
+    std::optional<Between> met = look_between(at, step, load, pace, false);
+    if (!met && leads_far(pace * h, load.from.thin)) {
       if (!std::exchange(has_slopes, true)) {
         at.stepped.derivative(step.previous_time(), step.previous_state(), rate_.data());
         at.stepped.derivative(step.time(), step.state(), end_rate_.data());
       }
-      met = look_between(at, step, list, i, load, pace, true);
+      met = look_between(at, step, load, pace, true);
     }
-    if (met) end_on(at, step, *met, load, first);
-  });
+    if (met) end_on(at, step, *met, i, first);
+  }
   return first;
 }
 
@@ -404,48 +375,31 @@ std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
 /// is of the size of their errors, but where they lead through what is thin.
 void Switches::refuse_long(Stepper& at, const LastStep& step) {
   const double h = step.time() - step.previous_time();
-  std::size_t k = 0;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
-    const std::size_t load = k++;
-    const Contact* const contact = contact_of(list, i);
-    if (contact == nullptr || !(h > 0.0)) return;
-    const Sight& from = seen_before_[load];
-    if (!(from.pace * h > kLongest * from.thin)) return;
-    const double pace = pace_between(step, load);
-    const bool passes = presses(*contact, from.side) ||
-                        (pace > 0.0 && look_between(at, step, list, i, load, pace, false).has_value());
-    if (!passes) return;
-    throw std::domain_error("contact '" + contact->d.name + "': a step of " + to_text(h) + " s leads " +
+  for (const Watched& load : watched_) {
+    const Sight& from = load.from;
+    if (!(h > 0.0) || !(from.pace * h > kLongest * from.thin)) continue;
+    const double pace = pace_between(from, load.to, load.clear_at_end(), h);
+    const bool passes = from.presses || (pace > 0.0 && look_between(at, step, load, pace, false).has_value());
+    if (!passes) continue;
+    throw std::domain_error(name_of(*load.list, load.place) + ": a step of " + to_text(h) + " s leads " +
                             to_text(from.pace * h) + " m, where it is " + to_text(2.0 * from.thin) +
                             " m thick, at t = " + to_text(step.previous_time()) +
                             " s: a point would pass through it; give a dt of at most " +
                             to_text(kLongest * from.thin / from.pace) +
                             " s, or a method that chooses its steps, such as 'dopri5'");
-  });
-}
-
-/// The fastest that a load came near to what it saw within the last step; 0 where it could not reach it.
-double Switches::pace_between(const LastStep& step, std::size_t load) const {
-  const Sight &from = seen_before_[load], &to = seen_after_[load];
-  const double h = step.time() - step.previous_time();
-  if (!(from.clear < Sight::kFar && h > 0.0)) return 0.0;
-  const double pace = fastest(from, to, h);
-  return from.clear + clear_at_end(load) > pace * h ? 0.0 : pace;
-}
-
-double Switches::clear_at_end(std::size_t load) const {
-  return after_[load] == before_[load] ? seen_after_[load].clear : 0.0;
+  }
 }
 
 /// The step is to end on what a load met, unless it ends there anyway, or something comes first.
 void Switches::end_on(Stepper& at, LastStep& step, const Between& met, std::size_t load,
                       std::optional<double>& first) {
   const double start = step.previous_time(), end = step.time(), margin = rounding_of(step);
+  const Watched& one = watched_[load];
   const auto margin_at = [&](double t, const double* y) {
-    return t >= met.time ? met.across : across(at, read(at, t, y), load, before_[load], met.side);
+    return t >= met.time ? met.across : one.across(read(at, t, y), one.before, met.side);
   };
   double found = std::min(step.locate(std::cref(margin_at)).value_or(met.time), met.time);
-  if (ends_before_) found = before_touch(step, found, load);
+  if (ends_before_) found = before_touch(step, found, one);
   if (end - found <= margin || (first && *first <= found)) return;
   leads_across_ = !ends_before_ && found <= start + margin;
   first = leads_across_ ? found + 10.0 * smallest_step(end) : found;
@@ -459,9 +413,9 @@ void Switches::end_on(Stepper& at, LastStep& step, const Between& met, std::size
 }
 
 /// Just before a load meets something at time `found`; from there, on the first way into it.
-double Switches::before_touch(const LastStep& step, double found, std::size_t load) const {
-  const double pace = fastest(seen_before_[load], seen_after_[load], step.time() - step.previous_time());
-  const double into = first_way(seen_before_[load].thin) / pace, short_of = found - kBefore * into;
+double Switches::before_touch(const LastStep& step, double found, const Watched& load) const {
+  const double pace = fastest(load.from, load.to, step.time() - step.previous_time());
+  const double into = first_way(load.from.thin) / pace, short_of = found - kBefore * into;
   return short_of - step.previous_time() > kBefore * into ? short_of : found + into;
 }
 
@@ -483,17 +437,16 @@ LoadInput<double> Switches::read_within(Stepper& at, const LastStep& step, doubl
 /// Berkeley 1996): what is that far away is not met before that way is gone, and need not be looked at
 /// earlier.
 std::optional<Switches::Between> Switches::look_between(Stepper& at, const LastStep& step,
-                                                        const LoadList& list, std::size_t i, std::size_t load,
-                                                        double pace, bool on_cubic) {
-  const Sight& from = seen_before_[load];
+                                                        const Watched& load, double pace, bool on_cubic) {
+  const Sight& from = load.from;
   const double start = step.previous_time(), end = step.time(), whole = pace * (end - start);
   const double least = std::min(kPartOfThin * from.thin, std::max(kPart * whole, kShallow));
   std::optional<Between> met;
   const auto clear_at = [&](double t) {
     const LoadInput<double> in = read_within(at, step, t, on_cubic);
-    const Sight now = look(list, i, in);
-    const int changed = (now.side ^ before_[load]) & from.watched, side = before_[load] ^ changed;
-    if (changed != 0) met = Between{t, side, list.across(i, in, before_[load], side)};
+    const Sight now = load.list->look(load.place, in);
+    const int changed = (now.side ^ load.before) & from.watched, side = load.before ^ changed;
+    if (changed != 0) met = Between{t, side, load.across(in, load.before, side)};
     return now.clear;
   };
   struct {
@@ -502,9 +455,9 @@ std::optional<Switches::Between> Switches::look_between(Stepper& at, const LastS
   while (true) {
     next.time = here.time + std::max(here.clear, least) / pace;
     const bool ends = next.time >= end;
-    next = ends ? decltype(next){end, clear_at_end(load)} : decltype(next){next.time, clear_at(next.time)};
+    next = ends ? decltype(next){end, load.clear_at_end()} : decltype(next){next.time, clear_at(next.time)};
     if (met) return met;
-    const bool is_over = ends || next.clear + clear_at_end(load) > pace * (end - next.time);
+    const bool is_over = ends || next.clear + load.clear_at_end() > pace * (end - next.time);
     const bool dips = here.clear <= before.clear && (here.clear <= next.clear || is_over);
     if (dips && here.clear < least) look_into_dip(before.time, next.time, pace, clear_at, met);
     if (met || is_over) return met;

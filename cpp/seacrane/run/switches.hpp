@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/run/sight.hpp"
+#include "seacrane/elements/loads/load_kind.hpp"
 #include "seacrane/run/stepper.hpp"
 
 namespace seacrane {
@@ -30,13 +30,20 @@ class LineSlackError : public std::domain_error {
 /// spring's table, where a line goes slack or taut. They have no time to offer. A step that ends on another
 /// side of one is taken again, up to where it crossed, so that every step sees one side only. A load that may
 /// have kinks has has_sides(), side(input), a number for each side, and across(input, from, to), which
-/// changes its sign between two of them. One that cannot be on a side has refused(side), which says why: the
-/// run ends there. Bounds that a user has to know of have reached(from, to), the name of the one, or the
-/// names of those, that are reached by that change of the side.
+/// changes its sign between two of them. What it may have besides:
+///
+/// - look(input): its side, and how near it is to what it may meet and leave again within a step.
+/// - jumps(from, to), whether states of its own jump there, and settle(input, side, states), which writes
+/// them.
+/// - happened(input, from, to), and reached(from, to): names of bounds that a user has to know of.
+/// - refused(side), why it cannot be there: the run ends.
 class Switches {
  public:
   /// Whether loads of a model have such kinks.
   static bool any(const Model& model);
+  /// The first load whose states jump where a kink is passed, "contact 'feet'"; empty: there is none. Where
+  /// there is one, every method ends its steps on kinks.
+  static std::string first_that_jumps(const Model& model);
 
   /// Takes the sides at the state (t, y) of what is stepped, where a step starts. Throws std::domain_error
   /// where a load cannot be on its side.
@@ -51,9 +58,6 @@ class Switches {
   /// As find(), of a step whose own crossings are left to the step control: where it is to end on what it
   /// would step over, or a little before, and from there a little behind. Nothing: the step stands.
   std::optional<double> find_between(Stepper& at, LastStep& step, bool ends_before);
-  /// Whether loads of a model have states that jump where a kink is passed: then every method ends its steps
-  /// on kinks.
-  static bool any_jumps(const Model& model);
   /// Writes such states of the described or the stepped bodies, all states of loads in a row, for the last
   /// step's end (t, y); before the first step as far as the state shows that they are not given.
   void settle(Stepper& at, double t, const double* y, double* load_states);
@@ -85,38 +89,51 @@ class Switches {
     double across;
   };
 
-  void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides,
-                  std::vector<Sight>& sights);
+  /// A load with sides, on which side it is as the last step begins and as it ends, and what it sees there.
+  struct Watched {
+    const LoadList* list;
+    LoadList::Place place;
+    int before = 0, after = 0;
+    int passed = 0;                          // on that just after the step's start
+    std::optional<int> left = std::nullopt;  // where its states last jumped or the last step began
+    Sight from = {}, to = {};
+    double instant = 0.0;  // of the change
+
+    bool changes() const { return before != after; }
+    double across(const LoadInput<double>& in, int first, int second) const {
+      return list->across(place, in, first, second);
+    }
+    double across(const LoadInput<double>& in) const { return across(in, before, after); }
+    /// m or rad to what it may meet, where the step ends.
+    double clear_at_end() const { return changes() ? 0.0 : to.clear; }
+  };
+
+  void look(Stepper& at, double t, const double* y);
   void begin_from(Stepper& at, double t, const double* y, LastStep* step = nullptr);
   void turn();
   std::optional<double> look_between(Stepper& at, LastStep& step);
-  std::optional<Between> look_between(Stepper& at, const LastStep& step, const LoadList& list, std::size_t i,
-                                      std::size_t load, double pace, bool on_cubic);
+  std::optional<Between> look_between(Stepper& at, const LastStep& step, const Watched& load, double pace,
+                                      bool on_cubic);
   void end_on(Stepper& at, LastStep& step, const Between& met, std::size_t load,
               std::optional<double>& first);
-  double before_touch(const LastStep& step, double found, std::size_t load) const;
+  double before_touch(const LastStep& step, double found, const Watched& load) const;
   void refuse_long(Stepper& at, const LastStep& step);
-  void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
-  void make_room(const Stepper& at);
-  void note(const Stepper& at);
-  void note_contacts(Stepper& at, double t, const double* y);
+  void refuse(double t) const;
+  void list_loads(const Stepper& at);
+  void note();
+  void note_happenings(Stepper& at, double t, const double* y);
   void finish(Stepper& at, const LastStep& step);
   bool fell_short(Stepper& at, const LastStep& step);
   bool began_behind(Stepper& at, const LastStep& step, double margin);
   void pass_start(Stepper& at, const LastStep& step);
   LoadInput<double> read(Stepper& at, double t, const double* y);
-  double pace_between(const LastStep& step, std::size_t load) const;
-  double clear_at_end(std::size_t load) const;
   LoadInput<double> read_within(Stepper& at, const LastStep& step, double t, bool on_cubic);
-  static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
-  std::vector<int> before_, after_, passed_;                   // by load with sides
-  std::vector<Sight> seen_before_, seen_after_, seen_passed_;  // likewise
-  std::vector<int> left_;  // likewise, where states last jumped or the last step began
+  std::vector<Watched> watched_;
+  bool has_begun_ = false, is_new_ = true;  // the run; the list: no sides are known of it
   double settled_at_ = std::numeric_limits<double>::quiet_NaN();
   bool has_jumped_ = false;
   double strike_pace_ = 0.0, strike_thin_ = Sight::kFar;  // of what the last step ended on, as of Sight
-  std::vector<double> instants_;                          // of their change, likewise
   Aim aim_;                                               // of the step that is taken again
   bool ends_before_ = false;                              // of a method that cannot restart where it touches
   bool leads_across_ = false;                             // the step under way, a jump: it is not taken again

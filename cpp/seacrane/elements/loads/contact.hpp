@@ -24,7 +24,7 @@ namespace seacrane {
 ///
 /// While T is below its bound, a' is zero: a point that sticks does not creep. Beyond, the anchor follows,
 /// and k |z| comes to friction N. Open points do not pull, and their anchors rest. Where one touches, and
-/// only there, its anchor jumps to it (take_anchors): steps end on that instant.
+/// only there, its anchor jumps to it (settle): steps end on that instant.
 ///
 /// T s is lost in the ledger, what the spring holds with it, which is friction N hold / 2 of a point at most.
 struct Contact {
@@ -48,11 +48,6 @@ struct Contact {
     bool slides = false;                  // presses, and is not held by friction
 
     Vec3<T> force() const { return normal * press.total() + shear; }
-  };
-  enum class Change { touch, lift, slip, stick };
-  struct Happened {
-    std::size_t point;
-    Change change;
   };
 
   Description d;
@@ -185,26 +180,49 @@ struct Contact {
     for (std::size_t i = 0; i < points.size(); ++i) out |= kFree << 2 * i;
     return out;
   }
-  /// What a point that is closed adds to the side.
-  static constexpr int closed(std::size_t i) { return kClosed << 2 * i; }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
 
+  /// Points that do not press: those of a ball about all of them while that is outside. One that is torn off
+  /// is at the surface.
+  Sight look(const LoadInput<double>& in) const {
+    const auto &b = in.bodies[body], &s = in.bodies[on];
+    const Vec3d lever = b.rotation * center, ball = b.position + lever - s.position;
+    const Vec3d over =
+        b.velocity + b.angular_velocity.cross(lever) - s.velocity - s.angular_velocity.cross(ball);
+    Sight out{.side = side(in),
+              .pace = over.norm() + (b.angular_velocity - s.angular_velocity).norm() * radius,
+              .thin = surface.thin(),
+              .strikes = true,
+              .at = axes.transpose() * (s.rotation.transpose() * ball - place)};
+    const double apart = surface.at<double>(out.at).distance - radius;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int closed = kClosed << 2 * i;
+      out.presses = out.presses || (out.side & closed) != 0;
+      if ((out.side & closed) != 0) continue;
+      out.watched |= closed;
+      out.clear = std::min(out.clear, apart > 0.0 ? apart : std::max(0.0, touch(in, i).gap));
+    }
+    return out;
+  }
+
   /// What a change of the side is, point by point.
-  std::vector<Happened> happened(int from, int to) const {
-    std::vector<Happened> out;
+  std::vector<Happening> happened(const LoadInput<double>& in, int from, int to) const {
+    std::vector<Happening> out;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const int before = from >> 2 * i & 3, after = to >> 2 * i & 3, changed = before ^ after;
+      const bool is_closed = (after & kClosed) != 0;
       if ((changed & kClosed) != 0) {
-        out.push_back({i, (after & kClosed) != 0 ? Change::touch : Change::lift});
-      } else if (states.count > 0 && (after & kClosed) != 0 && changed != 0) {
-        out.push_back({i, (after & kFree) != 0 ? Change::slip : Change::stick});
+        const double speed = is_closed ? std::max(touch(in, i).rate, 0.0) : 0.0;
+        out.push_back({point_name(i), is_closed ? "contact" : "release", speed});
+      } else if (states.count > 0 && is_closed && changed != 0) {
+        out.push_back({point_name(i), (after & kFree) != 0 ? "slip" : "stick"});
       }
     }
     return out;
   }
 
-  /// Whether a point touches where the side changes, and needs an anchor.
-  bool touches(int from, int to) const {
+  /// Whether a point touches where the side changes, and its anchor jumps.
+  bool jumps(int from, int to) const {
     if (states.count == 0) return false;
     bool out = false;
     for (std::size_t i = 0; i < points.size(); ++i) out = out || (~from & to) >> 2 * i & kClosed;
@@ -213,7 +231,7 @@ struct Contact {
 
   /// Writes the anchors of points that may not have one yet, among the states of all loads: of those that are
   /// open at `side`, or, where no side is known, of those whose spring is longer than friction allows.
-  void take_anchors(const LoadInput<double>& in, std::optional<int> side, double* all_states) const {
+  void settle(const LoadInput<double>& in, std::optional<int> side, double* all_states) const {
     if (states.count == 0) return;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Touch<double> now = touch(in, i);
@@ -223,9 +241,26 @@ struct Contact {
     }
   }
 
+  /// Throws where a point starts deep inside the surface, pressed beyond what its body weighs, N by body.
+  void check_start(const LoadInput<double>& in, const std::vector<double>& weights) const {
+    const std::size_t of = idx(body) < weights.size() ? idx(body) : idx(on);
+    const double share = weights[of] / static_cast<double>(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Touch<double> now = touch(in, i);
+      if (-now.gap <= kDeep || now.press.elastic <= kCrushed * share) continue;
+      throw SceneError("contact '" + d.name + "': point " + std::to_string(i + 1) + " of '" + d.body +
+                       "' starts " + to_text(-now.gap) + " m inside '" + d.on +
+                       "', where it is pressed out with " + to_text(now.press.elastic) +
+                       " N; move the body out, turn the axis of the surface, or correct its place");
+    }
+  }
+
  private:
   static constexpr int kClosed = 1, kFree = 2;
-  static constexpr double kLeast = 1e-6;   // of that quarter
+  static constexpr double kDeep = 0.1;  // m, that a point may start inside
+  static constexpr double kCrushed =
+      10.0;                               // times its share of the weight, with which it may be pressed there
+  static constexpr double kLeast = 1e-6;  // of that quarter
   static constexpr double kLongest = 1.5;  // of the spring of a point that slides, in a state that is given
 
   int anchor(std::size_t i) const { return states.first + 3 * static_cast<int>(i); }

@@ -231,6 +231,22 @@ struct EntrappedWater {
   static bool has_sides() { return true; }
   int side(const LoadInput<double>& in) const { return margins(in).side(); }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  /// Openings, which the water outside comes to and leaves.
+  Sight look(const LoadInput<double>& in) const {
+    const auto dry = [](std::size_t i) { return 1 << (kMargins.size() + 2 * i); };  // above the water outside
+    const auto& k = in.bodies[body];
+    Sight out{.side = side(in), .at = k.position};
+    double crest = 0.0;
+    for (std::size_t i = 0; i < openings.size(); ++i) {
+      out.watched |= dry(i);
+      out.pace = std::max(out.pace, velocity_of(k, openings[i].point).norm());
+      if ((out.side & dry(i)) != 0) crest = std::max(crest, in.sea->crest(openings[i].stencil));
+    }
+    if (out.watched == 0) return out;
+    out.clear = across(in, out.side, out.side ^ out.watched);
+    if (out.clear > crest) out.clear -= crest;
+    return out;
+  }
 
  private:
   /// Events; and where the bottom is dry, beyond which nothing leaves.

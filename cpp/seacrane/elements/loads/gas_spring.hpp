@@ -119,6 +119,18 @@ struct GasSpring {
   bool has_sides() const { return d.stop_stiffness > 0.0; }
   int side(const LoadInput<double>& in) const { return margins(in).side(); }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  /// Its end stops.
+  Sight look(const LoadInput<double>& in) const {
+    constexpr int ends = 1 | 2;  // as margins() adds them
+    const int now = side(in);
+    if ((now & ends) != 0) return {.side = now};
+    const SpanMotion<double> m = span.motion(in);
+    return {.side = now,
+            .watched = ends,
+            .clear = std::max(0.0, std::min(d.maximum - m.length, m.length - d.minimum)),
+            .pace = std::abs(m.rate),
+            .at = {m.length, 0.0, 0.0}};
+  }
   std::vector<std::string> reached(int from, int to) const { return bounds_met(d.name, kMargins, from, to); }
 
   double potential(const LoadInput<double>& in) const {

@@ -181,6 +181,19 @@ struct HydraulicCylinder {
   static bool has_sides() { return true; }
   int side(const LoadInput<double>& in) const { return margins(in).side(); }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  /// Its end stops.
+  Sight look(const LoadInput<double>& in) const {
+    constexpr int ends = 1 << kRetracted | 1 << kExtended;
+    const int now = side(in);
+    if ((now & ends) != 0) return {.side = now};
+    const SpanMotion<double> m = span.motion(in);
+    const double stroke = m.length - d.retracted_length;
+    return {.side = now,
+            .watched = ends,
+            .clear = std::max(0.0, std::min(stroke, d.stroke - stroke)),
+            .pace = std::abs(m.rate),
+            .at = {stroke, 0.0, 0.0}};
+  }
   std::vector<std::string> reached(int from, int to) const { return bounds_met(d.name, kMargins, from, to); }
 
   /// Why a run cannot go on at a side; empty: it can.

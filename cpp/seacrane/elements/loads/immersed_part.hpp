@@ -256,6 +256,19 @@ struct ImmersedPart {
     const Place<double> at = place(in, as);
     return Margins(Sides{Margin{"touch", -at.depth}, {"awash", as.below - at.center}});
   }
+  /// A part above all crests has these to come down to; others see the water where they are.
+  Sight look(const LoadInput<double>& in) const {
+    constexpr int touch = 1, awash = 2;  // as margins() has them
+    const Margins margins = this->margins(in);
+    const auto& k = in.bodies[body];
+    Sight out{.side = margins.side(), .watched = touch | awash};
+    out.clear = margins.across(out.side, out.side ^ out.watched);
+    out.at[0] = (out.side & touch) != 0 ? -out.clear : out.clear;
+    const double crest = in.sea->crest(stencil);
+    if ((out.side & touch) == 0 && out.clear > crest) out.clear -= crest;
+    out.pace = velocity_of(k, point).norm() + k.angular_velocity.norm() * d.size.norm();
+    return out;
+  }
 
  private:
   using Sides = std::array<Margin, 2>;

@@ -228,6 +228,27 @@ struct Line {
   static bool has_sides() { return true; }
   int side(const LoadInput<double>& in) const { return margins(in).side(); }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  /// A slack line may snatch; one on a winch comes to its end.
+  Sight look(const LoadInput<double>& in) const {
+    constexpr int slack = 1 | 2, hauled_in = 4;  // as margins() adds them
+    Sight out{.side = side(in)};
+    const bool is_slack = (out.side & slack) == slack, winds = winch && (out.side & hauled_in) == 0;
+    if (!is_slack && !winds) return out;
+    const Motion<double> now = motion(in);
+    if (is_slack) {
+      out.watched = slack;
+      out.clear = std::max(0.0, -now.stretch());
+      out.pace = std::abs(now.straining());
+      out.strikes = true;
+      out.at[0] = now.stretch();
+    }
+    if (!winds) return out;
+    out.watched |= hauled_in;
+    out.pace = std::max(out.pace, std::abs(winch->rate(in, now.elastic)));
+    out.at[1] = winch->length(in);
+    out.clear = std::min(out.clear, std::max(0.0, out.at[1] - d.minimum_length));
+    return out;
+  }
   std::vector<std::string> reached(int from, int to) const {
     return winch ? bounds_met(d.winch_name(), kMargins, from, to) : std::vector<std::string>();
   }

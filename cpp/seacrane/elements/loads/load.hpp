@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seacrane/elements/kinematics.hpp"
+#include "seacrane/elements/loads/sight.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
 

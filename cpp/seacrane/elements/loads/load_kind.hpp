@@ -77,6 +77,11 @@ struct LoadKind {
   std::unique_ptr<DescribedLoads> (*describe)();
 };
 
+/// As errors call a load: "contact 'feet'".
+inline std::string name_of(const LoadList& list, LoadList::Place i) {
+  return std::string(list.kind.name) + " '" + list.names[i] + "'";
+}
+
 /// The kind of a type of load, made in the object of that load alone.
 template <class Load>
 const LoadKind& load_kind();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -16,6 +17,12 @@ namespace seacrane {
 template <class Load>
 concept HasSides = requires(const Load& load, const LoadInput<double>& in) {
   load.side(in);
+};
+/// A load with states that jump where its side changes.
+template <class Load>
+concept Jumps = requires(const Load& load, const LoadInput<double>& in, double* states) {
+  { load.jumps(0, 0) } -> std::same_as<bool>;
+  load.settle(in, std::optional<int>(), states);
 };
 template <class Load>
 concept HasUnit = requires(const Load& load, const LoadInput<double>& in, Vec6d* wrenches) {
@@ -120,9 +127,11 @@ class LoadListOf final : public LoadsOf<Load> {
     if constexpr (HasSides<Load>) return items[i].has_sides();
     return false;
   }
-  int side(Place i, const LoadInput<double>& in) const override {
-    if constexpr (HasSides<Load>) return items[i].side(in);
-    return 0;
+  Sight look(Place i, const LoadInput<double>& in) const override {
+    if constexpr (requires(const Load& load) { load.look(in); }) return items[i].look(in);
+    Sight out;
+    if constexpr (HasSides<Load>) out.side = items[i].side(in);
+    return out;
   }
   double across(Place i, const LoadInput<double>& in, int from, int to) const override {
     if constexpr (HasSides<Load>) return items[i].across(in, from, to);
@@ -137,6 +146,25 @@ class LoadListOf final : public LoadsOf<Load> {
       return items[i].reached(from, to);
     }
     return {};
+  }
+  std::vector<Happening> happened(Place i, const LoadInput<double>& in, int from, int to) const override {
+    if constexpr (requires(const Load& load) { load.happened(in, 0, 0); }) {
+      return items[i].happened(in, from, to);
+    }
+    return {};
+  }
+  bool jumps(Place i, int from, int to) const override {
+    if constexpr (Jumps<Load>) return items[i].jumps(from, to);
+    return false;
+  }
+  void settle(Place i, const LoadInput<double>& in, std::optional<int> side,
+              double* all_states) const override {
+    if constexpr (Jumps<Load>) items[i].settle(in, side, all_states);
+  }
+  void check_start(Place i, const LoadInput<double>& in, const std::vector<double>& weights) const override {
+    if constexpr (requires(const Load& load) { load.check_start(in, weights); }) {
+      items[i].check_start(in, weights);
+    }
   }
   std::string refused(Place i, int side) const override {
     if constexpr (requires(const Load& load) { load.refused(0); }) return items[i].refused(side);

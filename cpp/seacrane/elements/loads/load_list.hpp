@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,9 +74,21 @@ class LoadList {
 
   // A load with sides, as Switches ask.
   virtual bool has_sides(Place i) const = 0;
-  virtual int side(Place i, const LoadInput<double>& in) const = 0;
+  /// Its side, and what it sees from there.
+  virtual Sight look(Place i, const LoadInput<double>& in) const = 0;
   virtual double across(Place i, const LoadInput<double>& in, int from, int to) const = 0;
+  /// Names of bounds that are reached where the side changes; and what happened there.
   virtual std::vector<std::string> reached(Place i, int from, int to) const = 0;
+  virtual std::vector<Happening> happened(Place i, const LoadInput<double>& in, int from, int to) const = 0;
+  /// Whether its states jump there.
+  virtual bool jumps(Place i, int from, int to) const = 0;
+  /// Writes those that jump, among the states of all loads, as it was on `side`; as far as the state shows
+  /// that they are not given, where that is not known.
+  virtual void settle(Place i, const LoadInput<double>& in, std::optional<int> side,
+                      double* all_states) const = 0;
+  /// Throws where it cannot start so. N: what bodies weigh.
+  virtual void check_start(Place i, const LoadInput<double>& in,
+                           const std::vector<double>& weights) const = 0;
   /// Why a side is refused; empty: it is not. And whether that is slack of a line.
   virtual std::string refused(Place i, int side) const = 0;
   virtual bool slack(Place i, int side) const = 0;

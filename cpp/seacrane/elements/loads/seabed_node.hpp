@@ -131,6 +131,17 @@ struct SeabedNode {
   static bool has_sides() { return true; }
   int side(const LoadInput<double>& in) const { return margins(in).side(); }
   double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  /// The seabed below it.
+  Sight look(const LoadInput<double>& in) const {
+    constexpr int below = 1;  // as margins() adds it
+    const int now = side(in);
+    if ((now & below) != 0) return {.side = now};
+    const auto& k = in.bodies[body];
+    Sight out{.side = now, .watched = below, .pace = velocity_of(k, point).norm()};
+    out.at = k.position + k.rotation * point;
+    out.clear = std::max(0.0, out.at.z() + d.depth);
+    return out;
+  }
 
  private:
   template <class T>

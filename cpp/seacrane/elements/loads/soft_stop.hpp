@@ -89,6 +89,19 @@ struct SoftStop {
   double across(const LoadInput<double>& in, int from, int to) const {
     return pressed(in, from != 0 ? from : to);
   }
+  Sight look(const LoadInput<double>& in) const {
+    const auto &a = in.bodies[coordinate.joint.first], &b = in.bodies[coordinate.joint.second];
+    const CoordinateRow<double> row = evaluate_coordinate<double>(coordinate, a, b);
+    const double pace = std::abs(coordinate_rate<double>(row, a, b));
+    const int now = side(in);
+    if (now != 0) return {.side = now, .pace = pace};
+    return {.side = now,
+            .watched = ~0,
+            .clear = std::max(0.0, std::min(row.value - d.minimum, d.maximum - row.value)),
+            .pace = pace,
+            .strikes = true,
+            .at = {row.value, 0.0, 0.0}};
+  }
 
   double potential(const LoadInput<double>& in) const {
     const double q = evaluate_coordinate<double>(coordinate, in.bodies[coordinate.joint.first],

@@ -96,6 +96,15 @@ struct SpringDamper {
   double across(const LoadInput<double>& in, int from, int to) const {
     return span.length(in) - d.lengths[idx(to > from ? from : from - 1)];
   }
+  /// The corners of its table beside its length.
+  Sight look(const LoadInput<double>& in) const {
+    const SpanMotion<double> now = span.motion(in);
+    Sight out{.side = side(in), .watched = ~0, .pace = std::abs(now.rate), .at = {now.length, 0.0, 0.0}};
+    const std::size_t next = idx(out.side);
+    if (next < d.lengths.size()) out.clear = d.lengths[next] - now.length;
+    if (next > 0) out.clear = std::min(out.clear, now.length - d.lengths[next - 1]);
+    return out;
+  }
 
   double potential(const LoadInput<double>& in) const {
     const double length = span.length(in);
