@@ -92,7 +92,7 @@ def scene() -> Scene:
 
     held = balance(out)  # loads that keep it at rest
     x, y, _ = held.weight_center
-    out.add_point_force(name="balance", body="vessel", point=(x, y, 0.0), force=(0.0, 0.0, held.weight))
+    out.add_force("vessel", name="balance", point=(x, y, 0.0), force=(0.0, 0.0, held.weight))
     moves = {
         name: Curve.quintic(start_time=0.0, end_time=MOVE_END, start=0.0, end=target)
         for name, target in TARGETS.items()

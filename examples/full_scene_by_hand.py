@@ -84,7 +84,7 @@ for name, (_, end) in motions.items():
         reference=Curve.quintic(start_time=0.0, end_time=45.0, start=0.0, end=end),
     )  # fmt: skip
 under = (*rest.weight_center[:2], 0.0)
-scene.add_point_force(name="ballast", body="vessel", point=under, force=(0, 0, rest.weight))
+scene.add_force("vessel", name="ballast", point=under, force=(0, 0, rest.weight))
 
 result = simulate(scene, t_end=60.0)
 size = dict(scene.report()["size"])

@@ -32,11 +32,15 @@ class Call:
 
 
 AGAIN = "add_sea puts the vessel into the sea anew: repeat its position, heading_deg, phase and drift there"
+FUNCTION = "force is the C function itself, not its address"
 LOADED = "it returns what is on disk: .load() is the Result"
 CALLS = {
     "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),
     "use_actual_position": Call("add_sea", words={"phase": '"actual"'}, note=AGAIN),
     "use_slow_position": Call("add_sea", words={"phase": '"slow"'}, note=AGAIN),
+    "add_point_force": Call("add_force", places=("name",)),
+    "add_force_table": Call("add_force", places=("name",), renamed={"loads": "force"}),
+    "add_function_force": Call("add_force", places=("name",), renamed={"address": "force"}, note=FUNCTION),
     "add_seabed": Call("add_contact", words={"on": '"seabed"'}),
     "simulate_stages": Call("simulate", renamed={"stages": "t_end"}),
     "simulate_to_file": Call("simulate", places=("", "to", ""), renamed={"path": "to"}),

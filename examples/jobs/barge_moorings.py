@@ -28,7 +28,7 @@ found = np.sort([modes.natural_period[modes.find(f"vessel {name}")] for name in 
 by_hand = np.sort(2 * np.pi / np.sqrt(np.linalg.eigvals(np.linalg.solve(inertia, stiffness)).real))
 for one, hand in zip(found, by_hand, strict=True):
     print(f"period {one:6.2f} s, by hand {hand:6.2f} s")
-scene.add_point_force(name="current", body="vessel", point=(0, 0, 0), force=(0, FORCE, 0))
+scene.add_force("vessel", name="current", force=(0, FORCE, 0))
 rest = statics(scene)
 for i, (_, beam, *_) in enumerate(ENDS, 1):
     tension = rest[f"line tension line {i}"].item()

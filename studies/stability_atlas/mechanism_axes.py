@@ -158,7 +158,7 @@ def _hinges(count: float) -> Case:
         scene.add_joint(
             kind="revolute", name=f"hinge {i}", first="ground", second="door", point=height * lean, axis=lean
         )
-    scene.add_point_force(name="draught", body="door", point=(0.5, 0, 0), force=(0, 20, 0), body_axes=True)
+    scene.add_force("door", name="draught", point=(0.5, 0, 0), force=(0, 20, 0), body_axes=True)
     return Case(scene=scene, t_end=5.0, dt_out=0.1)
 
 

@@ -78,7 +78,7 @@ def test_c_functions_and_notes_are_left_out(tmp_path: Path) -> None:
 
     scene = pendulum()
     run = simulate(scene, 0.5)
-    scene.add_function_force("<gust>", body="ball", address=ctypes.cast(function, ctypes.c_void_p).value)
+    scene.add_force("ball", name="<gust>", force=function)
     result = Result.from_arrays(
         time=run.time, arrays=run.channels, coords=run.coords, stats=run.stats, about=run.about, scene=scene
     )

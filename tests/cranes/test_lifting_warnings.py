@@ -86,7 +86,7 @@ def through_seat(rate: float = -0.05, aside: float = 0.0) -> Scene:
     scene.add_line(name="hoist", bodies=["ground", "load"], **hoist)
     scene.add_winch(line="hoist", lag=0.2, rate=rate)
     if aside:
-        scene.add_point_force(name="tug", body="load", force=(aside, 0, 0))
+        scene.add_force("load", name="tug", force=(aside, 0, 0))
     return scene
 
 

@@ -120,7 +120,7 @@ def test_friction_holds_for_an_hour_without_creep(heading: float, formulation: s
     """Pushed by two thirds of what holds, in any direction: it gives by that share, and the anchor stays."""
     scene = block()
     way = np.array([np.cos(heading), np.sin(heading), 0.0])
-    scene.add_point_force(name="push", body="block", force=200.0 * way)
+    scene.add_force("block", name="push", force=200.0 * way)
     how: dict[str, Any] = {"formulation": formulation, "integrator": "rosenbrock"}
     result = simulate(scene, t_end=3600.0, dt_out=300.0, **how)
     away = np.asarray(result.select("position", body="block"))[1:] @ way

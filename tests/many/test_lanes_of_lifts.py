@@ -40,10 +40,10 @@ def many_loads() -> Scene:
     scene.add_body(name="weight", mass=3.0, inertia=(0.1, 0.2, 0.1), position=(2.0, 0.5, -1.0))
     scene.add_spring("table", first="bob", second="weight", lengths=[0.5, 1.0, 3.0], forces=[0.0, 4.0, 9.0])
     scene.add_spring("spring", first="bob", second="weight", stiffness=30.0, damping=2.0, natural_length=1.0)
-    scene.add_point_force(name="push", body="weight", point=(0.1, 0, 0), force=(1.0, 2.0, 3.0))
+    scene.add_force("weight", name="push", point=(0.1, 0, 0), force=(1.0, 2.0, 3.0))
     scene.add_pendulum_damping(name="damping", first="bob", second="weight", ratio=0.2)
     rows = [(1.0, 0, 0, 0, 0, 0), (0, 4.0, 1.0, 0.5, 0, 0.2)]
-    scene.add_force_table(name="gust", body="weight", times=[0.0, 5.0], loads=rows)
+    scene.add_force("weight", name="gust", times=[0.0, 5.0], force=rows)
     scene.add_gas_spring(
         "gas", first="ground", second="weight", area=1e-3, pressure=4e4, volume=0.1, length=3.0, exponent=1.3,
         damping=2.0, minimum=0.2, maximum=5.0,

@@ -102,9 +102,9 @@ def mixture(seed: int, **settings: Any) -> Scene:
     scene.add_spring(name="spring", first="body 2", second="load", second_point=(0.1, 0.2, 0.3), **spring)
     tension: dict[str, Any] = {"lengths": [0.1, 1.0, 9.0], "forces": [0.0, 20.0, 50.0]}
     scene.add_spring(name="table", first="body 3", second="body 6", **tension)
-    scene.add_point_force("push", body="body 4", force=(3, 1, 2), point=(0.2, 0.1, 0), body_axes=True)
+    scene.add_force("body 4", name="push", force=(3, 1, 2), point=(0.2, 0.1, 0), body_axes=True)
     gust = [[0.0] * 6, [5.0, 1.0, 2.0, 0.3, 0.2, 0.1]]
-    scene.add_force_table(name="gust", body="body 5", times=[-1.0, 1.0], loads=gust)
+    scene.add_force("body 5", name="gust", times=[-1.0, 1.0], force=gust)
     angle = np.radians([0.0, 45.0, 90.0, 135.0, 180.0])
     flow = FlowCoefficients(
         angle=angle, x=np.cos(angle), y=np.sin(angle) * [0, 1, 1, 1, 0],
@@ -113,9 +113,7 @@ def mixture(seed: int, **settings: Any) -> Scene:
     areas: dict[str, Any] = {"frontal_area": 2.0, "lateral_area": 3.0, "length": 2.0}
     top = (0.0, 0.0, 0.4)
     scene.add_wind(coefficients=flow, speed=6.0, direction_deg=30.0, body="load", point=top, **areas)
-    address = ctypes.cast(_swirl, ctypes.c_void_p).value
-    assert address is not None
-    scene.add_function_force(name="swirl", body="load", address=address, parameters=[0.7])
+    scene.add_force("load", name="swirl", force=_swirl, parameters=[0.7])
     return scene
 
 

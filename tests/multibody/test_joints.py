@@ -40,7 +40,7 @@ def test_each_kind_leaves_its_freedoms_and_a_push_moves_a_body_only_along_them(k
     assert (model.coordinates, model.constraints) == (6, KINDS[kind].rows)
     assert model.degrees_of_freedom == 6 - KINDS[kind].rows
     assert model.assembly["largest_translation_m"] < 1e-12
-    scene.add_point_force(name="push", body="box", point=(0.1, 0.4, -0.2), force=(3.0, -2.0, 4.0))
+    scene.add_force("box", name="push", point=(0.1, 0.4, -0.2), force=(3.0, -2.0, 4.0))
     out = record(scene, 1.0)
     moved = np.max(np.abs(out["position"][-1] - out["position"][0]))
     assert moved < 1e-12 if KINDS[kind].rows == 6 else moved > 0.01

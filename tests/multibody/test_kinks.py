@@ -45,7 +45,7 @@ OFFERED: list[tuple[str, dict[str, Any], list[float], list[list[float]]]] = [
      [[0.0, (3.0 * V + 0.5 * R) / MASS, (3.0 * R + 0.5 * A) / MASS, 3.0 * A / MASS]]),
     ("driver", {"joint": "rail", "curve": CUBIC}, [1.0], [[0.0, 0.7, 0.3, 0.0]]),
     ("driver", {"joint": "rail", "curve": bent(0.0, 0.2, 0.0)}, [2.0], [[0.2, 0.0, 0.0, 0.0]]),
-    ("force_table", {"name": "push", "body": "cart", "times": [1.0, 2.0, 4.0, 5.0], "loads": RAMPS},
+    ("force", {"name": "push", "body": "cart", "times": [1.0, 2.0, 4.0, 5.0], "force": RAMPS},
      [1.0, 2.0, 4.0, 5.0], [[0.0, 0.0, slope / MASS, 0.0] for slope in (1.0, 1.0, 2.0, 2.0)]),
 ]  # fmt: skip
 
@@ -110,7 +110,7 @@ def recorded(samples: int) -> Scene:
     scene.add_actuator(name="hold", joint="rail", stiffness=2.0, damping=0.4)
     times, loads = np.linspace(0.0, 100.0, samples), np.zeros((samples, 6))
     loads[:, 0] = 3.0 * np.sin(1.1 * times) + 2.0 * np.sin(0.37 * times + 1.0)
-    scene.add_force_table(name="record", body="cart", times=times, loads=loads)
+    scene.add_force("cart", name="record", times=times, force=loads)
     return scene
 
 

@@ -103,7 +103,7 @@ def test_spring_pulls_both_bodies_at_their_points() -> None:
 @pytest.mark.parametrize("body_axes", [False, True])
 def test_point_force_in_inertial_or_body_axes(body_axes: bool) -> None:
     scene, force = ball(quaternion=quaternion_about((0, 0, 1), 0.5 * np.pi)), np.array([3.0, 0.0, 1.0])
-    scene.add_point_force(name="push", body="ball", force=force, point=(0.2, 0, 0), body_axes=body_axes)
+    scene.add_force("ball", name="push", force=force, point=(0.2, 0, 0), body_axes=body_axes)
     out = record(scene, 0.1)
     # Body x lies along inertial y and body y along -x.
     inertial = np.array([0.0, 3.0, 1.0]) if body_axes else force
@@ -115,7 +115,7 @@ def test_point_force_in_inertial_or_body_axes(body_axes: bool) -> None:
 def test_force_table_is_linear_between_its_times_and_held_outside() -> None:
     scene = ball()
     loads = [[2.0, 0, 0, 0, 0, 0], [4.0, 0, 0, 0, 0, 0.5]]
-    scene.add_force_table(name="gust", body="ball", times=[1.0, 2.0], loads=loads)
+    scene.add_force("ball", name="gust", times=[1.0, 2.0], force=loads)
     out = record(scene, 3.0, maximum_step=0.05, dt_out=0.5)
     np.testing.assert_allclose(out["acceleration"][:, 0, 0] * MASS, [2, 2, 2, 3, 4, 4, 4], atol=1e-12)
     # The impulse: 2 N over 1 s, 3 N s on the slope, 4 N over 1 s. Steps end anywhere around the two kinks,
@@ -134,9 +134,8 @@ def test_c_function_pointer_sees_the_state_and_its_parameters() -> None:
             wrench[i] = -parameters[0] * state[i] - parameters[1] * state[7 + i]
         wrench[5] = 0.1 * t
 
-    address = ctypes.cast(pull, ctypes.c_void_p).value
     scene = ball(position=(0.5, 0.0, 0.0), velocity=(0.0, 1.0, 0.0), quaternion=(0.6, 0.8, 0.0, 0.0))
-    scene.add_function_force(name="pull", body="ball", address=address, parameters=[32.0, 2.0])
+    scene.add_force("ball", name="pull", force=pull, parameters=[32.0, 2.0])
     out = record(scene, 2.0, rtol=1e-9)
     np.testing.assert_allclose(seen[0], [0.5, 0, 0, 0.6, 0.8, 0, 0, 0, 1, 0, 0, 0, 0], atol=1e-12)
     t = out["time"]

@@ -73,14 +73,14 @@ def askew(**settings: Any) -> Scene:
 
 def with_loads(scene: Scene) -> Scene:
     """Every kind of load on the bodies welded on."""
-    scene.add_point_force(name="thrust", body="b", point=(0.1, 0.2, 0.3), force=(3, -2, 9), body_axes=True)
-    scene.add_point_force(name="lift", body="c", point=(0.0, 0.2, 0.0), force=(0.0, 0.0, 60.0))
+    scene.add_force("b", name="thrust", point=(0.1, 0.2, 0.3), force=(3, -2, 9), body_axes=True)
+    scene.add_force("c", name="lift", point=(0.0, 0.2, 0.0), force=(0.0, 0.0, 60.0))
     scene.add_spring(name="line", first="b", second="bob", stiffness=40.0, damping=2.0, natural_length=0.5)
     scene.add_spring(name="inner", first="a", second="c", stiffness=400.0, damping=5.0, natural_length=0.5)
     scene.add_actuator(name="motor", joint="pin", stiffness=5.0, damping=0.5)
     loads = [[1.0, 0.0, 2.0, 0.0, 0.5, 0.0], [0.0, 3.0, 1.0, 0.2, 0.0, 0.0]]
-    scene.add_force_table(name="table", body="b", times=[0.0, 3.0], loads=loads, point=(0.0, 0.1, 0.3))
-    scene.add_function_force(name="fin", body="b", address=ctypes.cast(fin, ctypes.c_void_p).value or 0)
+    scene.add_force("b", name="table", times=[0.0, 3.0], force=loads, point=(0.0, 0.1, 0.3))
+    scene.add_force("b", name="fin", force=fin)
     angle = np.linspace(-np.pi, np.pi, 13)[:-1]
     wind = FlowCoefficients(
         angle=angle, x=np.cos(angle), y=np.sin(angle), yaw=0.1 * np.sin(2.0 * angle) + 0.05 * np.sin(angle)

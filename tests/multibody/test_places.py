@@ -85,7 +85,7 @@ def test_loads_of_one_name_are_told_apart_and_add_up_to_mass_times_acceleration(
         name="pull", first="other", second="box", first_point=(0.1, 0.0, 0.0), second_point=at["spring pull"],
         stiffness=70.0, damping=3.0, natural_length=1.0,
     )  # fmt: skip
-    scene.add_point_force(name="pull", body="box", point=at["point force pull"], force=(5.0, -2.0, 1.0))
+    scene.add_force("box", name="pull", point=at["point force pull"], force=(5.0, -2.0, 1.0))
     channels = ["acceleration", "load_force", "load_moment", "quaternion"]
     result = simulate(scene, t_end=0.5, channels=channels)
     assert set(result.coords["load"]) == set(at)
@@ -151,7 +151,7 @@ PUSHES = {
 def test_a_push_moves_the_vessel_in_the_positive_sense(motion: str) -> None:
     scene = cases.vessel(hs=0.0)
     point, force = PUSHES[motion]
-    scene.add_point_force(name="push", body="vessel", point=point, force=force)
+    scene.add_force("vessel", name="push", point=point, force=force)
     result = simulate(scene, t_end=2.0)
     assert result.select("vessel_motion", motion=motion)[-1] > 1e-5
 

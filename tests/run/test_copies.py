@@ -162,8 +162,7 @@ def test_c_functions_are_copied_here_and_refused_elsewhere() -> None:
     function = kind(lambda t, state, parameters, wrench: None)
     scene = Scene()
     scene.add_body(name="box", mass=1.0, inertia=(1.0, 1.0, 1.0))
-    address = ctypes.cast(function, ctypes.c_void_p).value
-    scene.add_function_force(name="pull", body="box", address=address)
+    scene.add_force("box", name="pull", force=function)
     assert copy.deepcopy(scene) == scene
     with pytest.raises(SceneError, match="function force 'pull': its C function has no address in another"):
         pickle.dumps(scene)

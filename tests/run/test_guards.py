@@ -46,8 +46,7 @@ def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept
     scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1])
     scene.add_body(name="mate", mass=1.0, inertia=[1, 1, 1], position=(1, 0, 0))
     scene.add_joint(kind="spherical", name="ball", first="box", second="mate", point=(1, 0, 0))
-    address = ctypes.cast(fails_later, ctypes.c_void_p).value
-    scene.add_function_force(name="pull", body="box", address=address, parameters=[])
+    scene.add_force("box", name="pull", force=fails_later)
     with pytest.raises(SimulationError, match=r"function force 'pull': force \(nan, 0, 0\) N") as caught:
         simulate(scene, t_end=1.0, dt_out=0.1, formulation=formulation)
     assert "on body 'box', at t = 0.55 s" in str(caught.value)

@@ -408,7 +408,7 @@ def test_a_condition_is_located_without_calling_controllers_twice(period: float)
 
 def test_inputs_of_what_is_absent_are_left_out() -> None:
     scene = motored()
-    scene.add_point_force(name="push", body="bob", force=(0.0, 0.0, 0.0))
+    scene.add_force("bob", name="push", force=(0.0, 0.0, 0.0))
     seen = []
 
     def function(now: float, measured: Any) -> dict[str, Any]:

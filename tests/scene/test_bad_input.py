@@ -123,7 +123,7 @@ def hang(**more: Any) -> Callable[[Scene], Any]:
 
 
 def gust(times: Any, loads: Any) -> Callable[[Scene], Any]:
-    return lambda scene: scene.add_force_table(name="t", body="bob", times=times, loads=loads)
+    return lambda scene: scene.add_force("bob", name="t", times=times, force=loads)
 
 
 def twice_driven(scene: Scene) -> None:
@@ -147,12 +147,16 @@ def one_name_for_two_coordinates(scene: Scene) -> None:
     (lambda s: s.add_driver("pin", coordinate="x", curve=0.0), "driver 'pin.x'.*no coord.*angle"),
     (twice_driven, "driver 'two'.*pin.angle.*driver 'one'"),
     (a_ball_driven, "'ball' is spherical.*no coordinate"),
-    (lambda s: s.add_point_force("f", body="ground", force=(0, 0, 1)), "point force 'f'.*'ground'"),
-    (lambda s: s.add_point_force("motor", body="bob", force=(0, 0, 1)), "actuator.*motor.force"),
+    (lambda s: s.add_force("ground", name="f", force=(0, 0, 1)), "point force 'f'.*'ground'"),
+    (lambda s: s.add_force("bob", name="motor", force=(0, 0, 1)), "actuator.*motor.force"),
     (lambda s: s.add_spring("s", first="bob", second="bob"), "spring 's'.*itself"),
     (hang(lengths=[1, 2], forces=[1]), "spring 's'.*2 lengths and 1 forces"),
     (hang(lengths=[2, 1], forces=[1, 2]), "spring 's'.*lengths must increase"),
     (gust([0, 1, 2], np.zeros((2, 6))), "force table 't'.*3 times and 2"),
+    (gust(None, np.zeros((2, 6))), "force table 't'.*0 times and 2"),
+    (gust([0, 1], np.zeros((2, 3))), r"force 't': force has shape \(2, 3\); give \(3,\), or \(n, 6\) with"),
+    (gust([0, 1], (0, 0, 1)), "force 't': times is given; a PointForce takes point and body_axes"),
+    (gust(None, len), "force 't': force is .*C function of it by numba"),
     (gust([1, 0], np.zeros((2, 6))), "force table 't'.*times must increase"),
     (gust([], np.zeros((0, 6))), "force table 't'.*0 times"),
     (lambda s: s.record_coordinate(joint="pin", coordinate="x"), "'pin'.*'x'.*angle"),

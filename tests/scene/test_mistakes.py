@@ -58,7 +58,7 @@ def lift(*, slew: float = 0.0, ballast: bool = True, sea: float | None = None, m
     if ballast:
         held = balance(scene)
         x, y, _ = held.weight_center
-        scene.add_point_force("ballast", body="vessel", point=(x, y, 0.0), force=(0, 0, held.weight))
+        scene.add_force("vessel", name="ballast", point=(x, y, 0.0), force=(0, 0, held.weight))
     return scene
 
 
@@ -323,7 +323,7 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
         lambda: on_its_side(BoxPart(size=(600, 400, 300)))],
     "a part far from its body": [lambda: on_its_side(BoxPart(size=(6, 4, 3), point=(0, 0, 1500)))],
     "texts for numbers": [
-        lambda: lift(ballast=False).add_point_force("pull", body="payload", force=["1e3", "0", "0"])],
+        lambda: lift(ballast=False).add_force("payload", name="pull", force=["1e3", "0", "0"])],
     "EA in kilonewtons": [lambda: hung({"EA": 5e4})],
     "times in milliseconds": [lambda: hung(rate=-0.3, lag=200.0)],
     "lengths and speeds in millimetres": [lambda: hung(lag=0.2, drum_inertia=1e3, drum_radius=500.0),

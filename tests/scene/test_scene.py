@@ -107,7 +107,7 @@ def test_inputs_hold_until_they_are_set_again() -> None:
 def test_a_point_force_input_turns_with_the_body_when_asked() -> None:
     scene = Scene(gravity=0.0)
     scene.add_body("puck", mass=2.0, inertia=[1, 1, 1], quaternion=QUARTER)
-    scene.add_point_force("thruster", body="puck", force=(0, 0, 0), body_axes=True)
+    scene.add_force("puck", name="thruster", force=(0, 0, 0), body_axes=True)
     run = Run(scene, t_end=1.0)
     run.set_inputs({"thruster.force": (4.0, 0.0, 0.0)})  # body x is inertial y
     run.advance(1.0)

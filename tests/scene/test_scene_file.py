@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import dataclasses
 import json
 import math
@@ -43,13 +44,13 @@ def every_kind() -> Scene:
     move = Curve.quintic(start_time=0.1, end_time=7.0, start=0.0, end=THIRD)
     scene.add_actuator(name="motor", joint="pin", stiffness=THIRD, damping=0.2, feed_forward=1e-3,
                        reference=move.then(time=9.0, curve=swing))  # fmt: skip
-    scene.add_point_force("push", body="arm", force=(THIRD, 0, 0), point=(0, THIRD, 0), body_axes=True)
+    scene.add_force("arm", name="push", force=(THIRD, 0, 0), point=(0, THIRD, 0), body_axes=True)
     soft = {"stiffness": THIRD, "damping": 0.1, "natural_length": 0.3}
     table = {"first_point": (0, 0, THIRD), "lengths": [1, 2.5], "forces": [0, THIRD]}
     scene.add_spring("soft", first="ground", second="bob", **soft)
     scene.add_spring("table", first="hull", second="kite", **table)
     loads = np.arange(12.0).reshape(2, 6) / 7
-    scene.add_force_table(name="gust", body="kite", times=[0.0, THIRD], loads=loads)
+    scene.add_force("kite", name="gust", times=[0.0, THIRD], force=loads)
     matrix, restoring = np.diag([1e6, 2e6, 3e6, 4e6, 5e6, 6e6]) * THIRD, np.diag([0, 0, 1e6, 2e6, 3e6, 0])
     memory = [StateSpaceBlock(inputs=[2, 4], outputs=[4], a=[[-1.0, THIRD], [0.0, -2.0]], b=np.eye(2),
                               c=[[THIRD, 1.0]], d=[[0.0, 1e-9]], state_scale=[0.5, THIRD]),
@@ -125,7 +126,7 @@ def test_a_loaded_case_runs_to_the_same_bits(tmp_path: Path) -> None:
 def test_any_finite_number_comes_back(tmp_path: Path, values: list[float]) -> None:
     scene = Scene()
     scene.add_body("b", mass=1.0, inertia=[1, 1, 1], velocity=values[:3])
-    scene.add_point_force("f", body="b", force=values[3:])
+    scene.add_force("b", name="f", force=values[3:])
     scene.notes["values"] = values
     scene.save(tmp_path / "scene.json")
     back = Scene.load(tmp_path / "scene.json")
@@ -142,7 +143,7 @@ def test_what_a_file_cannot_hold_leaves_the_older_file(tmp_path: Path) -> None:
         with pytest.raises(SceneError, match="contain themselves" if bad is scene.notes else "odd"):
             scene.save(path)
     del scene.notes["odd"]
-    scene.add_function_force(name="wind", body="arm", address=4096)
+    scene.add_force("arm", name="wind", force=ctypes.CFUNCTYPE(None)(4096))
     with pytest.raises(SceneError, match=r"function force 'wind'.*script"):
         scene.save(path)
     assert path.read_bytes() == before and list(tmp_path.iterdir()) == [path]

@@ -56,7 +56,7 @@ def driven_by(element: str, curve: Curve) -> Scene:
     elif element == "force table":  # takes the curve at every half second
         times, loads = np.linspace(0.0, 20.0, 41), np.zeros((41, 6))
         loads[:, 0] = curve.evaluate(times)[:, 0]
-        scene.add_force_table(name="push", body="cart", times=times, loads=loads)
+        scene.add_force("cart", name="push", times=times, force=loads)
     else:
         angle, areas = np.linspace(0.0, np.pi, 13), {"frontal_area": 0.5, "lateral_area": 0.5, "length": 1.0}
         drag = FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=0.0 * angle, yaw=0.0 * angle)

@@ -68,7 +68,7 @@ feed_forward_N_m = 5.5; reference_deg = [
     { kind = "quintic", start_time_s = 1, end_time_s = 7, start = 0, end = -30 },
     { from_s = 9, kind = "harmonic", start_time_s = 9, offset = -30, amplitude = 2, period_s = 4 },
 ]
-[[point_force]]; name = "push"; body = "arm"; force_N = [3, 0, 0]; point_m = [0, 0.5, 0]; body_axes = true
+[[force]]; name = "push"; body = "arm"; force_N = [3, 0, 0]; point_m = [0, 0.5, 0]; body_axes = true
 [[spring]]
 name = "soft"; first = "ground"; second = "bob"; stiffness_N_per_m = 100; damping_N_s_per_m = 0.1
 natural_length_m = 0.3
@@ -107,8 +107,8 @@ retracted_length_m = 0.1; stroke_m = 20; pressure_Pa = 2e6; pressure_rod_Pa = 1e
 rated_flow_m3_per_s = 0.01; pump_check = true
 reference_m = { kind = "quintic", start_time_s = 0, end_time_s = 5, start = 3, end = 4 }; gain_per_m = 2
 rupture_time_s = 9; rupture_area_m2 = 1e-5
-[[force_table]]
-name = "gust"; body = "box"; times_s = [0, 1]; loads = [[0, 1, 2, 3, 4, 5], [6, 7, 8, 9, 10, 11]]
+[[force]]
+name = "gust"; body = "box"; times_s = [0, 1]; force_N = [[0, 1, 2, 3, 4, 5], [6, 7, 8, 9, 10, 11]]
 [[line]]
 name = "chain"; rung = "with mass"; bodies = ["ground", "box"]; points_m = [[20, 5, 10], [0, 0, 1]]
 EA_N = 1e8; length_m = 40; mass_per_length_kg_per_m = 5; segments = 3; segment_rung = "quasi-static"

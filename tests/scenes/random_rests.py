@@ -37,7 +37,7 @@ class Builder:
         if self.chance(0.3) and self.moored:  # a steady force on the load, as of wind
             push = self.scene.bodies["load"].mass * G * self.between(0.0, 0.05)
             force = push * np.array([np.cos(1.0), np.sin(1.0), 0.0])
-            self.scene.add_point_force("gust", body="load", point=(0, 0, 0.2), force=force)
+            self.scene.add_force("load", name="gust", point=(0, 0, 0.2), force=force)
         if self.base == SHIP:
             self.ballast()
 

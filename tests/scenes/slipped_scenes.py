@@ -116,10 +116,6 @@ def linked(scene: Scene, length: float, **points: Any) -> None:
     scene.add_joint("link", kind="distance", first="ground", second="load", length=length, **frames)
 
 
-def tabled(scene: Scene, wrenches: Any, **numbers: Any) -> None:
-    scene.add_force_table(name="pull", body="load", loads=wrenches, **numbers)
-
-
 AREA = 0.02
 WIRE = {"points": [(0.5, 0.0, 0.0), (0.5, 0.0, 1.0)], "EA": 5e7, "length": 14.0 / (1.0 + MASS * G / 5e7)}
 HUNG = {"bodies": ["ground", "load"]}
@@ -228,7 +224,7 @@ SAMPLES: Mapping[str, Sample] = {
     "point force": Sample(_core.PointForce, {"point": (1.0, 0.0, 0.0), "force": (0.0, 0.0, 2e5)},
         at(-15.0, gravity=False), LOAD),
     "force table": Sample(_core.ForceTable, {"point": (1.0, 0.0, 0.0), "times": [0.0, 1.0, 2.0],
-        "wrenches": [[0.0] * 6, [2e5] * 6, [0.0] * 6]}, at(-15.0, gravity=False), {}, tabled),
+        "wrenches": [[0.0] * 6, [2e5] * 6, [0.0] * 6]}, at(-15.0, gravity=False), LOAD),
     "actuator": Sample(_core.Actuator, {"stiffness": 1e6, "damping": 2e5, "feed_forward": MASS * G,
         "reference": 0.1}, on_rail, {"joint": "rail"}, Scene.add_actuator),
     "driver": Sample(_core.Driver, {"curve": swing(0.5)}, on_rail, {"joint": "rail"}, Scene.add_driver),

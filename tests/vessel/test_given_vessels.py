@@ -152,7 +152,7 @@ def test_a_ship_at_rest_is_the_ground(formulation: str) -> None:
     still, runs = Scene(), []
     still.add_given_vessel("rest")
     for scene in (with_crane(still, "vessel"), with_crane(Scene(), "ground")):
-        scene.add_point_force(name="push", body="payload", point=(0, 0, 0), force=(0.0, 3e4, 0.0))
+        scene.add_force("payload", name="push", point=(0, 0, 0), force=(0.0, 3e4, 0.0))
         runs.append(simulate(scene, 10.0, dt_out=0.5, rtol=1e-8, formulation=formulation))
     for body in ("payload", "knuckle_jib"):
         np.testing.assert_allclose(*(run.select("position", body=body) for run in runs), atol=1e-6)

@@ -54,7 +54,7 @@ def test_a_drift_along_the_waves_beyond_the_phase_warns_and_across_them_does_not
         scene = moored()
         # A force that comes at once, and follows the hull, overshoots to twice its displacement less damping.
         push = 0.6 * allowed * np.array([along, across, 0.0]) * stiffness(scene)
-        scene.add_point_force(name="tug", body="hull", force=push, body_axes=True)
+        scene.add_force("hull", name="tug", force=push, body_axes=True)
         result, found = told(scene)
         assert set(found) == ({MeanPositionWarning} if expected else set())
         if expected:
@@ -95,7 +95,7 @@ def test_a_hull_that_turns_beyond_its_mooring_warns() -> None:
         force = 0.5 * share * np.pi * float(stiffness(scene)[2]) / lever
         for side in (1.0, -1.0):  # a couple
             at = {"point": (side * lever, 0.0, 0.0), "force": (0.0, side * force, 0.0), "body_axes": True}
-            scene.add_point_force(name=f"thruster {side:+.0f}", body="hull", **at)
+            scene.add_force("hull", name=f"thruster {side:+.0f}", **at)
         _, found = told(scene, t_end=400.0)
         assert (MooringTurnWarning in found) == expected
 
@@ -104,9 +104,7 @@ def test_the_second_hull_is_judged_too() -> None:
     scene = moored()
     scene.add_vessel(shipped_database(), name="barge", position=(0.0, 80.0, 0.0))
     righting = float(np.asarray(scene.vessels["barge"].restoring)[3, 3])
-    scene.add_point_force(
-        name="weight", body="barge", point=(0.0, 20.0, 0.0), force=(0.0, 0.0, -0.5 * righting / 20.0)
-    )
+    scene.add_force("barge", name="weight", point=(0.0, 20.0, 0.0), force=(0.0, 0.0, -0.5 * righting / 20.0))
     _, found = told(scene, t_end=60.0)
     assert "'barge': roll reaches" in found[LargeHeelWarning]
     assert NoWaveLoadsWarning in found

@@ -151,7 +151,7 @@ def test_heel_from_a_known_moment(y: float, z: float) -> None:
     database = damped(shipped_database(), 0.5)
     scene = moored(database)
     force, point = -200e3 * G, np.array([0.0, y, z])
-    scene.add_point_force(name="weight", body="vessel", point=point, force=(0.0, 0.0, force))
+    scene.add_force("vessel", name="weight", point=point, force=(0.0, 0.0, force))
     rest = simulate(scene, t_end=400.0, dt_out=400.0, rtol=1e-9)["vessel_motion"][-1]
     expected = rest_under_vertical_force(database, point, force)
     np.testing.assert_allclose(rest[2:5], expected, rtol=1e-6, atol=1e-9)

@@ -209,7 +209,7 @@ def test_a_lift_out_of_the_water_is_that_of_the_same_equations(formulation: str)
     """Pulled out of the water from below by a force that just exceeds its weight with water."""
     scene = guided((0.0, 0.0, 1.0), -7.0)
     filled(scene, *HOLES, initial=AREA * HEIGHT)
-    scene.add_point_force("pull", body="load", force=(0.0, 0.0, 1.15 * (4e3 + RHO * AREA * HEIGHT) * G))
+    scene.add_force("load", name="pull", force=(0.0, 0.0, 1.15 * (4e3 + RHO * AREA * HEIGHT) * G))
     brake = {"first_point": (0.0, 0.0, 100.0), "damping": 2e4, "natural_length": 100.0}
     scene.add_spring("brake", first="ground", second="load", **brake)
     result = run(scene, 30.0, 0.25, formulation)

@@ -17,7 +17,7 @@ from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.analysis.weight_balance import weight_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
-from seacrane.description.forces import add_point_force
+from seacrane.description.forces import add_force
 from seacrane.description.given import given_vessels
 from seacrane.description.outline import ship_size
 from seacrane.errors import SceneError
@@ -125,10 +125,8 @@ def add_ballast(
     name = name_of("ballast", name)
     kind = _Force(scene, hull, target) if tanks is None else _Tanks(scene, hull, target, tanks_of(tanks))
     found, attitude = _fitted(scene, hull, target, kind)
-    forces = tuple(
-        add_point_force(
-            scene, name=f"{name} {key}".rstrip(), body=hull.body, point=point, force=(0.0, 0.0, force)
-        )
+    forces: tuple[Any, ...] = tuple(
+        add_force(scene, hull.body, name=f"{name} {key}".rstrip(), point=point, force=(0.0, 0.0, force))
         for key, (point, force) in kind.forces(found).items()
     )
     told = kind.told(found, np.array([target.get(motion, attitude[motion]) for motion in ATTITUDE]))
@@ -305,9 +303,7 @@ def _moments_left(
     """What drives in these motions still carry at rest at the target, N m; that rest; its attitude."""
     out = posed(scene.copy(orientation="quaternion"), _places(scene), {})
     for i, (point, force) in enumerate(forces.values()):
-        add_point_force(
-            out, name=f"trial ballast {i}", body=vessel.body, point=point, force=(0.0, 0.0, force)
-        )
+        add_force(out, vessel.body, name=f"trial ballast {i}", point=point, force=(0.0, 0.0, force))
     angles = {motion: ("", "angle") for motion in target}
     path, times = path_through(angles, [target])
     hold_vessel(out, vessel.body, path)

@@ -15,7 +15,7 @@ from seacrane.analysis.rest_state import held, rest_states
 from seacrane.description.body_motion import position_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
-from seacrane.description.forces import add_point_force
+from seacrane.description.forces import add_force
 from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.places import place_of
 from seacrane.description.wet_parts import immersed_parts, waters_in, wet_bodies
@@ -171,11 +171,9 @@ def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "b
     if floating != [body]:
         raise SceneError(
             f"balance: vessel is {body!r}, and the vessels are {', '.join(map(repr, floating)) or 'none'}; "
-            "only the one vessel of a scene is balanced so, give several a point_force each"
+            "only the one vessel of a scene is balanced so, give several a force each"
         )
     found, vessel = balance(scene), scene.bodies[body]
     center = rotation_matrix(vessel.quaternion).T @ (found.weight_center - vessel.position)
-    add_point_force(
-        scene, name=name, body=body, point=(center[0], center[1], 0.0), force=(0.0, 0.0, found.weight)
-    )
+    add_force(scene, body, name=name, point=(center[0], center[1], 0.0), force=(0.0, 0.0, found.weight))
     return found

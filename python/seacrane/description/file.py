@@ -24,7 +24,7 @@ from seacrane.description.databases import databases_from_node, databases_to_dat
 from seacrane.description.description import Description
 from seacrane.description.drives import add_actuator, add_driver
 from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
-from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
+from seacrane.description.forces import add_load
 from seacrane.description.holding import free_drives
 from seacrane.description.hydrodynamics import add_group, add_hydrodynamics
 from seacrane.description.joints import add_joint
@@ -59,18 +59,14 @@ def _add_lift_factors(scene: Description, name: str, **entries: Any) -> None:
     add_lift_factors(scene, name, **entries)
 
 
-def _add_force_table(scene: Description, wrenches: Any, **entries: Any) -> None:
-    add_force_table(scene, loads=wrenches, **entries)
-
-
 _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what it holds, and how it is added
     "bodies": (_core.Body, add_body),
     "joints": (_core.Joint, add_joint),
     "drivers": (_core.Driver, add_driver),
     "actuators": (_core.Actuator, add_actuator),
-    "point_forces": (_core.PointForce, add_point_force),
-    "springs": (_core.Spring, add_spring),
-    "force_tables": (_core.ForceTable, _add_force_table),
+    "point_forces": (_core.PointForce, add_load),
+    "springs": (_core.Spring, add_load),
+    "force_tables": (_core.ForceTable, add_load),
     "vessels": (VesselHydrodynamics, add_hydrodynamics),
     "groups": (_core.GroupHydrodynamics, add_group),
     "points": (_core.Point, add_point),
@@ -243,6 +239,8 @@ def _add(scene: Description, kind: str, node: Node) -> None:
         rest, parameters = _parameters(node) if kind == "joints" else (node, {})
         given = arguments(described_as, rest) | parameters
     with node.scene_errors():
+        if add is add_load and kind != "loads":
+            given = {"element": described_as(**given)}
         add(scene, **given)
 
 

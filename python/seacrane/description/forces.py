@@ -1,31 +1,88 @@
-"""Loads on bodies of a scene: forces, springs, tables, C functions, and those of their own kinds."""
+"""Loads on bodies of a scene: forces, springs, and those of their own kinds."""
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from seacrane import _core
 from seacrane.description.description import KINDS, LOADS, Description, insert
 from seacrane.description.loads import kind_of, make_load
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import numbers_of
+from seacrane.inputs.checked import name_of, numbers_of, text_of
+from seacrane.inputs.shown import shown
+
+Force = _core.PointForce | _core.ForceTable | _core.FunctionForce
+C_FUNCTION: type[Any] = ctypes.CFUNCTYPE(None).mro()[1]  # of ctypes, any
+_FUNCTIONS: list[Any] = []  # that scenes call: they stay as long as Python runs
 
 
-def add_point_force(
+def add_force(
     scene: Description,
-    name: str,
-    *,
     body: str,
+    *,
     force: Any,
-    point: Any = (0.0, 0.0, 0.0),
-    body_axes: bool = False,
-) -> _core.PointForce:
-    """A constant force (N) at a point of a body (m, body coordinates), in inertial axes or, with
-    `body_axes`, turning with the body. Input "<name>.force" (3 values) adds to it during a run."""
-    element = _core.PointForce(name=name, body=body, point=point, force=force, body_axes=body_axes)
-    inserted: _core.PointForce = insert("point force", scene.point_forces, element)
-    return inserted
+    times: Any = None,
+    point: Any = None,
+    body_axes: bool | None = None,
+    parameters: Sequence[float] | None = None,
+    name: str | None = None,
+) -> Force:
+    """Add a force on a body: constant, a table over time, or a C function called in every evaluation.
+
+    Input "<name>.force" (3 values) adds to a constant one during a run.
+
+    Parameters
+    ----------
+    force : array_like, shape (3,) or (n, 6), or C function
+        N; of a table force (N) and moment (N m) about the point, inertial axes, at `times`, linear in between
+        and held outside. A C function is one of numba.cfunc or ctypes, void f(double t, const double* state,
+        const double* parameters, double* wrench): position, quaternion, velocity and angular velocity of the
+        body origin; force and moment about it; inertial axes.
+    times : array_like, shape (n,)
+        Of a table, s.
+    point : array_like, shape (3,)
+        Of the body, m, body coordinates; default: its origin. Not for a function.
+    body_axes : bool
+        Whether a constant force turns with the body; default: it keeps its inertial axes.
+    parameters : sequence of float
+        Handed to the function.
+    name : str, optional
+        Default: "<body> force".
+
+    Raises
+    ------
+    SceneError
+        For a force that is none of these, and what another kind takes; the body is checked at compile().
+    """
+    name = name_of("force", name, f"{text_of('force: body', body)} force")
+    made, takes = _force_of(f"force {name!r}: force", force)
+    given = {"times": times, "point": point, "body_axes": body_axes, "parameters": parameters}
+    given = {key: value for key, value in given.items() if value is not None}
+    if strange := [key for key in given if key not in takes]:
+        fix = f"a {made.func.__name__} takes {' and '.join(takes)}; leave it out"
+        raise SceneError(f"force {name!r}: {strange[0]} is given; {fix}")
+    added: Force = add_load(scene, made(name=name, body=body, **given))
+    return added
+
+
+def _force_of(what: str, force: Any) -> tuple[partial[Any], tuple[str, ...]]:
+    """What makes the load, and the keywords that it takes."""
+    function = getattr(force, "ctypes", force)  # of numba's
+    if isinstance(function, C_FUNCTION):
+        _FUNCTIONS.append(force)
+        address = ctypes.cast(function, ctypes.c_void_p).value or 0
+        return partial(_core.FunctionForce, address=address), ("parameters",)
+    if callable(force):
+        raise SceneError(f"{what} is {shown(force)}; make a C function of it by numba.cfunc or ctypes")
+    numbers = numbers_of(what, force)
+    if numbers.ndim == 2 and numbers.shape[1] == 6:
+        return partial(_core.ForceTable, wrenches=numbers, times=()), ("times", "point")
+    if numbers.shape != (3,):
+        raise SceneError(f"{what} has shape {numbers.shape}; give (3,), or (n, 6) with times")
+    return partial(_core.PointForce, force=numbers), ("point", "body_axes")
 
 
 def add_spring(
@@ -57,31 +114,6 @@ def add_spring(
         forces=forces,
     )
     inserted: _core.Spring = insert("spring", scene.springs, element)
-    return inserted
-
-
-def add_force_table(
-    scene: Description, name: str, *, body: str, times: Any, loads: Any, point: Any = (0.0, 0.0, 0.0)
-) -> _core.ForceTable:
-    """Force and moment `loads` (n, 6) in N and N m, inertial axes, about a point of the body (m, body
-    coordinates), over `times` (n,) in s: linear in between, held outside."""
-    rows = numbers_of(f"force table {name!r}: loads", loads)
-    if rows.ndim != 2 or rows.shape[1] != 6:
-        raise SceneError(f"force table {name!r}: loads have shape {rows.shape}; give (n, 6)")
-    element = _core.ForceTable(name=name, body=body, point=point, times=times, wrenches=rows)
-    inserted: _core.ForceTable = insert("force table", scene.force_tables, element)
-    return inserted
-
-
-def add_function_force(
-    scene: Description, name: str, *, body: str, address: int, parameters: Sequence[float] = ()
-) -> _core.FunctionForce:
-    """A C function called in every evaluation, by its address (`numba.cfunc(...).address` or a `ctypes`
-    pointer): void f(double t, const double* state13, const double* parameters, double* wrench6). State:
-    position, quaternion, velocity, angular velocity of the body origin; wrench about it; inertial axes.
-    """
-    element = _core.FunctionForce(name=name, body=body, address=address, parameters=parameters)
-    inserted: _core.FunctionForce = insert("function force", scene.function_forces, element)
     return inserted
 
 

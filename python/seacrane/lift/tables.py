@@ -283,12 +283,14 @@ _ALL = (
     Table(name="joint", text=_summary(joints.add_joint), keys=_joint_keys()),
     _call("driver", drives.add_driver, _core.Driver),
     _call("actuator", drives.add_actuator, _core.Actuator),
-    _call("point_force", forces.add_point_force, _core.PointForce),
-    _call("spring", forces.add_spring, _core.Spring),
-    _call(
-        "force_table", forces.add_force_table, _core.ForceTable,
-        loads={"type": "array", "unit": "N, N m", "shapes": ((-1, 6),)},
+    Table(
+        name="force", text=_summary(forces.add_force), add=forces.add_force,
+        keys=keys_of(
+            forces.add_force, _core.ForceTable, _core.PointForce,
+            more={"force": {"shapes": ((3,), (-1, 6))}}, without=("parameters",),
+        ),
     ),
+    _call("spring", forces.add_spring, _core.Spring),
     _call(
         "line", lines.add_line, _core.Line,
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,

@@ -145,9 +145,7 @@ def _loaded(model: LinearModel, body: str, wrench: Array, point: Any = (0.0, 0.0
     name = "operability"
     while name in scene.force_tables:
         name += "'"
-    scene.add_force_table(
-        name=name, body=body, times=[0.0, 1.0], loads=np.array([wrench] * 2), point=point
-    )  # fmt: skip
+    scene.add_force(body, name=name, times=[0.0, 1.0], force=np.array([wrench] * 2), point=point)
     return scene
 
 

@@ -125,10 +125,8 @@ class Scene(Description):
     add_clearance = clearances.add_clearance
     add_relative = relatives.add_relative
     add_channel = own_channels.add_channel
-    add_point_force = forces.add_point_force
+    add_force = forces.add_force
     add_spring = forces.add_spring
-    add_force_table = forces.add_force_table
-    add_function_force = forces.add_function_force
     add_load = forces.add_load
 
     add_pendulum_damping = damping.add_pendulum_damping

@@ -251,9 +251,9 @@ def payload_as_weight(scene: Scene) -> Scene:
         joint, payload = scene.joints[link], scene.bodies[scene.joints[link].second]
         out.remove(link, kind="joint")
         out.remove(payload.name, kind="body")
-        out.add_point_force(
+        out.add_force(
+            joint.first,
             name=f"{label.removesuffix('hook')}payload weight",
-            body=joint.first,
             point=joint.first_frame.point,
             force=(0.0, 0.0, -payload.mass * scene.gravity),
         )

@@ -31,8 +31,8 @@ def actuator() -> Scene:
 @case(by("tsit5"), by("rk-low-storage", "redundant", dt=0.02))
 def point_force() -> Scene:
     scene = thrown()
-    scene.add_point_force(name="push", body="load", force=(300.0, 20.0, 9e3), point=(0, 0.5, 0))
-    scene.add_point_force(name="jet", body="load", force=(0, 500.0, 0), point=(1.0, 0, 0), body_axes=True)
+    scene.add_force("load", name="push", force=(300.0, 20.0, 9e3), point=(0, 0.5, 0))
+    scene.add_force("load", name="jet", force=(0, 500.0, 0), point=(1.0, 0, 0), body_axes=True)
     return scene
 
 
@@ -53,7 +53,7 @@ def spring() -> Scene:
 def force_table() -> Scene:
     scene = thrown(gravity=0.0)
     loads = np.outer([0.0, 1.0, -0.5, 0.3], [900.0, -400.0, 200.0, 90.0, 60.0, -30.0])
-    scene.add_force_table(name="gust", body="load", times=[0.1, 0.6, 1.1, 1.7], loads=loads)
+    scene.add_force("load", name="gust", times=[0.1, 0.6, 1.1, 1.7], force=loads)
     return scene
 
 
@@ -68,8 +68,7 @@ def swirl(t: float, state: object, parameters: object, wrench: object) -> None:
 @case(by("dopri5"), by("rk4", "redundant", dt=0.02))
 def function_force() -> Scene:
     scene = thrown(gravity=0.0)
-    address = ctypes.cast(swirl, ctypes.c_void_p).value or 0
-    scene.add_function_force(name="swirl", body="load", address=address, parameters=[8e3, 200.0])
+    scene.add_force("load", name="swirl", force=swirl, parameters=[8e3, 200.0])
     return scene
 
 
