@@ -23,14 +23,14 @@ scene.add_joint(kind="prismatic", name="heave", first="ground", second="barge")
 scene.add_driver(joint="heave", curve=Curve.harmonic(amplitude=0.2, omega=0.8, phase=-np.pi / 2.0))
 scene.add_body(name="load", mass=MASS, inertia=(5e4, 5e4, 5e4), position=(x, y, DECK))
 scene.add_joint(kind="weld", name="on barge", first="barge", second="load")
-scene.add_seat(joint="on barge")
+scene.add_stop(joint="on barge")  # a weld that lets go
 scene.add_line(
     name="hoist", bodies=[jib, "load"], points=[head, (0.0, 0.0, 0.0)],
     EA=5e7, length=tip - DECK + 0.25,
 )  # fmt: skip
 scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
 scene.add_joint(kind="free", name="above platform", first="ground", second="load")
-scene.add_end_stop(joint="above platform", coordinate="z", minimum=PLATFORM - DECK, name="platform")
+scene.add_stop(joint="above platform", coordinate="z", minimum=PLATFORM - DECK, name="platform")
 
 high = Until.channel("position", body="load", axis="z", minimum=PLATFORM + 4.0)
 stages = [

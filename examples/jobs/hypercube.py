@@ -22,7 +22,7 @@ def lift(*, ea: float, mass: float, crane: float, speed: float) -> Scene:
     scene.add_actuator(joint="boom", stiffness=crane, damping=0.04 * np.sqrt(crane * TIP))
     scene.add_body(name="load", mass=mass, inertia=(5e4, 5e4, 5e4))
     scene.add_joint(kind="weld", name="quay", first="ground", second="load")
-    scene.add_seat(joint="quay")
+    scene.add_stop(joint="quay")
     ends = {"bodies": ["tip", "load"], "points": [(0, 0, 0), (0, 0, 0)]}
     scene.add_line(name="hoist", **ends, EA=ea, length=ROPE + SLACK, damping_ratio=0.01)
     scene.add_winch(line="hoist", rate=-speed, lag=0.05)

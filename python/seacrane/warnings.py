@@ -256,9 +256,9 @@ class LargeSwingWarning(RunWarning):
 
 
 class ThroughSeatWarning(RunWarning):
-    """What had left a seat (`add_seat`) came back below its plane within half a diagonal of its box, an
-    event of kind "through". A seat that let go holds nothing, so the load goes on through the deck, where it
-    would have hit it: what is recorded from then on is too small.
+    """What had left a seat (`add_stop` on a weld) came back below its plane within half a diagonal of its
+    box, an event of kind "through". A seat that let go holds nothing, so the load goes on through the deck,
+    where it would have hit it: what is recorded from then on is too small.
 
     Lift faster, or at a better moment of the heave. To see the hit itself, carry the load by a free joint
     with end stops (`docs/events.md`).

@@ -24,14 +24,14 @@ def _slide(height: float, rate: float = 0.0) -> Scene:
 def _rebound(restitution: float) -> Case:
     """A load that falls by 1 m onto a rigid stop, again and again."""
     scene = _slide(1.0)
-    scene.add_end_stop(joint="guide", minimum=-1.0, restitution=restitution)
+    scene.add_stop(joint="guide", minimum=-1.0, restitution=restitution)
     return Case(scene=scene, t_end=10.0, dt_out=0.1)
 
 
 def _soft_stop(stiffness: float) -> Case:
     """A load that falls by 1 m onto an elastic stop."""
     scene = _slide(1.0)
-    scene.add_soft_stop(joint="guide", minimum=-1.0, stiffness=stiffness, damping=0.1)
+    scene.add_stop(joint="guide", minimum=-1.0, stiffness=stiffness, damping=0.1)
     return Case(scene=scene, t_end=5.0, dt_out=0.05)
 
 

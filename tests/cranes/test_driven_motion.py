@@ -142,7 +142,7 @@ def test_a_stop_that_holds_leaves_one_unknown_less_and_the_same_motion() -> None
     scene.add_joint("pin", first="ground", second="bar", point=(0.0, 0.0, 0.0), **across)
     scene.add_body("bob", mass=2.0, inertia=(0.3, 0.3, 0.3), position=(2.0, 0.0, -1.0))
     scene.add_joint("knee", first="bar", second="bob", point=(2.0, 0.0, 0.0), **across)
-    scene.add_end_stop("pin", minimum=-3.0, maximum=0.4)
+    scene.add_stop("pin", minimum=-3.0, maximum=0.4)
     rows, led = (record(scene, 2.0, formulation=form, rtol=1e-9, dt_out=0.25) for form in FORMS)
     assert np.abs(led["position"] - rows["position"]).max() < 1e-6
 

@@ -58,7 +58,7 @@ def test_several_limits_reached_at_once_share_one_impact() -> None:
     feet = {"a": (1.0, 0.0, 1.0), "b": (-0.5, 0.8, 1.0), "c": (-0.5, -0.8, 1.0)}
     for name, point in feet.items():
         scene.add_joint(kind="free", name=name, first="ground", second="plate", point=point)
-        scene.add_end_stop(joint=name, coordinate="z", minimum=-1.0)
+        scene.add_stop(joint=name, coordinate="z", minimum=-1.0)
     result = simulate(scene, t_end=1.0, dt_out=0.05, rtol=1e-9)
     assert {e.name for e in result.events} == set(feet)
     assert all(e.kind == "contact" for e in result.events)
@@ -83,7 +83,7 @@ def test_soft_stop_returns_what_is_not_damped() -> None:
 
     def slide(damping: float) -> Result:
         scene = on_joint("slide", mass=MASS, gravity=0.0, velocity=(start, 0.0, 0.0))
-        scene.add_soft_stop(joint="rail", maximum=0.6, stiffness=stiffness, damping=damping)
+        scene.add_stop(joint="rail", maximum=0.6, stiffness=stiffness, damping=damping)
         return simulate(scene, t_end=1.5, dt_out=0.01, rtol=1e-10, formulation="redundant")
 
     free = slide(0.0)
@@ -103,7 +103,7 @@ def test_soft_stop_returns_what_is_not_damped() -> None:
 def test_cylinder_of_a_crane_afloat_runs_onto_its_stop(formulation: str) -> None:
     """The boom stops, its payload flies on, the wire snatches and lifts the boom off again; then it rests."""
     scene = cases.case2()
-    scene.add_end_stop(joint="main_cylinder", minimum=-1.0, maximum=0.05)
+    scene.add_stop(joint="main_cylinder", minimum=-1.0, maximum=0.05)
     scene.add_line(joint="link", rung="rigid")
     result = simulate(scene, t_end=8.0, dt_out=0.25, rtol=1e-8, formulation=formulation)
     assert [(e.name, e.kind) for e in result.events[:4]] == [
@@ -126,7 +126,7 @@ def test_a_stop_on_roll_or_yaw_is_not_carried_through_a_pitch_of_90_deg(
     scene = Scene(name="tumbler", gravity=0.0)
     scene.add_body(name="body", mass=MASS, inertia=INERTIA, angular_velocity=(0.0, 1.0, 0.0))
     scene.add_joint(kind="free", name="air", first="ground", second="body")
-    scene.add_end_stop(joint="air", coordinate=coordinate, minimum=-3.0, maximum=3.0, restitution=1.0)
+    scene.add_stop(joint="air", coordinate=coordinate, minimum=-3.0, maximum=3.0, restitution=1.0)
     words = rf"limit '.*' on joint 'air': pitch is near 90 deg .* where {coordinate} is"
     with pytest.raises(SimulationError, match=words) as error:
         simulate(scene, t_end=5.0, **method)

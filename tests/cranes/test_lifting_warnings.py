@@ -81,7 +81,7 @@ def through_seat(rate: float = -0.05, aside: float = 0.0) -> Scene:
     scene.add_driver(joint="heave", curve=Curve.harmonic(amplitude=0.8, omega=0.8, phase=-np.pi / 2))
     scene.add_body(name="load", mass=30e3, inertia=(5e4,) * 3, position=(0, 0, 2.0))
     scene.add_joint(kind="weld", name="on deck", first="barge", second="load")
-    scene.add_seat(joint="on deck")
+    scene.add_stop(joint="on deck")
     hoist = {"points": [(0, 0, 40.0), (0, 0, 0)], "EA": 1e8, "length": 38.1}
     scene.add_line(name="hoist", bodies=["ground", "load"], **hoist)
     scene.add_winch(line="hoist", lag=0.2, rate=rate)

@@ -196,7 +196,7 @@ def test_falls_count_and_a_mass_that_is_given_is_taken() -> None:
     seated = Scene(name="deck")
     seated.add_body(name="load", mass=LOAD, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
     seated.add_joint(kind="weld", name="deck", first="ground", second="load")
-    seated.add_seat(joint="deck")
+    seated.add_stop(joint="deck")
     seated.add_line(name="hoist", bodies=["ground", "load"] * falls, points=np.zeros((2 * falls, 3)), EA=5e7)
     assert bounce(seated)[0] == pytest.approx(LOAD / (2 * falls - 1) ** 2, rel=1e-9)  # as if lifted
 

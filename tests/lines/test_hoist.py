@@ -128,10 +128,10 @@ def test_a_load_described_inside_or_below_its_deck_is_named() -> None:
     for name, over in (("good", 1.5), ("in", -0.5), ("under", -9.0)):
         scene.add_body(name, mass=2e4, size=(4, 4, 3), position=deck + over * normal, quaternion=heeled)
         scene.add_joint(name, kind="weld", first="barge", second=name, point=deck, axis=normal)
-    scene.add_seat("good")
+    scene.add_stop("good")
     for name, words in (("in", "inside 'barge', .* raise it by 2 m"), ("under", "below .* by 10.5 m")):
         with pytest.raises(SceneError, match=words):
-            scene.add_seat(name)
+            scene.add_stop(name)
 
 
 SLUNG = {"angle_deg": 60, "EA": 5e7}

@@ -13,17 +13,20 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from seacrane import Result, Run, Scene, SceneError, simulate
+from seacrane import Result, Run, Scene, SceneError, _core, simulate
 
 Array = NDArray[np.float64]
+SEAT = _core.Limit(name="seat", kind="seat", joint="air")
 CONTRADICTIONS: list[tuple[str, dict[str, Any], str]] = [
-    ("end_stop", {}, "neither minimum nor maximum"),
-    ("end_stop", {"minimum": 1.0, "maximum": 0.0}, "minimum must be below"),
-    ("end_stop", {"minimum": 1.0}, "starts 1 m or rad beyond"),
-    ("end_stop", {"coordinate": "yaw", "minimum": -1.0}, "give both, between -pi and pi"),
-    ("end_stop", {"coordinate": "z", "minimum": -3.0, "name": "b"}, "'floor' limits already"),
+    ("stop", {}, "neither minimum nor maximum"),
+    ("stop", {"minimum": 1.0, "maximum": 0.0}, "minimum must be below"),
+    ("stop", {"minimum": 1.0}, "starts 1 m or rad beyond"),
+    ("stop", {"coordinate": "yaw", "minimum": -1.0}, "give both, between -pi and pi"),
+    ("stop", {"coordinate": "z", "minimum": -3.0, "name": "b"}, "'floor' limits already"),
     ("line", {"coordinate": None, "rung": "rigid"}, "a wire takes a distance joint"),
-    ("seat", {"coordinate": None}, "a seat takes a weld joint"),
+    ("load", {"joint": None, "coordinate": None, "element": SEAT}, "a seat takes a weld joint"),
+    ("stop", {"minimum": -1.0, "damping": 0.2}, "stop of joint 'air': damping is given; a stop takes coord"),
+    ("stop", {"stiffness": 1e4, "restitution": 0.2}, "restitution is given; a soft stop takes coordinate"),
 ]
 
 
@@ -35,7 +38,7 @@ def test_contradictions_are_refused_by_name(what: str, given: dict[str, Any], me
         getattr(scene, f"add_{what}")(**{key: value for key, value in words.items() if value is not None})
         scene.compile()
     driven = lift()
-    driven.add_end_stop(joint="hoist", maximum=3.0)
+    driven.add_stop(joint="hoist", maximum=3.0)
     with pytest.raises(SceneError, match=r"driver 'hoist\.displacement' prescribes hoist\.displacement"):
         driven.compile()
 
@@ -43,7 +46,7 @@ def test_contradictions_are_refused_by_name(what: str, given: dict[str, Any], me
 def test_limits_and_events_survive_files(tmp_path: Path) -> None:
     scene = pushed(restitution=0.3)
     scene.add_friction(joint="rail", load=2.0, speed=1e-3)
-    scene.add_soft_stop(joint="rail", maximum=1.0, stiffness=1e4, damping=0.2)
+    scene.add_stop(joint="rail", maximum=1.0, stiffness=1e4, damping=0.2)
     scene.save(tmp_path / "pushed.json")
     again, once = (simulate(s, t_end=1.5, dt_out=0.1) for s in (Scene.load(tmp_path / "pushed.json"), scene))
     np.testing.assert_array_equal(again["coordinate"], once["coordinate"])

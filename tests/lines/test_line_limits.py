@@ -173,7 +173,7 @@ def test_what_it_cannot_do_is_told() -> None:
     stopped, paper = taut(), cases.case2(kinematics="paper")
     stopped.add_body(name="float", mass=1.0, inertia=(1, 1, 1), position=(0, 0, -20))
     stopped.add_joint(kind="prismatic", name="rail", first="ground", second="float", point=(0, 0, -20))
-    stopped.add_end_stop(name="stop", joint="rail", minimum=-1.0)
+    stopped.add_stop(name="stop", joint="rail", minimum=-1.0)
     tugger = {"points": [(60, 0, 20), (0, 0, 0)], "EA": 1e8, "length": 60.0, "rung": "quasi-static"}
     paper.add_line(name="tugger", bodies=["ground", "payload"], **tugger)
     for scene, words in ((stopped, "limit 'stop' makes impacts"), (paper, "kinematics 'paper'")):

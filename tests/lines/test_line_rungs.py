@@ -186,7 +186,7 @@ def automatic(scene: Scene) -> Scene:
 @pytest.mark.filterwarnings("ignore")
 def test_it_stays_elastic_where_the_bound_does_not_hold() -> None:
     buffered, *stepped = (heaved() for _ in range(3))
-    buffered.add_soft_stop(name="buffer", joint="guide", minimum=-5.0, stiffness=1e6)
+    buffered.add_stop(name="buffer", joint="guide", minimum=-5.0, stiffness=1e6)
     jump = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=0.5))
     for scene, lag in zip(stepped, (0.2, 0.0), strict=True):
         scene.add_winch(line="hoist", rate=jump, lag=lag)

@@ -101,7 +101,7 @@ def test_what_holds_for_a_moment_is_met_within_one_step(speed: float, held_by: s
         scene.add_line("leash", length=5.9, EA=1e6, **ends)
     else:
         scene.add_joint(kind="prismatic", name="mast", first="ground", second="bob", axis=(0.0, 0.0, 1.0))
-        scene.add_soft_stop(joint="mast", maximum=4.9, stiffness=1e6)
+        scene.add_stop(joint="mast", maximum=4.9, stiffness=1e6)
     result = simulate(scene, 2.0, formulation=formulation, rtol=1e-2, dt_out=0.01)
     highest, free = result["position"][:, 0, 2].max(), 0.5 * speed**2 / GRAVITY
     if held_by == "leash":

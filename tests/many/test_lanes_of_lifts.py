@@ -49,7 +49,7 @@ def many_loads() -> Scene:
         damping=2.0, minimum=0.2, maximum=5.0,
     )  # fmt: skip
     scene.add_friction("pin", load=0.4, speed=0.02)
-    scene.add_soft_stop(joint="pin", minimum=-2.0, maximum=2.0, stiffness=50.0)
+    scene.add_stop(joint="pin", minimum=-2.0, maximum=2.0, stiffness=50.0)
     scene.add_air_drag("weight", frontal_area=0.3, lateral_area=0.5)
     scene.add_line(
         name="whip", bodies=["ground", "bob", "weight"], points=[(0, 0, 4), (0, 0, 0), (0, 0, 0)], EA=3e3,
@@ -103,7 +103,7 @@ def test_seeds_of_a_lift_run_side_by_side_as_alone(method: dict[str, Any]) -> No
 def stopped(start: float) -> Scene:
     scene = pendulum(start=1.0)
     scene.replace("bob", angular_velocity=(0.0, start, 0.0), velocity=(0.0, 0.0, -start))
-    scene.add_soft_stop(joint="pin", minimum=-0.6, maximum=0.6, stiffness=200.0)
+    scene.add_stop(joint="pin", minimum=-0.6, maximum=0.6, stiffness=200.0)
     return scene
 
 

@@ -27,7 +27,7 @@ def feeder(*, hs: float = 1.0, damping_ratio: float = 0.02) -> sc.Scene:
     scene.add_vessel(sc.shipped_database(), memory="none", mooring=60.0)
     scene.add_body(name="load", mass=MASS, size=(6.0, 6.0, 3.0), position=(0.0, 0.0, 11.5))
     scene.add_joint(kind="weld", name="grillage", first="vessel", second="load", point=(0.0, 0.0, 10.0))
-    scene.add_seat("grillage")
+    scene.add_stop("grillage")
     scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, 40.0), (0.0, 0.0, 1.5)], EA=EA,
                    length=28.0, damping_ratio=damping_ratio)  # fmt: skip
     scene.add_winch("hoist", lag=0.2, maximum_rate=1.0)

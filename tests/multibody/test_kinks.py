@@ -144,7 +144,7 @@ def test_random_curves_with_kinks_keep_an_accuracy_through_every_element(seed: i
 
 def bouncing(damping: float = 0.8) -> Scene:
     scene = cart(speed=1.0)
-    scene.add_soft_stop(joint="rail", minimum=-1.0, maximum=1.0, stiffness=400.0, damping=damping)
+    scene.add_stop(joint="rail", minimum=-1.0, maximum=1.0, stiffness=400.0, damping=damping)
     return scene
 
 

@@ -24,11 +24,11 @@ from seacrane.scene import FlowForce
 
 def all_kinds() -> Scene:
     scene = every_kind()
-    scene.add_end_stop(joint="pin", maximum=2.0, restitution=0.1)
+    scene.add_stop(joint="pin", maximum=2.0, restitution=0.1)
     scene.add_friction(joint="pin", load=1.0 / 3.0, speed=0.1)
     scene.add_range(joint="pin", minimum=-2.0, maximum=2.0)
     scene.add_limit_state(channel="position", maximum=9.0, names={"body": "hull"})
-    scene.add_soft_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
+    scene.add_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
     scene.add_gas_spring(
         name="passive", first="hull", second="arm", area=0.1, pressure=1e5, volume=3.0, length=0.7
     )

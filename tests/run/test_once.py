@@ -72,7 +72,7 @@ CHANGES: dict[str, Callable[[Scene], Any]] = {
     "a load less": lambda s: s.remove("wire", kind="load"),
     "a driver less": lambda s: s.drivers.clear(),
     "another driver": lambda s: s.add_driver(joint="hinge", curve=SWING),
-    "a limit": lambda s: s.add_end_stop(joint="hinge", minimum=-1.0, maximum=0.02),
+    "a limit": lambda s: s.add_stop(joint="hinge", minimum=-1.0, maximum=0.02),
     "a limit state": lambda s: s.add_limit_state(**SPEED),
     "a channel": lambda s: s.add_channel("twice", expression="2 * position[bob, z]"),
     "gravity": lambda s: setattr(s, "gravity", 1.6),

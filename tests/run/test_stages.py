@@ -141,7 +141,7 @@ def falling(height: float = 10.0) -> Scene:
     scene.add_body(name="load", mass=3.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, height))
     scene.add_joint(kind="free", name="above deck", first="ground", second="load", point=(0.0, 0.0, 0.0))
     scene.replace("above deck", second_frame=scene.joints["above deck"].first_frame)
-    scene.add_end_stop(joint="above deck", coordinate="z", minimum=0.0, name="landing")
+    scene.add_stop(joint="above deck", coordinate="z", minimum=0.0, name="landing")
     return scene
 
 

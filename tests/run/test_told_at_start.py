@@ -93,7 +93,7 @@ def test_a_load_beside_the_plane_of_a_deck_is_told(aside: float, told_of: bool) 
     y = 0.2 * aside + 2.0  # of 5 m
     scene.add_body("box", mass=1e3, size=(1, 1, 1), position=(0.0, y, 2.5))
     scene.add_joint("stands", kind="weld", first="barge", second="box", point=(0, y, 2), axis=(0, 0, 1))
-    scene.add_seat("stands")
+    scene.add_stop("stands")
     assert ("'barge'" in told(lambda: sc.simulate(scene, 0.1)).get("LoadOffDeckWarning", "")) == told_of
 
 

@@ -155,7 +155,7 @@ def one_name_for_two_coordinates(scene: Scene) -> None:
     (gust([0, 1, 2], np.zeros((2, 6))), "force table 't'.*3 times and 2"),
     (gust(None, np.zeros((2, 6))), "force table 't'.*0 times and 2"),
     (gust([0, 1], np.zeros((2, 3))), r"force 't': force has shape \(2, 3\); give \(3,\), or \(n, 6\) with"),
-    (gust([0, 1], (0, 0, 1)), "force 't': times is given; a PointForce takes point and body_axes"),
+    (gust([0, 1], (0, 0, 1)), "force 't': times is given; a PointForce takes point, body_axes"),
     (gust(None, len), "force 't': force is .*C function of it by numba"),
     (gust([1, 0], np.zeros((2, 6))), "force table 't'.*times must increase"),
     (gust([], np.zeros((0, 6))), "force table 't'.*0 times"),

@@ -20,7 +20,7 @@ def ball(*, restitution: float = 0.5, height: float = HEIGHT, sticking_speed: fl
     scene = Scene(name="ball")
     scene.add_body("ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, height))
     scene.add_joint("air", kind="free", first="ground", second="ball", point=(0.0, 0.0, height))
-    scene.add_end_stop(joint="air", coordinate="z", minimum=-height, restitution=restitution,
+    scene.add_stop(joint="air", coordinate="z", minimum=-height, restitution=restitution,
                        sticking_speed=sticking_speed, name="floor")  # fmt: skip
     return scene
 
@@ -91,7 +91,7 @@ def pushed(restitution: float = 0.0) -> Scene:
     """A slide pushed against its stop by a load that turns round: F = -F0 cos(w t)."""
     scene = on_joint("slide", mass=MASS, gravity=0.0)
     scene.add_actuator("rail", name="ram", feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0))
-    scene.add_end_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=restitution)
+    scene.add_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=restitution)
     return scene
 
 
@@ -105,5 +105,5 @@ def lift(rate: float = 0.2, stiffness: float = 2.0e3) -> Scene:
     rise = Curve.pieces(starts=[-1.0], coefficients=[[-rate, rate, 0, 0, 0, 0]])
     scene.add_driver("hoist", curve=rise)
     scene.add_spring("wire", first="hook", second="load", stiffness=stiffness, natural_length=5.0)
-    scene.add_seat(joint="deck")
+    scene.add_stop(joint="deck")
     return scene

@@ -102,9 +102,9 @@ def random_slew(rng: np.random.Generator) -> Scene:
         scene.add_line(joint="wire", rung="rigid")
     kind = rng.integers(4)
     if kind == 0:
-        scene.add_soft_stop(joint="slew", minimum=-0.15, maximum=0.15, stiffness=3e8, damping=0.3)
+        scene.add_stop(joint="slew", minimum=-0.15, maximum=0.15, stiffness=3e8, damping=0.3)
     elif kind == 1:
-        scene.add_end_stop(joint="slew", minimum=-0.15, maximum=0.15, restitution=0.3)
+        scene.add_stop(joint="slew", minimum=-0.15, maximum=0.15, restitution=0.3)
     elif kind == 2:
         scene.add_friction(joint="slew", load=3e5, speed=0.02)
     return scene
@@ -116,9 +116,9 @@ def random_cart(rng: np.random.Generator) -> Scene:
     scene = ELEMENTS[element](random_curve(rng, continuous=element == "driver"))
     if element != "driver" and rng.random() < 0.4:
         if rng.random() < 0.5:
-            scene.add_soft_stop(joint="rail", minimum=-0.3, maximum=0.3, stiffness=2e3, damping=0.2)
+            scene.add_stop(joint="rail", minimum=-0.3, maximum=0.3, stiffness=2e3, damping=0.2)
         else:
-            scene.add_end_stop(joint="rail", minimum=-0.3, maximum=0.3)
+            scene.add_stop(joint="rail", minimum=-0.3, maximum=0.3)
     return scene
 
 

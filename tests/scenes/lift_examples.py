@@ -137,10 +137,10 @@ body = "hull"; speed_m_per_s = 0.5; direction_deg = 0; frontal_area_m2 = 200; la
 length_m = 100
 [current.coefficients]; angle_rad = [0.0, 1.5, 3.0]; x = [0.1, 0, -0.1]; y = [0, 0.6, 0]; yaw = [0, 0.05, 0]
 [[line]]; joint = "rope"; rung = "rigid"; restitution = 0.2
-[end_stop]
+[[stop]]
 joint = "sleeve"; coordinate = "angle"; minimum_deg = -90; maximum_deg = 90; sticking_speed_rad_per_s = 0.01
-[seat]; joint = "deck"
-[soft_stop]; joint = "sleeve"; maximum_m = 2; stiffness_N_per_m = 1e4; damping_s_per_m = 0.5
+[[stop]]; joint = "deck"
+[[stop]]; joint = "sleeve"; maximum_m = 2; stiffness_N_per_m = 1e4; damping_s_per_m = 0.5
 [friction]; joint = "pin"; load_N_m = 4; speed_deg_per_s = 1
 [[contact]]
 name = "landing"; body = "bob"; points_m = [[0.5, 0, -0.5], [-0.5, 0, -0.5]]; on = "hull"; surface = "box"
@@ -240,7 +240,7 @@ ON_DECK = (
 
 [[joint]]; kind = "weld"; name = "on deck"; first = "ground"; second = "load"; point_m = [0, 0, 0]
 
-[seat]; joint = "on deck"
+[stop]; joint = "on deck"
 
 [line]; name = "hoist"; bodies = ["ground", "load"]; points_m = [[0, 0, 21], [0, 0, 0]]; EA_N = 5e7
 length_m = 20.1

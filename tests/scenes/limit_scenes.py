@@ -77,7 +77,7 @@ def limit(scene: Scene, rng: np.random.Generator) -> None:
                 scene.add_line(joint=joint.name, rung="rigid", **common)
         elif joint.kind == "weld":
             if rng.random() < 0.4:
-                scene.add_seat(joint=joint.name)
+                scene.add_stop(joint=joint.name)
         else:
             offered = {"revolute": ["angle"], "prismatic": ["displacement"],
                        "cylindrical": ["displacement", "angle"],
@@ -89,9 +89,9 @@ def limit(scene: Scene, rng: np.random.Generator) -> None:
                 where = {"joint": joint.name, "coordinate": coordinate}
                 bounds = {"minimum": -rng.uniform(0.02, 0.8), "maximum": rng.uniform(0.02, 0.8), "name": name}
                 if draw < 0.4:
-                    scene.add_end_stop(**bounds, **where, **common)
+                    scene.add_stop(**bounds, **where, **common)
                 elif draw < 0.5:
-                    scene.add_soft_stop(**bounds, stiffness=1e3, **where)
+                    scene.add_stop(**bounds, stiffness=1e3, **where)
                 if rng.random() < 0.2:
                     scene.add_friction(load=3.0, speed=0.05, name=f"{name} friction", **where)
 

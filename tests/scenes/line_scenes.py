@@ -45,7 +45,7 @@ def on_deck() -> Scene:
     scene.add_body(name="load", mass=2e3, inertia=(300.0, 300.0, 300.0))
     scene.add_joint(kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0),
                     axis=(0, 0, 1))  # fmt: skip
-    scene.add_end_stop(joint="guide", minimum=0.0)
+    scene.add_stop(joint="guide", minimum=0.0)
     scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 10), (0, 0, 0)], EA=2e6,
                    length=10.05)  # fmt: skip
     scene.add_winch(line="hoist", rate=-0.2, lag=0.2)

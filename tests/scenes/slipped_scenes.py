@@ -220,7 +220,7 @@ SAMPLES: Mapping[str, Sample] = {
     "friction": Sample(_core.Friction, {"load": 5e4, "speed": 0.01}, on_rail, RAIL),
     "end stop": Sample(_core.Limit, {"minimum": -1.0, "maximum": 1.0, "restitution": 0.2,
         "sticking_speed": 1e-3}, partial(on_rail, gravity=False), {"joint": "rail", "name": "stop"},
-        Scene.add_end_stop),
+        Scene.add_stop),
     "point force": Sample(_core.PointForce, {"point": (1.0, 0.0, 0.0), "force": (0.0, 0.0, 2e5)},
         at(-15.0, gravity=False), LOAD),
     "force table": Sample(_core.ForceTable, {"point": (1.0, 0.0, 0.0), "times": [0.0, 1.0, 2.0],

@@ -18,7 +18,7 @@ def on_deck(*, length: float = 20.1, **line: Any) -> Scene:
     scene = Scene(name="on deck", gravity=G)
     scene.add_body("load", mass=MASS, inertia=(1e4,) * 3, position=(0, 0, 1))
     scene.add_joint("on deck", kind="weld", first="ground", second="load", point=(0, 0, 0))
-    scene.add_seat(joint="on deck")
+    scene.add_stop(joint="on deck")
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, HEIGHT + 1.0), (0.0, 0.0, 0.0)],
         EA=STIFFNESS, length=length, **line,

@@ -81,7 +81,7 @@ def pendulum() -> Result:
     scene = Scene(name="pendulum")
     scene.add_body(name="bob", mass=1.0, inertia=np.eye(3), position=(0.0, 0.0, 0.0))
     scene.add_joint(name="slide", kind="prismatic", first="ground", second="bob")
-    scene.add_end_stop(joint="slide", minimum=-1.0)
+    scene.add_stop(joint="slide", minimum=-1.0)
     full = simulate(scene, t_end=1.0, dt_out=0.5)
     channels = {name: full[name] for name in ("position", "energy_balance")}
     coords = {dim: full.coords[dim] for dim in ("body", "axis")}

@@ -12,6 +12,7 @@ from seacrane.description.description import KINDS, LOADS, Description, insert
 from seacrane.description.loads import kind_of, make_load
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, numbers_of, text_of
+from seacrane.inputs.keywords import taken
 from seacrane.inputs.shown import shown
 
 Force = _core.PointForce | _core.ForceTable | _core.FunctionForce
@@ -20,16 +21,9 @@ _FUNCTIONS: list[Any] = []  # that scenes call: they stay as long as Python runs
 
 
 def add_force(
-    scene: Description,
-    body: str,
-    *,
-    force: Any,
-    times: Any = None,
-    point: Any = None,
-    body_axes: bool | None = None,
-    parameters: Sequence[float] | None = None,
-    name: str | None = None,
-) -> Force:
+    scene: Description, body: str, *, force: Any, times: Any = None, point: Any = None,
+    body_axes: bool | None = None, parameters: Sequence[float] | None = None, name: str | None = None,
+) -> Force:  # fmt: skip
     """Add a force on a body: constant, a table over time, or a C function called in every evaluation.
 
     Input "<name>.force" (3 values) adds to a constant one during a run.
@@ -59,11 +53,10 @@ def add_force(
     """
     name = name_of("force", name, f"{text_of('force: body', body)} force")
     made, takes = _force_of(f"force {name!r}: force", force)
-    given = {"times": times, "point": point, "body_axes": body_axes, "parameters": parameters}
-    given = {key: value for key, value in given.items() if value is not None}
-    if strange := [key for key in given if key not in takes]:
-        fix = f"a {made.func.__name__} takes {' and '.join(takes)}; leave it out"
-        raise SceneError(f"force {name!r}: {strange[0]} is given; {fix}")
+    given = taken(
+        f"force {name!r}", made.func.__name__, takes,
+        times=times, point=point, body_axes=body_axes, parameters=parameters,
+    )  # fmt: skip
     added: Force = add_load(scene, made(name=name, body=body, **given))
     return added
 

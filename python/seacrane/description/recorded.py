@@ -56,7 +56,7 @@ def add_range(
     coordinate: str | None = None,
     name: str | None = None,
 ) -> Range:
-    """Tell where a joint coordinate is meant to stay, m or rad; it exerts no load (`add_end_stop` does).
+    """Tell where a joint coordinate is meant to stay, m or rad; it exerts no load (`add_stop` does).
 
     A reference that leaves it is refused when a run starts, a motion that does is warned of after the run
     (OutsideRangeWarning). A crane adds the strokes of its data file.

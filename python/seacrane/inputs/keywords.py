@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from difflib import get_close_matches
 from functools import wraps
 from types import FunctionType
@@ -112,6 +112,15 @@ def _misfit(
             return f"{' and '.join(missing)} missing; give {', '.join(f'{key}=...' for key in missing)}"
         return str(error)
     return None
+
+
+def taken(what: str, kind: str, takes: Collection[str], **words: Any) -> dict[str, Any]:
+    """The words that are given, not None; SceneError for one that things of this kind do not take."""
+    given = {key: value for key, value in words.items() if value is not None}
+    if strange := [key for key in given if key not in takes]:
+        fix = f"a {kind} takes {', '.join(takes) or 'no number'}; leave it out"
+        raise SceneError(f"{what}: {strange[0]} is given; {fix}")
+    return given
 
 
 def no_keyword(key: str, value: Any, known: Iterable[str]) -> str:

@@ -32,7 +32,7 @@ def welded_contact(scene: Scene) -> Iterator[Choice]:
                 name=f"seat in place of contact {name}",
                 script=f'scene.remove("{name}", kind="load")\n'
                 f'scene.add_joint("{name}", kind="weld", first="{one.on}", second="{one.body}", '
-                f'point={place}, axis={axis})\nscene.add_seat("{name}")',
+                f'point={place}, axis={axis})\nscene.add_stop("{name}")',
                 made=partial(_seated, name=name),
                 of=f"contact {name}",
             )
@@ -68,5 +68,5 @@ def _seated(scene: Scene, *, name: str) -> Scene:
     out = scene.copy()
     out.remove(name, kind="load")
     out.add_joint(name, kind="weld", first=one.on, second=one.body, point=place, axis=axis)
-    out.add_seat(name)
+    out.add_stop(name)
     return out

@@ -36,7 +36,7 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
 from seacrane.scene.bridles import add_bridle
-from seacrane.scene.limits import add_seat
+from seacrane.scene.limits import add_stop
 from seacrane.scene.line_start import hung_from
 from seacrane.scene.lines import TAKEN_BY, add_line, add_winch
 
@@ -343,7 +343,7 @@ def _add_load(
         axis = rotation_matrix(turned) @ np.array([0.0, 0.0, 1.0])
         seat = f"{name} on {on}"
         add_joint(scene, seat, kind="weld", first=on, second=name, point=foot, axis=axis)
-        add_seat(scene, seat)
+        add_stop(scene, seat)
 
 
 def _require_below(what: str, room: float, length: float | None) -> None:

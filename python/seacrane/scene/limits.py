@@ -6,6 +6,8 @@ located in time by the integrator; see docs/events.md.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from seacrane import _core
@@ -15,8 +17,8 @@ from seacrane.description.places import place_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, text_of
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.keywords import taken
 
-NO_STOP = 1e7  # m or rad: a bound here or beyond is none
 CLOSE = 1e-6  # m
 STICKING_SPEED = 1e-3  # m/s or rad/s
 
@@ -46,21 +48,32 @@ def add_wire(
     return _limit(scene, "wire", joint, name, restitution=restitution, sticking_speed=sticking_speed)
 
 
-def add_end_stop(
-    scene: Description,
-    joint: str,
-    *,
-    coordinate: str | None = None,
-    minimum: float = -NO_STOP,
-    maximum: float = NO_STOP,
-    restitution: float = 0.0,
-    sticking_speed: float = STICKING_SPEED,
-    name: str | None = None,
-) -> _core.Limit:
-    """Keep a joint coordinate within rigid bounds.
+LAWS: Mapping[str, tuple[str, ...]] = {
+    "stop": ("coordinate", "minimum", "maximum", "restitution", "sticking_speed"),
+    "soft stop": ("coordinate", "minimum", "maximum", "stiffness", "damping"),
+    "seat": (),
+}
 
-    A bound that is hit is an impact, as of a rigid line (`add_line`). It holds, as a constraint, while it has
-    to push, and lets go when it would have to pull. For a stop that gives, see `add_soft_stop`.
+
+def add_stop(
+    scene: Description, joint: str, *, coordinate: str | None = None, minimum: float | None = None,
+    maximum: float | None = None, restitution: float | None = None, sticking_speed: float | None = None,
+    stiffness: float | None = None, damping: float | None = None, name: str | None = None,
+) -> _core.Limit | _core.SoftStop:  # fmt: skip
+    """Keep a joint coordinate within bounds, rigid ones or such that give; on a weld: a seat that lets go.
+
+    A rigid bound that is hit is an impact, as of a rigid line (`add_line`). It holds, as a constraint, while
+    it has to push, and lets go when it would have to pull.
+
+    With a stiffness, a bound pushes by stiffness p (1 + damping p') at a depth p beyond it, never a pull: a
+    load, without events, for any formulation, with steps as short as the stiffness asks for. Damping of this
+    form (K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42, 1975) leaves the load continuous when the bound is
+    touched; hit at a low speed v it returns about v (1 - 2/3 damping v).
+
+    A weld from a support to what stands on it, its axis z pointing away from the support, holds only while
+    the second body is pressed onto the first: where the force on it along z would be negative, the joint
+    opens and stays open. Sliding and tipping before that are not modelled. To hit the deck again after
+    lift-off, or to set the body down, add a free joint with a stop.
 
     Parameters
     ----------
@@ -68,51 +81,42 @@ def add_end_stop(
         Of the joint; default "angle" of a revolute, else "displacement". "z" of a free joint is a deck that
         its second body stands on, without friction, at the joint's point.
     minimum, maximum : float
-        m or rad; leave out the one that is not there. An angle needs both, between -pi and pi.
+        m or rad; leave out the one that is not there. A rigid angle needs both, between -pi and pi.
     restitution : float
         0 (default: it stays at the bound) to 1 (no energy is lost).
     sticking_speed : float
-        m/s or rad/s; slower impacts do not rebound, so that rebounds come to an end.
+        m/s or rad/s; slower impacts do not rebound, so that rebounds come to an end; default 1e-3.
+    stiffness : float
+        N/m or N m/rad; default: rigid.
+    damping : float
+        s/m or s/rad, with a stiffness; default 0.
     name : str, optional
-        Default: the joint's.
+        Default: the joint's; with a stiffness the joint's, and "soft stop".
 
     Raises
     ------
     SceneError
-        For a joint that is not there; what only the whole scene shows, such as a start beyond a bound or a
-        driver on the same coordinate, comes with `Scene.compile`.
+        For a joint that is not there, a number that such a stop does not take, and a body with a size whose
+        centre is described below the plane of its seat. What only the whole scene shows, such as a start
+        beyond a bound or a driver on the same coordinate, comes with `Scene.compile`.
     """
     where = coordinate_of(scene, "stop", joint, coordinate)
-    return _limit(
-        scene, "stop", joint, name, coordinate=where, minimum=minimum, maximum=maximum,
-        restitution=restitution, sticking_speed=sticking_speed,
+    weld = scene.joints[joint].kind == "weld"
+    law = "seat" if weld else "stop" if stiffness is None else "soft stop"
+    given = taken(
+        f"stop of joint {joint!r}", law, LAWS[law],
+        coordinate=coordinate, minimum=minimum, maximum=maximum, restitution=restitution,
+        sticking_speed=sticking_speed, stiffness=stiffness, damping=damping,
     )  # fmt: skip
-
-
-def add_seat(scene: Description, joint: str, *, name: str | None = None) -> _core.Limit:
-    """Let a weld hold only while its second body is pressed onto the first: a payload that is lifted off.
-
-    The force that the joint exerts on its second body, along z of the joint frame on the first, must not be
-    negative; where it would be, the joint opens and stays open. Sliding and tipping before that are not
-    modelled. To hit the deck again after lift-off, or to set the body down, add a free joint with an end
-    stop.
-
-    Parameters
-    ----------
-    joint : str
-        A weld from the support to what stands on it, its axis z pointing away from the support.
-    name : str, optional
-        Default: the joint's.
-
-    Raises
-    ------
-    SceneError
-        For a joint that is not there, and a body with a size whose centre is described below the plane of
-        its seat; what only the whole scene shows comes with `Scene.compile`.
-    """
-    if isinstance(joint, str) and joint in scene.joints:
+    if law == "seat":
         _require_above(scene, scene.joints[joint])
-    return _limit(scene, "seat", joint, name)
+        return _limit(scene, law, joint, name)
+    given |= {"coordinate": where}
+    if law == "stop":
+        return _limit(scene, law, joint, name, **{"sticking_speed": STICKING_SPEED} | given)
+    name = name_of(law, name or f"{joint} {law}")
+    added: _core.SoftStop = add_load(scene, _core.SoftStop(name=name, joint=joint, **given))
+    return added
 
 
 def _require_above(scene: Description, joint: _core.Joint) -> None:
@@ -135,48 +139,6 @@ def _require_above(scene: Description, joint: _core.Joint) -> None:
         )
 
 
-def add_soft_stop(
-    scene: Description,
-    joint: str,
-    *,
-    stiffness: float,
-    coordinate: str | None = None,
-    minimum: float = -NO_STOP,
-    maximum: float = NO_STOP,
-    damping: float = 0.0,
-    name: str | None = None,
-) -> _core.SoftStop:
-    """Keep a joint coordinate within bounds that give: stiffness p (1 + damping p') at a depth p beyond one.
-
-    A load, not a constraint: no events, any formulation, steps as short as the stiffness asks for. Never a
-    pull. Damping of this form (K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42, 1975) leaves the load
-    continuous when the bound is touched; hit at a low speed v it returns about v (1 - 2/3 damping v).
-
-    Parameters
-    ----------
-    joint, coordinate, minimum, maximum
-        As `add_end_stop`.
-    stiffness : float
-        N/m or N m/rad.
-    damping : float
-        s/m or s/rad.
-    name : str, optional
-        Default: the joint's, and "soft stop".
-
-    Raises
-    ------
-    SceneError
-    """
-    where = coordinate_of(scene, "soft stop", joint, coordinate)
-    name = name_of("soft stop", name or f"{joint} soft stop")
-    stop = _core.SoftStop(
-        name=name, joint=joint, coordinate=where, minimum=minimum, maximum=maximum,
-        stiffness=stiffness, damping=damping,
-    )  # fmt: skip
-    added: _core.SoftStop = add_load(scene, stop)
-    return added
-
-
 def add_friction(
     scene: Description,
     joint: str,
@@ -195,7 +157,7 @@ def add_friction(
     Parameters
     ----------
     joint, coordinate
-        As `add_end_stop`.
+        As `add_stop`.
     load : float
         N or N m.
     speed : float

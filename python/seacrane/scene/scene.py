@@ -132,9 +132,7 @@ class Scene(Description):
     add_pendulum_damping = damping.add_pendulum_damping
     add_air_drag = damping.add_air_drag
 
-    add_end_stop = limits.add_end_stop
-    add_seat = limits.add_seat
-    add_soft_stop = limits.add_soft_stop
+    add_stop = limits.add_stop
     add_line = lines.add_line
     add_winch = lines.add_winch
     add_bridle = bridles.add_bridle

@@ -65,7 +65,7 @@ def _ranges(scene: Description, time: Array, channels: Channels) -> list[Finding
                 f"range {name!r}: {limit.joint}.{limit.coordinate} reaches {values[at]:.4g} {_unit(angular)} "
                 f"at t = {time[at]:.6g} s, outside {limit.minimum:.4g} to {limit.maximum:.4g} from the "
                 "described pose: the real one ends there. Correct reference or gains, or add its end stops "
-                "(Scene.add_end_stop)",
+                "(Scene.add_stop)",
             )
         )
     return found

@@ -73,7 +73,7 @@ def end_stop() -> Scene:
     """A slide that is pushed to and fro between its stops."""
     scene = guided(mass=3.0)
     scene.add_actuator(joint="rail", feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0))
-    scene.add_end_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=0.4)
+    scene.add_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=0.4)
     return scene
 
 

@@ -94,7 +94,7 @@ def friction() -> Scene:
 @case(by("dopri5"), by("rosenbrock"))
 def soft_stop() -> Scene:
     scene = guided(velocity=(1.0, 0, 0))
-    scene.add_soft_stop(joint="rail", minimum=-0.2, maximum=0.3, stiffness=4e5, damping=0.4)
+    scene.add_stop(joint="rail", minimum=-0.2, maximum=0.3, stiffness=4e5, damping=0.4)
     return scene
 
 

@@ -27,7 +27,7 @@ def lift_off() -> list[Stage]:
 def off_a_seat() -> Scene:
     scene = with_load((0, 0, 1.0), mass=20e3)
     scene.add_joint(kind="weld", name="on deck", first="ground", second="load", point=(0, 0, 0))
-    scene.add_seat(joint="on deck")
+    scene.add_stop(joint="on deck")
     scene.add_line(name="hoist", **HOOK, EA=5e7, length=20.1)
     scene.add_winch(line="hoist")
     return scene
@@ -94,12 +94,12 @@ def from_a_barge_to_a_platform() -> Scene:
     scene.add_driver(joint="heave", curve=Curve.harmonic(amplitude=0.1, omega=0.8))
     scene.add_body(name="load", mass=20e3, inertia=(5e4,) * 3, position=(x, y, 2.0))
     scene.add_joint(kind="weld", name="on barge", first="barge", second="load")
-    scene.add_seat(joint="on barge")
+    scene.add_stop(joint="on barge")
     path = {"bodies": [jib, "load"], "points": [head, (0, 0, 0)]}
     scene.add_line(name="hoist", **path, EA=5e7, length=z - 2.0 + 0.05)
     scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
     scene.add_joint(kind="free", name="above platform", first="ground", second="load")
-    scene.add_end_stop(joint="above platform", coordinate="z", minimum=0.3, name="platform")
+    scene.add_stop(joint="above platform", coordinate="z", minimum=0.3, name="platform")
     return scene
 
 
