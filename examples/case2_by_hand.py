@@ -87,7 +87,7 @@ def scene() -> Scene:
     add_joints(out, "vessel", **start)
     out.add_roles(slew="A", cylinders={name: DRIVES[name] for name in ("main", "knuckle")}, link="link")
     for name, joint in DRIVES.items():
-        out.record_coordinate(joint=joint)
+        out.add_channel(joint=joint)
         out.add_actuator(name=name, joint=joint)
 
     held = balance(out)  # loads that keep it at rest

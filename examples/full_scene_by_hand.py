@@ -74,7 +74,7 @@ scene.add_roles(  # which parts the channels of a crane are made of
 
 motions = {"slew": ("A", -np.pi / 2), "main": ("main_cylinder", 2.0), "knuckle": ("knuckle_cylinder", 2.0)}
 for name, (joint, _) in motions.items():
-    scene.record_coordinate(joint=joint)
+    scene.add_channel(joint=joint)
     scene.add_actuator(name=name, joint=joint)
 rest, felt = balance(scene), reflected_inertia(scene)
 for name, (_, end) in motions.items():

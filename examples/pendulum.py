@@ -13,7 +13,7 @@ from seacrane import Scene, simulate
 scene = Scene(name="pendulum")
 scene.add_body(name="bob", mass=2.0, inertia=[0.01, 0.01, 0.01], position=(1.0, 0.0, 0.0))
 scene.add_joint(kind="revolute", name="hinge", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
-scene.record_coordinate(joint="hinge")
+scene.add_channel(joint="hinge")
 result = simulate(scene, t_end=10.0, dt_out=0.01)
 
 angle = result["coordinate"][:, 0] - np.pi / 2  # from hanging straight down

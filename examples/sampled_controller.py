@@ -18,8 +18,8 @@ scene.add_body(name="load", mass=20.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0
 scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1, 0, 0))
 scene.add_joint(kind="revolute", name="pin", first="cart", second="load", point=(0, 0, 0), axis=(0, -1, 0))
 scene.add_actuator(name="drive", joint="rail")
-scene.record_coordinate(joint="rail")
-scene.record_coordinate(joint="pin")
+scene.add_channel(joint="rail")
+scene.add_channel(joint="pin")
 
 
 def follow_the_load(time: float, measured: dict) -> dict:

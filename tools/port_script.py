@@ -44,6 +44,7 @@ CALLS = {
     "add_end_stop": Call("add_stop"),
     "add_soft_stop": Call("add_stop"),
     "add_seat": Call("add_stop"),
+    "record_coordinate": Call("add_channel", places=("joint",)),
     "add_seabed": Call("add_contact", words={"on": '"seabed"'}),
     "simulate_stages": Call("simulate", renamed={"stages": "t_end"}),
     "simulate_to_file": Call("simulate", places=("", "to", ""), renamed={"path": "to"}),

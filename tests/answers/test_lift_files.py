@@ -262,7 +262,7 @@ def test_the_schema_is_current_and_agrees_with_the_reader() -> None:
 
 
 CALLS = {
-    "vessel": "add_vessel", "hydrodynamics": "add_vessel", "record": "record_coordinate",
+    "vessel": "add_vessel", "hydrodynamics": "add_vessel",
 } | {name: f"add_{name}" for name in TABLES if hasattr(Scene, f"add_{name}")}  # fmt: skip
 # Kinds of loads have tables of their own, a group of hulls is read in a script.
 LEFT_OUT = {"add_load", "add_vessels"}
@@ -270,7 +270,7 @@ LEFT_OUT = {"add_load", "add_vessels"}
 
 def test_every_call_that_adds_has_its_table_and_every_keyword_its_key() -> None:
     """The document names the tables; what only a script can give is named here."""
-    adding = {name for name in dir(Scene) if name.startswith(("add_", "use_", "record_"))}
+    adding = {name for name in dir(Scene) if name.startswith("add_")}
     assert adding == set(CALLS.values()) | LEFT_OUT
     page = (ROOT / "docs" / "lift-files.md").read_text(encoding="utf-8")
     assert [name for name in TABLES if f"`[{name}]`" not in page] == []

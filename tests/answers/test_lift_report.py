@@ -132,7 +132,7 @@ def test_links_wires_and_stops_are_judged() -> None:
     scene = Scene(name="stop", gravity=0.0)
     scene.add_body(name="slide", mass=1.0, inertia=np.eye(3), velocity=(0.0, 0.0, 1.0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="slide", point=(0.0, 0.0, 0.0))
-    scene.record_coordinate(joint="rail")
+    scene.add_channel(joint="rail")
     scene.add_stop(joint="rail", maximum=0.5, restitution=0.5)
     (hit,) = judged_bounds(simulate(scene, t_end=1.0))
     assert (hit.kind, hit.bound, hit.held) == ("stop", " to 0.5 m", False)

@@ -135,7 +135,7 @@ def cranes(*prefixes: str) -> Scene:
         payload = Payload(mass=LOADS[prefix])
         scene.add_crane(base="ground", foot=FEET[prefix], payload=payload, prefix=prefix)
         for name, joint in PARTS.items():
-            scene.record_coordinate(joint=prefix + joint)
+            scene.add_channel(joint=prefix + joint)
             scene.add_actuator(name=prefix + name, joint=prefix + joint)
     loads = balance(scene).loads
     like = cases.case2(hs=0.0, memory="none").actuators

@@ -169,7 +169,7 @@ def test_drivers_on_a_free_joint_prescribe_all_six_motions() -> None:
     for i, motion in enumerate(("x", "y", "z", "roll", "pitch", "yaw")):
         curves[motion] = Curve.harmonic(amplitude=0.2 + 0.05 * i, omega=1.0 + 0.3 * i, phase=0.5 * i)
         scene.add_driver(joint="motion", coordinate=motion, curve=curves[motion])
-        scene.record_coordinate(joint="motion", coordinate=motion, name=motion)
+        scene.add_channel(joint="motion", coordinate=motion, name=motion)
     assert scene.compile().degrees_of_freedom == 0
     out = record(scene, 5.0)
     for i, motion in enumerate(("x", "y", "z", "roll", "pitch", "yaw")):
@@ -186,7 +186,7 @@ def test_a_driven_hinge_goes_round_many_times() -> None:
     scene.add_body(name="rotor", mass=1.0, inertia=(1, 1, 1))
     scene.add_joint(kind="revolute", name="shaft", first="ground", second="rotor")
     scene.add_driver(joint="shaft", curve=ramp(10.0))
-    scene.record_coordinate(joint="shaft")
+    scene.add_channel(joint="shaft")
     out = record(scene, 5.0)
     np.testing.assert_allclose(out["angular_velocity"][:, 0, 2], 10.0, atol=1e-10)
     np.testing.assert_allclose(np.unwrap(out["coordinate"][:, 0]), 10.0 * out["time"], atol=1e-9)

@@ -41,7 +41,7 @@ def test_spatial_slider_crank_under_a_constant_torque() -> None:
     q0, rate0, load = 0.4, 6.0, 2.0
     scene = slider_crank(CRANK, q0, rate0)
     scene.add_actuator(joint="shaft", feed_forward=load)
-    scene.record_coordinate(joint="shaft")
+    scene.add_channel(joint="shaft")
     assert scene.compile().degrees_of_freedom == 1
     out = record(scene, 3.0, rtol=1e-10)
     mechanism = CRANK.mechanism(load=load)

@@ -160,7 +160,7 @@ def test_a_push_moves_the_vessel_in_the_positive_sense(motion: str) -> None:
 def test_extending_a_cylinder_raises_its_jib(cylinder: str, joint: str, angle: int) -> None:
     scene = Scene(name="crane")
     scene.add_crane(base="ground", s1=1.0, s2=1.0, payload=Payload())
-    scene.record_coordinate(joint=joint, name="jib")
+    scene.add_channel(joint=joint, name="jib")
     for name, moved in {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}.items():
         scene.add_actuator(name=name, joint=moved)
     out = Curve.quintic(start_time=0.0, end_time=20.0, start=0.0, end=1.0)

@@ -33,7 +33,7 @@ def door(hinges: list[float]) -> Scene:
         pin = {"first": "ground", "second": "door", "point": (0.0, 0.0, height), "axis": (0.0, 0.0, 1.0)}
         scene.add_joint(kind="revolute", name=f"hinge {i}", **pin)
     scene.add_force("door", name="draught", point=(0.5, 0.0, 0.0), force=(0.0, 20.0, 0.0), body_axes=True)
-    scene.record_coordinate(joint="hinge 0", coordinate="angle")
+    scene.add_channel(joint="hinge 0", coordinate="angle")
     return scene
 
 

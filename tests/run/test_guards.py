@@ -108,7 +108,7 @@ def pendulum() -> Scene:
     scene = Scene(name="pendulum")
     scene.add_body(name="rod", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0, 0))
     scene.add_joint("pin", kind="revolute", first="ground", second="rod", point=(0, 0, 0), axis=(0, 1, 0))
-    scene.record_coordinate(joint="pin")
+    scene.add_channel(joint="pin")
     return scene
 
 

@@ -31,7 +31,7 @@ def small() -> Scene:
     scene.add_joint("hinge", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
     scene.add_joint("rail", kind="prismatic", first="ground", second="slide", point=(4, 0, 0), axis=(1, 0, 0))
     scene.add_driver(joint="rail", curve=Curve.quintic(start_time=0.0, end_time=5.0, start=0.0, end=0.5))
-    scene.record_coordinate(joint="hinge")
+    scene.add_channel(joint="hinge")
     scene.add_line("wire", bodies=["ground", "load"], points=[(7, 0, 10), (0, 0, 0)], EA=1e7, length=9.99)
     return scene
 

@@ -170,7 +170,7 @@ def test_commands_go_on_smoothly_from_where_they_are() -> None:
     scene.add_body(name="jib", mass=10.0, inertia=(3.0, 3.0, 5.0), position=(1.0, 0.0, 0.0))
     scene.add_joint("slew", kind="revolute", first="ground", second="jib", point=(0, 0, 0), axis=(0, 0, 1))
     scene.add_driver(joint="slew", curve=Curve.constant(value=0.0), name="slew")
-    scene.record_coordinate(joint="slew", name="slew")
+    scene.add_channel(joint="slew", name="slew")
     stages = [
         Stage(name="slew", duration=3.0, commands={"slew": Move(to=1.2, over=10.0)}),
         Stage(name="go back", duration=5.0, commands={"slew": Move(by=-0.5, over=4.0)}),
@@ -351,7 +351,7 @@ def motored() -> Scene:
     scene = Scene(name="motored", gravity=0.0)
     scene.add_body(name="bob", mass=1.0, inertia=(1.0, 1.0, 1.0), position=(1.0, 0.0, 0.0))
     scene.add_joint("pin", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
-    scene.record_coordinate(joint="pin", name="angle")
+    scene.add_channel(joint="pin", name="angle")
     scene.add_actuator(name="motor", joint="pin")
     return scene
 

@@ -32,7 +32,7 @@ def spinner() -> sc.Scene:
     scene = sc.Scene(name="spinner", gravity=0.0)
     scene.add_body(name="king", mass=1.0, inertia=(1.0, 1.0, 1.0), angular_velocity=(0.0, 0.0, 3.0))
     scene.add_joint(kind="revolute", name="A", first="ground", second="king", point=(0.0, 0.0, 0.0))
-    scene.record_coordinate(joint="A")
+    scene.add_channel(joint="A")
     scene.add_actuator(name="motor", joint="A", damping=0.01)
     scene.add_roles(slew="A")
     return scene

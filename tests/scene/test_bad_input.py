@@ -139,8 +139,8 @@ def a_ball_driven(scene: Scene) -> None:
 def one_name_for_two_coordinates(scene: Scene) -> None:
     scene.add_joint("sleeve", kind="cylindrical", first="ground", second="bob")
     for _ in range(2):  # the same again: nothing is lost
-        scene.record_coordinate(joint="sleeve")
-    scene.record_coordinate(joint="sleeve", coordinate="angle")
+        scene.add_channel(joint="sleeve")
+    scene.add_channel(joint="sleeve", coordinate="angle")
 
 
 @rows(
@@ -159,7 +159,8 @@ def one_name_for_two_coordinates(scene: Scene) -> None:
     (gust(None, len), "force 't': force is .*C function of it by numba"),
     (gust([1, 0], np.zeros((2, 6))), "force table 't'.*times must increase"),
     (gust([], np.zeros((0, 6))), "force table 't'.*0 times"),
-    (lambda s: s.record_coordinate(joint="pin", coordinate="x"), "'pin'.*'x'.*angle"),
+    (lambda s: s.add_channel(joint="pin", coordinate="x"), "'pin'.*'x'.*angle"),
+    (lambda s: s.add_channel("a", joint="pin", expression="bob.z"), "expression is given; a channel by"),
     (one_name_for_two_coordinates, "recorded coordinate 'sleeve'.*sleeve.displacement.*another name"),
 )  # fmt: skip
 def test_drives_and_loads(what: Callable[[Scene], Any], told: str) -> None:

@@ -71,7 +71,7 @@ CALLS: dict[str, dict[str, Any]] = {
     "add_given_vessel": {
         "motion": MotionHistory(time=range(6), motion=np.zeros((6, 6))), "position": (9.0, 0, 0),
         "heading_deg": 30.0, "ramp": 1.0, "duration": 10.0, "size": (90.0, 20.0, 5.0)},
-    "record_coordinate": {"joint": "pin", "coordinate": "angle"},
+    "add_channel": {"joint": "pin", "coordinate": "angle"},
 }  # fmt: skip
 CALLS = {call: {"name": "x"} | given for call, given in CALLS.items()}
 
@@ -123,7 +123,7 @@ def test_the_calls_themselves_are_sound_and_give_a_name_once(call: str) -> None:
     scene = base()
     getattr(scene, call)(**CALLS[call])
     scene.compile()
-    if call != "record_coordinate":
+    if call != "add_channel":
         with pytest.raises(SceneError, match="'x'"):
             getattr(scene, call)(**CALLS[call])
 

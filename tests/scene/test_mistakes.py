@@ -53,7 +53,7 @@ def lift(*, slew: float = 0.0, ballast: bool = True, sea: float | None = None, m
         scene.add_sea(hs=2.0, tp=8.0, direction_deg=sea, seed=1)
     scene.add_crane(base="vessel", slew=slew, payload=Payload(mass=mass, **load))
     for name, joint in JOINTS.items():
-        scene.record_coordinate(joint=joint)
+        scene.add_channel(joint=joint)
         scene.add_actuator(name=name, joint=joint)
     if ballast:
         held = balance(scene)

@@ -57,7 +57,7 @@ def test_the_joint_axis_is_z_of_both_frames_and_the_described_pose_is_zero() -> 
     inertial = [rotation_matrix(scene.bodies[name].quaternion) @ frame.axes for name, frame in frames.items()]
     assert_allclose(inertial[0], inertial[1], atol=1e-14)
     assert_allclose(inertial[0][:, 2], axis / np.linalg.norm(axis), atol=1e-14)
-    scene.record_coordinate(joint="j")
+    scene.add_channel(joint="j")
     assert abs(simulate(scene, t_end=0.0)["coordinate"][0, 0]) < 1e-14
 
 
@@ -80,7 +80,7 @@ def test_default_coordinates_and_names() -> None:
     scene.add_joint("sleeve", kind="cylindrical", first="ground", second="b")
     assert scene.add_driver("hinge", curve=0.0).name == "hinge.angle"
     assert scene.add_actuator("sleeve").coordinate == "displacement"
-    scene.record_coordinate(joint="sleeve", coordinate="angle", name="turn")
+    scene.add_channel(joint="sleeve", coordinate="angle", name="turn")
     assert scene.recorded == {"turn": ("sleeve", "angle")}
     crane = Scene()
     crane.add_crane(base="ground", held=False)
@@ -161,7 +161,7 @@ def hung() -> Scene:
     scene.add_line(joint="wire", rung="rigid")
     scene.add_actuator("rail", name="drive", stiffness=10.0)
     scene.add_range(joint="rail", minimum=-3.0, maximum=3.0)
-    scene.record_coordinate(joint="rail")
+    scene.add_channel(joint="rail")
     return scene
 
 

@@ -67,8 +67,8 @@ def every_kind() -> Scene:
     told = SeaProvenance(seed=3, repeat_period_s=math.inf, realised_hs=np.float64(THIRD))
     scene.waves = Waves(omega=omega, amplitude=amplitude, phase=phase, direction=direction,
                         hulls={"hull": hull}, provenance=told, evaluation="exact")  # fmt: skip
-    scene.record_coordinate(joint="pin", name="angle of the arm")
-    scene.record_coordinate(joint="sleeve", coordinate="angle", name="turn")
+    scene.add_channel(joint="pin", name="angle of the arm")
+    scene.add_channel(joint="sleeve", coordinate="angle", name="turn")
     scene.add_roles(prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="wire")
     scene.provenance["water"] = VesselProvenance(database="hull", omega=(0.1, THIRD * 10), memory="passive")
     scene.notes.update(author="someone", hs=THIRD, tries=[1, 2.5, None, True], nested={"limit": -math.inf})

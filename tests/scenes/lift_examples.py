@@ -155,7 +155,7 @@ friction = 0.4
 [[point]]; name = "edge"; body = "hull"; point_m = [1, 2, 3]
 [clearance]; name = "hull"; points = ["corner"]; body = "hull"; center_m = [1, 0, 2]; size_m = [3, 4, 5]
 [relative]; name = "corner over the edge"; point = "corner"; to = "edge"; axes = "hull"
-[channel]; name = "drop"; expression = "edge.z - box.z"
+[[channel]]; name = "drop"; expression = "edge.z - box.z"
 [[limit_state]]; channel = "link_tension"; maximum_N = 8e4; minimum_N = 1e3
 [[limit_state]]; name = "luffing"; channel = "stroke"; maximum_m = 2.5; names = { cylinder = "aft luff" }
 [[limit_state]]; channel = "vessel_motion"; maximum_deg = 90; names = { motion = "roll" }
@@ -163,8 +163,8 @@ friction = 0.4
 load = "box"; weight_contingency = 1.1; center_of_gravity_m = [0.1, 0, 0]; skew_load = [1.25]
 dynamic_factor = 1.3; sling_safety_factor = 3; shackle_safety_factor = 4; shackle_breaking_load_N = 1e5
 alpha = 0.7; sources = { alpha = "the project's own" }
-[[record]]; joint = "pin"; name = "angle of the arm"
-[[record]]; joint = "sleeve"; coordinate = "angle"
+[[channel]]; joint = "pin"; name = "angle of the arm"
+[[channel]]; joint = "sleeve"; coordinate = "angle"
 [[roles]]; prefix = "aft "; slew = "pin"; cylinders = { luff = "sleeve" }; link = "rope"
 tip = { body = "arm", point_m = [0, 0, 1] }
 areas = [{ cylinder = "luff", full_m2 = 0.5, rod_side_m2 = 0.25 }]
@@ -186,7 +186,7 @@ def every_table() -> Scene:
     scene = Scene(**_words(parsed["scene"]))
     scene.notes.update(parsed["notes"])
     for name in (name for name in TABLES if name in parsed and name not in ("scene", "notes")):
-        call = {"hydrodynamics": "add_vessel", "record": "record_coordinate"}.get(name, f"add_{name}")
+        call = {"hydrodynamics": "add_vessel"}.get(name, f"add_{name}")
         for one in parsed[name] if isinstance(parsed[name], list) else [parsed[name]]:
             getattr(scene, call)(**_words(one))
     return scene

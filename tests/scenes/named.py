@@ -29,7 +29,7 @@ def on_joint(body: str, *, mass: float = 1.0, inertia: float = 1.0, kind: str = 
     scene = Scene(name=body) if gravity is None else Scene(name=body, gravity=gravity)
     scene.add_body(body, mass=mass, inertia=[inertia] * 3, **state)
     scene.add_joint(joint, kind=kind, first="ground", second=body, axis=axis)
-    scene.record_coordinate(joint=joint)
+    scene.add_channel(joint=joint)
     return scene
 
 

@@ -1,4 +1,4 @@
-"""Channels of one's own, expressions of others."""
+"""Channels of one's own: expressions of others, and coordinates of joints."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from seacrane.description.dimensions import UNITS, Dimension, unit_text
 from seacrane.description.expression import Curve, Number, Program, dimension_of, parsed, worked_out
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.pick import Pick, pick_of
+from seacrane.description.recorded import record_coordinate
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, text_of
+from seacrane.inputs.keywords import taken
 from seacrane.inputs.plain_data import DERIVED
 from seacrane.inputs.shown import shown
 
@@ -31,8 +33,11 @@ class OwnChannel:
     unit: str = field(metadata=DERIVED)
 
 
-def add_channel(scene: Description, name: str, *, expression: str) -> OwnChannel:
-    """Record an expression of other channels: the channel own, at this name, as in ``own[residual]``.
+def add_channel(
+    scene: Description, name: str | None = None, *, expression: str | None = None, joint: str | None = None,
+    coordinate: str | None = None,
+) -> OwnChannel | str:  # fmt: skip
+    """Record an expression of other channels as ``own[name]``, or a joint's coordinate and its rate.
 
     An expression has curves ("hook_load[main]", "roll"), named points and bodies by axis ("tip.z", "load.z",
     of a body its centre of mass), numbers with a unit ("3 m", "10 deg"; without one pure), + - * /,
@@ -42,17 +47,27 @@ def add_channel(scene: Description, name: str, *, expression: str) -> OwnChannel
     Parameters
     ----------
     name : str
-        Along the dimension "expression" of the channel.
+        Along the dimension "expression" of the channel own, or "joint_coordinate" of the channels coordinate
+        and coordinate_rate; default: the joint's.
     expression : str
         Such as "tip.z - load.z".
+    joint, coordinate : str
+        Whose coordinate is recorded, and which; default: its usual one.
 
     Raises
     ------
     SceneError
-        For a text that is none, a channel, point or body that is not there, and units that do not fit. A name
-        along a channel that the scene does not have is refused when a run starts.
+        For a text that is none, a joint, channel, point or body that is not there, and units that do not fit.
+        A name along a channel that the scene does not have is refused when a run starts.
     """
-    what = f"channel {name_of('channel', name)!r}"
+    takes = ("expression",) if joint is None else ("joint", "coordinate")
+    taken(
+        "channel", f"channel by {takes[0]}", takes, expression=expression, joint=joint, coordinate=coordinate
+    )
+    if joint is not None:
+        return record_coordinate(scene, joint, coordinate=coordinate, name=name)
+    label = name_of("channel", name)
+    what = f"channel {label!r}"
     text = text_of(f"{what}: expression", expression)
     program = parsed(what, text)
 
@@ -63,7 +78,7 @@ def add_channel(scene: Description, name: str, *, expression: str) -> OwnChannel
 
     found = worked_out(program, leaf, lambda call, values: dimension_of(what, call, values))
     added: OwnChannel = insert(
-        "channel", scene.channels, OwnChannel(name=name, expression=text, unit=unit_text(found))
+        "channel", scene.channels, OwnChannel(name=label, expression=text, unit=unit_text(found))
     )
     return added
 

@@ -358,7 +358,6 @@ _ALL = (
     _call("friction", limits.add_friction, _core.Friction),
     _call("contact", contact.add_contact, _core.Contact, **CONTACT),
     _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
-    _call("record", recorded.record_coordinate),
     _call("point", recorded.add_point, _core.Point),
     _call(
         "clearance", clearances.add_clearance, points={"type": "texts"}, center=POINT, size=POINT,

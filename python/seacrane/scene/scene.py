@@ -117,7 +117,6 @@ class Scene(Description):
     add_joint = joints.add_joint
     add_driver = drives.add_driver
     add_actuator = drives.add_actuator
-    record_coordinate = recorded.record_coordinate
     add_range = recorded.add_range
     add_point = recorded.add_point
     add_limit_state = limit_states.add_limit_state

@@ -105,5 +105,5 @@ def sampled_controller() -> Scene:
     scene.add_body(name="bob", mass=20.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0.0, -2.0))
     scene.add_joint(kind="revolute", name="pin", first="load", second="bob", point=(0, 0, 0), axis=(0, -1, 0))
     scene.add_actuator(name="drive", joint="rail")
-    scene.record_coordinate(joint="pin")
+    scene.add_channel(joint="pin")
     return scene

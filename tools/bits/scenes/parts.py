@@ -31,7 +31,7 @@ def guided(axis: Any = (1.0, 0.0, 0.0), **more: Any) -> Scene:
     """The same on a rail "rail"."""
     scene = with_load(**more)
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="load", axis=axis)
-    scene.record_coordinate(joint="rail")
+    scene.add_channel(joint="rail")
     return scene
 
 
