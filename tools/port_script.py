@@ -37,6 +37,8 @@ CALLS = {
     "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),
     "use_actual_position": Call("add_sea", words={"phase": '"actual"'}, note=AGAIN),
     "use_slow_position": Call("add_sea", words={"phase": '"slow"'}, note=AGAIN),
+    "add_given_vessel": Call("add_vessel", places=("motion",)),
+    "add_vessels": Call("add_vessel", renamed={"group": "what"}),
     "add_seabed": Call("add_contact", words={"on": '"seabed"'}),
     "simulate_stages": Call("simulate", renamed={"stages": "t_end"}),
     "simulate_to_file": Call("simulate", places=("", "to", ""), renamed={"path": "to"}),

@@ -51,7 +51,7 @@ def _one() -> Scene:
 
 def _two(lid: float | None) -> Scene:
     scene = Scene(name="two vessels", gravity=9.81)
-    scene.add_vessels(two_barges(lid_damping=lid), mooring_period=60.0)
+    scene.add_vessel(two_barges(lid_damping=lid), mooring_period=60.0)
     for vessel in scene.vessels:
         scene.add_sea(vessel=vessel, **SEA)
     return scene

@@ -71,7 +71,7 @@ def test_block_and_load_swing_as_a_double_pendulum() -> None:
 def test_it_hangs_at_a_height_or_stands_on_a_deck_and_is_lifted_off() -> None:
     assert hoisted(**BOX, EA=3e7, height=2.0).bodies["load"].position[2] == pytest.approx(3.5)
     scene = Scene()
-    scene.add_given_vessel("rest")
+    scene.add_vessel(motion="rest")
     scene.add_crane(s1=1.5, s2=1.0, held=True)
     slings = {"length": 5.0, "EA": 5e7}
     how: dict[str, Any] = {"block_mass": 500.0, "slings": slings, "winch": {"lag": 0.1}}

@@ -32,7 +32,7 @@ from seacrane.description.curves import spline_curve
 from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
-from seacrane.lift.vessel_keys import given_vessel_keys, part_keys, sea_keys, vessel_keys
+from seacrane.lift.vessel_keys import part_keys, sea_keys, vessel_keys
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
@@ -40,7 +40,6 @@ from seacrane.scene import (
     bridles,
     contact,
     entrapped,
-    given_vessel,
     heave,
     hoist,
     hydraulics,
@@ -259,11 +258,8 @@ _ALL = (
         ),
     ),
     Table(
-        name="vessel", text="A vessel from a hydrodynamic database.",
-        keys=vessel_keys(),
-    ),
-    Table(
-        name="given_vessel", text=_summary(given_vessel.add_given_vessel), keys=given_vessel_keys(),
+        name="vessel", keys=vessel_keys(),
+        text="A vessel that floats, from a hydrodynamic database, or one whose motion is given.",
     ),
     _call("body", bodies.add_body, _core.Body, inertia={"shapes": ((3, 3), (3,))}, drop=LENGTH),
     Table(
