@@ -42,7 +42,7 @@ from seacrane.scene.mooring_parts import Mooring
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (the paper's station keeping)
 MOORING_DAMPING = 0.1  # of critical
-MEMORY = ("by-motion", "per-pair", "passive", "convolution", "none")
+MEMORY = ("by-motion", "per-pair", "convolution", "none")
 OF_GROUP = ("joint", "none")
 KINDS = ("per-pair", "by-motion")
 ROLL = 3, 3
@@ -254,17 +254,15 @@ def _memory_of(database: HydroDatabase, kind: str) -> MemoryModel | RetardationM
     if kind == "convolution":
         return retardation_functions(database=database)
     own = database.memory
-    if own is not None and _kind_of(own) == kind:
+    if own is not None and _is_of(own, kind):
         return own
     return fit_memory(database=database, kind=kind)
 
 
-def _kind_of(model: MemoryModel) -> str:
-    """The kind of a fitted model, as `fit_memory` takes it."""
-    if model.motion is not None:
-        return "by-motion"
+def _is_of(model: MemoryModel, kind: str) -> bool:
+    """Whether a fitted model is of a kind, as `fit_memory` takes it; other joint models are of none."""
     joint = all(is_energy_form(block) for block in model.blocks if block.cause == RADIATION)
-    return "passive" if joint else "per-pair"
+    return model.motion is not None if kind == "by-motion" else model.motion is None and not joint
 
 
 def _core_memory(
