@@ -154,6 +154,10 @@ CONTACT = {
     "stiffness": {"unit": "N/m"}, "depth": LENGTH,
     "table": {"type": "array", "unit": "m, N", "shapes": ((-1, 2),)},
 }  # fmt: skip
+FEET = tuple(
+    replace(key, required=False)
+    for key in keys_of(contact.add_contact, _core.Contact, more=CONTACT, only=hoist.FEET_KEYS)
+)
 COORDINATE = (
     Key(name="name", type="text", required=True, text="Its label, such as boom."),
     Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
@@ -316,6 +320,7 @@ _ALL = (
         block_mass={"unit": "kg"}, breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
         winch={"type": "table", "keys": keys_of(lines.add_winch, _core.Line, without=("line",))},
+        feet={"type": "table", "keys": FEET},
         wire={"type": "table", "keys": keys_of(lines.add_line, _core.Line, more=WIRE, only=hoist.WIRE_KEYS)},
     ),
     Table(
