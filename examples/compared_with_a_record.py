@@ -22,7 +22,7 @@ random = np.random.default_rng(7)
 
 def run(history: MotionHistory):
     scene = Scene(name="lift that was measured")
-    scene.add_given_vessel(history, ramp=0.0)
+    scene.add_vessel(motion=history, ramp=0.0)
     scene.add_body(name="load", mass=MASS, inertia=(1e5, 1e5, 1e5), position=LOAD)
     scene.add_joint(kind="distance", name="wire", first="vessel", second="load", point=TIP, second_point=LOAD)
     return simulate(scene, t_end=290.0, dt_out=0.1)

@@ -40,7 +40,7 @@ ROPE = (WIRE - RHO * np.pi / 4.0 * DIAMETER**2) * G  # N/m, in water
 def manifold(hs: float = 0.0, depth: float | None = None) -> Scene:
     """On deck behind the crane; or over the side, its underside so deep."""
     scene = Scene(name="deep lowering", gravity=G)
-    scene.add_given_vessel(shipped_database(), duration=1800.0)
+    scene.add_vessel(motion=shipped_database(), duration=1800.0)
     scene.add_sea(hs=hs, tp=TP, direction_deg=165.0, seed=1)
     jib, head = scene.add_crane(slew=0.0 if depth is None else -np.pi / 2.0, s1=1.0, s2=2.0).tip
     scene.add_driver(joint="A", name="slew", curve=Curve.constant(value=0.0))

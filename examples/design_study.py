@@ -19,7 +19,7 @@ SEEDS = range(1, 13)
 def lift(*, seed: int, foot_x: float, tugger: float) -> Scene:
     """A load of 20 t over the side; a tugger pulls it aft with 20 kN."""
     scene = Scene(name="design")
-    scene.add_vessel(shipped_database(), memory="passive")
+    scene.add_vessel(shipped_database())
     scene.add_sea(hs=1.0, tp=9.0, direction_deg=150.0, seed=seed, count=60)
     payload = Payload(mass=20e3, link_length=8.0)
     scene.add_crane(foot=(foot_x, 10.0, 10.0), slew=-1.57, s1=1.0, s2=1.5, payload=payload, held=True)

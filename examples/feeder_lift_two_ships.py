@@ -36,20 +36,17 @@ RECORDED = Outputs(
 def feeder_lift(lid_damping: float | None, seed: int = 1) -> Scene:
     """The load on the feeder's deck below the crane's tip, its wire slack."""
     scene = Scene(name="feeder lift", gravity=GRAVITY)
-    scene.add_vessels(two_barges(lid_damping=lid_damping), mooring_period=60.0)
+    scene.add_vessel(two_barges(lid_damping=lid_damping), mooring_period=60.0)
     crane = load_crane("lattice_boom_100t")
-    jib, head = scene.add_crane(
+    scene.add_crane(
         crane, base="crane vessel", foot=(0.0, 6.0, 3.0), coordinates={"slew": -0.5 * np.pi, "boom": 1.176}
-    ).tip
+    )
     scene.add_ballast(vessel="crane vessel")
-    x, y, z = scene.place_of("tip")
-    scene.add_body(name="load", mass=MASS, size=SIZE, position=(x, y, DECK + 0.5 * SIZE[2]))
-    scene.add_contact("load", on="feeder", points=FEET, place=(0.0, 0.0, DECK), friction=0.4, name="feet")
-    scene.add_line(
-        name="hoist", bodies=[jib, "load"], points=[head, (0.0, 0.0, 0.5 * SIZE[2])], EA=EA,
-        length=z - DECK - SIZE[2] + SLACK,
+    scene.add_hoist(
+        mass=MASS, size=SIZE, on="feeder", height=DECK, slack=SLACK, EA=EA, damping=False,
+        feet={"points": FEET, "friction": 0.4, "name": "feet"},
+        winch={"maximum_acceleration": 0.5, "lag": 0.2},
     )  # fmt: skip
-    scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
     for vessel in scene.vessels:
         scene.add_sea(vessel=vessel, hs=HS, tp=TP, direction_deg=DIRECTION, seed=seed)
     return scene

@@ -22,7 +22,7 @@ head_sea = np.stack([0 * k, 0 * k, heave, 0 * k, -1j * pitch, 0 * k], axis=1)
 raos = MotionRaos(omega=omega, heading=[np.pi], values=[head_sea], name="box barge")
 
 scene = Scene(name="given ship")
-scene.add_given_vessel(raos, name="barge", duration=300.0, size=(LENGTH, BREADTH, DRAUGHT))
+scene.add_vessel(motion=raos, name="barge", duration=300.0, size=(LENGTH, BREADTH, DRAUGHT))
 scene.add_sea(vessel="barge", hs=2.0, tp=9.0, direction_deg=180.0, seed=4)
 
 MASS, TIP, LOAD = 50e3, np.array([30.0, 20.0, 25.0]), np.array([30.0, 20.0, 22.0])

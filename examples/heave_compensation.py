@@ -34,7 +34,7 @@ TIP = FOOT + CRANE.geometry.tip(**POSE)
 def lift(*, controlled: bool = False, gas: bool = False) -> Scene:
     """50 t below the crane of a ship in waves; one may control the knuckle cylinder, or hang it on gas."""
     scene = Scene(name="heave compensation")
-    scene.add_given_vessel(raos, duration=DURATION, size=(LENGTH, BREADTH, DRAUGHT))
+    scene.add_vessel(motion=raos, duration=DURATION, size=(LENGTH, BREADTH, DRAUGHT))
     scene.add_sea(vessel="vessel", hs=1.5, tp=9.0, direction_deg=180.0, seed=2)
     jib, head = scene.add_crane(**POSE).tip
     for joint in ("A", "main_cylinder"):

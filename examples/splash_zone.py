@@ -34,7 +34,7 @@ def parts() -> list[BoxPart | PlatePart]:
 def template(hs: float, seed: int) -> Scene:
     """Above the waves, on four slings."""
     scene = Scene(name="splash zone", gravity=G)
-    scene.add_given_vessel(shipped_database())
+    scene.add_vessel(motion=shipped_database())
     scene.add_sea(hs=hs, tp=TP, direction_deg=165.0, seed=seed)
     scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0)
     scene.add_hoist(

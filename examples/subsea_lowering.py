@@ -38,7 +38,7 @@ BODY = BoxPart(size=SIZE, strips=(3, 2), fill=FILL, perforation=OPEN)
 def template(hs: float, seed: int, depth: float | None = None) -> Scene:
     """On deck behind the crane, slings and hook above it; or over the side, its underside so deep."""
     scene = Scene(name="subsea lowering", gravity=G)
-    scene.add_given_vessel(shipped_database())
+    scene.add_vessel(motion=shipped_database())
     scene.add_sea(hs=hs, tp=TP, direction_deg=165.0, seed=seed)
     jib, head = scene.add_crane(slew=0.0 if depth is None else -np.pi / 2.0, s1=1.0, s2=2.0).tip
     scene.add_driver(joint="A", name="slew", curve=Curve.constant(value=0.0))

@@ -51,7 +51,7 @@ def _one() -> Scene:
 
 def _two(lid: float | None) -> Scene:
     scene = Scene(name="two vessels", gravity=9.81)
-    scene.add_vessels(two_barges(lid_damping=lid), mooring_period=60.0)
+    scene.add_vessel(two_barges(lid_damping=lid), mooring_period=60.0)
     for vessel in scene.vessels:
         scene.add_sea(vessel=vessel, **SEA)
     return scene
@@ -59,19 +59,16 @@ def _two(lid: float | None) -> Scene:
 
 def _lift(lid: float | None) -> Scene:
     scene = _two(lid)
-    jib, head = scene.add_crane(
+    scene.add_crane(
         load_crane("lattice_boom_100t"), base="crane vessel", foot=(0.0, 6.0, 3.0),
         coordinates={"slew": -0.5 * np.pi, "boom": 1.176},
-    ).tip  # fmt: skip
-    scene.add_ballast(vessel="crane vessel")
-    x, y, z = scene.place_of("tip")
-    scene.add_body(name="load", mass=MASS, size=SIZE, position=(x, y, DECK + 0.5 * SIZE[2]))
-    scene.add_contact("load", on="feeder", points=FEET, place=(0.0, 0.0, DECK), friction=0.4, name="feet")
-    scene.add_line(
-        name="hoist", bodies=[jib, "load"], points=[head, (0.0, 0.0, 0.5 * SIZE[2])], EA=3e8,
-        length=z - DECK - SIZE[2] + 1.0,
     )  # fmt: skip
-    scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
+    scene.add_ballast(vessel="crane vessel")
+    scene.add_hoist(
+        mass=MASS, size=SIZE, on="feeder", height=DECK, slack=1.0, EA=3e8, damping=False,
+        feet={"points": FEET, "friction": 0.4, "name": "feet"},
+        winch={"maximum_acceleration": 0.5, "lag": 0.2},
+    )  # fmt: skip
     return scene
 
 

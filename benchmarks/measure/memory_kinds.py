@@ -16,7 +16,7 @@ from .timing import Timed, timed_run
 
 PART = "loads, waves, memory"
 SAMPLE = "sample of a convolution, per its step"
-KINDS = ("per-pair", "by-motion", "passive", "convolution")
+KINDS = ("per-pair", "by-motion", "convolution")
 SCENES = {"vessel": cases.vessel, "case2": cases.case2}
 T_END, REPEATS = 100.0, 3  # s, -
 

@@ -57,7 +57,7 @@ def _memories() -> Iterator[list[str]]:
     quantities = quantities_of(scene, scene.compile(), [name for name, _ in COLUMNS.values()])
     how: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-8}
     truth = simulate(scene, 100.0, **how)
-    for kind in ("by-motion", "passive", "convolution"):
+    for kind in ("by-motion", "convolution"):
         found = simulate(cases.case2(memory=kind), 100.0, **how)
         apart = (
             compare(quantities[q].values(truth), quantities[q].values(found)) for q, _ in COLUMNS.values()

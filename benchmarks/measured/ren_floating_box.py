@@ -75,7 +75,7 @@ def in_time(database: HydroDatabase, amplitude: float) -> Array:
     motions, which are far from this frequency.
     """
     scene = Scene(name="flume", gravity=G)
-    scene.add_vessel(database, memory="passive")
+    scene.add_vessel(database)
     scene.waves = regular_wave(database, omega=OMEGA, heading_deg=90.0, amplitude=amplitude, phase=0.0)
     period = 2.0 * np.pi / OMEGA
     result = simulate(scene, t_end=100.0 * period, dt_out=period / 20.0)

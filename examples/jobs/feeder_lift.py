@@ -12,7 +12,7 @@ raos = MotionRaos(omega=OMEGA, heading=[np.pi], values=np.outer(HEAVE, [0, 0, 1,
 scene = Scene(name="feeder lift")
 scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0, held=True)
 x, y, _ = scene.place_of("tip")
-scene.add_given_vessel(raos, name="barge", position=(x, y, 0.0))
+scene.add_vessel(motion=raos, name="barge", position=(x, y, 0.0))
 scene.add_sea(vessel="barge", hs=1.5, tp=8.0, direction_deg=180.0, seed=2)
 scene.add_hoist(mass=MASS, size=(6, 4, 4), on="barge", height=DECK, EA=EA, slack=SLACK, winch={"lag": 0.2})
 lift = Stage(

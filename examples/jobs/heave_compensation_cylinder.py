@@ -18,7 +18,7 @@ heave = np.outer(HEAVE * np.sin(OMEGA * time), [0, 0, 1, 0, 0, 0])
 
 def lift(lag: float) -> Scene:
     scene = Scene(name="heave compensation on a cylinder")
-    scene.add_given_vessel(MotionHistory(time=time, motion=heave), ramp=9.0)
+    scene.add_vessel(motion=MotionHistory(time=time, motion=heave), ramp=9.0)
     jib, head = scene.add_crane(**POSE).tip
     scene.add_actuator(joint="knuckle_cylinder")
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=TIP - [0.0, 0.0, ROPE])

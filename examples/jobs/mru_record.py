@@ -26,7 +26,7 @@ heave, roll, pitch = filtfilt(*butter(4, 0.5, fs=10.0), record[:, 1:], axis=0).T
 zero = np.zeros(t.size)
 motion = np.column_stack([zero, zero, heave, np.radians(roll), np.radians(pitch), zero])
 scene = Scene(name="record")
-scene.add_given_vessel(MotionHistory(time=record[:, 0], motion=motion), ramp=0.0)
+scene.add_vessel(motion=MotionHistory(time=record[:, 0], motion=motion), ramp=0.0)
 scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0)
 scene.add_hoist(mass=MASS, size=(1.6, 1.6, 1.2), length=ROPE, stiffness=STIFF, damping=False)
 at = scene.place_of("tip")

@@ -9,7 +9,7 @@ M1, M2, L1, L2 = 10e3, 80e3, 15.0, 6.0  # kg and m: block on the wire, load on t
 SIZE, LUGS = np.array([12.0, 4.0, 5.0]), [(x, y, 2.5) for x in (5.0, -5.0) for y in (2.0, -2.0)]  # m
 
 scene = Scene(name="nacelle")
-scene.add_given_vessel("rest")
+scene.add_vessel(motion="rest")
 scene.add_crane(slew=-np.pi / 2, s1=3.5, s2=2.0, held=True)
 leg = float(np.linalg.norm([5.0, 2.0, L2]))
 slings = {"length": leg, "EA": 1e8 * leg, "points": LUGS}

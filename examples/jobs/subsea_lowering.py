@@ -7,7 +7,7 @@ from seacrane import Scene, Stage, Until, shipped_database, simulate
 MASS, EA, START, DEPTH, RATE = 20e3, 40e9 * 0.035**2, 5.0, 50.0, 0.5  # kg, N (35 mm), m, m, m/s
 
 scene = Scene(name="subsea lowering")
-scene.add_given_vessel(shipped_database())
+scene.add_vessel(motion=shipped_database())
 scene.add_sea(hs=2.0, tp=8.0, direction_deg=165.0, seed=3)
 scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0)
 tip = scene.place_of("tip")[2]

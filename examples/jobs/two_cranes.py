@@ -11,7 +11,7 @@ CRANES = {"ship": ("vessel", (33.0, 10.0, 10.0), -OUT), "quay": ("ground", (33.0
 scene, time = Scene(name="two cranes"), np.arange(0.0, 200.0, 0.5)
 motion = np.zeros((time.size, 6))
 motion[:, 2] = HEAVE * np.sin(OMEGA * time)
-scene.add_given_vessel(MotionHistory(time=time, motion=motion))
+scene.add_vessel(motion=MotionHistory(time=time, motion=motion))
 turning = MASS * LENGTH**2 / 12.0
 scene.add_body(name="load", mass=MASS, inertia=(turning, 1e5, turning), position=CENTRE)
 lugs = {}

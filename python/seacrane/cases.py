@@ -72,7 +72,7 @@ def vessel(
     Parameters
     ----------
     memory : str
-        "per-pair" (default, the paper's), "by-motion", "passive", "convolution" or "none".
+        "per-pair" (default, the paper's), "by-motion", "convolution" or "none".
     kinematics : str
         "yaw_following" or "paper".
     database : path or HydroDatabase, optional

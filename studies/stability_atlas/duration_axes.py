@@ -20,7 +20,7 @@ def _lift(hours: float) -> Case:
 
 def _vessel(hours: float) -> Case:
     """The vessel alone in waves, its memory passive."""
-    scene = cases.vessel(count=WAVES, memory="passive")
+    scene = cases.vessel(count=WAVES, memory="by-motion")
     return Case(scene=scene, t_end=HOUR * hours, dt_out=HOUR * hours / OUTPUTS)
 
 

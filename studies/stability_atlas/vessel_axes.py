@@ -73,7 +73,7 @@ def _trim(degrees: float) -> Case:
 
 def _memory(factor: float) -> Case:
     """The vessel in waves, the loads of its fluid memory multiplied: below 0 the memory drives the motion."""
-    scene = cases.vessel(count=WAVES, memory="passive")
+    scene = cases.vessel(count=WAVES, memory="by-motion")
     change_vessel(scene, "vessel", memory=scaled_memory(scene, "vessel", factor))
     return Case(scene=scene, t_end=300.0, dt_out=2.0)
 

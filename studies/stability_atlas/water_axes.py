@@ -137,7 +137,7 @@ def _two_ships(hs: float) -> Case:
     """Two barges side by side in one water."""
     group = two_barges(lid_damping=0.03)
     scene = Scene(name="two barges", gravity=GRAVITY)
-    scene.add_vessels(group)
+    scene.add_vessel(group)
     for number, vessel in enumerate(list(scene.vessels)):
         sea = {"hs": hs, "tp": max(8.0, 4.2 * np.sqrt(hs)), "direction_deg": 180.0, "gamma": 3.3, "seed": 1}
         scene.add_sea(vessel=vessel, **(sea if number == 0 else {}))

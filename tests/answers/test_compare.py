@@ -33,7 +33,7 @@ def led(motion: Curve, *, dt_out: float = 0.25) -> Result:
     six = np.zeros((time.size, 6))
     six[:, 2] = motion(time)
     scene = Scene(name="led")
-    scene.add_given_vessel(MotionHistory(time=time, motion=six), ramp=0.0)
+    scene.add_vessel(motion=MotionHistory(time=time, motion=six), ramp=0.0)
     return simulate(scene, t_end=END, dt_out=dt_out)
 
 

@@ -61,7 +61,7 @@ def test_a_lift_has_its_sections_and_replaces_no_other_page(page: Report, tmp_pa
 def test_a_staged_lift_tells_what_was_lifted_by_what_and_when() -> None:
     """A block and slings on a winch from a crane on a given ship, hoisted in the second of two stages."""
     scene = Scene(name="staged")
-    scene.add_given_vessel("rest", name="barge")
+    scene.add_vessel(motion="rest", name="barge")
     scene.add_crane(base="barge", slew=-np.pi / 2, s1=2.0, s2=2.0)
     rig = {"block_mass": 1e3, "slings": {"angle_deg": 60, "EA": 5e7}, "winch": {"maximum_rate": 0.5}}
     scene.add_hoist(mass=20e3, size=(3, 3, 2), EA=4e7, falls=2, **rig)

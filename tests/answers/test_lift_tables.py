@@ -16,21 +16,21 @@ from seacrane.scene import MotionHistory
 
 G, LOAD = 9.80665, 40e3  # m/s2, kg
 SHIPS = """
-[[given_vessel]]
-database = "hull_115"; duration_s = 30; ramp_s = 5
-[[given_vessel]]
+[[vessel]]
+database = "hull_115"; motion = "raos"; duration_s = 30; ramp_s = 5
+[[vessel]]
 name = "barge"; position_m = [0, 60, 0]; heading_deg = 90; size_m = [90, 30, 5]
-[given_vessel.raos]
+[vessel.raos]
 omega_rad_per_s = [0.3, 0.6]
-[[given_vessel.raos.headings]]
+[[vessel.raos.headings]]
 heading_deg = 0
 amplitude = [[1, 0, 1, 0, 0.009, 0], [0.8, 0, 0.8, 0, 0.02, 0]]
 phase_deg = [[-90, 0, 0, 0, -90, 0], [-90, 0, 0, 0, -90, 0]]
-[[given_vessel]]
+[[vessel]]
 name = "quay"; motion = "rest"; position_m = [0, 120, 0]
-[[given_vessel]]
+[[vessel]]
 name = "measured"; position_m = [0, 180, 0]
-[given_vessel.history]
+[vessel.history]
 time_s = [0, 1, 2, 3, 4, 5]
 motion = [[0, 0, 0, 0, 0, 0], [0, 0, 0.1, 0, 0, 0], [0, 0, 0.2, 0, 0, 0],
           [0, 0, 0.3, 0, 0, 0], [0, 0, 0.2, 0, 0, 0], [0, 0, 0.1, 0, 0, 0]]
@@ -57,10 +57,11 @@ def test_given_ships(tmp_path: Path) -> None:
     motion = np.zeros((6, 6))
     motion[:, 2] = 0.0, 0.1, 0.2, 0.3, 0.2, 0.1
     scene = Scene()
-    scene.add_given_vessel(shipped_database(), duration=30.0, ramp=5.0)
-    scene.add_given_vessel(barge, name="barge", position=(0, 60, 0), heading_deg=90.0, size=(90, 30, 5))
-    scene.add_given_vessel("rest", name="quay", position=(0, 120, 0))
-    scene.add_given_vessel(MotionHistory(time=range(6), motion=motion), name="measured", position=(0, 180, 0))
+    scene.add_vessel(motion=shipped_database(), duration=30.0, ramp=5.0)
+    scene.add_vessel(motion=barge, name="barge", position=(0, 60, 0), heading_deg=90.0, size=(90, 30, 5))
+    scene.add_vessel(motion="rest", name="quay", position=(0, 120, 0))
+    history = MotionHistory(time=range(6), motion=motion)
+    scene.add_vessel(motion=history, name="measured", position=(0, 180, 0))
     scene.add_sea(hs=1.0, tp=12.0, direction_deg=90.0, count=40)
     scene.add_sea(vessel="barge")
     scene.add_sea(vessel="quay")
@@ -68,6 +69,8 @@ def test_given_ships(tmp_path: Path) -> None:
     one, other = simulate(read, 5.0), simulate(scene, 5.0)
     np.testing.assert_allclose(one["vessel_motion"], other["vessel_motion"], atol=1e-12)
     assert np.ptp(one["vessel_motion"][:, 0, 2]) > 1e-3 and read.provenance == scene.provenance
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene
 
 
 def test_a_slack_tank(tmp_path: Path) -> None:

@@ -181,7 +181,7 @@ def test_a_hit_sideways_bears_no_weight_and_counts_the_mass_that_moves(rammed: b
     mass, speed, stiffness = 50e3, 0.3, 2e6
     scene = Scene(name="bumper", gravity=GRAVITY)
     if rammed:
-        scene.add_given_vessel(motion="rest", name="ship", position=(-20.0, 0.0, 0.0))
+        scene.add_vessel(motion="rest", name="ship", position=(-20.0, 0.0, 0.0))
     scene.add_body("module", mass=mass, size=(8, 6, 4), velocity=(-speed if rammed else speed, 0, 0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="module", axis=(1, 0, 0))
     how: dict[str, Any] = {"stiffness": stiffness, "damping": 0.0, "name": "side"}

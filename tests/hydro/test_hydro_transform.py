@@ -125,9 +125,9 @@ def test_moments_and_power_do_not_depend_on_the_point() -> None:
     assert there.drift.coefficient @ new == pytest.approx(base.drift.coefficient @ old)
 
 
-def test_the_free_vessel_with_passive_memory_has_the_same_eigenvalues() -> None:
+def test_the_free_vessel_with_memory_by_motion_has_the_same_eigenvalues() -> None:
     base = shipped_database()
-    base = dataclasses.replace(base, memory=fit_memory(database=base, kind="passive", r2=0.9))
+    base = dataclasses.replace(base, memory=fit_memory(database=base))
     there = base.at((12.0, -5.0, 3.0))
     before, after = (np.linalg.eigvals(free_vessel_system(vessel_parameters(d))) for d in (base, there))
     distance = np.abs(before[:, None] - after)

@@ -71,7 +71,7 @@ def test_block_and_load_swing_as_a_double_pendulum() -> None:
 def test_it_hangs_at_a_height_or_stands_on_a_deck_and_is_lifted_off() -> None:
     assert hoisted(**BOX, EA=3e7, height=2.0).bodies["load"].position[2] == pytest.approx(3.5)
     scene = Scene()
-    scene.add_given_vessel("rest")
+    scene.add_vessel(motion="rest")
     scene.add_crane(s1=1.5, s2=1.0, held=True)
     slings = {"length": 5.0, "EA": 5e7}
     how: dict[str, Any] = {"block_mass": 500.0, "slings": slings, "winch": {"lag": 0.1}}
@@ -84,6 +84,34 @@ def test_it_hangs_at_a_height_or_stands_on_a_deck_and_is_lifted_off() -> None:
     lifted = simulate(scene, [lift, Stage(name="up", duration=20.0)])
     assert lifted.stages[0].ended_by and lifted.curve("position[load, z]")[-1] > 10.0
     assert lifted.select("hook_load", suspension="hoist")[-1] == pytest.approx(20.5e3 * G, rel=0.02)
+
+
+def test_on_feet_it_is_what_is_built_by_hand() -> None:
+    """On a turned deck; the load is lifted off and comes down again."""
+    scenes, height, (x, y, z) = (Scene(), Scene()), 2.0, 0.5 * np.array(BOX["size"])
+    for scene in scenes:
+        scene.add_vessel(motion="rest", name="feeder", position=(3.0, -2.0, 0.0), heading_deg=30.0)
+        scene.add_crane(base="ground", s1=1.5, s2=1.0, held=True)
+    made, hand = scenes
+    how: dict[str, Any] = {"slack": 0.1, "winch": {"lag": 0.2}, "damping": False, "feet": {"friction": 0.4}}
+    body, head = made.add_hoist(**BOX, EA=3e8, on="feeder", height=height, **how).tip  # type: ignore[misc]
+    tip = hand.place_of("tip")
+    turned = hand.bodies["feeder"].quaternion
+    hand.add_body("load", **BOX, position=(*tip[:2], height + z), quaternion=turned)
+    corners = [(a, b, -z) for a in (-x, x) for b in (-y, y)]
+    hand.add_contact("load", on="feeder", points=corners, place=(0.0, 0.0, height), friction=0.4)
+    length = tip[2] - height - 2.0 * z + 0.1
+    hand.add_line("hoist", bodies=[body, "load"], points=[head, (0.0, 0.0, z)], EA=3e8, length=length)
+    hand.add_winch("hoist", lag=0.2)
+    assert made.loads["load on feeder"] == hand.loads["load on feeder"]
+    up = Until.clear("load on feeder", minimum=0.2)
+    lift = [Stage(name="up", until=up, maximum_duration=20.0, commands={"hoist.rate": -0.3}),
+            Stage(name="down", duration=3.0, commands={"hoist.rate": 0.3})]  # fmt: skip
+    runs = [simulate(scene, lift, rtol=1e-8, channels=["position", "contact_press"]) for scene in scenes]
+    assert runs[0].stages[0].ended_by
+    one, other = (run.select("position", body="load")[-1] for run in runs)
+    assert one == pytest.approx(other, abs=1e-6)
+    assert runs[0]["contact_press"][-1].sum() == pytest.approx(BOX["mass"] * G, rel=0.05)
 
 
 def test_slack_is_what_the_winch_takes_in_before_the_line_pulls() -> None:
@@ -144,7 +172,8 @@ SLUNG = {"angle_deg": 60, "EA": 5e7}
      ({"block_mass": 1e3, "slings": SLUNG | {"angle_deg": 95}}, "between 0 and 90"),
      ({"height": 500.0}, "above the tip"), ({"height": 1.0, "length": 3.0}, "a length and a height"),
      ({"stiffness": 1e6}, "one of them"), ({"crane": "aft "}, "prefixes of the scene's cranes"),
-     ({"slack": 0.2}, "its load stands on a deck"),
+     ({"slack": 0.2}, "its load stands on a deck"), ({"feet": True}, "feet and no deck"),
+     ({"on": "ground", "feet": {"place": (0, 0, 1)}}, "feet has 'place'"), ({"winch": 3}, "winch is 3"),
      ({"on": "ground", "slack": 0.2, "block_mass": 1e3}, "has no block")],
 )  # fmt: skip
 def test_what_does_not_fit_is_named_and_leaves_the_scene_as_it_was(given: dict[str, Any], words: str) -> None:

@@ -61,7 +61,7 @@ def test_a_loose_control_is_left_out() -> None:
 def test_the_control_is_the_run_in_small_waves(channel: str, within: float) -> None:
     """From rest on, with the transient of the start; of a load in water with the waves on it."""
     wet = "box" in channel
-    scene = lowered_load(drag=0.0) if wet else vessel(hs=0.02, memory="passive", mooring_period=None)
+    scene = lowered_load(drag=0.0) if wet else vessel(hs=0.02, memory="by-motion", mooring_period=None)
     state = equilibrium(scene) if wet else None
     control = LinearControl(scene, channel, t_end=30.0, after=3.0, state=state)
     name = channel.partition("[")[0]
@@ -79,7 +79,7 @@ def test_the_control_is_the_run_in_small_waves(channel: str, within: float) -> N
 def lifted() -> Scene:
     """A load held by a crane over the side."""
     scene = Scene(name="over the side")
-    scene.add_vessel(shipped_database(), memory="passive")
+    scene.add_vessel(shipped_database())
     scene.add_sea(hs=1.0, tp=8.0, direction_deg=150.0)
     load = Payload(mass=2e4, link_length=8.0)
     scene.add_crane(foot=(33.0, 10.0, 10.0), slew=-1.0, s1=1.0, s2=1.5, held=True, payload=load)
@@ -123,7 +123,7 @@ def test_what_makes_no_sense_is_refused() -> None:
 def lowered_load(drag: float, *, depth: float = 12.0, EA: float = 1e7) -> Scene:
     """A box in water, its middle at a depth, on a wire from the side of a ship."""
     scene = Scene(name="wet")
-    scene.add_vessel(shipped_database(), memory="passive")
+    scene.add_vessel(shipped_database())
     scene.add_body("box", mass=40e3, size=(4.0, 3.0, 2.0), position=(33.0, 30.0, -depth))
     scene.add_line(
         "wire", "vessel", "box", first_point=(33.0, 30.0, 20.0), second_point=(0.0, 0.0, 1.0), EA=EA,

@@ -98,7 +98,7 @@ def heavy(segments: int = 4, **more: Any) -> sc.Scene:
 
 def barges(lid: float | None = 0.03) -> sc.Scene:
     scene = sc.Scene(name="barges")
-    for vessel in scene.add_vessels(two_barges(lid_damping=lid)):
+    for vessel in scene.add_vessel(two_barges(lid_damping=lid)):
         sea = {} if scene.waves else {"hs": 1.0, "tp": 8.0, "direction_deg": 150.0}
         scene.add_sea(vessel=vessel.name, **sea)
     return scene
@@ -107,7 +107,7 @@ def barges(lid: float | None = 0.03) -> sc.Scene:
 def beside_a_given_ship() -> sc.Scene:
     """A box in the waves beside a ship that is held at rest, which does not need the sea."""
     scene = wet()
-    scene.add_given_vessel("rest", name="ship", position=(60.0, 0.0, 0.0))
+    scene.add_vessel(motion="rest", name="ship", position=(60.0, 0.0, 0.0))
     return scene
 
 

@@ -102,13 +102,14 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
-    names = [v.memory for v in simpler_scenes.variants(case2, quick=False) if v.memory.startswith("passive")]
-    assert names == [f"passive r2={r2:g}" for r2 in simpler_scenes.R2_LEVELS.all]
-    scenes = [simpler_scenes.with_memory(case2, "passive", level=r2) for r2 in (0.9, 0.99)]
-    assert [s.compile().memory_states for s in scenes] == [12, 20]
-    assert simpler_scenes.full_memory_name(scenes[1], "passive r2=0.9") == "passive:20"
-    built = cases.case2(memory="passive")
-    changed = simpler_scenes.with_memory(case2, "passive")
+    names = [v.memory for v in simpler_scenes.variants(case2, quick=False) if v.memory.startswith("by-m")]
+    assert names == [f"by-motion limit={limit:g}" for limit in simpler_scenes.LIMIT_LEVELS.all]
+    scenes = [simpler_scenes.with_memory(case2, "by-motion", level=limit) for limit in (0.05, 0.01)]
+    few, more = (scene.compile().memory_states for scene in scenes)
+    assert few < more
+    assert simpler_scenes.full_memory_name(scenes[1], "by-motion limit=0.01") == f"by-motion:{more}"
+    built = cases.case2(memory="by-motion")
+    changed = simpler_scenes.with_memory(case2, "by-motion")
     ship = built.vessels["vessel"]
     mooring = {name: getattr(ship, name) for name in ("mooring_stiffness", "mooring_damping")}
     changed.replace("vessel", kind="vessel", **mooring)

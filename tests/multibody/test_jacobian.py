@@ -128,7 +128,7 @@ def test_all_kinds_of_elements(seed: int, on_constraints: bool, orientation: str
 
 
 SEAS: list[dict[str, Any]] = [
-    {"memory": "per-pair"}, {"memory": "passive"}, {"memory": "none"}, {"memory": "convolution"},
+    {"memory": "per-pair"}, {"memory": "by-motion"}, {"memory": "none"}, {"memory": "convolution"},
     {"phase": "actual", "count": 20}, {"phase": "slow", "count": 20},
     {"phase": "slow", "count": 20, "memory": "convolution"}
 ]  # fmt: skip

@@ -19,7 +19,7 @@ BOX: dict[str, Any] = {"mass": 2e4, "size": (3.0, 2.0, 1.0)}
 
 def test_the_tip_of_a_crane_on_a_turned_ship_is_where_its_geometry_says() -> None:
     scene = Scene()
-    scene.add_given_vessel("rest", position=(100.0, -30.0, 1.0), heading_deg=90.0)
+    scene.add_vessel(motion="rest", position=(100.0, -30.0, 1.0), heading_deg=90.0)
     body, point = scene.add_crane(**POSE).tip or ("", ())
     x, y, z = np.asarray(FOOT) + KnuckleBoomCrane.load().geometry.tip(**POSE)
     np.testing.assert_allclose(scene.place_of(body=body, point=point), (100.0 - y, -30.0 + x, 1.0 + z))

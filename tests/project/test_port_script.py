@@ -16,12 +16,15 @@ def test_calls_are_replaced_where_they_stand() -> None:
         'a = "\u00e9"; s.add_drift(vessel=v, outside="hold")  # kept',
         "f(s.use_slow_position(",
         "  cutoff=w))",
+        "s.add_given_vessel(x, ramp=0)",
+        "fit_memory(database=d, kind='passive')",
     )
     new, notes = PORT["ported"]("\n".join(old))
     assert new.splitlines() == [
-        'a = "\u00e9"; s.add_sea(vessel=v, drift=True)  # kept', 'f(s.add_sea(cutoff=w, phase="slow"))'
+        'a = "\u00e9"; s.add_sea(vessel=v, drift=True)  # kept', 'f(s.add_sea(cutoff=w, phase="slow"))',
+        "s.add_vessel(motion=x, ramp=0)", "fit_memory(database=d, kind='by-motion')",
     ]  # fmt: skip
-    assert [note.partition(":")[0] for note in notes] == ["line 1", "line 2"]
+    assert [note.partition(":")[0] for note in notes] == ["line 1", "line 2", "line 4", "line 5"]
 
 
 def test_every_call_of_today_is_there_and_none_of_before() -> None:

@@ -52,7 +52,7 @@ def all_kinds() -> Scene:
                   direction=0.3, frontal_area=10.0, lateral_area=20.0, length=30.0, angles=angles,
                   coefficients=np.cos(np.outer(angles, [1, 2, 3])))
     )  # fmt: skip
-    scene.add_vessels(two_barges(lid_damping=0.03), names=["crane barge", "feeder barge"])
+    scene.add_vessel(two_barges(lid_damping=0.03), names=["crane barge", "feeder barge"])
     return scene
 
 

@@ -68,7 +68,7 @@ CALLS: dict[str, dict[str, Any]] = {
     "add_vessel": {"body": "hull", "added_mass": MATRIX, "linear_damping": MATRIX, "restoring": RESTORING,
                    "quadratic_damping": np.ones(6), "mooring_stiffness": np.ones(3),
                    "mooring_damping": np.ones(3)},
-    "add_given_vessel": {
+    "add_vessel led": {
         "motion": MotionHistory(time=range(6), motion=np.zeros((6, 6))), "position": (9.0, 0, 0),
         "heading_deg": 30.0, "ramp": 1.0, "duration": 10.0, "size": (90.0, 20.0, 5.0)},
     "add_channel": {"joint": "pin", "coordinate": "angle"},
@@ -114,18 +114,18 @@ def test_scene_methods(call: str, data: st.DataObject) -> None:
     if call == "add_joint":
         arguments = arguments | {"kind": data.draw(st.sampled_from(sorted(KINDS)))}
     arguments = replaced(data, arguments)
-    refused(lambda: getattr(scene, call)(**arguments), TypeError)
+    refused(lambda: getattr(scene, call.removesuffix(" led"))(**arguments), TypeError)
     run_for_some_steps(scene)
 
 
 @pytest.mark.parametrize("call", CALLS)
 def test_the_calls_themselves_are_sound_and_give_a_name_once(call: str) -> None:
     scene = base()
-    getattr(scene, call)(**CALLS[call])
+    getattr(scene, call.removesuffix(" led"))(**CALLS[call])
     scene.compile()
     if call != "add_channel":
         with pytest.raises(SceneError, match="'x'"):
-            getattr(scene, call)(**CALLS[call])
+            getattr(scene, call.removesuffix(" led"))(**CALLS[call])
 
 
 SIMULATE: dict[str, Any] = {

@@ -70,7 +70,7 @@ def every_kind() -> Scene:
     scene.add_channel(joint="pin", name="angle of the arm")
     scene.add_channel(joint="sleeve", coordinate="angle", name="turn")
     scene.add_roles(prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="wire")
-    scene.provenance["water"] = VesselProvenance(database="hull", omega=(0.1, THIRD * 10), memory="passive")
+    scene.provenance["water"] = VesselProvenance(database="hull", omega=(0.1, THIRD * 10), memory="by-motion")
     scene.notes.update(author="someone", hs=THIRD, tries=[1, 2.5, None, True], nested={"limit": -math.inf})
     scene.add_mesh(body="arm", name="look", vertices=np.eye(3) * THIRD, faces=[[0, 1, 2]])
     return scene

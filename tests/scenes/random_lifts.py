@@ -147,9 +147,9 @@ class Lift:
         if lift.base == "ship":
             scene.add_vessel(shipped_database(), **place)
         elif lift.base == "given":
-            scene.add_given_vessel(shipped_database(), ramp=2.0, duration=90.0, **place)
+            scene.add_vessel(motion=shipped_database(), ramp=2.0, duration=90.0, **place)
         elif lift.base == "pair":
-            scene.add_vessels(barges(), **place)
+            scene.add_vessel(barges(), **place)
         for vessel in {"ground": (), "pair": ("crane vessel", "feeder")}.get(lift.base, ("vessel",)):
             scene.add_sea(vessel=vessel)
         if lift.base == "ground":

@@ -76,7 +76,7 @@ def heaving(hs: float, ramp: float = 5.0, duration: float = 60.0) -> Scene:
     values = np.zeros((2, 4, 6), dtype=complex)
     values[:, :, 2] = 1.0
     raos = MotionRaos(omega=[0.3, 0.6, 1.5, 4.0], heading=[0.0, np.pi], values=values)
-    scene.add_given_vessel(raos, ramp=ramp, duration=duration)
+    scene.add_vessel(motion=raos, ramp=ramp, duration=duration)
     scene.add_sea(hs=hs, tp=8.0, direction_deg=0.0, count=40, seed=2)
     scene.add_body("load", mass=MASS, size=(3.0, 3.0, 3.0), position=(20, 0, 10))
     scene.add_line("wire", first="vessel", first_point=(20, 0, 30), second="load", EA=3e7,

@@ -58,7 +58,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
         return random_chain(rng)
     options = {"hs": float(rng.uniform(0.5, 4.0)), "tp": float(rng.uniform(7.5, 14.0)),
                "wave_direction_deg": float(rng.uniform(0.0, 360.0)), "seed": int(rng.integers(1, 10**6)),
-               "memory": str(rng.choice(["per-pair", "passive"]))}  # fmt: skip
+               "memory": str(rng.choice(["per-pair", "by-motion"]))}  # fmt: skip
     if kind == "case2":
         mass, length = float(10.0 ** rng.uniform(3.0, 4.7)), float(rng.uniform(4.0, 15.0))
         options["payload"] = Payload(mass=mass, link_length=length)

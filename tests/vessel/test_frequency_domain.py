@@ -58,8 +58,8 @@ def relative_difference(found: Array, expected: Array) -> Array:
 
 @pytest.mark.parametrize(
     "options",
-    [{}, {"kinematics": "paper"}, {"memory": "passive"}, {"memory": "none", "hs": 0.002}],
-    ids=["per-pair", "paper", "passive", "no memory"],
+    [{}, {"kinematics": "paper"}, {"memory": "by-motion"}, {"memory": "none", "hs": 0.002}],
+    ids=["per-pair", "paper", "by motion", "no memory"],
 )
 def test_vessel_in_a_low_sea_follows_the_summed_response(options: dict[str, Any]) -> None:
     """Without memory heave is undamped and large: lower waves keep it linear."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,6 @@ import pytest
 
 from seacrane import (
     HydroDatabase,
-    Lift,
     MotionHistory,
     MotionRaos,
     Result,
@@ -24,7 +22,7 @@ from seacrane import (
 from seacrane.analysis import response_summed
 from seacrane.crane import Payload
 from seacrane.description.sum_of_cosines import ramp_of
-from seacrane.hydro import shipped_database
+from seacrane.hydro import shipped_database, two_barges
 from seacrane.warnings import AngleUnitWarning
 
 PLACE: dict[str, Any] = {"position": (12.0, -7.0, 0.0), "heading_deg": 30.0}
@@ -45,7 +43,7 @@ def afloat(database: HydroDatabase) -> Scene:
 
 def given(motion: Any, **more: Any) -> Scene:
     scene = Scene(name="given")
-    scene.add_given_vessel(motion, **{**PLACE, "duration": 60.0, **more})
+    scene.add_vessel(motion=motion, **{**PLACE, "duration": 60.0, **more})
     return scene
 
 
@@ -131,7 +129,7 @@ def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> 
             scene.add_vessel(database, memory="none")
             scene.add_sea(hs=1.0, tp=8.0, direction_deg=100.0, count=40)
         else:
-            scene.add_given_vessel(history, ramp=0.0)
+            scene.add_vessel(motion=history, ramp=0.0)
         if mass:
             scene.add_body(name="load", mass=mass, inertia=np.full(3, mass), position=(5.0, 15.0, 8.0))
             rod = {"point": (5, 15, 20), "second_point": (5, 15, 8.0)}
@@ -150,7 +148,7 @@ def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_ship_at_rest_is_the_ground(formulation: str) -> None:
     still, runs = Scene(), []
-    still.add_given_vessel("rest")
+    still.add_vessel(motion="rest")
     for scene in (with_crane(still, "vessel"), with_crane(Scene(), "ground")):
         scene.add_force("payload", name="push", point=(0, 0, 0), force=(0.0, 3e4, 0.0))
         runs.append(simulate(scene, 10.0, dt_out=0.5, rtol=1e-8, formulation=formulation))
@@ -163,7 +161,7 @@ def test_a_ship_at_rest_is_the_ground(formulation: str) -> None:
 def test_driver_forces_carry_what_is_on_board() -> None:
     """Weight of all on board, and its moment about the reference point."""
     still = Scene()
-    still.add_given_vessel("rest", position=(3.0, 4.0, 0.0))
+    still.add_vessel(motion="rest", position=(3.0, 4.0, 0.0))
     scene = with_crane(still, "vessel")
     result = simulate(scene, 0.1, dt_out=0.1)
     weight = scene.gravity * sum(b.mass for n, b in scene.bodies.items() if n != "vessel")
@@ -175,38 +173,6 @@ def test_driver_forces_carry_what_is_on_board() -> None:
     assert roll == pytest.approx(weight * y, rel=1e-4)
     assert pitch == pytest.approx(-weight * x, rel=1e-4)
     np.testing.assert_allclose(held.vessel_wrench[:3], [0.0, 0.0, weight], atol=1e-3)
-
-
-@pytest.mark.warns("RaoPhaseWarning")
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.OutsideRaosWarning")
-def test_lift_and_scene_files_hold_given_ships(database: HydroDatabase, tmp_path: Path) -> None:
-    headings = [{
-        "heading_deg": 0, "amplitude": [[1, 0, 1, 0, 0.009, 0], [0.8, 0, 0.8, 0, 0.02, 0]],
-        "phase_deg": [[-90, 0, 0, 0, -90, 0], [-90, 0, 0, 0, -90, 0]],
-    }]  # fmt: skip
-    motion = np.outer([0.0, 0.1, 0.2, 0.3, 0.2, 0.1], np.eye(6)[2])
-    lift = Lift({
-        "given_vessel": [
-            {"database": "hull_115", "duration_s": 30, "ramp_s": 5},
-            {"name": "barge", "position_m": [0, 60, 0], "heading_deg": 90, "size_m": [90, 30, 5],
-             "raos": {"omega_rad_per_s": [0.3, 0.6], "headings": headings}},
-            {"name": "measured", "position_m": [0, 180, 0],
-             "history": {"time_s": list(range(6)), "motion": motion.tolist()}},
-        ],
-        "sea": [{"hs_m": 1, "tp_s": 12, "direction_deg": 90, "count": 40}, {"vessel": "barge"}],
-    })  # fmt: skip
-    values = [[[-1j, 0, 1, 0, -0.009j, 0], [-0.8j, 0, 0.8, 0, -0.02j, 0]]]
-    barge = MotionRaos(omega=[0.3, 0.6], heading=[0.0], values=values)
-    scene = Scene()
-    scene.add_given_vessel(database, duration=30.0, ramp=5.0)
-    scene.add_given_vessel(barge, name="barge", position=(0, 60, 0), heading_deg=90.0, size=(90, 30, 5))
-    scene.add_given_vessel(MotionHistory(time=range(6), motion=motion), name="measured", position=(0, 180, 0))
-    scene.add_sea(hs=1.0, tp=12.0, direction_deg=90.0, count=40)
-    scene.add_sea(vessel="barge")
-    one, other = simulate(lift.scene(), 5.0), simulate(scene, 5.0)
-    np.testing.assert_allclose(one["vessel_motion"], other["vessel_motion"], atol=1e-12)
-    scene.save(tmp_path / "scene.json")
-    assert Scene.load(tmp_path / "scene.json") == scene
 
 
 LONG = {"omega": np.array([0.3, 0.5, 0.8, 1.2]), "heading": np.radians([0.0, 90.0, 180.0])}
@@ -227,6 +193,11 @@ def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
         (lambda: simulate(given(MotionHistory(time=np.linspace(0, 40, 50), motion=HEAVE)), 41.0), "at 40 s"),
         (lambda: given(database).add_sea(hs=1.0, tp=8.0, count=20, drift=True), "drift"),
         (lambda: response_summed(beside_another(database), body="vessel"), "'barge': its motion"),
+        (lambda: given("rest", memory="none"), r"add_vessel\(motion=\): there is no 'memory'"),
+        (lambda: Scene().add_vessel(database, ramp=1.0), "of a HydroDatabase: there is no 'ramp'"),
+        (lambda: Scene().add_vessel(two_barges(lid_damping=None), name="a"), "of a HydroGroup: there is no 'name'"),
+        (lambda: Scene().add_vessel(database, motion="rest"), "a motion and a hull"),
+        (lambda: Scene().add_vessel(raos()), "vessel: is MotionRaos.*motion="),
     ):
         with pytest.raises(SceneError, match=message):
             call()
@@ -237,7 +208,7 @@ def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
 def beside_another(database: HydroDatabase) -> Scene:
     """A floating and a given ship."""
     scene = afloat(database)
-    scene.add_given_vessel(database, name="barge", position=(0, 60, 0), duration=20.0)
+    scene.add_vessel(motion=database, name="barge", position=(0, 60, 0), duration=20.0)
     return scene
 
 

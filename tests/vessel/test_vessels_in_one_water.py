@@ -83,7 +83,7 @@ def mixed(share: float = 0.2) -> HydroGroup:
 
 def afloat(group: HydroGroup, *, sea: dict[str, Any] | None = None, **more: Any) -> Scene:
     scene = Scene(name="pair")
-    scene.add_vessels(group, **more)
+    scene.add_vessel(group, **more)
     for name in scene.vessels if sea is not None else ():
         scene.add_sea(vessel=name, **(sea or {}))
     return scene
@@ -141,7 +141,7 @@ def test_a_free_pair_keeps_its_energy() -> None:
     undamped = {"linear_damping": np.zeros((6, 6)), "quadratic_damping": np.zeros(6)}
     group = replace(mixed(), bodies=tuple(replace(body, **undamped) for body in apart().bodies))
     scene = Scene(name="free")
-    scene.add_vessels(group, memory="none", mooring_period=None)
+    scene.add_vessel(group, memory="none", mooring_period=None)
     velocities = {"a": (1.0, -0.5, 0.3), "b": (-0.4, 0.2, 0.6)}
     for name, velocity in velocities.items():
         turning = (0.02, -0.01, 0.03)

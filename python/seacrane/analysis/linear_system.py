@@ -277,7 +277,7 @@ class LinearModel:
         if self.memories:
             raise SceneError(
                 f"scene {self.scene.name!r}: its linear model has memory by frequency, whose past is not in "
-                "x; start from a linear model with memory='per-pair' or 'passive' on the vessel"
+                "x; start from a linear model with memory='by-motion' or 'per-pair' on the vessel"
             )
         values = np.asarray(x, dtype=float)
         if values.shape != (len(self.a),):

@@ -85,7 +85,7 @@ def _add_run(commands: Any) -> None:
     case = run.add_argument_group("the built-in cases", "these choose the vessel and the sea of a named case")
     case.add_argument(
         "--memory",
-        choices=("by-motion", "per-pair", "passive", "convolution", "none"),
+        choices=("by-motion", "per-pair", "convolution", "none"),
         help="fluid memory of the vessel; default per-pair, which is the paper's",
     )
     case.add_argument("--hs", metavar="M", type=float, help="significant wave height, m")
@@ -180,7 +180,7 @@ def _add_hydro(commands: Any) -> None:
     hydro.add_argument("path", metavar="PATH", help=PATH_HELP)
     hydro.add_argument(
         "--memory",
-        choices=("by-motion", "per-pair", "passive"),
+        choices=("by-motion", "per-pair"),
         help="kind of the memory that is fitted; default by-motion, where the file holds none",
     )
     hydro.add_argument(

@@ -73,7 +73,7 @@ def require_described(scene: Description, end: float) -> None:
             continue
         way_out = (
             "give a longer history" if known.motion == "history"
-            else f"give duration={end:g} to add_given_vessel"
+            else f"give duration={end:g} to add_vessel"
         )  # fmt: skip
         raise SceneError(
             f"vessel {vessel.name!r}: its given motion ends at {known.duration:.6g} s, and the run at "

@@ -32,7 +32,7 @@ Keywords = dict[str, Any]
 ANGLES = ("angle", "roll", "pitch", "yaw")
 RADIANS = {degrees: radians for radians, degrees in DEGREES.items()}
 SEA_OF_SYSTEMS = ("depth", "placement")
-MOTIONS = ("motion", "database", "raos", "history")  # what tells how a given vessel moves
+SHIPS = ("database", "raos", "history", "motion")  # what tells which vessel it is
 _MADE: Mapping[str, Callable[..., Any]] = {
     "payload": Payload,
     "coefficients": FlowCoefficients,
@@ -139,8 +139,6 @@ class Caller:
         match table.name:
             case "vessel":
                 self._vessel(scene, given, at_rest=at_rest)
-            case "given_vessel":
-                self._given_vessel(scene, given, at_rest=at_rest)
             case "sea":
                 if not at_rest:
                     self._sea(scene, given)
@@ -171,7 +169,20 @@ class Caller:
         scene.add_crane(crane, **given)
 
     def _vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
-        database = self._database(given.pop("database"), given.pop("speed", None), given.pop("depth", None))
+        led = given.get("motion") == "raos"
+        found = [key for key in SHIPS if key in given and not (led and key == "motion")]
+        if len(found) != 1 or (led and found != ["database"]):
+            raise SceneError(
+                f"vessel: has {' and '.join(key for key in SHIPS if key in given) or 'no database'}; give a "
+                "database, with motion = 'raos' to be led by its RAOs, or raos, history, or motion = 'rest'"
+            )
+        source = given.pop(found[0])
+        if found == ["database"]:
+            source = self._database(source, given.pop("speed", None), given.pop("depth", None))
+        given.pop("motion", None)
+        if led or found != ["database"]:
+            scene.add_vessel(motion="rest" if at_rest else source, **given)
+            return
         if given.get("mooring_period") == float("inf"):
             given["mooring_period"] = None
         if "mooring_springs" in given:
@@ -180,16 +191,7 @@ class Caller:
             given["mooring"] = [MooringSpring(**row) for row in given.pop("mooring_springs")]
         if at_rest:  # neither fluid memory nor kinematics matter
             given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
-        scene.add_vessel(database, **given)
-
-    def _given_vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
-        found = [key for key in MOTIONS if key in given]
-        if len(found) != 1:
-            raise SceneError(f"given_vessel: has {' and '.join(found) or 'no motion'}; give one of {MOTIONS}")
-        motion = given.pop(found[0])
-        if found[0] == "database":
-            motion = self._database(motion)
-        scene.add_given_vessel("rest" if at_rest else motion, **given)
+        scene.add_vessel(source, **given)
 
     def _database(self, file: str, speed: float | None = None, depth: float | None = None) -> HydroDatabase:
         """Read once."""

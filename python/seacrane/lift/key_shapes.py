@@ -6,14 +6,14 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.run.method import FORMULATIONS
-from seacrane.scene import vessel
+from seacrane.scene.afloat import MEMORY
 from seacrane.scene.realised_sea import SPECTRA
 
 CHOSEN: dict[str, dict[str, Any]] = {
     "spectrum": {"type": "text", "choices": SPECTRA},
     "evaluation": {"choices": ("table", "fft", "exact")},
     "placement": {"choices": ("jittered", "uniform")},
-    "memory": {"choices": vessel.MEMORY},
+    "memory": {"choices": MEMORY},
     "kinematics": {"choices": ("yaw_following", "paper")},
     "orientation": {"choices": ("quaternion", "euler_xyz")},
     "formulation": {"choices": FORMULATIONS},

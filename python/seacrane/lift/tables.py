@@ -32,7 +32,7 @@ from seacrane.description.curves import spline_curve
 from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
-from seacrane.lift.vessel_keys import given_vessel_keys, part_keys, sea_keys, vessel_keys
+from seacrane.lift.vessel_keys import part_keys, sea_keys, vessel_keys
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
@@ -40,7 +40,6 @@ from seacrane.scene import (
     bridles,
     contact,
     entrapped,
-    given_vessel,
     heave,
     hoist,
     hydraulics,
@@ -155,6 +154,10 @@ CONTACT = {
     "stiffness": {"unit": "N/m"}, "depth": LENGTH,
     "table": {"type": "array", "unit": "m, N", "shapes": ((-1, 2),)},
 }  # fmt: skip
+FEET = tuple(
+    replace(key, required=False)
+    for key in keys_of(contact.add_contact, _core.Contact, more=CONTACT, only=hoist.FEET_KEYS)
+)
 COORDINATE = (
     Key(name="name", type="text", required=True, text="Its label, such as boom."),
     Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
@@ -259,11 +262,8 @@ _ALL = (
         ),
     ),
     Table(
-        name="vessel", text="A vessel from a hydrodynamic database.",
-        keys=vessel_keys(),
-    ),
-    Table(
-        name="given_vessel", text=_summary(given_vessel.add_given_vessel), keys=given_vessel_keys(),
+        name="vessel", keys=vessel_keys(),
+        text="A vessel that floats, from a hydrodynamic database, or one whose motion is given.",
     ),
     _call("body", bodies.add_body, _core.Body, inertia={"shapes": ((3, 3), (3,))}, drop=LENGTH),
     Table(
@@ -322,6 +322,7 @@ _ALL = (
         block_mass={"unit": "kg"}, breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
         winch={"type": "table", "keys": keys_of(lines.add_winch, _core.Line, without=("line",))},
+        feet={"type": "table", "keys": FEET},
         wire={"type": "table", "keys": keys_of(lines.add_line, _core.Line, more=WIRE, only=hoist.WIRE_KEYS)},
     ),
     Table(

@@ -1,78 +1,57 @@
-"""The keys of vessels, of ships whose motion is given, and of seas."""
+"""The keys of vessels, of parts in the water, and of seas."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, get_overloads
+from typing import Any
 
 from seacrane.description.waves import STRETCHING
 from seacrane.hydro import load_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, keys_of
-from seacrane.scene import given_vessel, sea, vessel
+from seacrane.scene import afloat, given_vessel, sea, vessel
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.sea import Current, SeaState, WaveSystem
 from seacrane.water import from_mesh
 from seacrane.water.parts import PARTS
 
+OF_MOTION = ("ramp", "duration", "size")
 READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
 
 
 def vessel_keys() -> tuple[Key, ...]:
-    """The keys of `add_vessel` with a database, and of reading that."""
+    """The keys of `add_vessel`: a database and its reading, or a motion; what a script gives is not here."""
     mooring = "Natural period of soft station keeping in surge, sway and yaw; default 200 s; inf: no mooring."
     matrix = "Stiffness of the mooring about the reference point, vessel's axes."
-    keys = keys_of(
-        get_overloads(vessel.add_vessel)[0],
-        described=vessel.add_vessel,
-        more=CHOSEN
-        | {
-            "database": {
-                "type": "file",
-                "text": "Path of a database, or hull_115, which comes with seacrane.",
-            },
-            "position": POINT,
-            "mooring": {"type": "array", "unit": "N/m, N m/rad", "shapes": ((6, 6),), "text": matrix},
-            "mooring_period": {"unit": "s", "text": mooring},
-        },
-    )
-    spring = keys_of(
-        MooringSpring, more={"point": POINT, "direction_deg": {"unit": "deg"}, "stiffness": {"unit": "N/m"}}
-    )
-    springs = Key(name="mooring_springs", type="tables", keys=spring, text="Mooring by horizontal springs.")
-    return (*keys, springs, *keys_of(load_database, more=READING, only=tuple(READING)))
-
-
-def given_vessel_keys() -> tuple[Key, ...]:
-    """The keys of `add_given_vessel`, whose motion is one of four keys."""
     motions: dict[str, Any] = {"type": "array", "unit": "m, rad", "shapes": ((-1, 6),)}
     history = keys_of(
         MotionHistory,
         more={"time": TIME | {"type": "array", "shapes": ((-1,),)}, "motion": motions},
         without=("record",),
     )
-    keys = keys_of(
-        given_vessel.add_given_vessel,
-        more={
-            "motion": {"type": "text", "choices": ("rest",), "text": "Where it never moves."},
-            "position": POINT,
-            "ramp": TIME,
-            "duration": TIME,
-            "size": POINT,
-        },
+    spring = keys_of(
+        MooringSpring, more={"point": POINT, "direction_deg": {"unit": "deg"}, "stiffness": {"unit": "N/m"}}
     )
-    database = Key(
-        name="database", type="file",
-        text="In place of motion: by the displacement RAOs of a database, or of hull_115.",
-    )  # fmt: skip
+    more = CHOSEN | {
+        "mooring": {"type": "array", "unit": "N/m, N m/rad", "shapes": ((6, 6),), "text": matrix},
+        "mooring_period": {"unit": "s", "text": mooring},
+        "position": POINT, "ramp": TIME, "duration": TIME, "size": POINT,
+    }  # fmt: skip
     return (
-        database,
-        Key(name="raos", type="table", keys=_rao_keys(), text="In place of motion: by a table of RAOs."),
-        Key(name="history", type="table", keys=history, text="In place of motion: by a history."),
-        *(replace(key, required=False) for key in keys),
-    )
+        Key(name="database", type="file", text="Path of a database, or hull_115, which comes with seacrane."),
+        Key(
+            name="motion", type="text", choices=("raos", "rest"),
+            text='"raos": led by the displacement RAOs of the database; "rest": without one, never moves.',
+        ),
+        Key(name="raos", type="table", keys=_rao_keys(), text="Led by a table of RAOs, without a database."),
+        Key(name="history", type="table", keys=history, text="Led by a history, without a database."),
+        *keys_of(afloat.add_hull, described=vessel.add_vessel, more=more, without=("database",)),
+        *keys_of(given_vessel.add_given, described=vessel.add_vessel, more=more, only=OF_MOTION),
+        Key(name="mooring_springs", type="tables", keys=spring, text="Mooring by horizontal springs."),
+        *keys_of(load_database, more=READING, only=tuple(READING)),
+    )  # fmt: skip
 
 
 def _rao_keys() -> tuple[Key, ...]:

@@ -6,9 +6,11 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import SIX, hold_vessel
+from seacrane.analysis.linear_system import linear_model
 from seacrane.description.bodies import add_body
 from seacrane.description.databases import source_of
 from seacrane.description.description import Description
@@ -19,18 +21,25 @@ from seacrane.description.vessel_hydrodynamics import Source, VesselHydrodynamic
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
+from seacrane.hydro.data.motion_raos import MotionRaos
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.given_motion import motion_of_components
+from seacrane.scene.afloat import add_hull
 from seacrane.scene.motion_history import MotionHistory
+from seacrane.scene.wave_force import force_of_components
+from seacrane.warnings import OutsideRaosWarning
 
 LIGHT = 1.0  # kg and kg m2 of the body that stands for the ship: what drives it carries what is on board
 RAMP = 20.0  # s
 DURATION = 600.0  # s
+MOST_OUTSIDE = 0.02  # of the energy of the waves
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 
-def add_given_vessel(
+def add_given(
     scene: Description,
     motion: Any,
     *,
@@ -41,48 +50,7 @@ def add_given_vessel(
     duration: float = DURATION,
     size: Any = None,
 ) -> VesselHydrodynamics:
-    """Add a ship whose motion is given: by its displacement RAOs in the sea, by a history, or at rest.
-
-    It takes the place of a vessel from a database, and carries a crane as that does, but nothing acts back on
-    it. Its body is a light stand-in (1 kg, without weight), led by six drivers "<name>.motion.x" to
-    "<name>.motion.yaw": their `driver_force` is the load of all that is on board. `vessel_motion` records it.
-
-    Parameters
-    ----------
-    motion : HydroDatabase, MotionRaos, MotionHistory or "rest"
-        HydroDatabase: its own displacement RAOs where its file holds them, else those of its linear model.
-        With RAOs the ship rests until `Scene.add_sea` gives it the sea to move in; the scene keeps them, in
-        `scene.vessels[name].database`. "rest": it never moves.
-    name : str
-        Of the body and of the vessel.
-    position : array_like, shape (3,)
-        Of the reference point at rest, m, inertial frame.
-    heading_deg : float
-        At rest, deg from +x towards +y; default 0.
-    ramp : float
-        s, over which RAOs or a history grow from rest to their full motion; default 20 s, 0: full from the
-        start, where all that is on board must be described.
-    duration : float
-        s, for which the motion by RAOs is described; default 600 s. A longer run is refused.
-    size : array_like, shape (3,)
-        Length, breadth and draught of the hull that pictures show, m; default: the database's, else
-        100 x 20 x 5 m.
-
-    Returns
-    -------
-    VesselHydrodynamics
-        Without any hydrodynamics.
-
-    Raises
-    ------
-    SceneError
-        For a motion of another kind, or a value that is no finite number.
-
-    Warns
-    -----
-    AngleUnitWarning, CompassDirectionWarning
-        A heading that looks like radians, or like a compass bearing.
-    """
+    """A ship whose motion is given, as `Scene.add_vessel` describes it."""
     what = f"vessel {name_of('vessel', name)!r}"
     kind = _kind_of(what, motion)
     grown = not_negative_of(f"{what}: ramp", ramp, "s")
@@ -168,3 +136,78 @@ def _size_of(what: str, motion: Any, size: Any) -> tuple[float, float, float] | 
     if not (np.isfinite([length, breadth, draught]).all() and min(length, breadth, draught) > 0.0):
         raise SceneError(f"{what}: size is {shown(size)}; give positive length, breadth and draught, m")
     return length, breadth, draught
+
+
+def raos_of(database: HydroDatabase) -> MotionRaos:
+    """The displacement RAOs that a database's own file holds.
+
+    Raises SceneError for a database of a ship under way.
+    """
+    if database.speed != 0.0:
+        raise SceneError(
+            f"database {database.name!r}: its motions are those at {database.speed:g} m/s, and a given ship "
+            "keeps its place; give one of zero speed"
+        )
+    return MotionRaos(
+        omega=database.omega, heading=database.heading, values=database.motion_rao, depth=database.depth,
+        symmetric=database.port_starboard_symmetric, name=database.name, g=database.g,
+    )  # fmt: skip
+
+
+def motion_of_components(
+    source: HydroDatabase | MotionRaos,
+    waves: Waves,
+    *,
+    place: tuple[float, float],
+    heading: float,
+    gravity: float,
+) -> Complex:
+    """Complex amplitude (n, 6) of the motion in each component: m and rad, sum Re of them exp(i omega t).
+
+    In axes of the ship at rest.
+
+    Parameters
+    ----------
+    source : HydroDatabase or MotionRaos
+        A database without motions of its own has those of the linear model of the ship alone, floating as
+        `Scene.add_vessel` describes it.
+    place, heading
+        Of the ship at rest: (x, y), m; rad.
+    gravity : m/s2.
+
+    Warns
+    -----
+    OutsideRaosWarning
+        More than 2 % of the energy of the waves is outside the table's frequencies.
+    """
+    sea = waves.components()
+    omega, direction = np.array(sea.omega), np.array(sea.direction)
+    along = np.cos(direction) * place[0] + np.sin(direction) * place[1]
+    wave = np.array(sea.amplitude) * np.exp(1j * (np.array(sea.phase) - np.array(sea.wavenumber) * along))
+    if isinstance(source, HydroDatabase) and source.motion_rao is None:
+        return np.asarray(wave[:, None] * linear_motion(source, omega, direction - heading, gravity=gravity))
+    table = raos_of(source) if isinstance(source, HydroDatabase) else source
+    _warn_of_outside(table, omega, np.array(sea.amplitude))
+    return np.asarray(wave[:, None] * table.at(omega, direction - heading))
+
+
+def linear_motion(database: HydroDatabase, omega: Array, heading: Array, *, gravity: float) -> Complex:
+    """Motions (n, 6) per metre of wave of a ship alone, floating as `Scene.add_vessel` describes it."""
+    alone = Description(name="ship alone", gravity=gravity)
+    add_hull(alone, database)
+    linear = linear_model(alone)
+    x = linear.response(omega=omega, force=force_of_components(database, omega, heading))
+    return np.asarray(x @ linear.output(body="vessel").T)
+
+
+def _warn_of_outside(table: MotionRaos, omega: Array, amplitude: Array) -> None:
+    outside = (omega < table.omega[0] * (1.0 - 1e-9)) | (omega > table.omega[-1] * (1.0 + 1e-9))
+    energy = amplitude**2
+    share = float(energy[outside].sum() / max(energy.sum(), np.finfo(float).tiny))
+    if share > MOST_OUTSIDE:
+        warn_caller(
+            f"RAOs {table.name!r}: {share:.1%} of the energy of the waves is outside their "
+            f"{table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s: below it those of the lowest are taken, "
+            "above it none; give a table of the frequencies of the sea",
+            OutsideRaosWarning,
+        )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
@@ -36,6 +36,7 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
 from seacrane.scene.bridles import add_bridle
+from seacrane.scene.contact import add_contact
 from seacrane.scene.limits import add_stop
 from seacrane.scene.line_start import hung_from
 from seacrane.scene.lines import TAKEN_BY, add_line, add_winch
@@ -47,6 +48,7 @@ Place = tuple[str, Any]  # a body, and a point in its coordinates, m
 OWN = ("mass_per_length", "seabed")  # a keyword of its own; what no line on a winch takes
 OF_A_WIRE = tuple(key for key, rungs in TAKEN_BY.items() if rungs == (WITH_MASS,) and key not in OWN)
 WIRE_KEYS = ("settling", "damping_ratio", *OF_A_WIRE)
+FEET_KEYS = ("points", "stiffness", "damping", "table", "friction", "hold", "edge", "name")
 
 
 @named
@@ -120,6 +122,7 @@ def add_hoist(
     length: float | None = None,
     height: float | None = None,
     on: str | None = None,
+    feet: Mapping[str, Any] | bool = False,
     slack: float = 0.0,
     falls: int = 1,
     EA: float | None = None,
@@ -137,8 +140,9 @@ def add_hoist(
     """Hang a load on a line from a crane's tip: line of n falls, block, slings, winch and load, at rest.
 
     The load hangs straight below the tip as described, upright; its line carries its weight from the start.
-    It may stand on a deck instead, its line just straight, with the block's weight alone: a weld holds it
-    as a seat, until it is lifted off. The paper's rod, which pushes too, is a `Payload` of `add_crane`.
+    It may stand on a deck instead, its line just straight, with the block's weight alone: on a seat, a weld
+    that holds until it is lifted off, or on feet. The paper's rod, which pushes too, is a `Payload` of
+    `add_crane`.
 
     Parameters
     ----------
@@ -159,6 +163,10 @@ def add_hoist(
         that body, m.
     on : str, optional
         Body on whose deck the load stands, below the tip; "ground" is one too.
+    feet : mapping or bool
+        In place of the seat, on a deck that moves: a contact, on which the load may slide and come down
+        again. Keywords of `add_contact`, such as ``{"friction": 0.4}``, or True for its defaults; `points`
+        are by default the four lower corners of the load's size.
     slack : float
         Of the line to a load on a deck, m of each fall: for an elastic line without a block.
     falls : int
@@ -216,9 +224,14 @@ def add_hoist(
             f"{what}: slack is {slack:g} m, and a line is slack by its length where it is elastic and has no "
             "block, and its load stands on a deck; leave slack out, or give on= and rung 'elastic'"
         )
-    _check_wire(what, rung, wire)
-    drive = {} if isinstance(winch, bool) else dict(winch)
-    if rung in (QUASI_STATIC, WITH_MASS) and winch is not False and not drive.get("lag"):
+    stand, drive = _keywords_of(what, "feet", feet), _keywords_of(what, "winch", winch)
+    if stand is not None and on is None:
+        raise SceneError(f"{what}: has feet and no deck; give on=, the body that they stand on")
+    _require_keys(what, "feet", stand, FEET_KEYS)
+    if wire is not None and rung != WITH_MASS:
+        raise SceneError(f"{what}: rung {rung!r} takes no wire; leave it out, or choose rung {WITH_MASS!r}")
+    _require_keys(what, "wire", wire, WIRE_KEYS)
+    if rung in (QUASI_STATIC, WITH_MASS) and drive is not None and not drive.get("lag"):
         raise SceneError(
             f"{what}: rung {rung!r} needs a smooth length, and its winch has no lag; give one, such as "
             "winch={\"lag\": 0.1}, or rung 'elastic'"
@@ -233,7 +246,7 @@ def add_hoist(
         new = load not in scene.bodies
         if new:
             _add_load(scene, what, roles, text_of(f"{what}: load", load), (mass, size), tip, rig,
-                      (length, height, on))  # fmt: skip
+                      (length, height, on), stand)  # fmt: skip
         elif not all(one is None for one in (mass, size, length, height, on)):
             raise SceneError(
                 f"{what}: body {load!r} is there already; leave out mass, size, length, height and on"
@@ -247,7 +260,7 @@ def add_hoist(
         if roles.structure is not None:
             _preload(scene, roles.structure, weight)
         note_rating(scene, rating_of(name, breaking_load, safety_factor))
-        if winch is not False:
+        if drive is not None:
             named(add_winch, owners=1)(scene, name, **drive)
         if rig is not None:
             _sling(scene, name, hook[0], load, rig, standing=on is not None)
@@ -262,12 +275,19 @@ def add_hoist(
     return hung
 
 
-def _check_wire(what: str, rung: str, wire: Mapping[str, Any] | None) -> None:
-    if wire is not None and rung != WITH_MASS:
-        raise SceneError(f"{what}: rung {rung!r} takes no wire; leave it out, or choose rung {WITH_MASS!r}")
-    unknown = [key for key in wire or () if key not in WIRE_KEYS]
+def _keywords_of(what: str, word: str, given: Any) -> dict[str, Any] | None:
+    """Of a call that a hoist makes; None where it makes none."""
+    if isinstance(given, bool):
+        return {} if given else None
+    if not isinstance(given, Mapping):
+        raise SceneError(f"{what}: {word} is {shown(given)}; give its keywords, or True")
+    return dict(given)
+
+
+def _require_keys(what: str, word: str, given: Mapping[str, Any] | None, known: Iterable[str]) -> None:
+    unknown = [key for key in given or () if key not in known]
     if unknown:
-        raise SceneError(f"{what}: wire has {unknown[0]!r}; give some of {', '.join(WIRE_KEYS)}")
+        raise SceneError(f"{what}: {word} has {unknown[0]!r}; give some of {', '.join(known)}")
 
 
 def _crane(scene: Description, what: str, crane: CraneRoles | str | None) -> CraneRoles:
@@ -315,8 +335,9 @@ def _add_load(
     tip: Array,
     rig: Slings | None,
     place: tuple[float | None, float | None, str | None],
+    feet: Mapping[str, Any] | None,
 ) -> None:
-    """A box below the tip, hanging or standing."""
+    """A box below the tip, hanging, or standing on a seat or on feet."""
     mass, size = box
     if mass is None or size is None:
         raise SceneError(f"{what}: body {name!r} is not there, and has no mass or size to be made; give both")
@@ -338,7 +359,10 @@ def _add_load(
         centre = np.array([tip[0], tip[1], top - 0.5 * edges[2]])
         turned = _heading(scene, roles)
     add_body(scene, name, mass=mass, size=edges, position=centre, quaternion=turned)
-    if on is not None:
+    if on is not None and feet is not None:
+        corners = [(x * edges[0], y * edges[1], -0.5 * edges[2]) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
+        add_contact(scene, name, on=on, place=(0.0, 0.0, height or 0.0), **{"points": corners, **feet})
+    elif on is not None:
         foot = centre - rotation_matrix(turned) @ np.array([0.0, 0.0, 0.5 * edges[2]])
         axis = rotation_matrix(turned) @ np.array([0.0, 0.0, 1.0])
         seat = f"{name} on {on}"

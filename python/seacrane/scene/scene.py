@@ -37,7 +37,6 @@ from seacrane.scene import (
     bridles,
     contact,
     entrapped,
-    given_vessel,
     heave,
     hoist,
     hydraulics,
@@ -48,7 +47,6 @@ from seacrane.scene import (
     sea,
     slack_tank,
     vessel,
-    vessels,
     wind_current,
 )
 from seacrane.scene.sea_at import sea_at
@@ -143,8 +141,6 @@ class Scene(Description):
     hold_pressures = hydraulics.hold_pressures
 
     add_vessel = vessel.add_vessel
-    add_vessels = vessels.add_vessels
-    add_given_vessel = given_vessel.add_given_vessel
     add_slack_tank = slack_tank.add_slack_tank
     add_immersed = immersed.add_immersed
     add_entrapped_water = entrapped.add_entrapped_water

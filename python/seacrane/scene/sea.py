@@ -72,8 +72,8 @@ def add_sea(
 
     A scene has one sea, with phases from the origin of the inertial frame. For every further vessel call it
     again, with the same sea or without any argument of it; a vessel that is in it is put there anew. The
-    forces are those of the vessel's database, at the direction of every component. A ship of
-    `Scene.add_given_vessel` takes no load: one that follows RAOs begins to move by them.
+    forces are those of the vessel's database, at the direction of every component. A ship whose
+    motion is given takes no load: one that follows RAOs begins to move by them.
 
     Parameters
     ----------

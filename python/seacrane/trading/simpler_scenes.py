@@ -45,7 +45,7 @@ class _Levels:
 
 R2_LEVELS = _Levels(asked="r2", all=(0.9, 0.95, 0.99, 0.999), usual=0.99)
 LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), usual=0.01)
-FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS, "passive": R2_LEVELS}
+FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,7 +111,7 @@ def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callab
 
 
 def full_memory_name(scene: Scene, name: str) -> str:
-    """A fitted memory's name with its number of states for its R2 or limit: "passive:20"."""
+    """A fitted memory's name with its number of states for its R2 or limit: "per-pair:36"."""
     kind, _, level = name.partition(" ")
     if "=" not in level:
         return name

@@ -115,8 +115,8 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
 
     And of those that stand on a deck where there is none: beside the hull, or beside a body of known size.
     """
-    standing = {joint.second: joint.first for joint in _seats(scene)}
-    for body, support in [*standing.items(), *_on_planes(scene)]:
+    standing = [*((joint.second, joint.first) for joint in _seats(scene)), *_on_planes(scene)]
+    for body, support in standing:
         _warn_of_no_deck(scene, body, support)
     for one in hung_loads(scene):
         load = scene.bodies[one.load]
@@ -126,7 +126,7 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
                 continue
             centre, half = _inside(hull, load)
             length, breadth = size_of_ship(scene, vessel.body)
-            clear = PEDESTAL if standing.get(one.load) == vessel.body else CLEAR
+            clear = PEDESTAL if (one.load, vessel.body) in standing else CLEAR
             deck = _deck(scene, vessel.body)
             keel = -hull.mass / (WATER * BLOCK * length * breadth)
             across = abs(centre[0]) < 0.5 * length and abs(centre[1]) < 0.5 * breadth

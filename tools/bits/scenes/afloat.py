@@ -41,7 +41,7 @@ def given_by_raos() -> Scene:
     heave = [0.98, 0.92, 0.80, 0.60, 0.38, 0.15, 0.02, 0.0]
     raos = MotionRaos(omega=omega, heading=[np.pi], values=np.outer(heave, [0, 0, 1, 0, -0.02j, 0])[None])
     scene = Scene(name="given", gravity=G)
-    scene.add_given_vessel(raos, name="barge", duration=60.0)
+    scene.add_vessel(motion=raos, name="barge", duration=60.0)
     scene.add_sea(vessel="barge", hs=2.0, tp=9.0, direction_deg=180.0, seed=4)
     load = (30.0, 20.0, 22.0)
     scene.add_body(name="load", mass=50e3, inertia=(1e5,) * 3, position=load)
@@ -62,7 +62,7 @@ def given_by_a_record() -> Scene:
         np.cos(0.5 * time), [0.2, 0, 0, 0, 0, 0.01]
     )
     scene = Scene(name="record", gravity=G)
-    scene.add_given_vessel(MotionHistory(time=time, motion=motion), ramp=2.0)
+    scene.add_vessel(motion=MotionHistory(time=time, motion=motion), ramp=2.0)
     scene.add_crane(slew=-np.pi / 2.0, s1=1.0, s2=2.0)
     scene.add_hoist(mass=20e3, size=(1.6, 1.6, 1.2), length=12.0, stiffness=4e6)
     return scene
@@ -99,7 +99,7 @@ def two_ships_in_one_sea() -> Scene:
 def group_in_one_water() -> Scene:
     """Two barges that feel each other's motions and waves."""
     scene = Scene(name="group", gravity=9.81)
-    scene.add_vessels(two_barges(lid_damping=0.01), mooring_period=60.0)
+    scene.add_vessel(two_barges(lid_damping=0.01), mooring_period=60.0)
     for vessel in scene.vessels:
         scene.add_sea(vessel=vessel, hs=1.0, tp=8.0, direction_deg=-120.0, seed=1, count=40)
     return scene

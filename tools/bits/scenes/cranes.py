@@ -38,7 +38,7 @@ def driven_on_land() -> Scene:
 @case(by("dopri5"), by("rk4", dt=0.01), t_end=3.0, dt_out=0.1)
 def hoist_on_four_falls() -> Scene:
     scene = Scene(name="hoist", gravity=G)
-    scene.add_given_vessel("rest")
+    scene.add_vessel(motion="rest")
     scene.add_crane(slew=OUT, s1=1.0, s2=2.0, held=True)
     wire = {"falls": 4, "EA": 6e7, "block_mass": 2e3, "winch": {"rate": ramp(-0.5), "maximum_rate": 1.0}}
     slings = {"angle_deg": 60.0, "EA": 1e8}

@@ -116,7 +116,7 @@ def lowered() -> list[Stage]:
 def through_the_surface() -> Scene:
     """From a given ship's crane into its sea, with heave compensation and a tagline."""
     scene = Scene(name="splash zone", gravity=G)
-    scene.add_given_vessel(shipped_database(), duration=120.0)
+    scene.add_vessel(motion=shipped_database(), duration=120.0)
     scene.add_sea(hs=1.5, tp=6.0, direction_deg=165.0, seed=1, count=50)
     jib, head = scene.add_crane(slew=-np.pi / 2.0, s1=1.0, s2=2.0).tip
     scene.add_hoist(mass=40e3, size=(6, 4, 3), height=0.5, EA=3e8, block_mass=1.5e3, winch={"lag": 0.2})

@@ -18,14 +18,13 @@ from seacrane.hydro.data.memory_model import (
     MotionError,
     MotionFit,
 )
-from seacrane.hydro.memory.entries import dissipation_limit, memory_entries
+from seacrane.hydro.memory.entries import dissipation_limit, memory_entries, motion_groups
 from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_order, r_squared
 from seacrane.hydro.memory.joined_oscillators import Parts, joined, with_more
 from seacrane.hydro.memory.joint_passivity import joint_passivity
 from seacrane.hydro.memory.motion_judge import MotionJudge, motion_judge
 from seacrane.hydro.memory.oscillator_motions import MotionData, MotionProblem, fit_to_motions
 from seacrane.hydro.memory.oscillators import GroupData, Oscillators
-from seacrane.hydro.memory.passive import motion_groups
 from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states, realise
 from seacrane.hydro.memory.retardation import retardation_functions
 

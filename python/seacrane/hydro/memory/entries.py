@@ -35,6 +35,16 @@ def memory_entries(
                 yield j, k
 
 
+def motion_groups(pairs: list[tuple[int, int]]) -> list[list[int]]:
+    """Motions that hang together through ``pairs``, each group in increasing order."""
+    groups: list[set[int]] = []
+    for pair in pairs:
+        touched = [group for group in groups if group & set(pair)]
+        groups = [group for group in groups if group not in touched]
+        groups.append(set(pair).union(*touched))
+    return sorted(sorted(group) for group in groups)
+
+
 def dissipation_limit(
     fits: dict[tuple[int, int], RationalFit], j: int, k: int
 ) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:

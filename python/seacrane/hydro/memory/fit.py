@@ -14,11 +14,9 @@ from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, Mem
 from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.cache import FitSettings, keep_fit, kept_fit
-from seacrane.hydro.memory.certificate import require_passive
 from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, dissipation_limit, memory_entries
 from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_lowest_order
 from seacrane.hydro.memory.joint_passivity import joint_passivity
-from seacrane.hydro.memory.passive import fit_passive
 from seacrane.hydro.memory.realisation import realise
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
@@ -28,7 +26,7 @@ FloatArray = NDArray[np.float64]
 
 ORDERS = range(2, 9)
 BY_MOTION = "by-motion"
-KINDS = (BY_MOTION, "per-pair", "passive")
+KINDS = (BY_MOTION, "per-pair")
 LIMIT = 0.01  # of the motions
 R2 = 0.99
 
@@ -51,15 +49,15 @@ def fit_memory(
         together, of kind "by-motion".
     band : (low, high) in rad/s over which the fit is judged; default: the database's trusted band, else all
         of it.
-    r2 : of kinds "per-pair" and "passive": coefficient of determination that added mass *and* damping of
-        every entry shall reach, 0.99 by default; the lowest order that reaches it is taken. An entry that
-        does not reach it at any order keeps its best model, and its row says ``accepted=False``.
+    r2 : of kind "per-pair": coefficient of determination that added mass *and* damping of every entry shall
+        reach, 0.99 by default; the lowest order that reaches it is taken. An entry that does not reach it at
+        any order keeps its best model, and its row says ``accepted=False``.
     infinite_frequency : whether each entry's infinite-frequency added mass is estimated with its model, or
         taken from the database. A panel code's value carries the error of its mesh at wavelengths the mesh
         cannot resolve, and forcing it on the model costs states and puts poles beyond the data.
     kind : "by-motion" (default), one model with common poles per group of coupled motions that cannot deliver
-        energy (`passivity_certificate` proves it), as small as `limit` allows; "passive", the same form, as
-        large as `r2` asks; or "per-pair", the paper's, one single-input model per entry of the matrices.
+        energy (`passivity_certificate` proves it), as small as `limit` allows; or "per-pair", the paper's,
+        one single-input model per entry of the matrices.
     limit : of kind "by-motion", 0.01 by default: by how much the memory may change the standard deviation of
         any motion in seas of Tp 5 to 18 s (hulls below 60 m: in their own, docs/memory.md) from any stored
         heading, against the database's own matrices; a fifth of what it may change the peaks of heave, roll
@@ -91,9 +89,8 @@ def fit_memory(
         require_zero_speed(database)
     elif kind != BY_MOTION:
         raise ValueError(
-            f"group {database.name!r}: memory of kind {kind!r} is of one hull; use kind='by-motion', "
-            "which keeps "
-            "all motions together passive"
+            f"group {database.name!r}: memory of kind {kind!r} is of one hull; use kind='by-motion', which "
+            "keeps all motions together passive"
         )
     target = _target(kind, r2=r2, limit=limit)
     low, high = band or database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
@@ -128,7 +125,7 @@ def fit_memory(
         if not isinstance(database, HydroData) or kind == BY_MOTION:
             model = fit_by_motion(database=database, band=settings.band, known=symmetric, limit=target)
         else:
-            model = _fit_to_data(database, known, settings.band, trusted, target, kind)
+            model = _fit_to_data(database, known, settings.band, trusted, target)
         keep_fit(database, settings, model)
     return model
 
@@ -158,11 +155,9 @@ def _fit_to_data(
     band: tuple[float, float],
     trusted: NDArray[np.bool_],
     r2: float,
-    kind: str,
 ) -> MemoryModel:
-    """Model of kind "per-pair" or "passive"."""
-    fit = _fit_radiation if kind == "per-pair" else _fit_passive_radiation
-    blocks, rows, added_mass = fit(database, known, trusted, r2)
+    """Model of kind "per-pair"."""
+    blocks, rows, added_mass = _fit_radiation(database, known, trusted, r2)
     extra_mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
     for part in database.additional:
         more = _fit_additional(database, part, trusted, r2)
@@ -170,7 +165,7 @@ def _fit_to_data(
         rows += more[1]
         extra_mass += more[2]
         stiffness += more[3]
-    model = MemoryModel(
+    return MemoryModel(
         blocks=tuple(blocks),
         added_mass=added_mass,
         additional_added_mass=extra_mass,
@@ -180,21 +175,12 @@ def _fit_to_data(
         rows=tuple(rows),
         passivity=joint_passivity(blocks, database.damping, band),
     )
-    if kind == "passive" and any(row.cause == RADIATION for row in rows):
-        require_passive(model)
-    return model
 
 
 def enough_frequencies(database: Hydrodynamics) -> bool:
     """Whether `fit_memory` has data: no forward speed, and eight frequencies in the trusted band."""
     inside = in_trusted_band(database)
     return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
-
-
-def _entries(database: HydroData, added_mass: FloatArray, damping: FloatArray) -> list[tuple[int, int]]:
-    """The entries of the radiation to fit."""
-    symmetric = database.port_starboard_symmetric
-    return list(memory_entries(added_mass, damping, database.omega, symmetric=symmetric))
 
 
 def _fit_radiation(
@@ -207,7 +193,8 @@ def _fit_radiation(
     infinite = np.zeros((6, 6)) if known is None else 0.5 * (known + known.T)
     symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
-    for j, k in _entries(database, symmetric_a, symmetric_b):
+    symmetric = database.port_starboard_symmetric
+    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega, symmetric=symmetric):
         data = IdentificationData(
             omega=database.omega,
             added_mass=symmetric_a[:, j, k],
@@ -222,26 +209,6 @@ def _fit_radiation(
     if known is None:
         infinite = _keep_constant_entries(infinite, symmetric_a, blocks)
     return blocks, rows, infinite
-
-
-def _fit_passive_radiation(
-    database: HydroData, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
-) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
-    """Fit a memory of the passive kind."""
-    symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
-    symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
-    blocks, rows, infinite = fit_passive(
-        database=database,
-        added_mass=symmetric_a,
-        damping=symmetric_b,
-        entries=_entries(database, symmetric_a, symmetric_b),
-        known=None if known is None else 0.5 * (known + known.T),
-        trusted=trusted,
-        r2=r2,
-    )
-    if known is not None:
-        return blocks, rows, 0.5 * (known + known.T)
-    return blocks, rows, _keep_constant_entries(infinite, symmetric_a, blocks)
 
 
 def _fit_additional(

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.memory.oscillator_motions import FLOOR, MotionData, MotionProblem
-from seacrane.hydro.memory.oscillators import LOWEST_FREQUENCY, Oscillators
+from seacrane.hydro.memory.oscillator_motions import MotionData, MotionProblem
+from seacrane.hydro.memory.oscillators import FLOOR, LOWEST_FREQUENCY, Oscillators
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.memory.oscillators import (
+    FLOOR,
     LOWEST_FREQUENCY,
     SLOWEST_DECAY,
     GroupData,
@@ -26,9 +27,6 @@ PLACES = 6  # tried for each new mass
 GLANCE, LOOK, SEARCH = 10, 40, 120  # evaluations for every place, for the best two, and for the best
 SMALL_GAIN = 1e-4  # of the sum of squares in one step, below which a search ends
 MOST_DAMPING = 1e12
-FLOOR = (
-    0.02  # 1/s, smallest eigenvalue of the dampers: more would dissipate in long waves, which the data do not
-)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -79,8 +77,6 @@ class MotionProblem(Problem):
     The infinite-frequency added mass enters both linearly and is eliminated from them together. ``damped``
     are the entries of L that are searched, all of the lower triangle where it is None.
     """
-
-    floor = FLOOR
 
     def __init__(self, data: MotionData, masses: int, damped: Places | None = None) -> None:
         super().__init__(data.group, masses)

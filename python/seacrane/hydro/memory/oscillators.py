@@ -1,4 +1,4 @@
-"""Passive rational matrix: damped, coupled oscillators behind the motions, fitted to added mass and damping.
+"""Passive rational matrix: damped, coupled oscillators behind the motions.
 
 With ``s = i omega``, n hidden unit masses, springs ``W = diag(w)``, a damping matrix ``R`` and couplings
 ``b`` (n, m) to the m motions::
@@ -18,17 +18,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.one_thread import one_thread
-
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 OUTSIDE_WEIGHT = 0.2
-FLOOR = 0.1  # 1/s, smallest eigenvalue of R: decays, and dissipation at all frequencies
+FLOOR = 0.02  # 1/s, smallest eigenvalue of R: decays; more would dissipate in long waves, as no data do
 SMALL_PAIR = 0.02  # spreads below this share of the geometric mean of their diagonals count as that large
 LOWEST_FREQUENCY = 0.15  # rad/s of a hidden spring and mass
 HIGHEST_FREQUENCY = 1.6  # the same, over the last frequency of the data
-CANDIDATES = 8  # places tried for each new mass
 DAMPER_WEIGHT = 3e-3  # of the diagonal of R in the least squares: no fast poles beyond the data
 LARGEST = 30.0
 SLOWEST_DECAY = 0.05  # 1/s; models that forget more slowly are taken only where there is no other
@@ -94,41 +91,8 @@ def first_guess(data: GroupData) -> Oscillators:
     return Oscillators(w=w, dampers=np.diag(w), coupling=np.diag(np.sqrt(w)))
 
 
-def fit_oscillators(data: GroupData, lower: Oscillators | None) -> Oscillators:
-    """Best fit with one mass more than ``lower``, or with one per motion where there is no lower one."""
-    guesses = [first_guess(data)] if lower is None else _one_more(data, lower)
-    problem = Problem(data, len(guesses[0].w))
-    found = [problem.solve(problem.pack(guess), evaluations=60) for guess in guesses]
-    found.append(problem.solve(min(found, key=lambda each: each[1])[0], evaluations=300))
-    quick = [each for each in found if problem.oscillators(each[0]).slowest_decay >= SLOWEST_DECAY]
-    best = min(quick or found, key=lambda each: each[1])
-    if quick:
-        polished = problem.solve(best[0], evaluations=300)
-        best = polished if problem.oscillators(polished[0]).slowest_decay >= SLOWEST_DECAY else best
-    return problem.oscillators(best[0])
-
-
-def _one_more(data: GroupData, lower: Oscillators) -> list[Oscillators]:
-    """``lower`` and one mass at several frequencies, coupled to what the damping lacks most there."""
-    missing = data.damping - lower.transfer(data.omega).real
-    n = len(lower.w)
-    guesses = []
-    last = 0.9 * float(data.omega[data.trusted][-1])
-    for w in np.geomspace(1.4 * LOWEST_FREQUENCY, last, CANDIDATES):
-        values, vectors = np.linalg.eigh(missing[np.abs(data.omega - w).argmin()])
-        dampers = np.zeros((n + 1, n + 1))
-        dampers[:n, :n], dampers[n, n] = lower.dampers, 0.5 * w + FLOOR
-        row = vectors[:, -1] * np.sqrt(max(values[-1], 0.01) * 0.5 * w)
-        guesses.append(
-            Oscillators(w=np.append(lower.w, w), dampers=dampers, coupling=np.vstack([lower.coupling, row]))
-        )
-    return guesses
-
-
 class Problem:
-    """Least squares of the weighted misfit of B and A over log w, L and b, with its exact Jacobian."""
-
-    floor = FLOOR
+    """What a search over log w, L and b goes through: its parameters, weights of B and A, and derivatives."""
 
     def __init__(self, data: GroupData, masses: int) -> None:
         self.data, self.n, self.m = data, masses, data.damping.shape[1]
@@ -139,11 +103,6 @@ class Problem:
         weight = np.where(data.trusted, 1.0, OUTSIDE_WEIGHT)[:, None]
         self.weight_a = weight / self._spread(data.added_mass)
         self.weight_b = weight / self._spread(data.damping)
-        known = data.added_mass_infinite
-        variable = data.added_mass if known is None else data.added_mass - known
-        self.target_a = variable[:, self.j, self.k] * self.weight_a
-        self.target_b = data.damping[:, self.j, self.k] * self.weight_b
-        self.unit_a = self.weight_a / np.linalg.norm(self.weight_a, axis=0)
 
     def _spread(self, matrices: FloatArray) -> FloatArray:
         """Unit (entries,) in which the squared misfit is 1 - R2."""
@@ -156,7 +115,7 @@ class Problem:
     def pack(self, guess: Oscillators) -> FloatArray:
         """Parameters: angles that keep w within its bounds, the lower triangle of L, b."""
         share = np.clip((np.log(guess.w) - self.bottom) / self.span, 0.005, 0.995)
-        factor = np.linalg.cholesky(guess.dampers - self.floor * np.eye(self.n) + 1e-6 * np.eye(self.n))
+        factor = np.linalg.cholesky(guess.dampers - FLOOR * np.eye(self.n) + 1e-6 * np.eye(self.n))
         return np.concatenate([np.arcsin(2.0 * share - 1.0), factor[self.lower], guess.coupling.ravel()])
 
     def _unpack(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -170,38 +129,7 @@ class Problem:
     def oscillators(self, parameters: FloatArray) -> Oscillators:
         """The model that the parameters stand for."""
         w, factor, coupling = self._unpack(parameters)
-        return Oscillators(w=w, dampers=factor @ factor.T + self.floor * np.eye(self.n), coupling=coupling)
-
-    def solve(self, start: FloatArray, *, evaluations: int) -> tuple[FloatArray, float]:
-        """Parameters and cost after a Levenberg-Marquardt search."""
-        from scipy.optimize import least_squares
-
-        with one_thread:
-            found = least_squares(
-                self.residual,
-                start,
-                jac=self.jacobian,
-                method="lm",
-                max_nfev=evaluations,
-                xtol=1e-7,
-                ftol=1e-6,
-            )
-        return np.asarray(found.x), float(found.cost)
-
-    def _eliminate(self, rows: FloatArray) -> FloatArray:
-        """Misfit of A (n, entries, ...) left by the best A_inf, where that is estimated."""
-        if self.data.added_mass_infinite is not None:
-            return rows
-        unit = self.unit_a.reshape(*self.unit_a.shape, *[1] * (rows.ndim - 2))
-        return np.asarray(rows - unit * np.sum(unit * rows, axis=0))
-
-    def residual(self, parameters: FloatArray) -> FloatArray:
-        """Weighted misfit of B, then of A, then the dampers' sizes."""
-        kernel = self.oscillators(parameters).transfer(self.data.omega)[:, self.j, self.k]
-        damping = kernel.real * self.weight_b - self.target_b
-        added_mass = kernel.imag / self.data.omega[:, None] * self.weight_a - self.target_a
-        sizes = self.sizes(parameters)[0]
-        return np.concatenate([damping.ravel(), self._eliminate(added_mass).ravel(), sizes])
+        return Oscillators(w=w, dampers=factor @ factor.T + FLOOR * np.eye(self.n), coupling=coupling)
 
     def sizes(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Weighted sizes (masses,) of the dampers, and their derivative."""
@@ -210,17 +138,6 @@ class Problem:
         slope = np.zeros((self.n, len(parameters)))
         slope[p, self.n + np.arange(len(p))] = 2.0 * DAMPER_WEIGHT * factor[p, q]
         return DAMPER_WEIGHT * np.sum(factor**2, axis=1), slope
-
-    def jacobian(self, parameters: FloatArray) -> FloatArray:
-        """Derivative of `residual`."""
-        d_kernel = self.kernel_slope(parameters)
-        damping = d_kernel.real * self.weight_b[:, :, None]
-        added_mass = d_kernel.imag / self.data.omega[:, None, None] * self.weight_a[:, :, None]
-        count = len(parameters)
-        sizes = self.sizes(parameters)[1]
-        return np.concatenate(
-            [damping.reshape(-1, count), self._eliminate(added_mass).reshape(-1, count), sizes]
-        )
 
     def kernel_slope(self, parameters: FloatArray) -> ComplexArray:
         """Derivative (n, entries, parameters) of the kernel, by ``d (Q^-1) = -Q^-1 dQ Q^-1`` with Q the

@@ -105,7 +105,7 @@ def load_hull(
     if isinstance(found, HydroGroup):
         raise FileFormatError(
             f"{path}: holds bodies {', '.join(found.names)[:200]}, and one hull is needed; take "
-            f"load_database(path)[{found.names[0]!r}], or all by Scene.add_vessels"
+            f"load_database(path)[{found.names[0]!r}], or all by Scene.add_vessel"
         )
     return found
 
