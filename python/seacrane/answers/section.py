@@ -21,7 +21,6 @@ th { background: #eee; }
 td { overflow-wrap: break-word; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .facts td:first-child { color: #333; }
-.facts td.number { text-align: left; }
 .columns { display: flex; flex-wrap: wrap; gap: 0 2rem; }
 figure { margin: 1.2rem 0; }
 img { max-width: 100%; height: auto; }
@@ -46,33 +45,29 @@ pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 0.8em; backgrou
 """
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Section(Generic[Subject]):
     """One block of a page.
 
     Attributes
     ----------
     title : Its heading.
-    applies : Whether a subject has anything for it; sections that do not apply are left out.
-    html : Its content as HTML, in which all text of users is escaped.
+    html : Its content as HTML, in which all text of users is escaped; where there is none it is left out.
     """
 
     title: str
-    applies: Callable[[Subject], bool]
     html: Callable[[Subject], str]
 
 
 def _block(section: Section[Subject], subject: Subject) -> str:
     try:
-        if not section.applies(subject):
-            return ""
         content = section.html(subject)
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
         raise FileFormatError(
             f"section {section.title!r} cannot be made: {type(error).__name__}: {error}; the result holds "
             "notes that no run writes"
         ) from error
-    return f"<section><h2>{escape(section.title)}</h2>\n{content}</section>"
+    return f"<section><h2>{escape(section.title)}</h2>\n{content}</section>" if content else ""
 
 
 def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subject: Subject) -> str:
