@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from seacrane.cli.output_folder import output_folder
-from seacrane.plotting.text import text_table
+from seacrane.plotting.table import table_of
 from stability_atlas import Atlas, stability_atlas
 from stability_atlas.points import POINTS
 
@@ -67,7 +67,7 @@ def summary(atlas: Atlas) -> str:
         errors = [error for error in told if error == error]
         worst = f"{max(errors):.2g}" if errors else ""
         table.append([axis, *counts, worst])
-    lines = [text_table(["axis", *verdicts, "largest error of a completed run"], table)] if table else []
+    lines = [str(table_of(["axis", *verdicts, "largest error of a completed run"], table))] if table else []
     known = [row for row in atlas.step_limits if row.predicted == row.predicted]
     if known:
         ratios = [row.found / row.predicted for row in known]

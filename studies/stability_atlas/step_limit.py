@@ -22,8 +22,8 @@ from seacrane._core import integrator as integrator_of
 from seacrane._core import integrators
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import held
+from seacrane.plotting.panel import save_table
 from seacrane.trading.methods import method_of
-from seacrane.trading.row_file import write_table
 from stability_atlas.altered import change_actuator
 from stability_atlas.crane_axes import held_crane
 
@@ -187,7 +187,7 @@ def _settles(
 def write_step_limits(path: Path, limits: list[StepLimit]) -> None:
     """As a table."""
     rows = [[*astuple(row), row.found / row.predicted] for row in limits]
-    write_table(path, [*(field.name for field in fields(StepLimit)), "found/predicted"], rows, digits=5)
+    save_table([*(field.name for field in fields(StepLimit)), "found/predicted"], rows, path)
 
 
 def step_limit_figure(limits: list[StepLimit]) -> Figure:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from seacrane.plotting.panel import save_table
 from seacrane.trading.row import UNKNOWN, Row
-from seacrane.trading.row_file import write_table
 from stability_atlas.points import POINTS
 
 COLUMNS = ("axis", "value", "formulation", "integrator", "setting", "verdict", "error", "uncertainty",
@@ -17,7 +17,7 @@ COLUMNS = ("axis", "value", "formulation", "integrator", "setting", "verdict", "
 
 def write_csv(path: Path, rows: Sequence[Row]) -> None:
     """All rows; `error` and `uncertainty` are over `motion` (m), empty where there is no number."""
-    write_table(path, COLUMNS, map(_cells, rows), digits=4)
+    save_table(COLUMNS, list(map(_cells, rows)), path)
 
 
 def _cells(row: Row) -> list[Any]:

@@ -89,7 +89,7 @@ def test_statistics_are_those_of_the_channels(lift: Result, page: Report) -> Non
     assert Page(page.html).row("hoist tension")[:2] == ["kN", "98.07"]
     run = crane_run(t_end=5.0)
     run["arrays"]["vessel_motion"][:, 1] = 1e-16  # which is rounding
-    named = {one.title for one in statistics_of(Result.from_arrays(**run))[0]}
+    named = {one[0] for one in statistics_of(Result.from_arrays(**run))[0]}
     assert "vessel motion sway" not in named and "vessel motion surge" in named
 
 

@@ -67,8 +67,7 @@ def test_the_crane_s_own_table_is_a_limit(tmp_path: Path) -> None:
     scene = quay(with_table(tmp_path))
     chart = load_chart(scene, radii=[25.0, 21.0])
     np.testing.assert_allclose(chart.allowable, [[45e3, 57e3]])
-    assert chart.to_xarray()["allowable"].sel(radius=25.0, slew=0.0).item() == pytest.approx(45e3)
-    assert chart.to_dict()["governing"] == chart.governing.tolist() == [["capacity", "capacity"]]
+    assert chart.to_xarray()["governing"].values.tolist() == [["capacity", "capacity"]]
     load, table = plot_load_chart(chart).axes[0].lines
     assert load.get_xdata().tolist() == [21.0, 25.0]
     np.testing.assert_allclose(load.get_ydata(), table.get_ydata())

@@ -72,10 +72,12 @@ def test_the_cheapest_setting_meets_its_limit_when_run(case2: Any, measured: Tra
     assert front
     for row in measured.rows:
         assert not any(row.cpu_s < f.cpu_s and row.error("roll") < f.error("roll") for f in front)
-    error = measured.table["error"].sel(quantity="roll").to_numpy()
+    error = measured.to_xarray()["error_roll"].to_numpy()
     assert error[0] == measured.rows[0].error("roll")
     with (folder / "trade.csv").open() as file:
-        assert [float(row["error_roll"]) for row in csv.DictReader(file)] == pytest.approx(error, rel=1e-5)
+        assert [float(row["error_roll [rad]"]) for row in csv.DictReader(file)] == pytest.approx(
+            error, rel=1e-5
+        )
 
 
 def test_rows_of_an_earlier_call_are_kept_and_those_of_another_scene_not(measured: Any, folder: Path) -> None:

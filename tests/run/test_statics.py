@@ -106,7 +106,6 @@ def test_a_radius_is_reached_by_one_cylinder() -> None:
     """The tip of the crane's own geometry is at the radius asked for, at the forces of that stroke."""
     crane = KnuckleBoomCrane.load()
     told = sc.statics(crane_on_ground(), slew=[0.0, -1.0], radius=[19.0, 22.0])
-    assert dict(told.to_xarray().sizes) == {"slew": 2, "radius": 2}
     np.testing.assert_allclose(told["tip radius"], [[19.0, 22.0]] * 2, rtol=1e-9)
     strokes = np.linspace(2.0, crane.data.main_cylinder.stroke, 4001)
     tips = [np.hypot(*crane.geometry.tip(slew=0.0, s1=s, s2=1.5)[:2]) for s in strokes]

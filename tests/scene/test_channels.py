@@ -206,7 +206,7 @@ def test_a_table_has_a_column_for_each_curve_under_its_text(lift: Result, tmp_pa
 
     path = lift.to_csv(tmp_path / "lift.csv", "roll", "link_tension")
     first, *rows = path.read_text(encoding="utf-8").splitlines()
-    assert first == "time,vessel_motion[roll],link_tension"
+    assert first == "time [s],vessel_motion[roll] [rad],link_tension [N]"
     read = np.array([[float(cell) for cell in row.split(",")] for row in rows])
     assert np.array_equal(read.T, [lift.time, lift.select("roll"), lift["link_tension"]])
 

@@ -94,7 +94,7 @@ def test_modes_tell_what_grows() -> None:
         modes = natural_modes(post)
     rate = np.sqrt(1e3 * G / (10.0 + 1e3))
     assert modes.real_eigenvalues == pytest.approx([-rate, rate], rel=1e-6)
-    assert f"grows, doubling in {np.log(2.0) / rate:.3g} s" in modes.table()
+    assert f"grows, doubling in {np.log(2.0) / rate:.3g} s" in str(modes.table())
 
 
 def tanks(

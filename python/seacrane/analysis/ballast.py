@@ -24,7 +24,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import heel_and_trim, rotation_matrix
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Answer, Column, Table
 from seacrane.validity.unstable import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
 
@@ -73,11 +73,16 @@ class Ballast(Answer):
         )
         if not self.contents:
             told += f", at {self.center[0]:.4g}, {self.center[1]:.4g} m"
-        rows = [
-            [name, f"{kg / 1e3:.4g}", f"{self.changes[name] / 1e3:+.4g}"]
-            for name, kg in self.contents.items()
-        ]
-        return Table(head=["tank", "content [t]", "change [t]"], rows=rows, right=(1, 2), title=told)
+        both = (self.contents, self.changes)
+        contents, changes = (np.array([each[name] for name in self.contents]) for each in both)
+        return Table(
+            axes=[Column(name="tank", values=list(self.contents))],
+            columns=[
+                Column(name="content", values=contents, unit="kg", read=("t", contents / 1e3)),
+                Column(name="change", values=changes, unit="kg", read=("t", changes / 1e3), form="+.4g"),
+            ],
+            title=told,
+        )
 
 
 def add_ballast(

@@ -16,6 +16,7 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
+from seacrane.plotting.table import Table, table_of
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -107,34 +108,29 @@ class NaturalModes:
             raise ValueError(f"no mode is {label!r}; there are {', '.join(sorted(set(labels)))}")
         return max(found, key=lambda i: float(self.mechanical_share[i]))
 
-    def table(self, *, least_mechanical_share: float = 0.5) -> str:
+    def table(self, *, least_mechanical_share: float = 0.5) -> Table:
         """Rows of label, natural period (s), damping ratio and mechanical share, and of what grows.
 
         Modes below that share are those of the fluid memory, which no motion shows by itself. The six motions
         of each vessel are always there: by their own mode, whatever its share, or else with the reason.
         """
-        rows = [f"{'mode':24}{'period [s]':>12}{'damping [%]':>13}{'mechanical':>12}"]
         labels = [self.label(i) for i in range(len(self.eigenvalues))]
         shown = {i for i, share in enumerate(self.mechanical_share) if share >= least_mechanical_share}
         motions = [f"{body} {motion}" for body in self.vessels for motion in MOTIONS]
         absent = {name: self._absent(name) for name in motions if not any(labels[i] == name for i in shown)}
         shown |= {self.find(name) for name, why in absent.items() if not why}
-        rows += [self._row(labels[i], i) for i in sorted(shown)]
-        rows += [f"{name:24}{why}" for name, why in absent.items() if why]
+        rows: list[tuple[Any, ...]] = [self._row(labels[i], i) for i in sorted(shown)]
+        rows += [(name, None, None, None, why) for name, why in absent.items() if why]
         rows += [
-            f"{self.real_labels[i]:24}{growth_in_words(complex(self.real_eigenvalues[i]))}"
+            (self.real_labels[i], None, None, None, growth_in_words(complex(self.real_eigenvalues[i])))
             for i in np.flatnonzero(grows(self.real_eigenvalues))
         ]
-        return "\n".join(rows)
+        return table_of(("mode", "period [s]", "damping [%]", "mechanical", ""), rows, form=".3f")
 
-    def _row(self, label: str, mode: int) -> str:
-        row = (
-            f"{label:24}{self.natural_period[mode]:12.3f}{100.0 * self.damping_ratio[mode]:13.3f}"
-            f"{self.mechanical_share[mode]:12.3f}"
-        )
-        if not grows(self.eigenvalues)[mode]:
-            return row
-        return f"{row}  {growth_in_words(complex(self.eigenvalues[mode].real))}"
+    def _row(self, label: str, mode: int) -> tuple[Any, ...]:
+        numbers = (self.natural_period, 100.0 * self.damping_ratio, self.mechanical_share)
+        words = growth_in_words(complex(self.eigenvalues[mode].real)) if grows(self.eigenvalues)[mode] else ""
+        return (label, *(float(one[mode]) for one in numbers), words)
 
     def _absent(self, motion: str) -> str:
         """Why a vessel's motion has no mode of its own; empty if it has one."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -18,10 +17,9 @@ from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.holding import Drive, held_drives, with_holds
 from seacrane.description.loads import kind_of, named
 from seacrane.description.wet_parts import sources_in_water
-from seacrane.plotting.html import format_value, notebook_table
+from seacrane.plotting.table import Table, facts
 
 Rows = list[tuple[str, Any]]
-WIDTH = 110  # characters of a line
 REPETITIONS = 500  # of each part when its cost is measured
 LABELS = {  # of kinds of loads that are not called by their kind
     "function force": "C functions",
@@ -32,20 +30,17 @@ WORK_STATES = 2  # the work integral and its absolute counterpart
 
 
 class SceneReport(dict[str, Rows]):
-    """Sections of rows by their titles; prints row by row, and as tables in notebooks."""
+    """Sections of rows by their titles; prints as tables."""
+
+    def tables(self) -> list[Table]:
+        """Names beside values, one of each section."""
+        return [facts(rows, title) for title, rows in self.items()]
 
     def __repr__(self) -> str:
-        lines = []
-        for title, rows in self.items():
-            lines += [title, *(f"  {name}: {format_value(value)}" for name, value in rows)]
-        return "\n".join(wrapped for line in lines for wrapped in _wrapped(line))
+        return "\n\n".join(map(str, self.tables()))
 
     def _repr_html_(self) -> str:
-        return "".join(notebook_table((), rows, caption=title) for title, rows in self.items())
-
-
-def _wrapped(line: str) -> list[str]:
-    return wrap(line, WIDTH, subsequent_indent="      ", break_long_words=False, break_on_hyphens=False)
+        return "".join(one._repr_html_() for one in self.tables())
 
 
 def scene_report(scene: Description) -> SceneReport:

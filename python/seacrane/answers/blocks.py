@@ -37,12 +37,6 @@ def picture_block(picture: Picture) -> str:
     return embedded(picture.image.read_bytes(), picture.title, f"{picture.caption}{source}")
 
 
-def verdict(good: bool | None, text: str) -> str:
-    """Words in the colour of what they mean; None: neither good nor bad."""
-    kind = "" if good is None else f' class="{"good" if good else "bad"}"'
-    return f"<span{kind}>{escape(text)}</span>"
-
-
 def cards(values: Mapping[str, tuple[str, bool | None]]) -> str:
     """Large numbers by what they are, each good, bad or neither."""
     colour = {None: "", True: " good", False: " bad"}

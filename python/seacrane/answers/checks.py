@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from html import escape
 from typing import Any
 
-from seacrane.answers.blocks import note, verdict
 from seacrane.answers.measures import (
     BALANCED,
     CLOSED,
@@ -18,7 +17,7 @@ from seacrane.answers.measures import (
     worst,
 )
 from seacrane.answers.section import Section
-from seacrane.plotting.html import table
+from seacrane.plotting.table import facts, table_of
 from seacrane.result import Event, Result
 
 MOST_EVENTS = 200
@@ -75,7 +74,7 @@ def side_by_side(runs: Mapping[str, Result], rows: Callable[[Result], Rows]) -> 
     """One table of several runs; what none of them has is left out."""
     by_run = [dict(rows(run)) for run in runs.values()]
     texts = list(dict.fromkeys(text for one in by_run for text in one))
-    return table(["", *runs], [[text, *(one.get(text) for one in by_run)] for text in texts])
+    return table_of(["", *runs], [[text, *(one.get(text) for one in by_run)] for text in texts]).html()
 
 
 def _told(rows: Rows) -> Rows:
@@ -83,7 +82,7 @@ def _told(rows: Rows) -> Rows:
 
 
 def _judgement(good: bool | None, passed: str, failed: str) -> str:
-    return "" if good is None else f"<p>{verdict(good, passed if good else failed)}</p>"
+    return "" if good is None else f'<p class="{"good" if good else "bad"}">{passed if good else failed}</p>'
 
 
 def _checks(result: Result) -> str:
@@ -101,7 +100,7 @@ def _checks(result: Result) -> str:
         ("Worst constraint errors", _told(constraint_rows(result)), joints),
         ("Energy balance", _told(energy_rows(result)), energy),
     ]
-    return "\n".join(f"<h3>{name}</h3>{table((), rows)}{words}" for name, rows, words in parts if rows)
+    return "\n".join(f"<h3>{name}</h3>{facts(rows).html()}{words}" for name, rows, words in parts if rows)
 
 
 def _beside_stages(result: Result) -> list[Event]:
@@ -119,7 +118,8 @@ def _events(result: Result) -> str:
     ]  # fmt: skip
     head = ("time [s]", "limit", "event", "speed [m/s or rad/s]", "impulse [N s or N m s]", "energy lost [J]")
     more = len(events) - len(rows)
-    return table(head, rows) + (note(f"{more} later events are not shown.") if more else "")
+    remarks = [f"{more} later events are not shown."] if more else []
+    return table_of(head, rows, remarks=remarks).html() if rows else ""
 
 
 def _warnings(result: Result) -> str:
@@ -130,15 +130,11 @@ def _warnings(result: Result) -> str:
     return f"<ul>{items}</ul>" if items else "<p>None.</p>"
 
 
-CHECKS: Section[Result] = Section(
-    title="Checks",
-    applies=lambda result: bool(_told(constraint_rows(result)) or _told(energy_rows(result))),
-    html=_checks,
-)
-EVENTS: Section[Result] = Section(
-    title="Events", applies=lambda result: bool(_beside_stages(result)), html=_events
-)
-WARNINGS: Section[Result] = Section(title="Warnings", applies=lambda _: True, html=_warnings)
-COST: Section[Result] = Section(
-    title="Cost", applies=lambda _: True, html=lambda result: table((), _told(counter_rows(result)))
-)
+def _cost(result: Result) -> str:
+    return facts(_told(counter_rows(result))).html()
+
+
+CHECKS: Section[Result] = Section("Checks", _checks)
+EVENTS: Section[Result] = Section("Events", _events)
+WARNINGS: Section[Result] = Section("Warnings", _warnings)
+COST: Section[Result] = Section("Cost", _cost)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from seacrane.answers.blocks import note
 from seacrane.answers.section import Section
-from seacrane.plotting.html import table
 from seacrane.result import Result
-from seacrane.result.contact_loads import HEAD, contact_loads
+from seacrane.result.contact_loads import contact_loads
 
 NOTE = (
     "Speed is that at which a point comes, along the surface's normal. A re-hit is each contact of a point "
@@ -15,9 +14,8 @@ NOTE = (
 
 
 def _html(result: Result) -> str:
-    return table(HEAD, contact_loads(result).cells()) + note(NOTE)
+    told = contact_loads(result)
+    return told.html() + note(NOTE) if told else ""
 
 
-CONTACTS: Section[Result] = Section(
-    title="Contacts", applies=lambda result: bool(contact_loads(result)), html=_html
-)
+CONTACTS: Section[Result] = Section("Contacts", _html)

@@ -21,6 +21,8 @@ def _tensions(result: Result) -> list[str]:
 
 
 def _loads(result: Result) -> str:
+    if not _tensions(result):
+        return ""
     figure = draw(history_sheet(result, *_tensions(result)))
     return drawn(
         figure,
@@ -36,6 +38,8 @@ def _drawable(result: Result) -> bool:
 
 
 def _histories(result: Result) -> str:
+    if not _drawable(result):
+        return ""
     caption = (
         "What was recorded over time; triangles mark the largest and the smallest value. What is zero up to "
         "rounding is left out."
@@ -44,21 +48,14 @@ def _histories(result: Result) -> str:
 
 
 def _track(result: Result) -> str:
+    if "position" not in result.channels or not payload_bodies(result):
+        return ""
     return drawn(draw_track(result), "Payload", "Track of the centre of mass in inertial axes.")
 
 
-LOADS: Section[Result] = Section(
-    title="Hook load and tension", applies=lambda result: bool(_tensions(result)), html=_loads
-)
-HISTORIES: Section[Result] = Section(title="Histories", applies=_drawable, html=_histories)
-TRACKS: Section[Result] = Section(
-    title="Payload track",
-    applies=lambda result: "position" in result.channels and bool(payload_bodies(result)),
-    html=_track,
-)
-
-
 def _scene(result: Result) -> str:
+    if not outlined_skeleton(result):
+        return ""
     caption = (
         f"First ({result.time[0]:g} s) and last ({result.time[-1]:g} s) recorded pose, inertial axes. Bodies "
         "are lines through their joints; ships have the length and breadth of their radii of gyration, boxes "
@@ -67,18 +64,15 @@ def _scene(result: Result) -> str:
     return drawn(plot_scene(result), "Scene", caption)
 
 
-SCENE_PICTURE: Section[Result] = Section(
-    title="Scene", applies=lambda result: bool(outlined_skeleton(result)), html=_scene
-)
-
-
-def _has_poses(result: Result) -> bool:
-    return result.kept_scene is not None and all(name in result.channels for name in POSES)
-
-
 def _page(result: Result) -> str:
+    if result.kept_scene is None or not all(name in result.channels for name in POSES):
+        return ""
     note = "Space plays and pauses, the mouse turns and zooms. The caption of the page tells what is drawn."
     return f'<div class="screen">{view(result)._repr_html_()}<p class="note">{note}</p></div>'
 
 
-THREE_DIMENSIONS: Section[Result] = Section(title="In three dimensions", applies=_has_poses, html=_page)
+LOADS: Section[Result] = Section("Hook load and tension", _loads)
+HISTORIES: Section[Result] = Section("Histories", _histories)
+TRACKS: Section[Result] = Section("Payload track", _track)
+SCENE_PICTURE: Section[Result] = Section("Scene", _scene)
+THREE_DIMENSIONS: Section[Result] = Section("In three dimensions", _page)

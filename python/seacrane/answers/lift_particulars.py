@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.answers.blocks import note
 from seacrane.answers.reported_curves import POSES, Curve, hook_loads
 from seacrane.description.crane_reach import tip_radius
 from seacrane.description.description import GROUND, Description
@@ -15,7 +14,7 @@ from seacrane.description.loads import lines_of
 from seacrane.description.roles import CraneRoles
 from seacrane.description.suspension import Hung, hung_loads, suspensions
 from seacrane.description.wet_parts import displaced_volume, immersed_parts, sources_in_water, waters_in
-from seacrane.plotting.html import table
+from seacrane.plotting.table import Table, table_of
 from seacrane.result import Result
 from seacrane.scene.lines import NO_BOUND, STRONGEST
 
@@ -56,10 +55,8 @@ def _in_water(scene: Description) -> Rows:
     return rows + [("coefficients in water", words) for words in sources_in_water(scene)]
 
 
-def stage_table(result: Result) -> str:
-    """Stages as they were run, with the hook loads of each; empty for one run."""
-    if not result.stages:
-        return ""
+def stage_table(result: Result) -> Table:
+    """Stages as they were run, with the hook loads of each."""
     hooks = _hooks(result)
     head = ("stage", "from [s]", "to [s]", "ended by", *(f"{one.name} [{one.unit}]" for one in hooks))
     rows = []
@@ -67,8 +64,8 @@ def stage_table(result: Result) -> str:
         within = result.stage(span.name)
         loads = [_range(one.values[within]) for one in hooks]
         rows.append((span.name, round(span.start, 2), round(span.end, 2), span.ended_by or "stopped", *loads))
-    ranges = note("Of hook loads the least and the largest output of the stage.") if hooks else ""
-    return table(head, rows) + ranges
+    words = ["Of hook loads the least and the largest output of the stage."] if hooks else []
+    return table_of(head, rows, remarks=words)
 
 
 def _hooks(result: Result) -> list[Curve]:

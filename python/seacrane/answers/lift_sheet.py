@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,23 +20,16 @@ from seacrane.description.suspension import Hung, Suspension, hung_loads, suspen
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
-from seacrane.plotting.answer import Answer, Table
-from seacrane.plotting.html import table
-from seacrane.plotting.tabular import Tabular
+from seacrane.plotting.table import Rows, Table, Verdict, read_as
 from seacrane.result import Result
-from seacrane.result.units import read_as
-
-if TYPE_CHECKING:
-    import xarray
 
 Array = NDArray[np.float64]
-HEAD = ("", "value", "unit", "formula", "with", "source")
 UNVERIFIED = "unverified"
 SCENE, STATICS, RUN = "the scene", "the scene at rest", "this run"
 WORST = "worst corner of the envelope"
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class SheetRow:
     """One number of a lift sheet.
 
@@ -57,10 +49,10 @@ class SheetRow:
 
     name: str
     value: float
-    unit: str
-    formula: str
-    inputs: str
-    source: str
+    unit: str = ""
+    formula: str = ""
+    inputs: str = ""
+    source: str = ""
     required: float | None = None
 
     @property
@@ -70,7 +62,7 @@ class SheetRow:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class LiftSheet(Tabular, Answer):
+class LiftSheet(Rows[SheetRow]):
     """The numbers of a lift calculation. Made by `lift_sheet`; prints as a table, forces in kN.
 
     Attributes
@@ -81,21 +73,6 @@ class LiftSheet(Tabular, Answer):
 
     scene: str
     load: str
-    rows: tuple[SheetRow, ...]
-
-    def __getitem__(self, name: str) -> SheetRow:
-        """The row of that name; KeyError names those that are there."""
-        for row in self.rows:
-            if row.name == name:
-                return row
-        known = ", ".join(repr(row.name) for row in self.rows)
-        raise KeyError(f"there is no row {name!r}; the sheet has {known}")
-
-    def __iter__(self) -> Iterator[SheetRow]:
-        return iter(self.rows)
-
-    def __len__(self) -> int:
-        return len(self.rows)
 
     @property
     def kept(self) -> bool:
@@ -106,39 +83,25 @@ class LiftSheet(Tabular, Answer):
         return f"<LiftSheet of {self.load!r} in {self.scene!r}: {len(self.rows)} rows>"
 
     def _shown(self) -> Table:
-        return Table(head=HEAD, rows=self._cells(), right=(1,), title=self._title())
-
-    def html(self) -> str:
-        """The table alone, as HTML."""
-        return table(HEAD, self._cells(), caption=self._title())
-
-    def to_xarray(self) -> xarray.Dataset:
-        """Columns over `row`, SI; a requirement that there is not as NaN."""
-        import xarray
-
-        names = [item.name for item in fields(SheetRow) if item.name != "name"]
-        columns: dict[str, Any] = {key: [getattr(row, key) for row in self.rows] for key in names}
-        columns["required"] = [np.nan if value is None else value for value in columns["required"]]
-        return xarray.Dataset(
-            {key: ("row", np.array(values)) for key, values in columns.items()},
-            {"row": [row.name for row in self.rows]},
-            {"scene": self.scene, "load": self.load},
-        )
-
-    def _title(self) -> str:
-        return f"{self.scene}: lift of {self.load}"
-
-    def _cells(self) -> list[list[str]]:
-        return [_cells(row) for row in self.rows]
+        units = [read_as(row.unit)[1] for row in self.rows]
+        return Table(
+            axes=[self.names("row", head="")],
+            columns=[
+                self.column("value", read=("", [_told(row) for row in self.rows])),
+                self.column("unit", read=("", units)),
+                self.column("formula"), self.column("inputs", head="with"), self.column("source"),
+                self.column("required", printed=False),
+            ],
+            title=f"{self.scene}: lift of {self.load}", attributes={"scene": self.scene, "load": self.load},
+        )  # fmt: skip
 
 
-def _cells(row: SheetRow) -> list[str]:
-    factor, unit = read_as(row.unit)
+def _told(row: SheetRow) -> Verdict:
+    factor = read_as(row.unit)[0]
     told = f"{factor * row.value:.4g}"
     if row.required is not None:
-        told += " >= " if row.kept else " below "
-        told += f"{row.required:.4g}"
-    return [row.name, told, unit, row.formula, row.inputs, row.source]
+        told += f" {'>=' if row.kept else 'below'} {row.required:.4g}"
+    return Verdict(told, row.kept)
 
 
 @one_thread
@@ -208,16 +171,14 @@ class _Sheet:
         factors = self._factors
         weight = self._scene.bodies[factors.name].mass * self._scene.gravity
         design = factors.weight_contingency * weight
-        yield SheetRow(name="weight", value=weight, unit="N", formula="W = m g", source=SCENE,
-                       inputs=f"m {weight / self._scene.gravity:.6g} kg")  # fmt: skip
+        yield SheetRow("weight", weight, "N", "W = m g", f"m {weight / self._scene.gravity:.6g} kg", SCENE)
         yield self._given("weight contingency", "weight_contingency", "gamma")
-        yield SheetRow(name="design weight", value=design, unit="N", formula="gamma W", source="",
-                       inputs=f"{factors.weight_contingency:g} x {weight / 1e3:.4g} kN")  # fmt: skip
+        inputs = f"{factors.weight_contingency:g} x {weight / 1e3:.4g} kN"
+        yield SheetRow("design weight", design, "N", "gamma W", inputs)
         x, y, z = factors.center_of_gravity
         if any(factors.center_of_gravity):
-            yield SheetRow(name="envelope of the centre of gravity", value=max(x, y, z), unit="m",
-                           formula="half its edges", inputs=f"{x:g}, {y:g}, {z:g} m",
-                           source=self._source("center_of_gravity"))  # fmt: skip
+            yield SheetRow("envelope of the centre of gravity", max(x, y, z), "m", "half its edges",
+                           f"{x:g}, {y:g}, {z:g} m", self._source("center_of_gravity"))  # fmt: skip
         for one, label in zip(self._hung, self._labels, strict=True):
             yield from self._of_hook(one, label)
         slings = self._slings()
@@ -233,20 +194,17 @@ class _Sheet:
 
     def _of_hook(self, one: Hung, label: str) -> Iterator[SheetRow]:
         static = self._worst(f"hook load{label}")
-        yield SheetRow(name=f"static hook load{label}", value=static, unit="N", source=STATICS,
-                       formula="gamma W + rigging", inputs=WORST)  # fmt: skip
+        yield SheetRow(f"static hook load{label}", static, "N", "gamma W + rigging", WORST, STATICS)
         dynamic, source = self._dynamic(label)
-        yield SheetRow(name=f"dynamic factor{label}", value=dynamic, unit="", formula="DAF", source=source,
-                       inputs="")  # fmt: skip
-        yield SheetRow(name=f"dynamic hook load{label}", value=static * dynamic, unit="N", source="",
-                       formula="DAF x static", inputs=f"{dynamic:.4g} x {static / 1e3:.4g} kN")  # fmt: skip
+        yield SheetRow(f"dynamic factor{label}", dynamic, formula="DAF", source=source)
+        inputs = f"{dynamic:.4g} x {static / 1e3:.4g} kN"
+        yield SheetRow(f"dynamic hook load{label}", static * dynamic, "N", "DAF x static", inputs)
         rating = self._scene.ratings.get(one.suspension.name)
         if rating is not None:
             pull = self._worst(f"hoist tension{label}")
             force = pull * dynamic
-            yield SheetRow(name=f"rope tension {rating.name}", value=force, unit="N", source=STATICS,
-                           formula="DAF x tension of a fall",
-                           inputs=f"{dynamic:.4g} x {pull / 1e3:.4g} kN")  # fmt: skip
+            yield SheetRow(f"rope tension {rating.name}", force, "N", "DAF x tension of a fall",
+                           f"{dynamic:.4g} x {pull / 1e3:.4g} kN", STATICS)  # fmt: skip
             yield self._safety(f"safety factor {rating.name}", rating.breaking_load, force,
                                rating.safety_factor, "")  # fmt: skip
 
@@ -256,11 +214,9 @@ class _Sheet:
         skew = factors.skew_load[number if len(factors.skew_load) > 1 else 0]
         static = self._worst(f"line tension {sling.name}", f"tension {sling.name}")
         force = static * dynamic * skew
-        yield SheetRow(
-            name=f"force {sling.name}", value=force, unit="N", formula="DAF SKL x static, " + WORST,
-            inputs=f"{dynamic:.4g} x {skew:g} x {static / 1e3:.4g} kN",
-            source=f"SKL: {self._source('skew_load')}",
-        )  # fmt: skip
+        inputs = f"{dynamic:.4g} x {skew:g} x {static / 1e3:.4g} kN"
+        source = f"SKL: {self._source('skew_load')}"
+        yield SheetRow(f"force {sling.name}", force, "N", f"DAF SKL x static, {WORST}", inputs, source)
         rating: Rating | None = self._scene.ratings.get(sling.name)
         if rating is not None:
             asked, key = rating.safety_factor, ""
@@ -276,21 +232,17 @@ class _Sheet:
         hs = None if self._run is None else self._run.settings.get("hs")
         if isinstance(hs, int | float):
             alpha = self._factors.alpha
-            yield SheetRow(name="operational Hs", value=alpha * hs, unit="m", formula="alpha Hs", source="",
-                           inputs=f"{alpha:g} x {hs:g} m")  # fmt: skip
+            yield SheetRow("operational Hs", alpha * hs, "m", "alpha Hs", f"{alpha:g} x {hs:g} m")
 
     def _safety(
         self, name: str, breaking_load: float, force: float, asked: float | None, key: str
     ) -> SheetRow:
         source = "" if asked is None else self._source(key) if key else "given with the rope"
-        return SheetRow(
-            name=name, value=breaking_load / force, unit="", formula="MBL / force", required=asked,
-            inputs=f"{breaking_load / 1e3:.4g} / {force / 1e3:.4g} kN", source=source,
-        )  # fmt: skip
+        inputs = f"{breaking_load / 1e3:.4g} / {force / 1e3:.4g} kN"
+        return SheetRow(name, breaking_load / force, "", "MBL / force", inputs, source, asked)
 
     def _given(self, name: str, key: str, formula: str) -> SheetRow:
-        return SheetRow(name=name, value=getattr(self._factors, key), unit="", formula=formula, inputs="",
-                        source=self._source(key))  # fmt: skip
+        return SheetRow(name, getattr(self._factors, key), formula=formula, source=self._source(key))
 
     def _source(self, key: str) -> str:
         return self._factors.sources.get(key, UNVERIFIED)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from typing import Any
 
 import numpy as np
 
-from seacrane.answers.blocks import note, verdict
 from seacrane.answers.section import Section
 from seacrane.description.pick import Pick
+from seacrane.plotting.table import Verdict, table_of
 from seacrane.result import Result
 from seacrane.result.events import Event
 from seacrane.result.traces import ANGLES, NO_MOTION, shown_unit
@@ -191,21 +190,15 @@ def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judge
     return found
 
 
-def _row(judged: Judged) -> str:
-    texts = (judged.name, judged.kind, judged.bound, judged.reached)
-    cells = "".join(f"<td>{escape(text)}</td>" for text in texts)
-    return f"<tr>{cells}<td>{verdict(judged.held, judged.words)}</td></tr>"
-
-
 def _html(result: Result) -> str:
-    head = "".join(f"<th>{name}</th>" for name in ("limit", "kind", "bound", "reached", "held?"))
-    rows = "\n".join(map(_row, judged_bounds(result)))
-    return f"<table><thead><tr>{head}</tr></thead><tbody>\n{rows}\n</tbody></table>" + note(
-        "Coordinates are those at the outputs. Capacities of structure and wire are limit states: see "
-        "the summary."
+    rows = [(j.name, j.kind, j.bound, j.reached, Verdict(j.words, j.held)) for j in judged_bounds(result)]
+    words = (
+        "Coordinates are those at the outputs. Capacities of structure and wire are limit states: see the "
+        "summary."
+    )
+    return (
+        table_of(("limit", "kind", "bound", "reached", "held?"), rows, remarks=[words]).html() if rows else ""
     )
 
 
-LIMITS: Section[Result] = Section(
-    title="Limits", applies=lambda result: bool(judged_bounds(result)), html=_html
-)
+LIMITS: Section[Result] = Section("Limits", _html)

@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +25,7 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
-from seacrane.plotting.answer import Answer, Table
-from seacrane.plotting.tabular import Tabular
-
-if TYPE_CHECKING:
-    import xarray
+from seacrane.plotting.table import Answer, Column, Table
 
 Array = NDArray[np.float64]
 DEGREES, ANGLES = "_deg", ("heel", "trim")
@@ -41,7 +37,7 @@ LEAST_SHARE = 1e-3  # of the described load, which is tried first beside it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class LoadChart(Tabular, Answer):
+class LoadChart(Answer):
     """The allowable load over radius and slew angle. Made by `load_chart`; prints as a table.
 
     Attributes
@@ -74,47 +70,29 @@ class LoadChart(Tabular, Answer):
         return f"<LoadChart of {self.scene!r}: {len(self.slews)} slews x {len(self.radii)} radii>"
 
     def _shown(self) -> Table:
-        head, rows = self._cells()
-        return Table(head=head, rows=rows, right=range(1 + len(self.slews)), title=self._title())
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain lists by name."""
-        found = {name: getattr(self, name) for name in ("slews", "radii", "allowable", "governing")}
-        return {name: values.tolist() for name, values in found.items()}
-
-    def to_xarray(self) -> xarray.Dataset:
-        """Allowable load and governing limit over slew (rad) and radius (m)."""
-        import xarray
-
-        dims = ("slew", "radius")
-        return xarray.Dataset(
-            {
-                "allowable": (dims, self.allowable.copy(), {"units": "kg"}),
-                "governing": (dims, self.governing.copy()),
-            },
-            {
-                "slew": ("slew", self.slews.copy(), {"units": "rad"}),
-                "radius": ("radius", self.radii.copy(), {"units": "m"}),
-            },
-            {"scene": self.scene},
-        )
-
-    def _title(self) -> str:
-        return f"{self.scene}: allowable load [t], and what limits it"
-
-    def _cells(self) -> tuple[list[str], list[list[str]]]:
-        head = ["radius [m]", *(f"slew {np.degrees(slew):.4g} deg" for slew in self.slews)]
-        rows = [
-            [f"{radius:.4g}", *(self._cell(i, k) for i in range(len(self.slews)))]
-            for k, radius in enumerate(self.radii)
+        columns = [
+            Column(
+                head=f"slew {np.degrees(slew):.4g} deg",
+                values=loads,
+                read=("", list(map(_told, loads, limits))),
+            )
+            for slew, loads, limits in zip(self.slews, self.allowable, self.governing, strict=True)
         ]
-        return head, rows
+        title = f"{self.scene}: allowable load [t], and what limits it"
+        return Table(axes=[Column(name="radius", values=self.radii, unit="m")], columns=columns, title=title)
 
-    def _cell(self, slew: int, radius: int) -> str:
-        value, limit = self.allowable[slew, radius], str(self.governing[slew, radius])
-        if np.isnan(value):
-            return f"none, {limit}"
-        return f"{value / 1e3:.4g} {limit}".rstrip() if np.isfinite(value) else "unlimited"
+    def _data(self) -> Table:
+        slew = Column(name="slew", values=self.slews, unit="rad")
+        radius = Column(name="radius", values=self.radii, unit="m")
+        load = Column(name="allowable", values=self.allowable, unit="kg")
+        governing = Column(name="governing", values=self.governing)
+        return Table(axes=[slew, radius], columns=[load, governing], attributes={"scene": self.scene})
+
+
+def _told(load: float, limit: str) -> str:
+    if np.isnan(load):
+        return f"none, {limit}"
+    return f"{load / 1e3:.4g} {limit}".rstrip() if np.isfinite(load) else "unlimited"
 
 
 @named

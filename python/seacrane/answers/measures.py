@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from seacrane.pictures.overview import payload_bodies, resultants
 from seacrane.result import Result
-from seacrane.result.traces import Trace, beyond_rounding, traces
+from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
 
 CLOSED = 1e-6  # m or rad: joints that are closed to it are closed for any engineer
 BALANCED = 1e-3  # of the absolute work
@@ -22,6 +22,7 @@ STATED = [
     "actuator_force",
     "driver_force",
 ]
+Statistics = tuple[Any, ...]  # title, unit, largest value, when (s), smallest, when, mean, standard deviation
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 PLANAR = ("surge", "sway", "yaw")  # motions that the summary leaves to the statistics
 # What is shown under a crane's own names is not shown again under those of its parts.
@@ -30,20 +31,6 @@ SAME = {
     "actuator_force": ("cylinder_force", "slew_torque"),
     "driver_force": ("cylinder_force", "slew_torque"),
 }
-
-
-@dataclass(frozen=True, kw_only=True)
-class Statistics:
-    """Statistics of one curve, in its unit; times in s."""
-
-    title: str
-    unit: str
-    largest: float
-    largest_at: float
-    smallest: float
-    smallest_at: float
-    mean: float
-    std: float
 
 
 def worst(result: Result, channel: str) -> float | None:
@@ -115,8 +102,6 @@ def statistics_of(result: Result) -> tuple[list[Statistics], int]:
 
 def _statistics(one: Trace, result: Result) -> Statistics:
     high, low = int(np.nanargmax(one.largest)), int(np.nanargmin(one.least))
-    return Statistics(
-        title=one.title, unit=one.unit, largest=float(one.largest[high]), largest_at=float(result.time[high]),
-        smallest=float(one.least[low]), smallest_at=float(result.time[low]),
-        mean=float(np.nanmean(one.values)), std=float(np.nanstd(one.values)),
-    )  # fmt: skip
+    numbers = (one.largest[high], result.time[high], one.least[low], result.time[low],
+               np.nanmean(one.values), np.nanstd(one.values))  # fmt: skip
+    return (one.title, one.unit, *(0.0 if abs(value) < NO_MOTION else float(value) for value in numbers))

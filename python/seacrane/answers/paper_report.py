@@ -15,8 +15,8 @@ from seacrane.answers.report import Report
 from seacrane.answers.section import Section, compose
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.pictures.findings import Finding
-from seacrane.plotting.html import table
 from seacrane.plotting.panel import Picture
+from seacrane.plotting.table import table_of
 from seacrane.result import Result
 
 SceneReport = Mapping[str, Sequence[tuple[str, Any]]]
@@ -68,7 +68,7 @@ def study_report(study: Study) -> Report:
 
 def _findings(study: Study) -> str:
     rows = [(item.finding, item.number, item.expected, item.verdict) for item in study.findings]
-    return table(("finding", "measured", "expected", "verdict"), rows)
+    return table_of(("finding", "measured", "expected", "verdict"), rows).html() if rows else ""
 
 
 def _accuracy(study: Study) -> str:
@@ -80,7 +80,8 @@ def _accuracy(study: Study) -> str:
 
 def _scene(study: Study) -> str:
     return "\n".join(
-        f"<h3>{escape(section)}</h3>{table(('item', 'value'), rows)}" for section, rows in study.scene.items()
+        f"<h3>{escape(section)}</h3>{table_of(('item', 'value'), rows).html()}"
+        for section, rows in study.scene.items()
     )
 
 
@@ -89,15 +90,11 @@ def _settings(study: Study) -> str:
 
 
 SECTIONS: tuple[Section[Study], ...] = (
-    Section(title="Findings", applies=lambda study: bool(study.findings), html=_findings),
-    Section(
-        title="Figures",
-        applies=lambda study: bool(study.pictures),
-        html=lambda study: "\n".join(map(picture_block, study.pictures)),
-    ),
-    Section(title="Accuracy", applies=lambda _: True, html=_accuracy),
-    Section(title="Cost", applies=lambda _: True, html=lambda study: side_by_side(study.runs, counter_rows)),
-    Section(title="Scene", applies=lambda study: bool(study.scene), html=_scene),
-    Section(title="Settings", applies=lambda _: True, html=_settings),
-    Section(title="Versions", applies=lambda _: True, html=lambda _: versions_block()),
+    Section("Findings", _findings),
+    Section("Figures", lambda study: "\n".join(map(picture_block, study.pictures))),
+    Section("Accuracy", _accuracy),
+    Section("Cost", lambda study: side_by_side(study.runs, counter_rows)),
+    Section("Scene", _scene),
+    Section("Settings", _settings),
+    Section("Versions", lambda _: versions_block()),
 )

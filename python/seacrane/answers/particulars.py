@@ -8,7 +8,7 @@ from typing import Any
 
 from seacrane.answers.lift_particulars import lift_rows, stage_table
 from seacrane.answers.section import Section
-from seacrane.plotting.html import format_value, table
+from seacrane.plotting.table import facts, format_value
 from seacrane.result import Result
 
 Rows = list[tuple[str, Any]]
@@ -92,10 +92,9 @@ def _html(result: Result) -> str:
         "Method": _method(result, settings),
         "Notes": _notes(settings),
     }
-    blocks = [f"<div><h3>{name}</h3>{table((), rows)}</div>" for name, rows in groups.items() if rows]
-    stages = stage_table(result)
-    below = f"<h3>Stages</h3>{stages}" if stages else ""
+    blocks = [f"<div><h3>{name}</h3>{facts(rows).html()}</div>" for name, rows in groups.items() if rows]
+    below = f"<h3>Stages</h3>{stage_table(result).html()}" if result.stages else ""
     return f'<div class="columns">{"".join(blocks)}</div>{below}'
 
 
-PARTICULARS: Section[Result] = Section(title="Particulars", applies=lambda _: True, html=_html)
+PARTICULARS: Section[Result] = Section("Particulars", _html)

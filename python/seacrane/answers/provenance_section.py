@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 import numpy as np
 
 from seacrane.answers.section import Section
-from seacrane.plotting.html import table
+from seacrane.plotting.table import facts, table_of
 from seacrane.result import CHANNELS, Result
 
 PACKAGES = ("seacrane", "numpy", "scipy", "matplotlib", "netCDF4", "xarray")
@@ -44,7 +44,7 @@ def settings_block(result: Result) -> str:
 
 def versions_block() -> str:
     """What made the page."""
-    return table(("package", "version"), versions().items())
+    return table_of(("package", "version"), versions().items()).html()
 
 
 def _recorded(result: Result) -> str:
@@ -52,7 +52,7 @@ def _recorded(result: Result) -> str:
         (name, ", ".join(result.dims[name]), CHANNELS[name].unit, CHANNELS[name].long_name)
         for name in result.channels
     ]
-    return table(("channel", "dimensions", "unit", ""), rows)
+    return table_of(("channel", "dimensions", "unit", ""), rows).html()
 
 
 def _html(result: Result) -> str:
@@ -62,7 +62,7 @@ def _html(result: Result) -> str:
     ]
     return "\n".join(
         [
-            table((), made),
+            facts(made).html(),
             f"<h3>Settings</h3>{settings_block(result)}",
             f"<h3>Recorded channels</h3>{_recorded(result)}",
             f"<h3>Versions that made this page</h3>{versions_block()}",
@@ -70,4 +70,4 @@ def _html(result: Result) -> str:
     )
 
 
-PROVENANCE: Section[Result] = Section(title="Provenance", applies=lambda _: True, html=_html)
+PROVENANCE: Section[Result] = Section("Provenance", _html)

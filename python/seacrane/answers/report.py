@@ -14,6 +14,7 @@ from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.inputs.keywords import named
 from seacrane.inputs.replaceable import GENERATOR, check_replaceable
+from seacrane.plotting.table import Answer
 from seacrane.result import Result
 
 HEIGHT = 640  # pixels of the frame in a notebook
@@ -73,7 +74,7 @@ class Report:
 
 
 @named
-def report(result: Result, *, title: str | None = None, requires: object = None) -> Report:
+def report(result: Result, *, title: str | None = None, requires: Answer | None = None) -> Report:
     """One page about a run: what was lifted and how, the loads, the limits, the numbers, and the checks.
 
     Parameters
@@ -106,11 +107,6 @@ def report(result: Result, *, title: str | None = None, requires: object = None)
         else ""
     )
     lead = f'{stopped}<p class="note">{escape(AXES_NOTE)}</p>'
-    sections = SECTIONS if requires is None else (*SECTIONS, _requires(str(requires)))
+    needs = "" if requires is None else requires.html()
+    sections = (*SECTIONS, Section[Result]("What the scene requires", lambda _: needs))
     return Report(title=heading, html=compose(title=heading, lead=lead, sections=sections, subject=result))
-
-
-def _requires(told: str) -> Section[Result]:
-    return Section(
-        title="What the scene requires", applies=lambda _: True, html=lambda _: f"<pre>{escape(told)}</pre>"
-    )

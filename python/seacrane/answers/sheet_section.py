@@ -29,7 +29,8 @@ def _loads(result: Result) -> list[str]:
 
 
 def _html(result: Result) -> str:
-    return "".join(_sheet(result, load) for load in _loads(result)) + note(WORDS)
+    sheets = "".join(_sheet(result, load) for load in _loads(result))
+    return sheets + note(WORDS) if sheets else ""
 
 
 def _sheet(result: Result, load: str) -> str:
@@ -39,4 +40,4 @@ def _sheet(result: Result, load: str) -> str:
         return note(f"No sheet of {load}: {error}.")
 
 
-SHEET: Section[Result] = Section(title="Lift sheet", applies=lambda one: bool(_loads(one)), html=_html)
+SHEET: Section[Result] = Section("Lift sheet", _html)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,14 +23,9 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
 from seacrane.one_thread import one_thread
-from seacrane.plotting.answer import Answer, Table
-from seacrane.plotting.tabular import Tabular
-from seacrane.result.units import read_as
+from seacrane.plotting.table import Answer, Column, Table
 from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
-
-if TYPE_CHECKING:
-    import xarray
 
 Array = NDArray[np.float64]
 NOTHING = 1e-8  # m, deg, kN, t: as printed
@@ -40,7 +35,7 @@ Pose = Mapping[str, float]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Statics(Tabular, Answer):
+class Statics(Answer):
     """A lift at rest in every pose asked for. Made by `statics`; prints as a table.
 
     Attributes
@@ -80,64 +75,19 @@ class Statics(Tabular, Answer):
         return f"<Statics of {self.scene!r}: {grid}; {', '.join(self.columns)}>"
 
     def _shown(self) -> Table:
-        head, rows = self._cells()
-        right = range(int(not self.poses), len(head))
-        return Table(head=head, rows=rows, right=right, title=f"{self.scene}, at rest")
+        return Table(
+            columns=[self._column(name) for name in self.columns],
+            axes=[Column(name=name, values=v, unit=self.pose_units[name]) for name, v in self.poses.items()],
+            title=f"{self.scene}, at rest", attributes={"scene": self.scene},
+        )  # fmt: skip
 
-    def to_dict(self) -> dict[str, list[Any] | float]:
-        """Columns as plain lists over the grid."""
-        return {name: values.tolist() for name, values in self.columns.items()}
-
-    def to_xarray(self) -> xarray.Dataset:
-        """Columns over the axes of the grid, with their units."""
-        import xarray
-
-        dims = tuple(name for name, values in self.poses.items() if np.ndim(values))
-        return xarray.Dataset(
-            {
-                name: (dims, values.copy(), {"units": self.units[name]})
-                for name, values in self.columns.items()
-            },
-            {
-                name: ((name,) if np.ndim(values) else (), values.copy(), {"units": self.pose_units[name]})
-                for name, values in self.poses.items()
-            },
-            {"scene": self.scene},
-        )
-
-    def _cells(self) -> tuple[list[str], list[list[str]]]:
-        """One pose as a column of names and values, several as one row each."""
-        printed = {name: self._printed(name) for name in self.columns}
-        if not self.poses:
-            rows = [[name, _shown(float(values)), unit] for name, (unit, values) in printed.items()]
-            return ["", "value", "unit"], rows
-        turned = {name for name, unit in self.pose_units.items() if unit == "rad"}
-        axes = [f"{name} [{'deg' if name in turned else 'm'}]" for name in self.poses]
-        head = [*axes, *(f"{name} [{unit}]" for name, (unit, _) in printed.items())]
-        axes_values = [
-            np.atleast_1d(np.degrees(v) if name in turned else v) for name, v in self.poses.items()
-        ]
-        places = itertools.product(*axes_values)
-        told = zip(*(np.ravel(values) for _, values in printed.values()), strict=True)
-        rows = [[_shown(float(v)) for v in (*place, *row)] for place, row in zip(places, told, strict=True)]
-        return head, rows
-
-    def _printed(self, name: str) -> tuple[str, Any]:
-        """Unit in which a column is printed, and its values there."""
-        values = np.asarray(self.columns[name])
+    def _column(self, name: str) -> Column:
+        values, read = np.asarray(self.columns[name]), None
         if name.startswith(HOOK):
-            return "t", values * 1e-3 / self.gravity
-        if name.startswith(HOOK_STIFFNESS):
-            return "mm/kN", 1e6 / values
-        factor, unit = read_as(self.units[name])
-        return unit, factor * values
-
-
-def _shown(value: float) -> str:
-    """With four digits; zero where it is so up to rounding, a dash where it is not known."""
-    if np.isnan(value):
-        return "-"
-    return f"{0.0 if abs(value) < NOTHING else value:.4g}"
+            read = "t", values * 1e-3 / self.gravity
+        elif name.startswith(HOOK_STIFFNESS):
+            read = "mm/kN", 1e6 / values
+        return Column(name=name, values=values, unit=self.units[name], read=read, least=NOTHING)
 
 
 def _unit(roles: CraneRoles | None, name: str) -> str:

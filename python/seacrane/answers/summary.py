@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,23 +18,18 @@ from seacrane.description.wet_parts import wet_bodies
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.keywords import named
-from seacrane.plotting.answer import Answer, Table
-from seacrane.plotting.html import table
-from seacrane.plotting.tabular import Tabular
+from seacrane.plotting.table import Column, Rows, Table
 from seacrane.result import Result
 from seacrane.result.contact_loads import NO_CONTACTS, ContactLoads, contact_loads
 from seacrane.result.extremes import inside
 from seacrane.result.utilisation import Utilisation
 
-if TYPE_CHECKING:
-    import xarray
-
 Array = NDArray[np.float64]
-HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor", "min/static")
 DASHED = (
     "- it went slack on a rod or a rigid wire, which knows no snap, lift-off or landing: no factor. Let it "
     "hang on a line of rung 'elastic' or 'auto'."
 )
+NOTHING = 1e-9  # as printed
 BLIND = (ROD, RIGID)  # a quasi-static line ends the run where it goes slack
 SLACK = 0.02  # of the static load: less is slack, or stands on something
 STARRED = "* at the first output told of: no static value is known."
@@ -92,7 +86,7 @@ class SummaryRow:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Summary(Tabular, Answer):
+class Summary(Rows[SummaryRow]):
     """The numbers of a run. Made by `summary`; prints as a table, in the units in which they are read.
 
     Attributes
@@ -116,97 +110,47 @@ class Summary(Tabular, Answer):
     scene: str
     start: float
     end: float
-    rows: tuple[SummaryRow, ...]
     remarks: tuple[str, ...] = ()
     of_outputs: tuple[str, ...] = ()
     utilisation: Utilisation = NO_LIMITS
     contacts: ContactLoads = NO_CONTACTS
 
-    def __iter__(self) -> Iterator[SummaryRow]:
-        return iter(self.rows)
-
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    def __getitem__(self, name: str) -> SummaryRow:
-        """The row of that name; KeyError names those that are there."""
-        for row in self.rows:
-            if row.name == name:
-                return row
-        known = ", ".join(repr(row.name) for row in self.rows) or "none"
-        raise KeyError(f"there is no row {name!r}; the summary has {known}")
-
     def __repr__(self) -> str:
         return f"<Summary of {self.scene!r}: {len(self.rows)} rows, {self.start:g} to {self.end:g} s>"
 
-    def __str__(self) -> str:
-        return "\n\n".join(str(one) for one in self._tables())
-
-    def _repr_html_(self) -> str:
-        return "".join(one.html() for one in self._tables())
-
     def _shown(self) -> Table:
-        title = f"{self.scene}, {self.start:g} to {self.end:g} s"
-        right = range(2, len(HEAD))
-        return Table(head=HEAD, rows=self._cells(), right=right, title=title, remarks=self.notes())
+        static = zip(self._numbers("static").texts(), self.rows, strict=True)
+        stars = [text if row.static_known else f"{text}*" for text, row in static]
+        blind = [np.nan if row.blind else row.factor for row in self.rows]
+        return Table(
+            axes=[self.names("row", head="")],
+            columns=[
+                self.column("unit", read=("", [row.printed for row in self.rows])),
+                self.column("static", read=("", stars)), self.column("static_known", printed=False),
+                self._numbers("mean"), self._numbers("std"),
+                self._numbers("minimum", head="min"), self.column("minimum_at", unit="s", head="at"),
+                self._numbers("maximum", head="max"), self.column("maximum_at", unit="s", head="at"),
+                self.column("factor", read=("", blind), form=".2f"),
+                self.column("slack_margin", head="min/static", form=".2f"),
+                self.column("blind", printed=False),
+            ],
+            title=f"{self.scene}, {self.start:g} to {self.end:g} s", remarks=self._notes(),
+            below=[one._shown() for one in (self.contacts, self.utilisation) if one],
+            attributes={"scene": self.scene, "start": self.start, "end": self.end,
+                        "remarks": "\n".join(self.remarks)},
+        )  # fmt: skip
 
-    def _tables(self) -> list[Table]:
-        return [self._shown(), *(one._shown() for one in (self.contacts, self.utilisation) if one)]
+    def _numbers(self, name: str, head: str | None = None) -> Column:
+        """In SI units, and in the unit in which each row is printed."""
+        read = [si_factor(row.printed) * getattr(row, name) for row in self.rows]
+        return self.column(name, head=head, read=("", read), least=NOTHING)
 
-    def html(self) -> str:
-        """The table alone, as HTML."""
-        return table(HEAD, self._cells())
-
-    def notes(self) -> list[str]:
-        """What stands below the table: what a star means, and the remarks."""
+    def _notes(self) -> list[str]:
+        """What a star means, and the remarks."""
         starred = any(not row.static_known for row in self.rows)
         blind = any(row.blind for row in self.rows)
         outputs = [OUTPUTS.format(", ".join(self.of_outputs))] if 0 < len(self.of_outputs) < len(self) else []
         return [*([STARRED] if starred else []), *([DASHED] if blind else []), *outputs, *self.remarks]
-
-    def to_dict(self) -> dict[str, dict[str, Any]]:
-        """By row and column, plain values."""
-        return {
-            row.name: {
-                item.name: getattr(row, item.name)
-                for item in fields(row)
-                if item.name not in ("name", "printed")
-            }
-            for row in self.rows
-        }
-
-    def to_xarray(self) -> xarray.Dataset:
-        """Columns over `row`; `unit` and `static_known` among them, a factor that is none as NaN."""
-        import xarray
-
-        names = [item.name for item in fields(SummaryRow) if item.name not in ("name", "printed")]
-        columns: dict[str, Any] = {key: [getattr(row, key) for row in self.rows] for key in names}
-        for key in ("factor", "slack_margin"):
-            columns[key] = [np.nan if value is None else value for value in columns[key]]
-        return xarray.Dataset(
-            {key: ("row", np.array(values)) for key, values in columns.items()},
-            {"row": [row.name for row in self.rows]},
-            {"scene": self.scene, "start": self.start, "end": self.end, "remarks": "\n".join(self.remarks)},
-        )
-
-    def _cells(self) -> list[list[str]]:
-        return [_cells(row) for row in self.rows]
-
-
-def _cells(row: SummaryRow) -> list[str]:
-    star = "" if row.static_known else "*"
-    per = si_factor(row.printed)
-    numbers = (
-        per * row.mean, per * row.std, per * row.minimum, row.minimum_at, per * row.maximum, row.maximum_at
-    )  # fmt: skip
-    factor = ("-" if row.blind else "") if row.factor is None else f"{row.factor:.2f}"
-    margin = "" if row.slack_margin is None else f"{row.slack_margin:.2f}"
-    return [row.name, row.printed, f"{_shown(per * row.static)}{star}", *map(_shown, numbers), factor, margin]
-
-
-def _shown(value: float) -> str:
-    """With four digits: no quantity of a lift is known to more."""
-    return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
 
 
 @named

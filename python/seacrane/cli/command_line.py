@@ -258,12 +258,11 @@ def _complete(parser: argparse.ArgumentParser) -> None:
 def _version() -> str:
     """The version, and below it how the package was built."""
     from seacrane.cli.built import build_facts
-    from seacrane.plotting.text import text_table
+    from seacrane.plotting.table import table_of
 
     facts = build_facts()
     rows = [(name, text) for name, text in facts.items() if name != "seacrane"]
-    lines = text_table(("", ""), rows).splitlines()[1:]
-    return "\n".join([f"seacrane {facts['seacrane']}", *(f"  {line}" for line in lines)])
+    return str(table_of(("", ""), rows, title=f"seacrane {facts['seacrane']}"))
 
 
 def _run_command(chosen: argparse.Namespace) -> int:

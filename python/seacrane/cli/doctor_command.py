@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 
 from seacrane.cli.as_json import to_json
-from seacrane.plotting.text import text_table
+from seacrane.plotting.table import table_of
 
 Facts = list[tuple[str, str]]
 NOT_FOR_USERS = ("dev", "bench", "fuzz", "docs", "wheel")  # extras that only work on the package itself needs
@@ -57,8 +57,7 @@ def _show(sections: dict[str, Facts], missing: list[str], *, as_json: bool) -> N
         return
     for name, facts in sections.items():
         if facts:
-            table = text_table(("", ""), facts).splitlines()[1:]
-            print("\n".join([name, *(f"  {line}" for line in table), ""]))
+            print(f"{table_of(('', ''), facts, title=name)}\n")
     print("missing: " + "; ".join(missing) if missing else "all that is needed is there")
 
 

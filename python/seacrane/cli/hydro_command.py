@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.as_json import to_json
 from seacrane.cli.output_folder import output_folder
-from seacrane.plotting.text import text_table
+from seacrane.plotting.table import table_of
 
 if TYPE_CHECKING:
     from seacrane.hydro import CheckRow, HydroDatabase, HydroGroup
@@ -56,7 +56,7 @@ def _of_group(group: HydroGroup, arguments: argparse.Namespace) -> int:
 
 def _show(checked: list[CheckRow], *, as_json: bool) -> None:
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in checked]
-    print(to_json(rows) if as_json else _as_text(rows))
+    print(to_json(rows) if as_json else table_of(COLUMNS, [row.values() for row in rows]))
 
 
 def _with_memory(database: HydroDatabase, *, kind: str | None, asked: bool) -> HydroDatabase:
@@ -67,9 +67,3 @@ def _with_memory(database: HydroDatabase, *, kind: str | None, asked: bool) -> H
         return database
     model = fit_memory(database=database) if kind is None else fit_memory(database=database, kind=kind)
     return dataclasses.replace(database, memory=model)
-
-
-def _as_text(rows: list[dict[str, Any]]) -> str:
-    from seacrane.plotting.html import format_value
-
-    return text_table(COLUMNS, [[format_value(row[name]) for name in COLUMNS] for row in rows])

@@ -9,7 +9,6 @@ from seacrane.cli.as_json import to_json
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.scene_source import is_result, load_scene
 from seacrane.errors import SceneError
-from seacrane.plotting.text import text_table
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -50,10 +49,5 @@ def _print(arguments: argparse.Namespace) -> int:
             to_json({section: [{"name": n, "value": v} for n, v in rows] for section, rows in report.items()})
         )
         return 0
-    from seacrane.plotting.html import format_value
-
-    for number, (section, rows) in enumerate(report.items()):
-        print(("\n" if number else "") + section)
-        table = text_table(["", ""], [(str(name), format_value(value)) for name, value in rows])
-        print("\n".join(f"  {line}" for line in table.splitlines()[1:]))
+    print(report)
     return 0

@@ -9,7 +9,6 @@ from seacrane.cli.command_line import INTERRUPTED
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.scene_source import Source, load_source
 from seacrane.errors import SceneError
-from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
     from seacrane.result import Result
@@ -65,19 +64,11 @@ def _require_no_span(arguments: argparse.Namespace) -> None:
 
 def told(result: Result) -> str:
     """All that is printed of a run."""
+    from seacrane.answers.lift_particulars import stage_table
     from seacrane.answers.summary import summary
 
-    stages = f"{stage_table(result)}\n" if result.stages else ""
-    return f"{costs(result)}\n\n{summary(result)}\n{stages and chr(10)}{stages}"
-
-
-def stage_table(result: Result) -> str:
-    """When each stage began and ended, and what ended it."""
-    rows = [
-        [span.name, f"{span.start:.2f}", f"{span.end:.2f}", span.ended_by or "interrupted"]
-        for span in result.stages
-    ]
-    return text_table(["stage", "from [s]", "to [s]", "ended by"], rows, right=(1, 2))
+    stages = f"\n{stage_table(result)}\n" if result.stages else ""
+    return f"{costs(result)}\n\n{summary(result)}\n{stages}"
 
 
 def costs(result: Result) -> str:

@@ -23,7 +23,10 @@ def run(arguments: argparse.Namespace) -> int:
     result = Result.load(path)
     told = summary(result, after=arguments.start, before=arguments.end)
     if arguments.json:
-        print(to_json({"rows": told.to_dict(), "remarks": told.remarks}))
+        rows = {
+            row.name: {k: v for k, v in vars(row).items() if k not in ("name", "printed")} for row in told
+        }
+        print(to_json({"rows": rows, "remarks": told.remarks}))
     else:
         print(told)
     if arguments.out is not None:

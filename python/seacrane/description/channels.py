@@ -234,6 +234,12 @@ def unit_of(channel: str, names: Collection[str]) -> str:
     return CHANNELS[channel].unit
 
 
+def units_of(channel: str) -> list[str]:
+    """All units that curves of a channel may have."""
+    listed = [unit.strip() for unit, _ in re.findall(r"([^,()]+) \(([^)]*)\)", CHANNELS[channel].unit)]
+    return listed or CHANNELS[channel].unit.split(" or ")
+
+
 def channel_of(name: str) -> str:
     """The channel whose least or largest values an array of a file holds; of others the name itself."""
     for ending in (LEAST, LARGEST):

@@ -17,7 +17,7 @@ from seacrane.ensembles.kept import Kept
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result import Result
 from seacrane.scene.scene import Scene
 
@@ -68,23 +68,21 @@ class CoefficientScatter(Answer):
     __repr__ = Answer.__str__
 
     def _shown(self) -> Table:
-        names = list(self.values[DESCRIBED])
-        rows = []
-        for case, row in self.values.items():
-            known = self.values[DESCRIBED]
-            cells = [f"{row[name]:.4g}" for name in names]
-            if case != DESCRIBED:
-                cells = [
-                    f"{cell} ({row[name] - known[name]:+.2g})"
-                    for cell, name in zip(cells, names, strict=True)
-                ]
-            rows.append([case, *cells])
         told = [
             f"{shape}: added mass {100 * one['added_mass']:g} %, drag {100 * one['drag']:g} %, "
             f"{self.sources[shape]}"
             for shape, one in self.shares.items()
         ]
-        return Table(head=["coefficients", *names], rows=rows, right=range(1, 1 + len(names)), remarks=told)
+        columns = [self._column(name) for name in self.values[DESCRIBED]]
+        return Table(
+            axes=[Column(name="coefficients", values=list(self.values))], columns=columns, remarks=told
+        )
+
+    def _column(self, name: str) -> Column:
+        changes = {case: f" ({change:+.2g})" for case, change in self.changes(name).items()}
+        values = {case: row[name] for case, row in self.values.items()}
+        told = [f"{value:.4g}{changes.get(case, '')}" for case, value in values.items()]
+        return Column(name=name, values=list(values.values()), read=("", told))
 
 
 def coefficient_scatter(

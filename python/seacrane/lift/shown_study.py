@@ -24,7 +24,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
 from seacrane.lift.study_file import StudyFile
 from seacrane.lift.study_run import FILE, MEMBERS
-from seacrane.plotting.text import text_table
+from seacrane.plotting.table import table_of
 from seacrane.statistics.estimate import Estimate
 from seacrane.statistics.seeds import FEWEST, SeedExtremes, seed_extremes
 
@@ -112,20 +112,15 @@ class Told:
             yield row + [number for name in ("mpm", "p90") if self.extremes for number in cell.numbers(name)]
 
     def __str__(self) -> str:
-        rows = [[_short(value) for value in row] for row in self.rows()]
-        more = len(rows) - MOST_ROWS
-        head = self.head()
-        lines = [f"{self.name}: {self.what}", text_table(head, rows[:MOST_ROWS], right=range(len(head)))]
+        rows = list(self.rows())
+        more, lines = len(rows) - MOST_ROWS, []
         if self.extremes:
             during = "one lift" if self.exposure is None else f"{self.exposure:g} s"
             lines.append(f"Maximum in {during} by Gumbel's distribution, 95 % intervals.")
         if self.over_seeds and any(cell.failed for cell in self.cells):
             lines.append("Of seeds that did not fail; where some did, no interval holds for all.")
-        return "\n".join([*lines, *([f"and {more} rows more"] if more > 0 else [])])
-
-
-def _short(value: Any) -> str:
-    return f"{value:.5g}" if isinstance(value, float) else str(value)
+        lines += [f"and {more} rows more"] if more > 0 else []
+        return str(table_of(self.head(), rows[:MOST_ROWS], title=f"{self.name}: {self.what}", remarks=lines))
 
 
 @dataclass(frozen=True, kw_only=True)

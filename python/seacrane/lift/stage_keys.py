@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from seacrane.description.channels import CHANNELS
+from seacrane.description.channels import CHANNELS, units_of
 from seacrane.lift.keys import EITHER, Key, keys_of
-from seacrane.result.units import units_of
 from seacrane.run.stage import Stage
 
 CHANNEL_UNITS = EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))

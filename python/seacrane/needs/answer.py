@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from statistics import median
+from typing import Any
 
 from seacrane.needs.choice import Choice
-from seacrane.plotting.html import notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.table import Answer, Column, Table
 
 FAILED = "does not run"
 
@@ -61,7 +61,7 @@ class Loss:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Requirements:
+class Requirements(Answer):
     """What each choice of a scene costs, and what is lost without it. Made by `required`; prints as a table.
 
     Attributes
@@ -118,43 +118,39 @@ class Requirements:
             f"{_percent(self.least)} of the cost, {worst}"
         )
 
-    def __str__(self) -> str:
+    __repr__ = Answer.__str__
+
+    def _shown(self) -> Table:
         known = ", ".join(map(self._known, self.full))
-        told = [
-            f"what {self.scene!r} requires: a run takes {self.cpu_s:.3g} s of CPU",
-            f"changes known within {known}",
-            text_table(
-                self._head(), [self._as_it_stands(), *map(self._cells, self.rows)], right=self._right()
-            ),
-            *(f"not tried: {row.name}: {row.message}" for row in self.rows if not row.stable),
-            self.line(),
-            *(f"    {line}" for line in self.script.splitlines()),
-        ]
-        if self.missing:
-            table = text_table(self._head(), map(self._cells, self.missing), right=self._right())
-            told += ["what it leaves out, or knows badly:", table]
-            told += [f"not tried: {row.name}: {row.message}" for row in self.missing if not row.stable]
-        return "\n".join([*told, f"{self.runs} runs, {self.took_s:.3g} s of CPU; told {self.told_s:.2g} s"])
+        script = [f"    {line}" for line in self.script.splitlines()]
+        price = f"{self.runs} runs, {self.took_s:.3g} s of CPU; told {self.told_s:.2g} s"
+        missing = self._table(
+            self.missing, title="what it leaves out, or knows badly:", remarks=_not_tried(self.missing)
+        )
+        return self._table(
+            self.rows, whole=True, below=[missing] if self.missing else [],
+            title=f"what {self.scene!r} requires: a run takes {self.cpu_s:.3g} s of CPU\n"
+                  f"changes known within {known}",
+            remarks=[*_not_tried(self.rows), self.line(), *script, price],
+        )  # fmt: skip
 
-    __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        rows = [tuple(self._cells(row)) for row in (*self.rows, *self.missing)]
-        return notebook_table(self._head(), [tuple(self._as_it_stands()), *rows], caption=self.line())
-
-    def _head(self) -> list[str]:
-        return ["", "cost", *(f"{n} [{self.units[n]}]" if self.units[n] else n for n in self.full)]
-
-    def _right(self) -> Sequence[int]:
-        return range(1, 2 + len(self.full))
-
-    def _as_it_stands(self) -> list[str]:
-        return ["as it stands", "100 %", *(f"{value:.4g}" for value in self.full.values())]
-
-    def _cells(self, row: Loss) -> list[str]:
-        if not row.stable:
-            return [row.name, FAILED, *("" for _ in self.full)]
-        return [row.name, _percent(row), *(self._change(name, row) for name in self.full)]
+    def _table(self, rows: Sequence[Loss], *, whole: bool = False, **given: Any) -> Table:
+        """Share of the cost and changes by choice; below the scene as it stands, with its numbers."""
+        cost = [_percent(row) if row.stable else FAILED for row in rows]
+        columns = [
+            Column(name="cost", values=[*([1.0] * whole), *(row.share for row in rows)],
+                   read=("", [*(["100 %"] * whole), *cost]))
+        ]  # fmt: skip
+        for name, value in self.full.items():
+            told = [self._change(name, row) if row.stable else "" for row in rows]
+            changes = [*([0.0] * whole), *(row.changes.get(name) for row in rows)]
+            head = f"{name} [{self.units[name]}]" if self.units[name] else name
+            columns.append(
+                Column(name=name, head=head, values=changes, unit=self.units[name],
+                       read=("", [*([f"{value:.4g}"] * whole), *told]))
+            )  # fmt: skip
+        names = [*(["as it stands"] * whole), *(row.name for row in rows)]
+        return Table(axes=[Column(name="choice", head="", values=names)], columns=columns, **given)
 
     def _change(self, name: str, row: Loss) -> str:
         """In percent of the number, or nothing that could be told."""
@@ -175,6 +171,10 @@ class Requirements:
         if len(shares) == 1 and len(parts) == len(self.full):
             return f"{100.0 * float(next(iter(shares))):g} % of each"
         return ", ".join(f"{name} {limit:g} {self.units[name]}".rstrip() for limit, _, name in parts)
+
+
+def _not_tried(rows: Sequence[Loss]) -> list[str]:
+    return [f"not tried: {row.name}: {row.message}" for row in rows if not row.stable]
 
 
 def _percent(row: Loss) -> str:

@@ -13,7 +13,7 @@ from seacrane.description.description import STANDARD_GRAVITY
 from seacrane.operability.alpha import AlphaFactor
 from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Answer, Column, Table
 from seacrane.sea.spectra import steepness_limit
 
 if TYPE_CHECKING:
@@ -70,64 +70,50 @@ class AllowableHs(Answer):
         failures: Mapping[int, str],
     ) -> AllowableHs:
         """The table of filled cells; without a duration it is of lifts in stages."""
-        import xarray
-
         names = [one.name for one in cells.criteria]
         found, capped = cells.allowable, cells.by_criterion.min(axis=0) > cells.largest
         governing = np.where(capped, "", np.array(names)[cells.by_criterion.argmin(axis=0)])
         low, high = (np.minimum(values.min(axis=0), cells.largest) for values in (cells.low, cells.high))
-        two, three = ("tp", "direction_deg"), ("criterion", "tp", "direction_deg")
-        metres = {"units": "m"}
-        dataset = xarray.Dataset(
-            {
-                "allowable_hs": (two, found, metres | {"long_name": "allowable significant wave height"}),
-                "low": (two, low, metres | {"long_name": "lower end of its 95 % interval"}),
-                "high": (two, high, metres | {"long_name": "upper end of its 95 % interval"}),
-                "forecast_hs": (
-                    two,
-                    alpha.at(found, hours=hours) * found,
-                    metres | {"long_name": f"allowable in a forecast: {alpha.told(hours=hours)}"},
-                ),
-                "capped": (two, capped, {"long_name": "no criterion is reached at the largest Hs examined"}),
-                "governing": (two, governing.astype(str)),
-                "domain": (two, cells.domain.copy()),
-                "reason": (two, cells.reason.astype(str)),
-                "by_criterion": (three, cells.by_criterion.copy(), metres),
-                "difference": (
-                    three,
-                    cells.difference.copy(),
-                    {"units": "1", "long_name": "run against linear model, over the allowance"},
-                ),
-                "breaking_hs": (
-                    "tp",
-                    np.array([breaking_height(tp) for tp in cells.tp]),
-                    metres | {"long_name": "Hs above which waves of that period break (DNV-RP-C205)"},
-                ),
-                "wave_energy_share": ("tp", cells.energy_share.copy(), {"units": "1"}),
-            },
-            {
-                "criterion": names,
-                "tp": ("tp", np.array(cells.tp), {"units": "s", "long_name": "peak period"}),
-                "direction_deg": (
-                    "direction_deg",
-                    np.array(cells.directions),
-                    {"units": "degrees", "long_name": "direction of travel of the waves"},
-                ),
-            },
-            {
-                "scene": scene,
-                "criteria": "; ".join(one.told(one_lift=duration is None) for one in cells.criteria),
-                "alpha_factor": alpha.told(hours=hours),
-                "operation_hours": hours,
-                "hs_of_runs": list(hs),
-                "seeds": list(seeds),
-                **({} if duration is None else {"duration": duration}),
-                "linear_within": linear_within,
-            },
-        )
+        forecast = alpha.at(found, hours=hours) * found
+        cell, period, told = ("tp", "direction_deg"), ("tp",), alpha.told(hours=hours)
+
+        def column(name: str, values: Any, unit: str = "", long_name: str = "", over: Any = cell) -> Column:
+            return Column(name=name, values=values, unit=unit, long_name=long_name, over=over)
+
+        axes = [
+            Column(name="criterion", values=names),
+            Column(name="tp", values=cells.tp, unit="s", long_name="peak period"),
+            Column(name="direction_deg", values=cells.directions, unit="degrees",
+                   long_name="direction of travel of the waves"),
+        ]  # fmt: skip
+        columns = [
+            column("allowable_hs", found, "m", "allowable significant wave height"),
+            column("low", low, "m", "lower end of its 95 % interval"),
+            column("high", high, "m", "upper end of its 95 % interval"),
+            column("forecast_hs", forecast, "m", f"allowable in a forecast: {told}"),
+            column("capped", capped, "", "no criterion is reached at the largest Hs examined"),
+            column("governing", governing.astype(str)),
+            column("domain", cells.domain),
+            column("reason", cells.reason.astype(str)),
+            column("by_criterion", cells.by_criterion, "m", over=None),
+            column("difference", cells.difference, "1", "run against linear model, over the allowance", None),
+            column("breaking_hs", [breaking_height(tp) for tp in cells.tp], "m",
+                   "Hs above which waves of that period break (DNV-RP-C205)", period),
+            column("wave_energy_share", cells.energy_share, "1", over=period),
+        ]  # fmt: skip
+        attributes = {
+            "scene": scene,
+            "criteria": "; ".join(one.told(one_lift=duration is None) for one in cells.criteria),
+            "alpha_factor": told,
+            "operation_hours": hours,
+            "hs_of_runs": list(hs),
+            "seeds": list(seeds),
+            **({} if duration is None else {"duration": duration}),
+            "linear_within": linear_within,
+        }
         return cls(
-            scene=scene, criteria=cells.criteria, alpha=alpha, hours=hours, dataset=dataset,
-            failures=dict(failures),
+            scene=scene, criteria=cells.criteria, alpha=alpha, hours=hours, failures=dict(failures),
+            dataset=Table(axes=axes, columns=columns, attributes=attributes).to_xarray(),
         )  # fmt: skip
 
     def at(self, tp: Any, direction_deg: Any = None, *, forecast: bool = False) -> Array:
@@ -161,9 +147,18 @@ class AllowableHs(Answer):
         return f"<AllowableHs of {self.scene!r}: {shape}>"
 
     def _shown(self) -> Table:
-        head, rows = self._cells()
-        title = f"{self.scene}: allowable Hs [m] over peak period and direction of travel of the waves"
-        return Table(head=head, rows=rows, right=range(len(head)), title=title, remarks=self._words())
+        tp, directions = (self.dataset[name].to_numpy() for name in ("tp", "direction_deg"))
+        heights = self.dataset["allowable_hs"].to_numpy()
+        return Table(
+            axes=[Column(head="Tp", values=tp, unit="s", form="g")],
+            columns=[
+                Column(head=f"{one:g} deg", values=heights[:, j],
+                       read=("", [self._cell(i, j) for i in range(tp.size)]))
+                for j, one in enumerate(directions)
+            ],
+            title=f"{self.scene}: allowable Hs [m] over peak period and direction of travel of the waves",
+            remarks=self._words(), data=self.dataset,
+        )  # fmt: skip
 
     def told_criteria(self) -> list[str]:
         """The criteria in words, each after its letter."""
@@ -185,15 +180,6 @@ class AllowableHs(Answer):
         if self.failures:
             lines.append(f"{len(self.failures)} runs failed, see failures and reason; failed: not known")
         return lines
-
-    def _cells(self) -> tuple[list[str], list[list[str]]]:
-        directions = self.dataset["direction_deg"].to_numpy()
-        head = ["Tp [s]", *(f"{one:g} deg" for one in directions)]
-        rows = [
-            [f"{tp:g}", *(self._cell(i, j) for j in range(directions.size))]
-            for i, tp in enumerate(self.dataset["tp"].to_numpy())
-        ]
-        return head, rows
 
     def _cell(self, i: int, j: int) -> str:
         cell = self.dataset.isel(tp=i, direction_deg=j)

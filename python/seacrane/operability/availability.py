@@ -14,13 +14,12 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.scatter import ScatterDiagram
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Answer, Column, Table
 
 if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
-HEAD = ("Tp [s]", "of the time [%]", "allowed [%]")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -56,18 +55,19 @@ class Availability(Answer):
             f"Availability {self.percent:.1f} % of the time by {self.source}; {self.alpha_factor}; "
             f"{self.outside_percent:.1f} % beyond the table, counted as not allowed"
         )
-        return Table(head=HEAD, rows=self._rows(), right=(0, 1, 2), title=title)
-
-    def _rows(self) -> list[list[str]]:
         weight = self.dataset["probability"]
         others = [dim for dim in weight.dims if dim != "tp"]
         there = weight.sum(others).to_numpy()
-        allowed = (weight * self.dataset["allowed"]).sum(others).to_numpy()
-        return [
-            [f"{tp:g}", f"{100.0 * share:.1f}", f"{100.0 * good / share:.1f}"]
-            for tp, share, good in zip(self.dataset["tp"].to_numpy(), there, allowed, strict=True)
-            if share > 0.0
-        ]
+        met = there > 0.0
+        allowed = (weight * self.dataset["allowed"]).sum(others).to_numpy()[met] / there[met]
+        return Table(
+            axes=[Column(head="Tp", values=self.dataset["tp"].to_numpy()[met], unit="s", form="g")],
+            columns=[
+                Column(head="of the time", values=100.0 * there[met], unit="%", form=".1f"),
+                Column(head="allowed", values=100.0 * allowed, unit="%", form=".1f"),
+            ],
+            title=title, data=self.dataset,
+        )  # fmt: skip
 
 
 @named

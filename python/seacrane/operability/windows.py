@@ -15,14 +15,20 @@ from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.hindcast import Flags, WaveHindcast
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Answer, Column, Table
 
 if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
 MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
-HEAD = ("", "workable [%]", "may start [%]", "wait mean [h]", "P50 [h]", "P90 [h]")
+HEADS = {
+    "workable_percent": ("workable", "%"),
+    "may_start_percent": ("may start", "%"),
+    "waiting_mean": ("wait mean", "h"),
+    "waiting_p50": ("P50", "h"),
+    "waiting_p90": ("P90", "h"),
+}
 LONGEST = 8760.0  # h, of an operation
 ROUNDING = 1e-9  # of a step
 
@@ -73,16 +79,14 @@ class WeatherWindows(Answer):
             f"{self.unknown_percent:.1f} % not known and {self.outside_percent:.1f} % beyond the table count "
             f"as not workable; {self.censored_percent:.1f} % wait past the end and are left out."
         )
-        return Table(head=HEAD, rows=self._rows(), right=range(1, 6), title=title, remarks=[words])
-
-    def _rows(self) -> list[list[str]]:
-        names = ("workable_percent", "may_start_percent", "waiting_mean", "waiting_p50", "waiting_p90")
-        rows = [
-            [MONTHS[i], *(_shown(float(self.dataset[name][i])) for name in names)]
-            for i in range(12)
-            if np.isfinite(self.dataset["workable_percent"][i])
-        ]
-        return [*rows, ["all", *(_shown(float(getattr(self, name))) for name in names)]]
+        known = np.isfinite(self.dataset["workable_percent"].to_numpy())
+        columns = [
+            Column(name=name, values=[*self.dataset[name].to_numpy()[known], getattr(self, name)], unit=unit,
+                   head=head, form=".1f")
+            for name, (head, unit) in HEADS.items()
+        ]  # fmt: skip
+        months = Column(name="month", head="", values=[*np.array(MONTHS)[known].tolist(), "all"])
+        return Table(axes=[months], columns=columns, title=title, remarks=[words])
 
 
 @named
@@ -147,8 +151,6 @@ def _limit(hindcast: WaveHindcast, allowable: Any, heading_deg: float | None) ->
 def _windows(
     hindcast: WaveHindcast, limit: Array, hours: float, outside: Flags, alpha_factor: str
 ) -> WeatherWindows:
-    import xarray
-
     step = hindcast.step_hours
     workable = np.nan_to_num(hindcast.hs, nan=np.inf) <= np.nan_to_num(limit, nan=-np.inf)
     workable &= hindcast.known
@@ -159,27 +161,25 @@ def _windows(
     long = lengths >= steps
     month = hindcast.time.astype("datetime64[M]").astype(int) % 12
     by_month = np.array([_numbers(workable, may_start, waiting, month == i) for i in range(12)]).T
-    names = ("workable_percent", "may_start_percent", "waiting_mean", "waiting_p50", "waiting_p90")
-    units = ("%", "%", "h", "h", "h")
     all_of = _numbers(workable, may_start, waiting, np.ones(workable.size, dtype=bool))
-    dataset = xarray.Dataset(
-        {
-            "hs_limit": ("time", limit, {"units": "m", "long_name": f"allowable Hs, {alpha_factor}"}),
-            "workable": ("time", workable),
-            "may_start": ("time", may_start),
-            "waiting": ("time", waiting, {"units": "h"}),
-            "start": ("window", hindcast.time[first[long]]),
-            "length": ("window", lengths[long] * step, {"units": "h"}),
-            **{
-                name: ("month", values, {"units": unit})
-                for name, values, unit in zip(names, by_month, units, strict=True)
-            },
-        },
-        {"time": hindcast.time, "month": np.arange(1, 13)},
-        {"hours": hours, "alpha_factor": alpha_factor, "source": hindcast.source},
-    )
+    over = ("time",)
+    columns = [
+        Column(name="hs_limit", values=limit, unit="m", long_name=f"allowable Hs, {alpha_factor}", over=over),
+        Column(name="workable", values=workable, over=over),
+        Column(name="may_start", values=may_start, over=over),
+        Column(name="waiting", values=waiting, unit="h", over=over),
+        Column(name="start", values=hindcast.time[first[long]], over=("window",)),
+        Column(name="length", values=lengths[long] * step, unit="h", over=("window",)),
+        *(
+            Column(name=name, values=values, unit=unit, over=("month",))
+            for (name, (_, unit)), values in zip(HEADS.items(), by_month, strict=True)
+        ),
+    ]
+    axes = [Column(name="time", values=hindcast.time), Column(name="month", values=np.arange(1, 13))]
+    about = {"hours": hours, "alpha_factor": alpha_factor, "source": hindcast.source}
     return WeatherWindows(
-        hours=hours, dataset=dataset, **dict(zip(names, all_of, strict=True)),
+        hours=hours, dataset=Table(axes=axes, columns=columns, attributes=about).to_xarray(),
+        **dict(zip(HEADS, all_of, strict=True)),
         unknown_percent=float(100.0 * np.mean(~hindcast.known)),
         outside_percent=float(100.0 * np.mean(outside)),
         censored_percent=float(100.0 * np.mean(np.isnan(waiting))),
@@ -222,7 +222,3 @@ def _numbers(workable: Flags, may_start: Flags, waiting: Array, chosen: Flags) -
     times = [waits.mean(), *np.quantile(waits, (0.5, 0.9))] if waits.size else [np.nan] * 3
     shares = [100.0 * flags[chosen].mean() for flags in (workable, may_start)]
     return tuple(float(one) for one in (*shares, *times))
-
-
-def _shown(value: float) -> str:
-    return f"{value:.1f}" if np.isfinite(value) else ""

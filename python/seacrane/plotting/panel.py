@@ -275,7 +275,7 @@ def save_figure(figure: Figure, path: Path) -> Path:
 
 
 def save_table(names: Sequence[str], rows: Sequence[Sequence[object]], path: Path) -> Path:
-    """Write a comma-separated table; numbers keep ten significant digits.
+    """Write a comma-separated table; numbers keep ten significant digits, none is an empty cell.
 
     Parameters
     ----------
@@ -290,8 +290,14 @@ def save_table(names: Sequence[str], rows: Sequence[Sequence[object]], path: Pat
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(names)
         for row in rows:
-            writer.writerow([f"{value:.10g}" if isinstance(value, float) else value for value in row])
+            writer.writerow([_written(value) for value in row])
     return path
+
+
+def _written(value: object) -> object:
+    if isinstance(value, float):
+        return "" if np.isnan(value) else f"{value:.10g}"
+    return value
 
 
 def save_sheet(sheet: Sheet, folder: Path, stem: str) -> Picture:

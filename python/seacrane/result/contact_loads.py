@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from seacrane import _core
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Rows, Table
 from seacrane.result.result import Result
-
-HEAD = ("contact", "on", "first at [s]", "fastest [m/s]", "largest press [kN]", "of", "at [s]", "re-hits")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,44 +43,22 @@ class ContactLoad:
 
 
 @dataclass(frozen=True, repr=False)
-class ContactLoads(Sequence[ContactLoad], Answer):
+class ContactLoads(Rows[ContactLoad]):
     """Every contact of a run, in the order of its scene; prints as a table."""
-
-    loads: tuple[ContactLoad, ...]
-
-    def __getitem__(self, key: Any) -> Any:
-        """By number, or by name; KeyError names those that are there."""
-        if not isinstance(key, str):
-            return self.loads[key]
-        for one in self.loads:
-            if one.name == key:
-                return one
-        raise KeyError(
-            f"there is no contact {key!r}; the run has {', '.join(o.name for o in self) or 'none'}"
-        )
-
-    def __len__(self) -> int:
-        return len(self.loads)
-
-    def __iter__(self) -> Iterator[ContactLoad]:
-        return iter(self.loads)
-
-    def __repr__(self) -> str:
-        return f"<ContactLoads of {len(self)} contacts>"
 
     def _shown(self) -> Table:
         return Table(
-            head=HEAD, rows=self.cells(), right=(2, 3, 4, 6, 7), title="" if self.loads else "no contacts",
-            caption="Contacts, over the whole run",
+            axes=[self.names("contact", head="contact")],
+            columns=[
+                self.column("body", printed=False), self.column("on"),
+                self.column("first", unit="s", head="first at"),
+                self.column("speed", unit="m/s", head="fastest"),
+                self.column("peak", unit="N", head="largest press", form=".1f"),
+                self.column("point", head="of"), self.column("peak_at", unit="s", head="at"),
+                self.column("rehits", head="re-hits"),
+            ],
+            title="Contacts, over the whole run" if self.rows else "no contacts",
         )  # fmt: skip
-
-    def cells(self) -> list[list[str]]:
-        """Texts of the table, row by row."""
-        return [
-            [one.name, one.on, _shown(one.first), _shown(one.speed), f"{one.peak / 1e3:.1f}", one.point,
-             _shown(one.peak_at), str(one.rehits)]
-            for one in self.loads
-        ]  # fmt: skip
 
 
 NO_CONTACTS = ContactLoads(())
@@ -117,7 +91,3 @@ def _load(result: Result, name: str) -> ContactLoad:
         point=points[int(point)] if peak > 0.0 else "",
         rehits=sum(count - 1 for count in times.values()),
     )  # fmt: skip
-
-
-def _shown(value: float) -> str:
-    return "" if np.isnan(value) else f"{value:.4g}"

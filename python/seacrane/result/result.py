@@ -23,6 +23,7 @@ from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_to_bytes
 from seacrane.plotting.panel import draw
+from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result.about import About, StageSpan
 from seacrane.result.checked_parts import (
     Stat,
@@ -31,7 +32,7 @@ from seacrane.result.checked_parts import (
     checked_stats,
     checked_time,
 )
-from seacrane.result.dataframe import dataframe_of
+from seacrane.result.curves import curves_of
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.extremes import Extremes, as_arrays, inside, parted
@@ -39,7 +40,6 @@ from seacrane.result.history import axes_note, history_sheet
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
 from seacrane.result.result_file import Contents, read_arrays, write_netcdf
-from seacrane.result.result_table import as_html, as_text
 from seacrane.result.utilisation import Utilisation, utilisation_of
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def _dims(channels: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
 
 @named
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Result(Mapping[str, Array]):
+class Result(Mapping[str, Array], Answer):
     """What one run recorded, a mapping of its channels by name.
 
     Build it with `Result.from_arrays`, or read it with `Result.load`.
@@ -119,12 +119,27 @@ class Result(Mapping[str, Array]):
             f"{len(self.channels)} channels{stopped}>"
         )
 
-    def __str__(self) -> str:
-        return as_text(repr(self)[1:-1], self.channels, self.extremes, self.dims)
-
-    def _repr_html_(self) -> str:
+    def _shown(self) -> Table:
+        """The channels that were recorded, with the smallest and the largest value of each."""
+        names = list(self.channels)
+        along = [", ".join(f"{dim} {len(self.coords[dim])}" for dim in self.dims[n][1:]) for n in names]
+        ends = np.array([self._ends(name) for name in names]).reshape(-1, 2)
         method = f"{self.stats['formulation']}, {self.stats['integrator']}"
-        return as_html(f"{repr(self)[1:-1]}; {method}, {len(self.events)} events", self.dims, self.coords)
+        return Table(
+            axes=[Column(name="channel", values=names)],
+            columns=[
+                Column(head="along", values=along), Column(head="smallest", values=ends[:, 0]),
+                Column(head="largest", values=ends[:, 1]),
+                Column(head="unit", values=[CHANNELS[name].unit for name in names]),
+            ],
+            title=f"{repr(self)[1:-1]}; {method}, {len(self.events)} events",
+        )  # fmt: skip
+
+    def _ends(self, name: str) -> tuple[float, float]:
+        """The extremes of what is finite."""
+        values = np.stack(self.extremes.get(name, (self.channels[name],) * 2))
+        finite = values[np.isfinite(values)]
+        return (float(finite.min()), float(finite.max())) if finite.size else (np.nan, np.nan)
 
     def __reduce__(self) -> tuple[Any, ...]:  # read-only mapping views cannot be pickled themselves
         parts = (
@@ -457,6 +472,9 @@ class Result(Mapping[str, Array]):
         KeyError, ValueError
             As `select`; ValueError too where selectors begin at different times.
         """
+        return self._curves(channels).to_dataframe()
+
+    def _curves(self, channels: Sequence[str | Pick]) -> Table:
         picks = [self._picked(channel, {}) for channel in channels or self.channels]
         for pick in picks:
             self.select(pick.channel, **pick.names)  # which refuses what is not there
@@ -467,10 +485,10 @@ class Result(Mapping[str, Array]):
             )
         (after, stage) = next(iter(parts), (None, None))
         part = self.part(after=after, stage=stage)
-        return dataframe_of(self.time, picks, self.channels, self.dims, self.coords, part)
+        return curves_of(self.time, picks, self.channels, self.dims, self.coords, part)
 
     def to_csv(self, path: str | os.PathLike[str], *channels: str | Pick) -> Path:
-        """Write curves as comma-separated values: a line for each output, time first; SI units and radians.
+        """Write curves as comma-separated values: a line for each output, time first, SI.
 
         Parameters
         ----------
@@ -488,10 +506,7 @@ class Result(Mapping[str, Array]):
         ------
         KeyError, ValueError, OSError
         """
-        table = self.to_dataframe(*channels)
-        with atomic_write(Path(path)) as draft:
-            table.to_csv(draft)
-        return Path(path)
+        return self._curves(channels).to_csv(path)
 
     @property
     def utilisation(self) -> Utilisation:

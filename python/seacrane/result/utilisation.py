@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,12 +13,10 @@ from seacrane.description.channels import unit_of
 from seacrane.description.limit_state import LimitState
 from seacrane.description.pick import Pick
 from seacrane.errors import FileFormatError
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Rows, Table, Verdict, read_as
 from seacrane.result.extremes import Extremes
-from seacrane.result.units import read_as
 
 Array = NDArray[np.float64]
-HEAD = ("limit state", "limit", "reached", "unit", "at [s]", "utilisation")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,55 +52,39 @@ class Utilised:
 
 
 @dataclass(frozen=True, repr=False)
-class Utilisation(Sequence[Utilised], Answer):
+class Utilisation(Rows[Utilised]):
     """Every limit state of a scene, in the order in which they were added; prints as a table."""
-
-    states: tuple[Utilised, ...]
-
-    def __getitem__(self, key: Any) -> Any:
-        """By number, or by name; KeyError names those that are there."""
-        if not isinstance(key, str):
-            return self.states[key]
-        for state in self.states:
-            if state.name == key:
-                return state
-        known = ", ".join(repr(state.name) for state in self.states) or "none"
-        raise KeyError(f"there is no limit state {key!r}; the scene has {known}")
-
-    def __len__(self) -> int:
-        return len(self.states)
-
-    def __iter__(self) -> Iterator[Utilised]:
-        return iter(self.states)
 
     @property
     def largest(self) -> float:
         """The largest of all that are known; NaN where none is."""
-        known = [state.utilisation for state in self.states if not math.isnan(state.utilisation)]
+        known = [state.utilisation for state in self.rows if not math.isnan(state.utilisation)]
         return max(known, default=math.nan)
 
     def __repr__(self) -> str:
         return f"<Utilisation of {len(self)} limit states: {self.largest:.3g} at most>"
 
     def _shown(self) -> Table:
+        read = [read_as(one.unit) for one in self]
+        limits = [factor * one.limit for (factor, _), one in zip(read, self, strict=True)]
+        reached = [factor * one.reached for (factor, _), one in zip(read, self, strict=True)]
+        told = ["not recorded" if math.isnan(value) else value for value in reached]
+        names = [f"{one.name} ({one.curve})" if one.curve else one.name for one in self]
         return Table(
-            head=HEAD, rows=self.cells(), right=(1, 2, 4, 5), title="" if self.states else "no limit states",
-            caption="Utilisation of limit states, 1 at the limit",
+            axes=[self.names("limit_state", head="limit state", read=("", names))],
+            columns=[
+                self.column("channel", printed=False), self.column("curve", printed=False),
+                self.column("limit", read=("", limits)), self.column("reached", read=("", told)),
+                self.column("unit", read=("", [unit for _, unit in read])), self.column("at", unit="s"),
+                self.column("utilisation", read=("", [_verdict(one) for one in self])),
+            ],
+            title="Utilisation of limit states, 1 at the limit" if self.rows else "no limit states",
         )  # fmt: skip
 
-    def cells(self) -> list[list[str]]:
-        """Texts of the table, row by row."""
-        rows = []
-        for one in self.states:
-            name = one.name if not one.curve else f"{one.name} ({one.curve})"
-            factor, unit = read_as(one.unit)
-            if one.kept is None:
-                rows.append([name, f"{factor * one.limit:.4g}", "not recorded", unit, "", ""])
-                continue
-            exceeded = "" if one.kept else " exceeded"
-            numbers = (f"{factor * one.limit:.4g}", f"{factor * one.reached:.4g}", unit, f"{one.at:.4g}")
-            rows.append([name, *numbers, f"{one.utilisation:.2f}{exceeded}"])
-        return rows
+
+def _verdict(one: Utilised) -> Verdict:
+    words = {None: "-", True: f"{one.utilisation:.2f}", False: f"{one.utilisation:.2f} exceeded"}
+    return Verdict(words[one.kept], one.kept)
 
 
 def utilisation_of(

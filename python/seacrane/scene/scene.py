@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
@@ -32,7 +31,7 @@ from seacrane.description import (
 from seacrane.description.description import Description
 from seacrane.inputs.caller import heard
 from seacrane.inputs.keywords import named, no_attribute
-from seacrane.plotting.html import notebook_table
+from seacrane.plotting.table import Table, table_of
 from seacrane.scene import (
     bridles,
     contact,
@@ -51,8 +50,6 @@ from seacrane.scene import (
 )
 from seacrane.scene.sea_at import sea_at
 from seacrane.validity.unstable import warn_of_capsize
-
-WIDTH = 100  # characters of a line of text
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
@@ -171,10 +168,10 @@ class Scene(Description):
     __hash__ = None  # type: ignore[assignment]  # what changes has no hash
 
     def __str__(self) -> str:
-        return as_text(self)
+        return str(as_table(self))
 
     def _repr_html_(self) -> str:
-        return as_html(self)
+        return as_table(self)._repr_html_()
 
     if not TYPE_CHECKING:
 
@@ -223,19 +220,8 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
     return [(kind, names) for kind, names in found if names]
 
 
-def as_text(scene: Description) -> str:
-    """Lines of kind, number and names; long ones wrapped."""
-    lines = [f"Scene {scene.name!r}, gravity {scene.gravity:g} m/s2"]
-    held = rows(scene)
-    margin = max((len(kind) for kind, _ in held), default=0) + 8
-    for kind, names in held:
-        first = f"  {len(names):>3}  {kind}"
-        begin, after = first.ljust(margin) + " ", " " * (margin + 1)
-        lines += wrap(", ".join(names), WIDTH, initial_indent=begin, subsequent_indent=after)
-    return "\n".join(lines if held else [*lines, "  empty"])
-
-
-def as_html(scene: Description) -> str:
-    """The report as a table for notebooks."""
+def as_table(scene: Description) -> Table:
+    """Kind, number and names."""
     held = [(kind, len(names), ", ".join(names)) for kind, names in rows(scene)]
-    return notebook_table(("", "number", "names"), held, caption=f"Scene {scene.name!r}")
+    title = f"Scene {scene.name!r}, gravity {scene.gravity:g} m/s2"
+    return table_of(("", "number", "names"), held, title=title, remarks=() if held else ["empty"])

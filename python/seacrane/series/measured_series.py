@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,21 +15,18 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of, text_of, vector_of
 from seacrane.inputs.shown import listed, shown
-from seacrane.plotting.tabular import write_csv
+from seacrane.plotting.table import Answer, Column, Table
 from seacrane.series.clock import BROKEN, step_of
 from seacrane.series.mending import ALIASED, is_even, low_passed, on_grid, share_above
 from seacrane.series.reading import Columns, read_series
 from seacrane.series.rows import FEWEST
-
-if TYPE_CHECKING:
-    import pandas
 
 Array = NDArray[np.float64]
 MOST_FILLED = 32  # times as many samples as there are, of which the rest would be in gaps
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class MeasuredSeries:
+class MeasuredSeries(Answer):
     """Columns over time, from a logger or from arrays; immutable, SI units and radians.
 
     Attributes
@@ -209,28 +206,30 @@ class MeasuredSeries:
         time, values = on_grid(self.source, self.time, self._table(), step)
         return self._with(time, values, f"resampled to {step:g} s by cubic splines")
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """A table of the columns by time (s); `attrs["units"]` holds the unit of each."""
-        import pandas
-
-        table = pandas.DataFrame(dict(self.columns), index=pandas.Index(self.time, name="time"))
-        table.attrs["units"] = dict(self.units)
-        return table
-
-    def to_csv(self, path: str | os.PathLike[str]) -> Path:
-        """Write comma-separated values that `load` reads: the unit of each column is in its name."""
-        return write_csv(path, self.to_dataframe(), index="time [s]")
+    def _data(self) -> Table:
+        columns = [Column(name=n, values=v, unit=self.units[n]) for n, v in self.columns.items()]
+        return Table(axes=[Column(name="time", values=self.time, unit="s")], columns=columns)
 
     @property
     def told(self) -> str:
         """In one line, for the notes of what is made of it."""
         return "; ".join([self.source, *self.done, f"{self.time.size} samples of {self.interval:.4g} s"])
 
-    def __repr__(self) -> str:
-        """Its columns with their ranges, and what was done to it."""
-        rows = [f"  {n} [{self.units[n]}]: {v.min():.5g} to {v.max():.5g}" for n, v in self.columns.items()]
-        size = f"{self.time.size} samples from {self.time[0]:.6g} to {self.time[-1]:.6g} s"
-        return "\n".join([f"{self.source}: {size}", *rows, *(f"  {one}" for one in self.done)])
+    __repr__ = Answer.__str__
+
+    def _shown(self) -> Table:
+        """The ranges of its columns, and what was done to it."""
+        every = self.columns.values()
+        return Table(
+            axes=[Column(head="column", values=list(self.columns))],
+            columns=[
+                Column(head="smallest", values=[float(values.min()) for values in every], form=".5g"),
+                Column(head="largest", values=[float(values.max()) for values in every], form=".5g"),
+                Column(head="unit", values=[self.units[name] for name in self.columns]),
+            ],
+            title=f"{self.source}: {self.time.size} samples from {self.time[0]:.6g} to {self.time[-1]:.6g} s",
+            remarks=self.done,
+        )  # fmt: skip
 
     def _table(self) -> Array:
         """Shape (n, columns)."""

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import os
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.plotting.answer import Answer, Table
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
-from seacrane.plotting.tabular import write_csv
-from seacrane.result.units import read_as
+from seacrane.plotting.table import Answer, Column, Table, read_as
 from seacrane.series.clock import step_of
 from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
 
 if TYPE_CHECKING:
-    import pandas
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 SEGMENTS = 7  # of the spectra: records are short
-NAMES = ("mean (bias)", "standard deviation", "largest", "smallest")
+NAMES = ("mean (bias)", "standard deviation", "largest", "smallest", "RMS of the difference",
+         "the same without bias")  # fmt: skip
 HIGHEST = 0.999  # of the variance that a picture of spectra shows
 
 
@@ -139,26 +136,36 @@ class Comparison(Answer):
             note=self.source,
         )  # fmt: skip
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """Columns run, record and difference by the time of the run (s), SI; `attrs` hold unit and shift."""
-        import pandas
-
-        columns = {"run": self.run, "record": self.record, "difference": self.difference}
-        table = pandas.DataFrame(columns, index=pandas.Index(self.time, name="time"))
-        table.attrs |= {"units": dict.fromkeys(columns, self.unit), "shift": self.shift}
-        return table
-
-    def to_csv(self, path: str | os.PathLike[str]) -> Path:
-        """Write the table as comma-separated values, the unit in the name of each column."""
-        return write_csv(path, self.to_dataframe(), index="time [s]")
+    def _data(self) -> Table:
+        names = ("run", "record", "difference")
+        return Table(
+            axes=[Column(name="time", values=self.time, unit="s")],
+            columns=[Column(name=name, values=getattr(self, name), unit=self.unit) for name in names],
+            attributes={"shift": self.shift, "source": self.source},
+        )
 
     __repr__ = Answer.__str__
 
     def _shown(self) -> Table:
-        unit = read_as(self.unit)[1]
-        of = [f"{name} [{unit}]" for name in ("run", "record", "run - record")]
+        run, record = (np.array(_figures(values)) for values in (self.run, self.record))
+        apart = [*(run - record), self.rms, self.scatter]
+        factor, unit = read_as(self.unit)
+        extent = float(np.ptp(self.record))
+        signs = ["+", "+", "+", "+", "", ""]
+
+        def signed(values: Sequence[float], form: str) -> list[str]:
+            return [f"{value:{sign}{form}}" for value, sign in zip(values, signs, strict=True)]
+
+        share = signed([100.0 * one / extent for one in apart], ".2f") if extent > 0.0 else [""] * 6
         return Table(
-            head=["", *of, "% of the record's range"], rows=self._rows(), right=(1, 2, 3, 4),
+            axes=[Column(values=NAMES)],
+            columns=[
+                Column(head="run", values=[*run, None, None], unit=self.unit, form=".5g"),
+                Column(head="record", values=[*record, None, None], unit=self.unit, form=".5g"),
+                Column(head="run - record", values=apart,
+                       read=(unit, signed([factor * one for one in apart], ".4g"))),
+                Column(head="% of the record's range", values=apart, read=("", share)),
+            ],
             title=self._caption(), remarks=[self.source],
         )  # fmt: skip
 
@@ -168,19 +175,6 @@ class Comparison(Answer):
             f"{self.channel} against {self.column}: {self.time.size} samples, the record "
             f"{abs(self.shift):.4g} s {later} than the run, correlation {self.correlation:.4f}"
         )
-
-    def _rows(self) -> list[list[str]]:
-        factor, extent = read_as(self.unit)[0], float(np.ptp(self.record))
-
-        def row(name: str, difference: float, *both: float) -> list[str]:
-            share = f"{100.0 * difference / extent:+.2f}" if extent > 0.0 else ""
-            told = [f"{factor * one:.5g}" for one in both] or ["", ""]
-            return [name, *told, f"{factor * difference:+.4g}", share]
-
-        found = zip(NAMES, _figures(self.run), _figures(self.record), strict=True)
-        rows = [row(name, run - record, run, record) for name, run, record in found]
-        unsigned = row("RMS of the difference", self.rms), row("the same without bias", self.scatter)
-        return [*rows, *([cell.removeprefix("+") for cell in one] for one in unsigned)]
 
 
 def _figures(values: Array) -> tuple[float, float, float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of
-from seacrane.plotting.answer import Answer, Table
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
+from seacrane.plotting.table import Answer, Column, Table
 from seacrane.statistics.estimate import CONFIDENCE, Estimate
 from seacrane.warnings import FewSeedsWarning
 
@@ -97,14 +97,17 @@ class Distribution(Answer):
         return f"<Distribution of {self.name!r}: {seeds} seeds with {each} values each>"
 
     def _shown(self) -> Table:
-        unit = f" [{self.unit}]" if self.unit else ""
-        rows = [["mean", *_cells(self.mean)]]
-        rows += [[f"{100.0 * share:g} %", *_cells(self.quantile(share))] for share in TOLD]
-        rows += [["largest", f"{np.nanmax(self.values):.5g}", "", ""]]
+        found = {"mean": self.mean, **{f"{100.0 * share:g} %": self.quantile(share) for share in TOLD}}
+        found["largest"] = Estimate(value=float(np.nanmax(self.values)))
         seeds, each = self.values.shape
         failed = [f"{self.failed} values failed and are left out."] if self.failed else []
+        numbers = {key: [getattr(one, key) for one in found.values()] for key in ("value", "low", "high")}
         return Table(
-            head=["not exceeded by", f"value{unit}", "low", "high"], rows=rows, right=(1, 2, 3),
+            axes=[Column(name="share", head="not exceeded by", values=list(found))],
+            columns=[
+                Column(name=key, values=values, unit=self.unit, read=(self.unit, values), form=".5g")
+                for key, values in numbers.items()
+            ],
             title=f"{self.name}: {seeds} seeds with {each} values each",
             remarks=["95 % intervals by resampling seeds.", *failed],
         )  # fmt: skip
@@ -206,8 +209,3 @@ def _share(probability: Any) -> float:
     if not 0.0 < share < 1.0:
         raise SceneError(f"probability is {share:g}; give a share between 0 and 1")
     return share
-
-
-def _cells(estimate: Estimate) -> Sequence[str]:
-    ends = ["", ""] if np.isnan(estimate.low) else [f"{estimate.low:.5g}", f"{estimate.high:.5g}"]
-    return [f"{estimate.value:.5g}", *ends]

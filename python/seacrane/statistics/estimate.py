@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+
+from seacrane.plotting.table import Column, Table
 
 EULER = float(np.euler_gamma)
 P90_COUNT = -float(np.log(0.9))  # mean number of exceedances of what is exceeded with probability 0.1
@@ -56,9 +59,19 @@ class Maximum:
     p90: Estimate
     exposure: float
 
-    def cells(self, name: str) -> list[str]:
-        """Name, most probable maximum, mean and P90 as texts."""
-        return [name, str(self.mpm), str(self.mean), str(self.p90)]
+
+HEADS = {"mpm": "most probable", "mean": "mean", "p90": "P90"}
 
 
-HEAD = ("", "most probable", "mean", "P90")
+def maxima_table(found: Mapping[str, Maximum], unit: str, title: str, remark: str) -> Table:
+    """Most probable maximum, mean and P90 by each of several methods, with their intervals."""
+    columns = []
+    for name, head in HEADS.items():
+        every: list[Estimate] = [getattr(one, name) for one in found.values()]
+        values, texts = [one.value for one in every], ("", list(map(str, every)))
+        columns.append(Column(name=name, values=values, unit=unit, head=head, read=texts))
+        for end in ("low", "high"):
+            values = [getattr(one, end) for one in every]
+            columns.append(Column(name=f"{name}_{end}", values=values, unit=unit, printed=False))
+    methods = Column(name="method", head="", values=list(found))
+    return Table(axes=[methods], columns=columns, title=title, remarks=[remark])

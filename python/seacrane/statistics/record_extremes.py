@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
-from seacrane.plotting.answer import Answer, Table
-from seacrane.statistics.estimate import CONFIDENCE, HEAD, Estimate, Maximum
+from seacrane.plotting.table import Answer, Table
+from seacrane.statistics.estimate import CONFIDENCE, Estimate, Maximum, maxima_table
 from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
 from seacrane.statistics.record import crests, positive, record_of, up_crossings
@@ -104,10 +104,10 @@ class RecordExtremes(Answer):
             f"significant crest {self.significant:.4g}, largest {self.largest:.4g}, "
             f"period {self.period:.4g} s. Maximum in {self.exposure:g} s, 95 % intervals:"
         )
-        rows = [self.gaussian.cells("Rayleigh, sqrt(2 ln N)"), self.clumped.cells("clumped, Vanmarcke")]
+        found = {"Rayleigh, sqrt(2 ln N)": self.gaussian, "clumped, Vanmarcke": self.clumped}
         if self.over_threshold is not None:
-            rows.append(self.over_threshold.cells("peaks over threshold"))
-        return Table(head=HEAD, rows=rows, right=(1, 2, 3), title=title, remarks=[self._tail_words()])
+            found["peaks over threshold"] = self.over_threshold
+        return maxima_table(found, self.unit, title, self._tail_words())
 
     def _tail_words(self) -> str:
         if self.tail is None:

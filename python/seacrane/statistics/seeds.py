@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of
-from seacrane.plotting.answer import Answer, Table
-from seacrane.statistics.estimate import CONFIDENCE, EULER, HEAD, P90_REDUCED, Estimate, Maximum
+from seacrane.plotting.table import Answer, Table
+from seacrane.statistics.estimate import CONFIDENCE, EULER, P90_REDUCED, Estimate, Maximum, maxima_table
 from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.record import positive
 from seacrane.warnings import FewSeedsWarning, PoorFitWarning
@@ -103,7 +103,6 @@ class SeedExtremes(Answer):
     __repr__ = Answer.__str__
 
     def _shown(self) -> Table:
-        rows = [self.gumbel.cells("Gumbel"), self.empirical.cells("empirical")]
         title = (
             f"{self.name} [{self.unit}], {self.maxima.size} seeds of {self.duration:g} s. "
             f"Maximum in {self.exposure:g} s, 95 % intervals:"
@@ -112,7 +111,7 @@ class SeedExtremes(Answer):
             f"Fit: a Gumbel sample is worse with probability {self.fit_probability:.2g}. "
             f"+-2 % of the most probable maximum takes {self.seeds_needed()} seeds."
         )
-        return Table(head=HEAD, rows=rows, right=(1, 2, 3), title=title, remarks=[words])
+        return maxima_table({"Gumbel": self.gumbel, "empirical": self.empirical}, self.unit, title, words)
 
 
 def seed_extremes(

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import plain
-from seacrane.trading.row import Row
-from seacrane.trading.trade_table import front
+from seacrane.trading.row import Row, front
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

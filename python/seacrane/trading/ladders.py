@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 from seacrane._core import integrators
 from seacrane.run.method import Method
-from seacrane.trading.row import NOT_FINITE, STOPPED, Row
-from seacrane.trading.trade_table import front
+from seacrane.trading.row import NOT_FINITE, STOPPED, Row, front
 
 SCOUTS = (
     ("dopri5", 1e-6), ("tsit5", 1e-2), ("verner76", 1e-3), ("dopri5", 1e-3), ("verner65", 1e-5),

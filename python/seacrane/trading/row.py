@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
+
+import numpy as np
 
 from seacrane.accuracy.quantities import ErrorMeasures
 from seacrane.run.method import Method
@@ -109,3 +111,17 @@ class Row:
         """From the mapping that `dataclasses.asdict` gives."""
         errors = {name: ErrorMeasures(**value) for name, value in data["errors"].items()}
         return cls(**{**data, "method": Method(**data["method"]), "errors": errors})
+
+
+def front(rows: Sequence[Row], quantity: str, *, cost: str = "cpu_s") -> list[bool]:
+    """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
+    costs = [getattr(row, cost) for row in rows]
+    usable = [
+        i for i, row in enumerate(rows) if row.stable and np.isfinite([row.error(quantity), costs[i]]).all()
+    ]
+    on = [False] * len(rows)
+    best = math.inf
+    for i in sorted(usable, key=lambda i: (costs[i], rows[i].error(quantity))):
+        if rows[i].error(quantity) < best:
+            best, on[i] = rows[i].error(quantity), True
+    return on

@@ -1,11 +1,9 @@
-"""Rows on disk, from which an experiment that was stopped continues; and tables of them."""
+"""Rows on disk, from which an experiment that was stopped continues."""
 
 from __future__ import annotations
 
-import csv
 import json
-import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
@@ -98,17 +96,3 @@ def completed(
             file.add(key, row)
             bar.update()
     return [file.rows[key] for key in wanted]
-
-
-def write_table(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, digits: int) -> None:
-    """Write a table as CSV; a cell is empty where there is no number."""
-    with atomic_write(path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(columns)
-        writer.writerows([_cell(value, digits) for value in row] for row in rows)
-
-
-def _cell(value: Any, digits: int) -> Any:
-    if isinstance(value, float):
-        return "" if math.isnan(value) else f"{value:.{digits}g}"
-    return value

@@ -16,20 +16,19 @@ from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.shown import shown
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Answer, Column, Table
 from seacrane.run.method import DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE, Method
 from seacrane.trading import simpler_scenes
 from seacrane.trading.diagram import COSTS, Measured, work_precision
 from seacrane.trading.reference import Reference
-from seacrane.trading.row import Row
-from seacrane.trading.trade_table import front, front_table, write_csv
+from seacrane.trading.row import Row, front
 
 if TYPE_CHECKING:
-    import xarray
     from matplotlib.figure import Figure
 
 
 MEASURED = ("wall_s", "simulated_s", "evaluations", "drift", "energy", "stable")
+ERRORS = {"error": "largest", "rms": "rms", "std": "std"}
 OTHERS = 0.01  # of its motion, that a default quantity may err by which nobody names
 ORDER = next(one.order for one in integrators() if one.name == DEFAULT_INTEGRATOR)
 ALIKE = 1.15  # times the least cost, which is no more than that
@@ -63,37 +62,34 @@ class Trade(Answer):
     took_s: float = np.nan
     not_measured: int = 0
 
-    @property
-    def table(self) -> xarray.Dataset:
-        """All rows as a dataset over `row` and `quantity`; `error` is the largest over time."""
-        import xarray
-
-        names = list(self.quantities)
+    def _data(self) -> Table:
+        """All rows: settings, cost, and of each quantity `error_`, `rms_` and `std_` with its name."""
+        rows, names = self.rows, list(self.quantities)
         columns: dict[str, list[Any]] = {
-            "formulation": [row.formulation for row in self.rows],
-            "integrator": [row.method.integrator for row in self.rows],
-            "setting": [row.method.setting for row in self.rows],
-            "rtol": [_or_nan(row.method.rtol) for row in self.rows],
-            "dt": [_or_nan(row.method.dt) for row in self.rows],
-            **{name: [row.case[name] for row in self.rows] for name in self.full_case},
-            **{name: [getattr(row, name) for row in self.rows] for name in MEASURED},
-            "reason": [row.message for row in self.rows],
+            "formulation": [row.formulation for row in rows],
+            **{
+                key: [getattr(row.method, key) for row in rows]
+                for key in ("integrator", "setting", "rtol", "dt")
+            },
+            **{name: [row.case[name] for row in rows] for name in self.full_case},
+            **{name: [getattr(row, name) for row in rows] for name in MEASURED},
+            "wall_per_simulated_s": [row.wall_s / row.simulated_s for row in rows],
+            "reason": [row.message for row in rows],
+            "pareto": front(rows, names[0]),
         }
-        data: dict[str, Any] = {name: ("row", np.array(values)) for name, values in columns.items()}
-        for name, part in (("error", "largest"), ("rms_error", "rms"), ("std_error", "std")):
-            values = [
-                [getattr(row.errors[q], part) if q in row.errors else np.nan for q in names]
-                for row in self.rows
-            ]
-            data[name] = (
-                ("row", "quantity"),
-                np.array(values, dtype=float).reshape(len(self.rows), len(names)),
+        errors = [
+            Column(
+                name=f"{kind}_{name}", unit=self.quantities[name].unit,
+                values=[getattr(row.errors[name], part) if name in row.errors else None for row in rows],
             )
-        data["wall_per_simulated_s"] = ("row", data["wall_s"][1] / data["simulated_s"][1])
-        data["pareto"] = ("row", np.array(front(self.rows, names[0])))
-        data["uncertainty"] = ("quantity", np.array([self.reference.uncertainty[name] for name in names]))
-        data["unit"] = ("quantity", [self.quantities[name].unit for name in names])
-        return xarray.Dataset(data, {"quantity": names}, dict(self.metadata))
+            for kind, part in ERRORS.items() for name in names
+        ]  # fmt: skip
+        known = {f"uncertainty_{name}": value for name, value in self.reference.uncertainty.items()}
+        return Table(
+            axes=[Column(name="row", values=range(len(rows)))],
+            columns=[*(Column(name=name, values=values) for name, values in columns.items()), *errors],
+            attributes={**self.metadata, **known},
+        )
 
     @property
     def pareto(self) -> list[Row]:
@@ -234,11 +230,28 @@ class Trade(Answer):
         return f"{told}. No setting that was left out is expected to change the front"
 
     def _shown(self) -> Table:
-        said = [self.default, self.price]
-        if self.metadata.get("stages"):
-            said = ["errors are those of the extremes of each stage", *said]
+        said = ["errors are those of the extremes of each stage"] if self.metadata.get("stages") else []
         known = self.reference.uncertainty
-        return front_table(self.rows, self.quantities, known, self.pareto, self.metadata, said)
+        told = ", ".join(f"{name} {known[name]:.1g} {one.unit}" for name, one in self.quantities.items())
+        unstable = sum(not row.stable for row in self.rows)
+        title = (
+            f"reference known within {told}\n{len(self.rows)} rows, {unstable} of them not stable; Pareto "
+            f"front in {next(iter(self.quantities))}:"
+        )
+        best = self.pareto
+        first, *texts = [
+            Column(head="formulation", values=[row.formulation for row in best]),
+            Column(head="integrator", values=[row.method.integrator for row in best]),
+            Column(head="setting", values=[row.method.setting for row in best]),
+            *(Column(head=name, values=[row.case[name] for row in best]) for name in self.full_case),
+        ]
+        cost = Column(head="CPU [ms]", values=[1e3 * row.cpu_s for row in best], form=".3g")
+        errors = [
+            Column(head=f"{name} [{one.unit}]", values=[row.error(name) for row in best], form=".2g")
+            for name, one in self.quantities.items()
+        ]
+        said = [*said, self.default, self.price]
+        return Table(axes=[first], columns=[*texts, cost, *errors], title=title, remarks=said)
 
     def plot(self, *, over: str = "cpu_s") -> Figure:
         """Work-precision diagrams: error of each quantity over cost, and what less physics loses.
@@ -274,14 +287,9 @@ class Trade(Answer):
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Write trade.csv and trade.png into a folder."""
-        on_front = front(self.rows, next(iter(self.quantities)))
-        write_csv(Path(folder) / "trade.csv", self.rows, list(self.quantities), on_front)
+        self.to_csv(Path(folder) / "trade.csv")
         with atomic_write(Path(folder) / "trade.png") as draft:
             self.plot().savefig(draft, format="png", dpi=110)
-
-
-def _or_nan(value: float | None) -> float:
-    return np.nan if value is None else value
 
 
 def _ms(row: Row) -> str:

@@ -16,7 +16,7 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.data.packed import digest_of
 from seacrane.hydro.database.check import CheckRow, check_database
-from seacrane.hydro.database.facts import as_html, as_line, as_text
+from seacrane.hydro.database.facts import as_line, as_table
 from seacrane.hydro.database.figures import hydro_figures
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
 from seacrane.hydro.database.selection import Choice, selected_database
@@ -180,10 +180,10 @@ class HydroDatabase(HydroData):
         return as_line(self)
 
     def __str__(self) -> str:
-        return as_text(self)
+        return str(as_table(self))
 
     def _repr_html_(self) -> str:
-        return as_html(self)
+        return as_table(self)._repr_html_()
 
     def check(self) -> list[CheckRow]:
         """Self-check: closure, symmetry, damping, natural periods, memory; see `check_database`."""

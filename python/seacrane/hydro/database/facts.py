@@ -1,4 +1,4 @@
-"""What a database is in a few facts: as a line, as text for terminals, as a table for notebooks."""
+"""What a database is in a few facts: as a line, and as a table."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.plotting.html import format_value, notebook_table
-from seacrane.plotting.text import text_table
+from seacrane.plotting.table import Table, facts, format_value
 
-LETTERS = 100  # of a fact in a terminal
+LETTERS = 100  # of a fact
 
 
 def metacentric_height(database: HydroData) -> float:
@@ -28,15 +27,10 @@ def as_line(database: HydroData) -> str:
     )
 
 
-def as_text(database: HydroData) -> str:
-    """The facts for terminals."""
+def as_table(database: HydroData) -> Table:
+    """The facts, names beside values."""
     rows = [(name, shorten(format_value(value), LETTERS)) for name, value in _facts(database)]
-    return text_table((f"HydroDatabase {database.name!r}", ""), rows)
-
-
-def as_html(database: HydroData) -> str:
-    """The facts for notebooks."""
-    return notebook_table((), _facts(database), caption=f"HydroDatabase {database.name!r}")
+    return facts(rows, f"HydroDatabase {database.name!r}")
 
 
 def _mass(database: HydroData) -> float:

@@ -12,7 +12,7 @@ from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.panels import cut_panels
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
-from seacrane.plotting.answer import Answer, Table
+from seacrane.plotting.table import Answer, Column, Table
 
 FloatArray = NDArray[np.float64]
 LARGEST = 90.0  # deg
@@ -50,11 +50,13 @@ class RightingArms(Answer):
     __repr__ = brief
 
     def _shown(self) -> Table:
-        columns = (np.degrees(self.heel), self.GZ, self.sinkage, np.degrees(self.trim))
-        rows = [[f"{value:.4g}" for value in row] for row in zip(*columns, strict=True)]
-        head = ["heel [deg]", "GZ [m]", "sinkage [m]", "trim [deg]"]
-        title = f"displacement {self.volume:.6g} m3, GM {self.GM:.4g} m"
-        return Table(head=head, rows=rows, right=range(4), title=title)
+        units = {"GZ": "m", "sinkage": "m", "trim": "rad"}
+        return Table(
+            axes=[Column(name="heel", values=self.heel, unit="rad")],
+            columns=[Column(name=key, values=getattr(self, key), unit=unit) for key, unit in units.items()],
+            title=f"displacement {self.volume:.6g} m3, GM {self.GM:.4g} m",
+            attributes={"volume": self.volume, "GM": self.GM},
+        )
 
 
 def righting_arms(
