@@ -35,6 +35,7 @@ class Call:
 AGAIN = "add_sea puts the vessel into the sea anew: repeat its position, heading_deg, phase and drift there"
 FUNCTION = "force is the C function itself, not its address"
 LOADED = "it returns what is on disk: .load() is the Result"
+BY_BODY = {"mass_matrices": "mass_matrix"}
 CALLS = {
     "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),
     "use_actual_position": Call("add_sea", words={"phase": '"actual"'}, note=AGAIN),
@@ -54,6 +55,13 @@ CALLS = {
     "simulate_stages_to_file": Call(
         "simulate", places=("", "", "to"), renamed={"stages": "t_end", "path": "to"}, note=LOADED
     ),
+    "read_bemio_group": Call("read_bemio", renamed=BY_BODY),
+    "read_capytaine_group": Call(
+        "read_capytaine",
+        renamed=BY_BODY | {"restorings": "restoring", "rotation_centres": "rotation_centre"},
+    ),
+    "read_nemoh_group": Call("read_nemoh", renamed=BY_BODY | {"restorings": "restoring"}),
+    "read_wamit_group": Call("read_wamit", renamed=BY_BODY),
 }
 PASSIVE = re.compile(r"""\b(memory|kind)=(["'])passive\2""")  # a kind of fluid memory that is gone
 

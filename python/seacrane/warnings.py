@@ -836,8 +836,7 @@ class AssumedInertiaWarning(SourceWarning):
 class AssumedReferenceWarning(SourceWarning):
     """The file does not tell about which points its bodies turn: the origin of the meshes was taken.
 
-    Give the points, as `read_capytaine(rotation_centre=...)` and `read_capytaine_group(rotation_centres=...)`
-    take them.
+    Give the points, as `read_capytaine(rotation_centre=...)` takes them, of several bodies by name.
     """
 
 

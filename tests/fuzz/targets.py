@@ -24,19 +24,7 @@ from seacrane.crane.jointed_file import load as load_jointed
 from seacrane.crane.urdf import read_urdf
 from seacrane.errors import FileFormatError, SceneError, SimulationError
 from seacrane.hydro import Hull, HydroDatabase
-from seacrane.hydro.readers import (
-    bemio,
-    bemio_group,
-    capytaine,
-    capytaine_group,
-    nemoh,
-    nemoh_group,
-    orcaflex,
-    veres,
-    wamit,
-    wamit_group,
-)
-from seacrane.hydro.readers.load import OF_SEVERAL
+from seacrane.hydro.readers import bemio, capytaine, nemoh, nemoh_files, orcaflex, veres, wamit
 from seacrane.inputs.gltf import read_gltf
 from seacrane.inputs.hdf5_structure import Structure
 from seacrane.inputs.netcdf_limits import LARGEST_DATABASE as LARGEST
@@ -244,9 +232,9 @@ _SCENE = (
 )
 _HYDRO = "hydro/readers"
 _ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
-_VERES = _under(_HYDRO, "veres veres_files veres_set veres_hydrostatics text_records")
-_WAMIT = _under(_HYDRO, "wamit wamit_control wamit_tables")
-_WAMIT_GROUP = _under(_HYDRO, "wamit_group wamit_listing")
+_VERES = _under(_HYDRO, "veres veres_files veres_hydrostatics text_records")
+_WAMIT = _under(_HYDRO, "wamit wamit_control wamit_listing wamit_tables")
+_NEMOH = _under(_HYDRO, "nemoh nemoh_files")
 _RECORDED = (*_under("series", "series_file headings reading rows clock mending"), "scene/recorded_motion.py")
 _LIFT = _under("lift", "document text_lines check_keys curve_text")
 _JOINTED = _under("crane", "jointed_file jointed_check link_frames")
@@ -258,42 +246,37 @@ _MATRICES = {"mass_matrix": np.diag([1e7] * 3 + [1e9] * 3), "restoring": np.eye(
 def _set_targets(name: str, files: str, read: Reader, modules: tuple[str, ...]) -> list[Target]:
     """One target for each file of a set, the others being sound."""
     kinds = {file: file.split(".")[file.startswith("box.")].lower() for file in files.split()}
-    return [Target(f"{name}-{kinds[file]}", name, file, read, modules, beside=name) for file in kinds]
+    reader = name.removesuffix("-group")
+    return [Target(f"{name}-{kinds[file]}", reader, file, read, modules, beside=name) for file in kinds]
 
 
 def _netcdf_targets(name: str, file: str, read: Reader, *modules: str) -> list[Target]:
     """Files written from mutated specifications, and files mutated byte by byte."""
+    reader = name.removesuffix("-group")
     return [
-        Target(name, name, file, read, (*modules, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
-        Target(f"{name}-bytes", name, file, read, (*modules, *_NETCDF), None, unfolds=True),
+        Target(name, reader, file, read, (*modules, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
+        Target(f"{name}-bytes", reader, file, read, (*modules, *_NETCDF), None, unfolds=True),
     ]
-
-
-def _asked_of_several(path: Path) -> None:
-    for kind in OF_SEVERAL:
-        kind.can_open(path)
 
 
 _VERES_FILES = "box.re7 box.re8 box.re1 box.re2 box.hyd"
 _WAMIT_FILES = "box.1 box.3 box.4 box.hst box.frc box.out box.cfg"
-_NEMOH = f"{nemoh.RADIATION} {nemoh.EXCITATION} "
-_NEMOH_FILES = _NEMOH + f"{nemoh.STIFFNESS} {nemoh.HYDROSTATICS} {nemoh.CONTROL}"
-_NEMOH_PAIR = _NEMOH + f"{nemoh.CONTROL} Kh_1.dat Hydrostatics_1.dat"
-_nemoh_pair = _of(nemoh_group.read_nemoh_group, _folder, nemoh_group.FORMAT.can_open)
-_wamit_pair = _of(wamit_group.read_wamit_group, _listing, _asked_of_several)
+_RESULTS = f"{nemoh_files.RADIATION} {nemoh_files.EXCITATION} {nemoh_files.CONTROL} "
+_NEMOH_FILES = _RESULTS + f"{nemoh_files.STIFFNESS} {nemoh_files.HYDROSTATICS}"
+_NEMOH_PAIR = _RESULTS + "Kh_1.dat Hydrostatics_1.dat"
+_of_nemoh = _of(nemoh.read_nemoh, _folder, nemoh.FORMAT.can_open)
+_wamit_pair = _of(wamit.read_wamit, _listing, wamit.is_wamit)
 _of_capytaine = _of(capytaine.read_capytaine, Path, capytaine.is_capytaine)
-_of_capytaine_pair = _of(capytaine_group.read_capytaine_group, Path, capytaine_group.FORMAT.can_open)
 _of_bemio = _of(bemio.read_bemio, Path, bemio.is_bemio)
 _of_mafredo = _of(orcaflex.read_orcaflex, **_MATRICES)
-_of_bemio_pair = _of(bemio_group.read_bemio_group, Path, bemio_group.FORMAT.can_open)
 _ALL = [
     *_set_targets("veres", _VERES_FILES, _of(veres.read_veres, _stem), _VERES),
     *_set_targets("wamit", _WAMIT_FILES, _of(wamit.read_wamit, _stem), _WAMIT),
-    *_set_targets("nemoh", _NEMOH_FILES, _of(nemoh.read_nemoh, _folder), _under(_HYDRO, "nemoh")),
+    *_set_targets("nemoh", _NEMOH_FILES, _of_nemoh, _NEMOH),
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
-    *_set_targets("wamit-group", "box.out box.1 box.3 box.hst", _wamit_pair, _WAMIT_GROUP),
-    Target("wamit-listing", "wamit-listing", "box.out", _wamit_pair, _WAMIT_GROUP),
-    *_set_targets("nemoh-group", _NEMOH_PAIR, _nemoh_pair, _under(_HYDRO, "nemoh_group")),
+    *_set_targets("wamit-group", "box.out box.1 box.3 box.hst", _wamit_pair, _WAMIT),
+    Target("wamit-listing", "wamit", "box.out", _wamit_pair, _WAMIT),
+    *_set_targets("nemoh-group", _NEMOH_PAIR, _of_nemoh, _NEMOH),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
     Target("offsets", "offsets", "hull.txt", Hull.from_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
     Target("stl", "stl", "hull.stl", Hull.from_stl, ("inputs/stl.py",), refusals=_SHAPE),
@@ -315,8 +298,8 @@ _ALL = [
     *_netcdf_targets("mafredo", "ship.dhyd", _of_mafredo, f"{_HYDRO}/mafredo_file.py"),
     *_netcdf_targets("capytaine", "ship.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
     *_netcdf_targets("bemio", "ship.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
-    *_netcdf_targets("capytaine-group", "pair.nc", _of_capytaine_pair, f"{_HYDRO}/capytaine_group.py"),
-    *_netcdf_targets("bemio-group", "pair.h5", _of_bemio_pair, f"{_HYDRO}/bemio_group.py"),
+    *_netcdf_targets("capytaine-group", "pair.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
+    *_netcdf_targets("bemio-group", "pair.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
     *_netcdf_targets("result", "run.nc", _result, "result/result_file.py"),
 ]  # fmt: skip
 TARGETS = {target.name: target for target in _ALL}

@@ -181,7 +181,7 @@ DAMAGE: list[tuple[Any, str]] = [
     (lambda d: d.assign_coords(forward_speed=2.5), "forward_speed is 2.5"),
     (lambda d: d.assign_coords(wave_direction=d.wave_direction * 57.3), "180.* radians"),
     (lambda d: d.isel(radiating_dof=[0, 1, 3, 4, 5, 5]), "radiating_dof .* each once"),
-    (lambda d: d.assign_coords(radiating_dof=[f"{i % 2}__{n}" for i, n in enumerate(NAMES)]), "several"),
+    (lambda d: d.assign_coords(radiating_dof=[f"{i % 2}__{n}" for i, n in enumerate(NAMES)]), "each once"),
     (lambda d: d.isel(omega=[1, 1, 2]), "repeated"), (lambda d: d.expand_dims(trim=[0.0, 1.0]), "on trim"),
     (lambda d: d.assign(diffraction_force=d.diffraction_force * np.nan), "force.* is .*nan"),
     (lambda d: d.drop_vars("rho").expand_dims(rho=[1000.0, 1025.0]), "rho has 2 values"),

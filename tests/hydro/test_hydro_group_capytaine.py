@@ -11,7 +11,7 @@ import pytest
 import xarray
 from scipy.special import hankel2, j0
 
-from seacrane.hydro import HydroGroup, read_capytaine_group
+from seacrane.hydro import HydroGroup, read_capytaine
 
 capytaine = pytest.importorskip("capytaine")
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.RoughDataWarning")
@@ -39,7 +39,9 @@ def solved(bodies: tuple[Any, Any], omega: list[float], heading: list[float]) ->
 def as_group(dataset: xarray.Dataset, folder: Path) -> HydroGroup:
     path = folder / "pair.nc"
     capytaine.export_dataset(path, dataset)
-    return read_capytaine_group(path)
+    group = read_capytaine(path)
+    assert isinstance(group, HydroGroup)
+    return group
 
 
 def near_pair() -> xarray.Dataset:

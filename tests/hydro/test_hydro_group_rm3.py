@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroGroup, load_database, read_capytaine_group, read_nemoh_group, read_wamit_group
+from seacrane.hydro import HydroGroup, load_database, read_capytaine, read_nemoh, read_wamit
 
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.SourceWarning")
 
@@ -23,14 +23,14 @@ TABLE = {
 
 def three_codes(folder: Path) -> dict[str, HydroGroup]:
     """Masses and restoring are those of Capytaine's file: the others hold none by body."""
-    capytaine = read_capytaine_group(folder / "capytaine" / "rm3_hydrodynamics.nc", rotation_centres=CENTRES)
+    capytaine = read_capytaine(folder / "capytaine" / "rm3_hydrodynamics.nc", rotation_centre=CENTRES)
     of_bodies = dict(zip(("float", "spar"), capytaine.bodies, strict=True))
     masses = {name: body.mass_matrix for name, body in of_bodies.items()}
     restorings = {name: body.restoring for name, body in of_bodies.items()}
     return {
-        "wamit": read_wamit_group(folder / "wamit", rho=1000.0, mass_matrices=masses),
+        "wamit": read_wamit(folder / "wamit", rho=1000.0, mass_matrix=masses),
         "capytaine": capytaine,
-        "nemoh": read_nemoh_group(folder / "nemoh3", mass_matrices=masses, restorings=restorings),
+        "nemoh": read_nemoh(folder / "nemoh3", mass_matrix=masses, restoring=restorings),
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import RoughDataWarning
 
 FloatArray = NDArray[np.float64]
+Found = TypeVar("Found", bound=HydroDatabase | HydroGroup)
 ROUGH = 0.01  # misfit of a left-out value, as a share of what varies
 UNRESOLVED = 4.0  # misfit over twice the step by that over the step: 16 of smooth data, 1 of noise
 LEAST_INERTIA, LEAST_DAMPING = 0.1, 0.01  # scales at least, by the mass and by mass times frequency
@@ -21,54 +23,39 @@ COARSEST = 0.15  # step by frequency, beyond which a table does not tell noise f
 NEIGHBOURS = 4
 
 
-def with_band_of_data(database: HydroDatabase) -> HydroDatabase:
-    """The database; where it has no trusted band and its matrices jump, with a band that ends below.
+def with_band_of_data(found: Found) -> Found:
+    """The database or group; where it has no trusted band, with one that ends below the first jump of a hull.
 
     Warns
     -----
-    RoughDataWarning : they jump.
+    RoughDataWarning : matrices jump. In a group it may be a resonance of the water between hulls, where the
+        frequencies are too far apart to show its shape.
     """
-    found = None if database.trusted_band is not None else first_rough_value(database)
-    if found is None or found[0] < 2:
-        return database
-    at, entry = found
-    low, high = float(database.omega[0]), float(database.omega[at - 1])
+    if found.trusted_band is not None:
+        return found
+    hulls = found.hulls if isinstance(found, HydroGroup) else {"": found}
+    first = {name: first_rough_value(hull) for name, hull in hulls.items()}
+    rough = [(each[0], name, each[1]) for name, each in first.items() if each is not None and each[0] >= 2]
+    if not rough:
+        return found
+    at, name, entry = min(rough, key=lambda each: each[0])
+    low, high = float(found.omega[0]), float(found.omega[at - 1])
+    kind, causes, more = "database", "for the panels or of an irregular frequency", ""
+    if isinstance(found, HydroGroup):
+        kind, entry = "group", f"{entry} of {name}"
+        causes = (
+            "for the panels, of an irregular frequency, or of a resonance of the water between the hulls "
+            "that the frequencies do not resolve"
+        )
+        more = "; group.check() tells the causes apart"
     warn_caller(
-        f"database {database.name!r}: its files do not say how far their panels can be trusted, and {entry} "
-        f"jumps at {database.omega[at]:.4g} rad/s, as of waves too short for the panels or of an irregular "
-        f"frequency. The trusted band ends at {high:.4g} rad/s; nothing above it is fitted. For another one "
-        "give load_database(path, trusted_band=(low, high)) in rad/s",
+        f"{kind} {found.name!r}: its files do not say how far their panels can be trusted, and {entry} "
+        f"jumps at {found.omega[at]:.4g} rad/s, as of waves too short {causes}. The trusted band ends at "
+        f"{high:.4g} rad/s; nothing above it is fitted. For another one give load_database(path, "
+        f"trusted_band=(low, high)) in rad/s{more}",
         RoughDataWarning,
     )
-    return replace(database, trusted_band=(low, high))
-
-
-def with_band_of_group(group: HydroGroup) -> HydroGroup:
-    """`with_band_of_data` of a group: the band ends below the first jump of any of its hulls.
-
-    Warns
-    -----
-    RoughDataWarning : its matrices jump; a resonance of the water between hulls is one where the frequencies
-        are too far apart to show its shape.
-    """
-    found = {name: first_rough_value(hull) for name, hull in group.hulls.items()}
-    rough = {name: each for name, each in found.items() if each is not None and each[0] >= 2}
-    if group.trusted_band is not None or not rough:
-        return group
-    name = min(rough, key=lambda each: rough[each][0])
-    at, entry = rough[name]
-    low, high = float(group.omega[0]), float(group.omega[at - 1])
-    warn_caller(
-        f"group {group.name!r}: its files do not say how far their panels can be trusted, and {entry} of "
-        f"{name} "
-        f"jumps at {group.omega[at]:.4g} rad/s, as of waves too short for the panels, of an irregular "
-        "frequency, or of a resonance of the water between the hulls that the frequencies do not "
-        "resolve. The "
-        f"trusted band ends at {high:.4g} rad/s; nothing above it is fitted. For another one give "
-        "load_database(path, trusted_band=(low, high)) in rad/s; group.check() tells the causes apart",
-        RoughDataWarning,
-    )
-    return replace(group, trusted_band=(low, high))
+    return replace(found, trusted_band=(low, high))
 
 
 def first_rough_value(database: HydroData) -> tuple[int, str] | None:

@@ -2,28 +2,28 @@
 
 Capytaine's axes and wave directions (rad, direction of travel) are ours when x of the mesh points forward;
 its time factor is exp(-i omega t), so complex values are conjugated. Matrices refer to the rotation centre of
-the degrees of freedom, phases to the origin of the mesh; forces are shifted to zero phase at the former.
+the degrees of freedom, phases to the origin of the mesh; forces on a body alone are shifted to zero phase at
+the former.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.heading_circle import keeps_sides_apart
-from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.readers.as_read import as_read, frequencies_kept, mass_of_file
 from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.equivalent_box import equivalent_box
-from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
-from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
+from seacrane.hydro.readers.format import Format, Loaded, is_file_of, of_one_speed, zero_speed
+from seacrane.hydro.readers.of_bodies import Given, box_of, hull_or_group, of_each, require_own_hydrostatics
+from seacrane.hydro.readers.wave_directions import rising_directions
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
-Read = TypeVar("Read")
 
 MOTION_NAMES = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 NETCDF = (".nc", ".nc4")
@@ -60,30 +59,37 @@ def read_capytaine(
     path: str | PathLike[str],
     *,
     depth: float | None = None,
-    mass_matrix: ArrayLike | None = None,
-    restoring: ArrayLike | None = None,
-    rotation_centre: ArrayLike | None = None,
+    mass_matrix: Given | None = None,
+    restoring: Given | None = None,
+    rotation_centre: Given | None = None,
+    motions: Sequence[str] | None = None,
     leave_out: ArrayLike | None = None,
-) -> HydroDatabase:
+) -> Loaded:
     """Read a dataset that Capytaine wrote to NetCDF (complex values split into ``re`` and ``im``).
 
     Parameters
     ----------
     path : file with ``added_mass``, ``radiation_damping`` and either ``excitation_force`` or
-        ``Froude_Krylov_force`` and ``diffraction_force``, for rigid motions of one body, heave among them,
-        at zero speed and one water depth, over omega, freq, period, wavenumber or wavelength. Frequencies 0
-        and infinity become the limits of the added mass.
+        ``Froude_Krylov_force`` and ``diffraction_force``, for rigid motions of one body or of several, heave
+        among them, at zero speed and one water depth, over omega, freq, period, wavenumber or wavelength.
+        Frequencies 0 and infinity become the limits of the added mass. Motions are found by name, of several
+        bodies "<body>__Surge" and so on, in any order.
     depth : m, which of the file's water depths; needed where it has several (inf: deep water).
-    mass_matrix, restoring : (6, 6) in SI about the rotation centre; they take the place of
-        ``inertia_matrix`` and ``hydrostatic_stiffness``, and are needed where the file lacks these, or has
-        not all six motions.
-    rotation_centre : (3,) m from the origin of the mesh, of files that do not tell it (before Capytaine 3).
+    mass_matrix, restoring : (6, 6) in SI about the rotation centre, of several bodies by name; they take the
+        place of ``inertia_matrix`` and ``hydrostatic_stiffness``, and are needed where the file lacks these,
+        or has not all six motions.
+    rotation_centre : (3,) m from the origin of the mesh, of several bodies by name; of files that do not tell
+        it (before Capytaine 3).
+    motions : names of those that were solved for, where some that the file names were not: a motion without
+        added mass and damping is refused unless it is left out here.
     leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
 
     Returns
     -------
-    HydroDatabase : length, breadth and draught are those of the equivalent box; port-starboard symmetric if
-        the matrices are, to 2 %.
+    HydroDatabase : of one body, about its rotation centre; port-starboard symmetric if the matrices are, to
+        2 %.
+    HydroGroup : of several, in the order of the file; its origin is that of the mesh. Draughts are the
+        file's; lengths and breadths, and draughts that it lacks, are those of the equivalent box.
 
     Warns
     -----
@@ -95,49 +101,45 @@ def read_capytaine(
     FileFormatError : the file is missing, damaged or no Capytaine dataset; the message names the variable.
     """
     source = Path(path)
-    given = _Given(mass_matrix, restoring, rotation_centre, leave_out)
-    return with_band_of_data(
-        from_dataset(source, lambda dataset: _convert(source, of_depth(source, dataset, depth), given))
-    )
+    if not source.is_file():
+        raise FileFormatError(f"{source}: no such file; give the path of a Capytaine NetCDF file")
+    import xarray
+
+    given = _Given(mass_matrix, restoring, rotation_centre, motions, leave_out)
+    try:
+        with open_netcdf(source), xarray.open_dataset(source) as opened:
+            dataset = opened.load()
+        found = _convert(source, _of_depth(source, dataset, depth), given)
+    except FileFormatError:
+        raise
+    except NETCDF_ERRORS as error:
+        raise FileFormatError(
+            f"{source}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
+        ) from error
+    require_own_hydrostatics(source, found, "restoring={name: (6, 6)}")
+    return with_band_of_data(found)
 
 
 @dataclass(frozen=True, eq=False)
 class _Given:
     """What the caller says."""
 
-    mass: ArrayLike | None
-    restoring: ArrayLike | None
-    centre: ArrayLike | None
+    mass: Given | None
+    restoring: Given | None
+    centre: Given | None
+    motions: Sequence[str] | None
     leave_out: ArrayLike | None
 
 
-def from_dataset(path: Path, convert: Callable[[xarray.Dataset], Read]) -> Read:
-    """What ``convert`` makes of the file's dataset; any damage is a FileFormatError."""
-    if not path.is_file():
-        raise FileFormatError(f"{path}: no such file; give the path of a Capytaine NetCDF file")
-    import xarray
-
-    try:
-        with open_netcdf(path), xarray.open_dataset(path) as opened:
-            dataset = opened.load()
-        return convert(dataset)
-    except FileFormatError:
-        raise
-    except NETCDF_ERRORS as error:
-        raise FileFormatError(
-            f"{path}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
-        ) from error
-
-
-def bodies_of(dataset: xarray.Dataset) -> list[str]:
-    """Names of the bodies that ``influenced_dof`` names, in its order; "" where it names none."""
-    if MATRIX[0] not in dataset.coords:
+def _bodies(dataset: xarray.Dataset, dimension: str) -> list[str]:
+    """Names of the bodies of the degrees of freedom, in their order; "" where they name none."""
+    if dimension not in dataset.coords:
         return [""]
-    labels = [str(label).rpartition("__")[0] for label in np.ravel(dataset[MATRIX[0]].values)]
+    labels = [str(label).rpartition("__")[0] for label in np.ravel(dataset[dimension].values)]
     return list(dict.fromkeys(labels))
 
 
-def of_depth(path: Path, dataset: xarray.Dataset, depth: float | None) -> xarray.Dataset:
+def _of_depth(path: Path, dataset: xarray.Dataset, depth: float | None) -> xarray.Dataset:
     """The results in one water depth: the one there is, or the one asked for."""
     if "water_depth" not in dataset.coords:
         there = np.array([np.inf])
@@ -167,56 +169,68 @@ def is_capytaine(path: Path) -> bool:
         return False
 
 
-def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> HydroDatabase:
-    rho, g, depth = water_of(path, dataset)
-    dataset = over_omega(path, dataset, g, depth)
+def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> Loaded:
+    rho, g, depth = _water(path, dataset)
+    names = _bodies(dataset, MATRIX[0])
+    several = len(names) > 1
     complete = given.mass is not None and given.restoring is not None
-    dataset, solved = _by_motion(path, dataset, given=complete)
-    dataset = single(path, dataset)
-    omega, rows = frequencies(path, dataset)
-    added_mass = real_values(path, dataset, "added_mass", ("omega", *MATRIX))
-    damping = real_values(path, dataset, "radiation_damping", ("omega", *MATRIX))
-    mass = _matrix(path, dataset, "inertia_matrix", "mass_matrix", given.mass)
-    stiffness = _matrix(path, dataset, "hydrostatic_stiffness", "restoring", given.restoring)
-    direction, order = directions(path, dataset)
-    force = wave_force(path, dataset)[order]
+    dataset, solved = _by_motion(path, _over_omega(path, dataset, g, depth), names, given=complete)
+    dataset = _single(path, dataset)
+    omega, rows = _frequencies(path, dataset)
+    added_mass = _real(path, dataset, "added_mass", ("omega", *MATRIX))
+    damping = _real(path, dataset, "radiation_damping", ("omega", *MATRIX))
+    masses = _matrices(path, dataset, "inertia_matrix", "mass_matrix", names, given.mass)
+    stiffness = _matrices(path, dataset, "hydrostatic_stiffness", "restoring", names, given.restoring)
+    direction, order = _directions(path, dataset)
+    force = _wave_force(path, dataset)[order]
     tables = {"added_mass": added_mass[rows], "damping": damping[rows], "force": force[:, rows]}
     rows = rows[frequencies_kept(path, "read_capytaine", omega[rows], tables, given.leave_out)]
-    force = force[:, rows]
-    centre = _rotation_centre(path, dataset, given.centre)
-    box = equivalent_box(stiffness, float(mass[0, 0]) / rho, rho * g)
-    if given.mass is None:
-        mass = mass_of_file(path, "read_capytaine(mass_matrix=...)", mass, box=box)
+    centres = _rotation_centres(path, dataset, names, given.centre)
+    draughts = _by_body(dataset, "draught", names)
+    bodies = []
+    for i, (name, centre, mass, restoring) in enumerate(zip(names, centres, masses, stiffness, strict=True)):
+        told = name if several else ""
+        box = box_of(path, told, restoring, float(mass[0, 0]) / rho, rho * g)
+        if given.mass is None:
+            where = f"{path}: {name}" if several else path
+            mass = mass_of_file(where, "read_capytaine(mass_matrix=...)", mass, box=box)
+        bodies.append(
+            GroupBody(
+                name=name or path.stem,
+                position=centre,
+                mass_matrix=mass,
+                restoring=restoring,
+                length=box[0],
+                breadth=box[1],
+                draught=box[2] if draughts is None else float(draughts[i]),
+            )
+        )
     version = str(dataset.attrs.get("capytaine_version", "of unknown version"))
-    body = str(np.ravel(_name(dataset))[0])
-    found = HydroDatabase(
+    origin, body = "origin of the meshes of Capytaine, on the still waterline", ""
+    if not several:
+        x, y, z = centres[0]
+        origin = f"rotation centre of the Capytaine body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
+        body = f", body {np.ravel(_name(dataset))[0]}"
+    found = hull_or_group(
+        bodies,
         name=path.stem,
         omega=omega[rows],
         heading=direction,
         added_mass=added_mass[rows],
         damping=damping[rows],
-        infinite_frequency_added_mass=limit_of(added_mass, np.isinf(omega)),
-        zero_frequency_added_mass=limit_of(added_mass, omega == 0.0),
-        restoring=stiffness,
-        mass_matrix=mass,
-        force=force * phase_at(centre, omega[rows], direction, g, depth),
+        infinite_frequency_added_mass=_limit(added_mass, np.isinf(omega)),
+        zero_frequency_added_mass=_limit(added_mass, omega == 0.0),
+        force=force[:, rows],
         rho=rho,
         g=g,
         depth=depth,
-        length=box[0],
-        breadth=box[1],
-        draught=box[2],
-        origin=(
-            f"rotation centre of the Capytaine body, ({centre[0]:g}, {centre[1]:g}, {centre[2]:g}) m from "
-            "the origin of its mesh"
-        ),
-        source=f"Capytaine {version}, file {path.name}, body {body}",
-        port_starboard_symmetric=bool(centre[1] == 0.0 and keeps_sides_apart(added_mass[rows])),
+        origin=origin,
+        source=f"Capytaine {version}, file {path.name}{body}",
     )
-    return as_read(path, "read_capytaine", found, solved)
+    return as_read(path, "read_capytaine", found, solved if given.motions is None else given.motions)
 
 
-def water_of(path: Path, dataset: xarray.Dataset) -> tuple[float, float, float]:
+def _water(path: Path, dataset: xarray.Dataset) -> tuple[float, float, float]:
     """Density, gravity and depth of results of zero speed."""
     rho, g = _number(path, dataset, "rho"), _number(path, dataset, "g")
     if not (rho > 0.0 and g > 0.0):
@@ -240,9 +254,9 @@ def _number(path: Path, dataset: xarray.Dataset, name: str, default: float | Non
     return float(values[0])
 
 
-def single(path: Path, dataset: xarray.Dataset, *, bodies: bool = False) -> xarray.Dataset:
+def _single(path: Path, dataset: xarray.Dataset) -> xarray.Dataset:
     """Without the dimensions of one value that a parametric study leaves."""
-    known = ("omega", "wave_direction", *MATRIX, "complex", "space_coordinate", "xyz", *["body"] * bodies)
+    known = ("omega", "wave_direction", *MATRIX, "complex", "space_coordinate", "xyz")
     for name in [str(name) for name in dataset.dims if name not in known]:
         used = any(name in dataset[key].dims for key in ("added_mass", "radiation_damping") if key in dataset)
         if used and dataset.sizes[name] > 1:
@@ -255,50 +269,54 @@ def single(path: Path, dataset: xarray.Dataset, *, bodies: bool = False) -> xarr
     return dataset
 
 
-def _by_motion(path: Path, dataset: xarray.Dataset, *, given: bool) -> tuple[xarray.Dataset, tuple[str, ...]]:
-    """The dataset with the six motions in our order, found by name, and those it has; others have zeros.
+def _by_motion(
+    path: Path, dataset: xarray.Dataset, names: list[str], *, given: bool
+) -> tuple[xarray.Dataset, list[str]]:
+    """The dataset with six motions of each body in our order, found by name; others than it has are zeros.
 
-    ``given``: mass matrix and restoring are, so that motions may be missing.
+    ``given``: mass matrices and restoring are, so that motions may be missing. Returned too are the motions
+    that it has of every body.
     """
+    several = len(names) > 1
+    wanted = [f"{name}__{motion}" if several else motion for name in names for motion in MOTION_NAMES]
+    held = []
     for dimension in MATRIX:
         if dimension not in dataset.coords:
             raise FileFormatError(f"{path}: coordinate {dimension} is missing; it is no Capytaine dataset")
         labels = [str(label) for label in dataset[dimension].values]
-        bodies = {label.rpartition("__")[0] for label in labels}
-        if len(bodies) > 1:
+        if not several and len(_bodies(dataset, dimension)) == 1:
+            labels = [label.rpartition("__")[2] for label in labels]
+        heave = {label for label in wanted if label.endswith("Heave")}
+        if not heave <= set(labels) <= set(wanted) or len(set(labels)) < len(labels):
             raise FileFormatError(
-                f"{path}: {dimension} names several bodies ({', '.join(sorted(bodies))[:200]}); "
-                "load_database and "
-                "read_capytaine_group read them"
+                f"{path}: {dimension} holds {', '.join(labels)[:200]}; rigid motions are needed, each once, "
+                f"heave among them: {', '.join(wanted)[:200]}"
             )
-        plain = [label.rpartition("__")[2] for label in labels]
-        if not set(plain) <= set(MOTION_NAMES) or len(set(plain)) < len(plain) or "Heave" not in plain:
-            raise FileFormatError(
-                f"{path}: {dimension} holds {', '.join(plain)[:200]}; rigid motions are needed, each once, "
-                f"heave among them: {', '.join(MOTION_NAMES)}"
-            )
-        dataset = dataset.assign_coords({dimension: plain})
-    plain = [str(label) for label in dataset[MATRIX[0]].values]
-    if set(plain) != {str(label) for label in dataset[MATRIX[1]].values}:
-        raise FileFormatError(f"{path}: {' and '.join(MATRIX)} name different motions; solve for the same")
-    missing = [name for name in MOTION_NAMES if name not in plain]
+        dataset = dataset.assign_coords({dimension: labels})
+        held.append(set(labels))
+    if held[0] != held[1]:
+        other = ", ".join(sorted(held[0] ^ held[1]))[:200]
+        raise FileFormatError(f"{path}: only one of {' and '.join(MATRIX)} holds {other}; solve for the same")
+    missing = [label for label in wanted if label not in held[0]]
+    told = ", ".join(missing if several else [label.lower() for label in missing])[:200]
     if missing and not given:
         raise FileFormatError(
-            f"{path}: has no {', '.join(missing).lower()}; pass mass_matrix and restoring (6, 6) to "
-            "read_capytaine, or solve for all six motions"
+            f"{path}: has no {told}; pass mass_matrix and restoring (6, 6) to read_capytaine, or solve for "
+            "all six motions"
         )
     if missing:
         warn_caller(
-            f"{path}: has no {', '.join(missing).lower()}; added mass, damping and wave forces are taken as "
-            "zero there. Keep the vessel from these motions, or solve for them",
+            f"{path}: has no {told}; added mass, damping and wave forces are taken as zero there. Keep the "
+            "vessel from these motions, or solve for them",
             MissingMotionsWarning,
         )
-    every = {dimension: list(MOTION_NAMES) for dimension in MATRIX}
+    every = {dimension: wanted for dimension in MATRIX}
     whole = dataset.reindex(every, fill_value=0.0) if missing else dataset.sel(every)
-    return whole, tuple(name.lower() for name in MOTION_NAMES if name in plain)
+    lacking = {label.rpartition("__")[2] for label in missing}
+    return whole, [name.lower() for name in MOTION_NAMES if name not in lacking]
 
 
-def over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> xarray.Dataset:
+def _over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> xarray.Dataset:
     """The dataset over omega (rad/s), whichever measure of frequency it was solved for."""
     if "omega" in dataset.dims:
         return dataset
@@ -315,7 +333,7 @@ def over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> x
     return plain.rename({measure: "omega"}).assign_coords(omega=omega)
 
 
-def frequencies(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
+def _frequencies(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
     """Frequencies in rad/s as they are, and the places of those that are positive and finite, rising."""
     omega = np.asarray(dataset["omega"].values, dtype=float)
     if len(np.unique(omega)) < len(omega) or np.any(np.isnan(omega)) or np.any(omega < 0.0):
@@ -329,7 +347,7 @@ def frequencies(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArra
     return omega, rows
 
 
-def real_values(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> FloatArray:
+def _real(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> FloatArray:
     """A variable's values with its dimensions in the given order."""
     return np.asarray(_variable(path, dataset, name, dimensions).values, dtype=float)
 
@@ -346,21 +364,27 @@ def _variable(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[
     return variable.transpose(*dimensions)
 
 
-def _matrix(
-    path: Path, dataset: xarray.Dataset, name: str, argument: str, given: ArrayLike | None
-) -> FloatArray:
-    """A constant matrix (6, 6): the caller's, else the file's."""
+def _matrices(
+    path: Path,
+    dataset: xarray.Dataset,
+    variable: str,
+    argument: str,
+    names: list[str],
+    given: Given | None,
+) -> list[FloatArray]:
+    """A constant matrix (6, 6) of each body: the caller's, else the block of the file's."""
     if given is not None:
-        return np.asarray(given, dtype=float)
-    if name not in dataset:
+        return of_each(path, argument, names, given, (6, 6))
+    if variable not in dataset:
         raise FileFormatError(
-            f"{path}: {name} is missing; set body.{name} before solving (compute_rigid_body_inertia, "
+            f"{path}: {variable} is missing; set body.{variable} before solving (compute_rigid_body_inertia, "
             f"compute_hydrostatic_stiffness), or pass {argument} to read_capytaine"
         )
-    return real_values(path, dataset, name, MATRIX)
+    whole = _real(path, dataset, variable, MATRIX)
+    return [whole[at : at + 6, at : at + 6] for at in range(0, 6 * len(names), 6)]
 
 
-def directions(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
+def _directions(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
     """As `rising_directions`, of the file."""
     if "wave_direction" not in dataset.coords:
         raise FileFormatError(f"{path}: wave_direction is missing; solve diffraction problems too")
@@ -370,7 +394,7 @@ def directions(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray
     return rising_directions(raw)
 
 
-def wave_force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
+def _wave_force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
     """Wave excitation (m, n, 6) with our time factor; NaN at the limits 0 and infinity."""
     parts = ("Froude_Krylov_force", "diffraction_force")
     names = parts if all(name in dataset for name in parts) else ("excitation_force",)
@@ -396,24 +420,49 @@ def _complex(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[s
     return np.asarray(real + 1j * imaginary)
 
 
-def _rotation_centre(path: Path, dataset: xarray.Dataset, given: ArrayLike | None) -> FloatArray:
-    """Where the rotations turn about, from the origin of the mesh (which it is where nothing tells)."""
-    told = given if "rotation_center" not in dataset.variables else dataset["rotation_center"].values
-    if told is None:
+def _rotation_centres(
+    path: Path, dataset: xarray.Dataset, names: list[str], given: Given | None
+) -> FloatArray:
+    """Where the rotations of each body turn about (k, 3), from the origin of the mesh."""
+    if given is not None:
+        return np.array(of_each(path, "rotation_centre", names, given, (3,)))
+    there = _by_body(dataset, "rotation_center", names)
+    if there is None and len(names) == 1 and "rotation_center" in dataset.variables:
+        there = np.ravel(np.asarray(dataset["rotation_center"].values, dtype=float))[None]
+    if there is None:
+        whose, how = (
+            ("the body turns", "(x, y, z)")
+            if len(names) == 1
+            else (f"{', '.join(names)[:200]} turn", "{name: (x, y, z)}")
+        )
         warn_caller(
-            f"{path}: does not tell about which point the body turns, as Capytaine tells from version 3 on; "
-            "the origin of its mesh is taken, and matrices of another point would be misread. Give "
-            "read_capytaine(rotation_centre=(x, y, z)) in m",
+            f"{path}: does not tell about which point {whose}, as Capytaine tells from version 3 on; the "
+            "origin of its mesh is taken, and matrices of another point would be misread. Give "
+            f"read_capytaine(rotation_centre={how}) in m",
             AssumedReferenceWarning,
         )
-        return np.zeros(3)
-    centre = np.ravel(np.asarray(told, dtype=float))
-    if centre.shape != (3,) or not np.all(np.isfinite(centre)):
-        raise FileFormatError(f"{path}: the rotation centre is {shown(told)}; give (x, y, z) in m")
-    return centre
+        return np.zeros((len(names), 3))
+    if there.shape != (len(names), 3) or not np.all(np.isfinite(there)):
+        raise FileFormatError(f"{path}: the rotation centre is {shown(there.tolist())}; give (x, y, z) in m")
+    return there
 
 
-def limit_of(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
+def _by_body(dataset: xarray.Dataset, variable: str, names: list[str]) -> FloatArray | None:
+    """A variable's values by body, in the order of the names; None where the file has none by name."""
+    if (
+        variable not in dataset.variables
+        or "body" not in dataset[variable].dims
+        or "body" not in dataset.coords
+    ):
+        return None
+    there = [str(name) for name in dataset["body"].values]
+    if sorted(there) != sorted(names):
+        return None
+    values = np.asarray(dataset[variable].transpose("body", ...).values, dtype=float)
+    return values[[there.index(name) for name in names]]
+
+
+def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
     """The matrix at a limiting frequency, if it is there."""
     found = matrices[where]
     return found[0] if len(found) and np.all(np.isfinite(found)) else None

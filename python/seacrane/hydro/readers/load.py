@@ -14,27 +14,13 @@ from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
 from seacrane.hydro.group.moved import afloat
-from seacrane.hydro.readers import (
-    bemio,
-    bemio_group,
-    capytaine,
-    capytaine_group,
-    nemoh,
-    nemoh_group,
-    orcaflex,
-    seacrane_netcdf,
-    veres,
-    wamit,
-    wamit_group,
-)
+from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, seacrane_netcdf, veres, wamit
 from seacrane.hydro.readers.format import Format, Loaded, of_one_speed
 from seacrane.inputs.caller import silently
 from seacrane.inputs.keywords import named
 from seacrane.warnings import RoughDataWarning
 
-OF_SEVERAL = tuple(kind.FORMAT for kind in (capytaine_group, wamit_group, bemio_group, nemoh_group))
-OF_ONE = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
-FORMATS = (*OF_SEVERAL, *OF_ONE)
+FORMATS = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
 NAMED = 5  # files in a message
 SAME_DEPTH = 1e-6
 
@@ -176,4 +162,4 @@ def _format_of_folder(folder: Path) -> tuple[Format, Path]:
 
 
 def _supported() -> str:
-    return "supported: " + ", ".join(one.files for one in OF_ONE)
+    return "supported: " + ", ".join(one.files for one in FORMATS)

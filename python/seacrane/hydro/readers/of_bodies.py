@@ -1,4 +1,4 @@
-"""What readers of several bodies share: values by body, and whether a group has two like sides."""
+"""What a reader makes of the bodies of a file: the database of one, or the group of several."""
 
 from __future__ import annotations
 
@@ -12,26 +12,131 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
+from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
 from seacrane.hydro.group.long_wave import long_wave_lift
 from seacrane.hydro.readers.equivalent_box import equivalent_box
+from seacrane.hydro.readers.format import Loaded
+from seacrane.hydro.readers.wave_directions import phase_at
+from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import AssumedInertiaWarning
 
 FloatArray = NDArray[np.float64]
+Given = ArrayLike | Mapping[str, ArrayLike]  # of one body, or by name
 
 LIFT_LIMIT = 0.1  # of C33
+ORIGIN = (0.0, 0.0)
+USUAL_RADII = (0.36, 0.25, 0.25)  # of breadth, length, length
+
+
+def hull_or_group(
+    bodies: Sequence[GroupBody],
+    *,
+    force: NDArray[np.complex128],
+    waves_from: Sequence[float] | FloatArray = ORIGIN,
+    alone: Mapping[str, Any] | None = None,
+    **tables: Any,
+) -> Loaded:
+    """The database of one body, with zero phase at its reference point, or the group of several.
+
+    Parameters
+    ----------
+    force : (m, n, 6 k) with zero phase at ``waves_from``, (x, y) m from the origin of the bodies' places.
+    alone : what a database of one body has besides.
+    tables : what both hold: name, source, origin, frequencies, headings, matrices and water.
+    """
+    one = bodies[0] if len(bodies) == 1 else None
+    away = np.subtract(ORIGIN if one is None else one.position[:2], waves_from)
+    if away.any():
+        water = {"g": tables["g"], "depth": tables["depth"]}
+        force = force * phase_at(away, tables["omega"], tables["heading"], **water)
+    on_axis = all(body.position[1] == 0.0 and body.heading == 0.0 for body in bodies)
+    tables |= {
+        "force": force,
+        "port_starboard_symmetric": on_axis and keeps_sides_apart(tables["added_mass"]),
+    }
+    if one is None:
+        return HydroGroup(bodies=tuple(bodies), **tables)
+    own = ("mass_matrix", "restoring", "linear_damping", "length", "breadth", "draught")
+    return HydroDatabase(**tables | {name: getattr(one, name) for name in own} | dict(alone or {}))
+
+
+def floating_body(
+    where: Path,
+    name: str,
+    *,
+    several: bool,
+    position: FloatArray,
+    restoring: FloatArray,
+    volume: float,
+    water: tuple[float, float],
+    mass: FloatArray | None,
+    centre: FloatArray,
+    lacks: str,
+    heading: float = 0.0,
+) -> GroupBody:
+    """A body with its equivalent box, and with the displaced mass where it has none.
+
+    Parameters
+    ----------
+    volume : m3, displaced.
+    water : density and gravity, kg/m3 and m/s2.
+    mass : (6, 6), or None: that of ``volume`` at ``centre`` (3,), with a warning of what the file ``lacks``.
+
+    Raises FileFormatError: nothing floats on such a waterplane, or C55 is that of all bodies together.
+    """
+    rho, g = water
+    length, breadth, draught = box_of(where, name if several else "", restoring, volume, rho * g)
+    if mass is None:
+        mass = usual_mass_matrix(
+            where, lacks, mass=rho * volume, centre=centre, length=length, breadth=breadth
+        )
+    return GroupBody(
+        name=name,
+        position=position,
+        heading=heading,
+        mass_matrix=mass,
+        restoring=restoring,
+        length=length,
+        breadth=breadth,
+        draught=draught,
+    )
+
+
+def usual_mass_matrix(
+    where: object, why: str, *, mass: float, centre: FloatArray, length: float, breadth: float
+) -> FloatArray:
+    """The displaced mass (kg) at its centre (3,), m, with usual radii of gyration: (6, 6) in SI.
+
+    Warns
+    -----
+    AssumedInertiaWarning : always; the message begins with ``where`` and ``why``.
+    """
+    radii = np.array(USUAL_RADII) * (breadth, length, length)
+    warn_caller(
+        f"{where}: {why}; the displaced mass {mass:.6g} kg with radii of gyration of "
+        f"{radii[0]:.3g}, {radii[1]:.3g}, {radii[2]:.3g} m (0.36 B, 0.25 L, 0.25 L) is taken, and natural "
+        "periods in roll and pitch follow from that guess",
+        AssumedInertiaWarning,
+    )
+    return rigid_mass_matrix(mass, centre, np.diag(mass * radii**2))
 
 
 def of_each(
-    path: Path, what: str, names: Sequence[str], given: Mapping[str, ArrayLike], shape: tuple[int, ...]
+    path: Path, what: str, names: Sequence[str], given: Given, shape: tuple[int, ...]
 ) -> list[FloatArray]:
-    """The caller's array of each body, in the order of the file's names.
+    """The caller's array of each body, in the order of the file's names; of one body it needs no name.
 
     Raises FileFormatError: other names than those of the file, or another shape.
     """
-    if set(given) != set(names):
+    if not isinstance(given, Mapping) and len(names) == 1:
+        given = {names[0]: given}
+    if not isinstance(given, Mapping) or set(given) != set(names):
+        told = ", ".join(map(str, given))[:200] if isinstance(given, Mapping) else "none by name"
         raise FileFormatError(
-            f"{path}: holds bodies {', '.join(names)[:200]}; {what} are given for "
-            f"{', '.join(map(str, given))[:200] or 'none'}: name each of them"
+            f"{path}: holds bodies {', '.join(names)[:200]}; {what} is given for {told or 'none'}: name each "
+            "of them"
         )
     arrays = [np.array(given[name], dtype=float) for name in names]
     for name, array in zip(names, arrays, strict=True):
@@ -40,41 +145,41 @@ def of_each(
     return arrays
 
 
+def of_each_or_none(
+    path: Path, what: str, names: Sequence[str], given: Given | None
+) -> list[FloatArray] | list[None]:
+    """`of_each` of matrices (6, 6), or None of each body where the caller gives nothing."""
+    return [None] * len(names) if given is None else of_each(path, what, names, given, (6, 6))
+
+
 def box_of(
     path: Path, name: str, restoring: FloatArray, volume: float, weight_density: float
-) -> dict[str, Any]:
-    """Length, breadth and draught of a body's equivalent box, m; `equivalent_box` with the body's name.
+) -> tuple[float, float, float]:
+    """Length, breadth and draught of a body's equivalent box, m; ``name``: of one among several.
 
     Raises FileFormatError: nothing floats on such a waterplane, or C55 is that of all bodies together.
     """
-    if not restoring[4, 4] > 0.0:
+    if name and not restoring[4, 4] > 0.0:
         raise FileFormatError(
             f"{path}: body {name}: restoring C33 = {restoring[2, 2]:.6g} N/m and C55 = {restoring[4, 4]:.6g} "
             "N m/rad; both have to be positive in a group: check whether they are this body's own"
         )
     try:
-        length, breadth, draught = equivalent_box(restoring, volume, weight_density)
+        return equivalent_box(restoring, volume, weight_density)
     except ValueError as error:
-        raise FileFormatError(f"{path}: body {name}: {error}") from error
-    return {"length": length, "breadth": breadth, "draught": draught}
+        raise FileFormatError(f"{path}: {f'body {name}: ' if name else ''}{error}") from error
 
 
-def group_symmetric(bodies: Sequence[GroupBody], added_mass: FloatArray) -> bool:
-    """Whether port mirrors starboard: every body on the x axis, not turned, and alike to both sides."""
-    on_axis = all(body.position[1] == 0.0 and body.heading == 0.0 for body in bodies)
-    return bool(on_axis and keeps_sides_apart(added_mass))
-
-
-def require_own_hydrostatics(path: Path, group: HydroGroup, fix: str) -> None:
+def require_own_hydrostatics(path: Path, found: Loaded, fix: str) -> None:
     """Raise unless a long wave lifts each body with its own C33, as it does whatever lies beside it.
 
     Files by body that stand in another order, or that hold all bodies together, fail it. Nothing is told
-    where no wave is long enough.
+    of one body, nor where no wave is long enough.
     """
-    lift = long_wave_lift(group)
-    if lift is None:
+    lift = long_wave_lift(found) if isinstance(found, HydroGroup) else None
+    if lift is None or not isinstance(found, HydroGroup):
         return
-    stiffness = np.array([body.restoring[2, 2] for body in group.bodies])
+    stiffness = np.array([body.restoring[2, 2] for body in found.bodies])
     off = np.abs(stiffness / lift - 1.0)
     if off.max() <= LIFT_LIMIT:
         return
@@ -83,9 +188,9 @@ def require_own_hydrostatics(path: Path, group: HydroGroup, fix: str) -> None:
     guess = (
         "all bodies together, perhaps"
         if not others
-        else f"{group.names[others[0]]}: they stand in another order"
+        else f"{found.names[others[0]]}: they stand in another order"
     )
     raise FileFormatError(
-        f"{path}: the restoring of {group.names[at]} has C33 = {stiffness[at]:.4g} N/m, and a wave of "
-        f"{group.omega[0]:.3g} rad/s lifts it with {lift[at]:.4g} N/m: it is that of {guess}. Give {fix}"
+        f"{path}: the restoring of {found.names[at]} has C33 = {stiffness[at]:.4g} N/m, and a wave of "
+        f"{found.omega[0]:.3g} rad/s lifts it with {lift[at]:.4g} N/m: it is that of {guess}. Give {fix}"
     )

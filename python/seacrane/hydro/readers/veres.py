@@ -23,10 +23,12 @@ from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
 from seacrane.hydro.data.motion import force_of_motion
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.format import Format
-from seacrane.hydro.readers.veres_files import DriftAtSpeed, DriftFile, MatricesAtSpeed, TransferAtSpeed
-from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
-from seacrane.hydro.readers.veres_set import (
+from seacrane.hydro.readers.veres_files import (
     LOST,
+    DriftAtSpeed,
+    DriftFile,
+    MatricesAtSpeed,
+    TransferAtSpeed,
     VeresSet,
     at_speed,
     choose_speed,
@@ -37,6 +39,7 @@ from seacrane.hydro.readers.veres_set import (
     sibling,
     veres_speeds,
 )
+from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import EncounterFrequencyWarning, HydrostaticsWarning, PartialSetWarning
 

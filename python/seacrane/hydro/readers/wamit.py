@@ -1,9 +1,11 @@
-"""Reader of WAMIT results: ``.1 .3 .4 .hst .8 .9 .12d`` (numbers), ``.out`` (water, volume), ``.frc`` (mass).
+"""Reader of WAMIT results: ``.1 .3 .4 .hst .8 .9 .12d`` (numbers), ``.out`` (water, bodies), ``.frc`` (mass).
 
 File axes and headings are ours (x forward, y port, z up; heading = direction of travel from +x towards +y;
 exp(+i omega t)). Dimensions follow the WAMIT manual, chapter 3, with length scale L: A rho L^k and B rho
 omega L^k with k = 3, 4, 5 for no, one, two rotations; C rho g L^(k-1); forces rho g L^2, moments rho g L^3;
-rotations 1/L. Phases in ``.out`` are rounded to degrees and not used.
+rotations 1/L; mean drift rho g L^k of a squared amplitude, k = 1 for forces and 2 for moments. Of several
+bodies, matrices and forces are in each body's own axes (XBODY, YBODY, ZBODY, PHIBODY of the listing); waves
+have zero phase at the origin of the global axes, which is the group's (chapter 8).
 """
 
 from __future__ import annotations
@@ -12,45 +14,55 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients
+from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.as_read import as_read, mass_of_file
 from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.equivalent_box import equivalent_box
-from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
-from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
-from seacrane.hydro.readers.wamit_control import (
-    ForceControl,
+from seacrane.hydro.readers.format import Format, Loaded, of_one_speed, zero_speed
+from seacrane.hydro.readers.of_bodies import (
+    Given,
+    floating_body,
+    hull_or_group,
+    of_each_or_none,
+    require_own_hydrostatics,
+)
+from seacrane.hydro.readers.wamit_control import ForceControl, check_period_output, read_force_control
+from seacrane.hydro.readers.wamit_listing import (
+    ROTATIONS,
+    ListedBody,
     Listing,
-    check_period_output,
-    read_force_control,
+    count_bodies,
+    listed_tables,
     read_listing,
 )
-from seacrane.hydro.readers.wamit_drift import BY_PREFERENCE, read_mean_drift
 from seacrane.hydro.readers.wamit_tables import (
+    BY_PREFERENCE,
     Radiation,
     WaveTable,
+    radiation_of,
+    read_mean_drift,
     read_radiation,
     read_restoring,
     read_waves,
+    waves_of,
 )
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
-from seacrane.warnings import AssumedDensityWarning, PartialSetWarning
+from seacrane.warnings import AssumedDensityWarning, PartialSetWarning, RoundedPhaseWarning
 
 FloatArray = NDArray[np.float64]
 
 SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
 NEEDED = (".1", ".3", ".hst")
 USUAL_DENSITY = 1025.0
-ROTATIONS = np.array([0, 0, 0, 1, 1, 1])
 HASKIND_LIMIT = np.full(6, 0.01)  # two force methods differ by the mesh's error
 HASKIND_FLOOR = np.array([0.05, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4])  # surge in beam seas is a difference of errors
 DIFFRACTION_LIMIT = np.full(6, 1e-3)  # the forces of .3 themselves, in seven digits
@@ -65,14 +77,15 @@ def read_wamit(
     g: float = 9.80665,
     length_scale: float = 1.0,
     rho: float | None = None,
-    mass_matrix: ArrayLike | None = None,
+    mass_matrix: Given | None = None,
     motions: Sequence[str] | None = None,
-) -> HydroDatabase:
+) -> Loaded:
     """Read the WAMIT results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
-    Needs ``.1``, ``.3``, ``.hst`` and ``.out``. ``.4`` adds the motions, against which `check` compares;
-    ``.frc``, of either form, the mass; ``.9``, ``.8`` or ``.12d`` (the first of them that is there) the mean
-    drift. One rigid body at the origin of the waves, zero speed.
+    One body, at the origin of the waves, needs ``.1``, ``.3``, ``.hst`` and ``.out``. ``.4`` adds the
+    motions, against which `check` compares; ``.frc``, of either form, the mass; ``.9``, ``.8`` or ``.12d``
+    (the first of them that is there) the mean drift. Several bodies need ``.out`` alone, and are read from
+    ``.1`` and ``.3`` where both are there: the phases of the listing are rounded to degrees. Zero speed.
 
     Parameters
     ----------
@@ -80,21 +93,25 @@ def read_wamit(
     volume, depth, g, length_scale : m3, m, m/s2, m (ULEN), of a set without ``.out``, such as another code
         exports: there ``volume`` is needed. Beside a ``.out`` they are not used.
     rho : kg/m3, of a set that does not tell it.
-    mass_matrix : (6, 6) in SI about the origin; it takes the place of mass and inertia of ``.frc``.
+    mass_matrix : (6, 6) in SI about the origin; it takes the place of mass and inertia of ``.frc``. Of
+        several bodies by name; by default their displaced masses with usual radii of gyration.
     motions : names of those that were solved for, where some were not: a motion without added mass and
         damping is refused unless it is left out here.
 
     Returns
     -------
-    HydroDatabase : external damping of ``.frc`` is in ``linear_damping``, external stiffness in
+    HydroDatabase : of one body. External damping of ``.frc`` is in ``linear_damping``, external stiffness in
         ``restoring``. Length, breadth and draught are those of the equivalent box. The trusted band ends
         where a wave is eight panels long.
+    HydroGroup : of several, named as their geometry files, in the order of the listing, each about the origin
+        of its own axes.
 
     Warns
     -----
     AssumedDensityWarning : neither ``.frc`` nor ``.out`` holds a density.
-    AssumedInertiaWarning : no ``.frc``, or one without mass matrix.
+    AssumedInertiaWarning : no ``.frc``, or one without mass matrix; or several bodies and no ``mass_matrix``.
     PartialSetWarning : periods or headings are not the same in all files.
+    RoundedPhaseWarning : the forces are those of the listing.
 
     Raises
     ------
@@ -102,47 +119,50 @@ def read_wamit(
         the file and, where there is one, the line.
     """
     stem = find_wamit_stem(Path(path))
-    files = {suffix: sibling(stem, suffix) for suffix in SUFFIXES}
-    for suffix in NEEDED:
-        if files[suffix] is None:
-            raise FileFormatError(
-                f"{stem}{suffix}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
-            )
-    mass = None if mass_matrix is None else np.asarray(mass_matrix, dtype=float)
-    given = _Given(volume, float(depth), float(g), float(length_scale), rho, mass)
+    files = {suffix: _sibling(stem, suffix) for suffix in SUFFIXES}
+    given = _Given(volume, float(depth), float(g), float(length_scale), rho, mass_matrix)
     try:
         found = as_read(stem, "read_wamit", _convert(stem, files, given), motions)
     except FileFormatError:
         raise
     except ValueError as error:
         raise FileFormatError(f"{stem}: {error}") from error
+    require_own_hydrostatics(stem, found, "the .hst file of this run")
     return with_band_of_data(found)
 
 
 def find_wamit_stem(path: Path) -> Path:
     """Common stem (folder and name without suffix) of the set of files that ``path`` points to."""
     if path.is_dir():
-        stems = sorted({file.with_suffix("") for file in path.iterdir() if file.suffix == ".1"})
+        files = sorted(path.iterdir())
+        stems = list(dict.fromkeys(file.with_suffix("") for file in files if file.suffix == ".1"))
+        stems = stems or [file.with_suffix("") for file in files if file.suffix.lower() == ".out"]
         if len(stems) != 1:
             found = ", ".join(stem.name for stem in stems) or "none"
             raise FileFormatError(
                 f"{path}: one .1 file is needed in a WAMIT folder, found: {found}; give the stem"
             )
         return stems[0]
-    if sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
+    if _sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
         return path.with_suffix("")
     return path
 
 
 def is_wamit(path: Path) -> bool:
-    """Whether ``path`` is a folder, stem or file of a WAMIT set."""
-    if path.is_dir():
-        return any(file.suffix == ".1" for file in path.iterdir())
-    stem = find_wamit_stem(path)
-    return any(sibling(stem, suffix) is not None for suffix in (".1", ".3", ".hst"))
+    """Whether ``path`` is a folder, stem or file of a WAMIT set, or leads to a listing of several bodies."""
+    if path.is_dir() and any(file.suffix == ".1" for file in path.iterdir()):
+        return True
+    try:
+        stem = find_wamit_stem(path)
+    except FileFormatError:
+        return False
+    if not path.is_dir() and any(_sibling(stem, suffix) is not None for suffix in NEEDED):
+        return True
+    listing = _sibling(stem, ".out") if path.is_dir() or path.suffix.lower() == ".out" else None
+    return listing is not None and count_bodies(listing) > 1
 
 
-def sibling(stem: Path, suffix: str) -> Path | None:
+def _sibling(stem: Path, suffix: str) -> Path | None:
     """File of the set with that suffix, in either case."""
     for name in (stem.name + suffix, stem.name + suffix.upper()):
         if (stem.parent / name).is_file():
@@ -159,7 +179,7 @@ class _Given:
     g: float
     length_scale: float
     rho: float | None
-    mass: FloatArray | None
+    mass: Given | None
 
     def listing(self, stem: Path) -> Listing:
         """In the place of ``.out``."""
@@ -172,6 +192,7 @@ class _Given:
         for name, value in values.items():
             if not (value > 0.0 and (np.isfinite(value) or name == "depth")):
                 raise FileFormatError(f"{stem}: {name} is {value!r}; give a positive number")
+        centre = np.zeros(3)
         return Listing(
             path=stem,
             version="without .out,",
@@ -180,60 +201,76 @@ class _Given:
             length_scale=self.length_scale,
             depth=self.depth,
             rho=None,
-            volume=float(self.volume),
-            center_of_buoyancy=np.zeros(3),
-            center_of_gravity=None,
-            body_height=0.0,
-            symmetric=None,
-            panels=None,
-            period=np.zeros(0),
-            last_line=0,
+            bodies=(ListedBody(stem.name, centre, 0.0, float(self.volume), centre),),
         )
 
 
 @dataclass(frozen=True, eq=False)
-class _Body:
-    """What turns non-dimensional numbers into SI, and the inertia."""
+class _Numbers:
+    """What the files hold, non-dimensional; ``restoring`` (6 k, 6 k), or None: that of the listing."""
 
-    listing: Listing
-    rho: float
-    restoring: FloatArray
-    box: tuple[float, float, float]
-    control: ForceControl | None
-    mass: FloatArray | None
+    radiation: Radiation
+    waves: WaveTable
+    restoring: FloatArray | None
+    files: str = ".1, .3, .out"
 
 
-def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> HydroDatabase:
-    """The database in SI."""
+def _numbers(files: dict[str, Path | None], listing: Listing) -> _Numbers:
+    count = len(listing.bodies)
+    matrices, waves, stiffness = (files[suffix] for suffix in NEEDED)
+    restoring = None if stiffness is None else read_restoring(stiffness, bodies=count)
+    if matrices is not None and waves is not None:
+        radiation = read_radiation(matrices, bodies=count)
+        return _Numbers(radiation, read_waves(waves, bodies=count), restoring)
+    rows, forces = listed_tables(listing)
+    warn_caller(
+        f"{listing.path}: wave forces are read from the listing, whose phases are rounded to degrees: each "
+        "is off by up to 0.9 % of its size. Give the .1 and .3 files beside it",
+        RoundedPhaseWarning,
+    )
+    return _Numbers(radiation_of(rows, bodies=count), waves_of(forces, bodies=count), restoring, ".out alone")
+
+
+def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> Loaded:
+    """The database or the group in SI."""
     if files[".cfg"] is not None:
         check_period_output(files[".cfg"])
-    radiation = read_radiation(_there(files, ".1"))
-    listing = given.listing(stem) if files[".out"] is None else read_listing(files[".out"])
-    if listing.symmetric is None:
-        listing = replace(listing, symmetric=keeps_sides_apart(radiation.added_mass))
-    force = read_waves(_there(files, ".3"))
-    motion = None if files[".4"] is None else read_waves(files[".4"])
-    control = None if files[".frc"] is None else read_force_control(files[".frc"])
-    if files[".out"] is not None:
-        _check_periods(listing, radiation.period, _there(files, ".1"))
-    period, heading_deg = common_periods(stem, radiation, force, motion)
-    rho = _density(stem, listing, control, given.rho)
-    length_scale, g = listing.length_scale, listing.g
-    power = 3 + np.add.outer(ROTATIONS, ROTATIONS)
-    mass_scale = rho * length_scale**power
-    restoring = read_restoring(_there(files, ".hst")) * rho * g * length_scale ** (power - 1)
-    box = equivalent_box(restoring, listing.volume, rho * g)
-    body = _Body(listing, rho, restoring, box, control, given.mass)
+    listing = None if files[".out"] is None else read_listing(files[".out"])
+    alone = listing is None or len(listing.bodies) == 1
+    lacking = next((suffix for suffix in NEEDED if files[suffix] is None), None)
+    if alone and lacking is not None:
+        raise FileFormatError(
+            f"{stem}{lacking}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
+        )
+    listing = listing or given.listing(stem)
+    numbers = _numbers(files, listing)
+    radiation = numbers.radiation
+    motion = None if files[".4"] is None or not alone else read_waves(files[".4"])
+    control = None if files[".frc"] is None or not alone else read_force_control(files[".frc"])
+    if files[".out"] is not None and files[".1"] is not None:
+        _check_periods(listing, radiation.period, files[".1"])
+    period, heading_deg = _common_periods(stem, radiation, numbers.waves, motion)
+    rho = _density(stem, listing.rho, given.rho if control is None or control.rho is None else control.rho)
+    g, scale = listing.g, listing.length_scale
+    turns = np.tile(ROTATIONS, len(listing.bodies))
+    mass_scale = rho * scale ** (3 + np.add.outer(turns, turns))
     omega = (2.0 * np.pi / period)[::-1]
     rows = np.searchsorted(radiation.period, period)[::-1]
-    direction, order = wamit_directions(force.path, heading_deg)
-    wave = WavePicker(period, heading_deg, order)
+    direction, order = _directions(numbers.waves.path, heading_deg)
+    wave = _WavePicker(period, heading_deg, order)
     limits = (radiation.infinite_frequency_added_mass, radiation.zero_frequency_added_mass)
     infinite, zero = (None if limit is None else limit * mass_scale for limit in limits)
-    stiffness = None if control is None else control.stiffness
-    damping = None if control is None else control.damping
-    haskind = control is None or control.motions_option != 2
-    return HydroDatabase(
+    bodies = _bodies(stem, listing, numbers.restoring, rho, given.mass, control)
+    own: dict[str, Any] = {}
+    if alone:
+        own = {
+            **_of_one(listing, bodies[0], radiation, omega, haskind=_by_haskind(control)),
+            "motion_rao": None if motion is None else wave.pick(motion) / scale**ROTATIONS,
+            "drift": _drift(files, listing, rho),
+        }
+    return hull_or_group(
+        bodies,
+        alone=own,
         name=stem.name,
         omega=omega,
         heading=direction,
@@ -241,25 +278,77 @@ def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> HydroD
         damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
         infinite_frequency_added_mass=infinite,
         zero_frequency_added_mass=zero,
-        restoring=restoring if stiffness is None else restoring + stiffness,
-        mass_matrix=_mass_matrix(stem, body),
-        force=wave.pick(force) * rho * g * length_scale ** (2 + ROTATIONS),
-        motion_rao=None if motion is None else wave.pick(motion) / length_scale**ROTATIONS,
-        motion_rao_limit=HASKIND_LIMIT if haskind else DIFFRACTION_LIMIT,
-        motion_rao_floor=HASKIND_FLOOR if haskind else np.full(6, 1e-4),
-        linear_damping=np.zeros((6, 6)) if damping is None else damping,
+        force=wave.pick(numbers.waves) * rho * g * scale ** (2 + turns),
         rho=rho,
         g=g,
         depth=listing.depth,
-        length=box[0],
-        breadth=box[1],
-        draught=box[2],
-        origin=_origin(listing),
-        source=_source(stem, files, listing, haskind),
-        trusted_band=_trusted(body, omega),
-        port_starboard_symmetric=bool(listing.symmetric),
-        drift=_drift(files, listing, rho),
+        origin=_origin(listing) if alone else "origin of WAMIT's global axes, on the still waterline",
+        source=_source(stem, files, listing, control)
+        if alone
+        else _source_of_several(stem, listing, numbers),
     )
+
+
+def _bodies(
+    stem: Path,
+    listing: Listing,
+    whole: FloatArray | None,
+    rho: float,
+    given: Given | None,
+    control: ForceControl | None,
+) -> list[GroupBody]:
+    g, scale, several = listing.g, listing.length_scale, len(listing.bodies) > 1
+    names = [body.name for body in listing.bodies]
+    masses = of_each_or_none(listing.path, "mass_matrix", names, given)
+    power = scale ** (2 + np.add.outer(ROTATIONS, ROTATIONS))
+    bodies = []
+    for i, (body, mass) in enumerate(zip(listing.bodies, masses, strict=True)):
+        at = slice(6 * i, 6 * i + 6)
+        restoring = body.restoring(scale) * rho * g if whole is None else whole[at, at] * rho * g * power
+        centre = body.gravity
+        if control is not None and control.center_of_gravity is not None:
+            centre = control.center_of_gravity
+        if mass is None and control is not None:
+            mass = _mass_of_control(control, body, rho)
+        bodies.append(
+            floating_body(
+                listing.path if several else stem,
+                body.name,
+                several=several,
+                position=body.position,
+                heading=body.heading,
+                restoring=restoring,
+                volume=body.volume,
+                water=(rho, g),
+                mass=mass,
+                centre=centre,
+                lacks=(
+                    f"no mass matrix of {body.name}, pass mass_matrix to read_wamit"
+                    if several
+                    else "no mass matrix in .frc"
+                ),
+            )
+        )
+    if control is not None and control.damping is not None:
+        bodies[0] = replace(bodies[0], linear_damping=control.damping)
+    if control is not None and control.stiffness is not None:
+        bodies[0] = replace(bodies[0], restoring=bodies[0].restoring + control.stiffness)
+    return bodies
+
+
+def _of_one(
+    listing: Listing, body: GroupBody, radiation: Radiation, omega: FloatArray, *, haskind: bool
+) -> dict[str, Any]:
+    """Symmetry and trusted band of a body alone, and how far its motions may be off."""
+    symmetric = listing.symmetric
+    if symmetric is None:
+        symmetric = keeps_sides_apart(radiation.added_mass)
+    return {
+        "port_starboard_symmetric": symmetric,
+        "trusted_band": _trusted(listing, body, symmetric, omega),
+        "motion_rao_limit": HASKIND_LIMIT if haskind else DIFFRACTION_LIMIT,
+        "motion_rao_floor": HASKIND_FLOOR if haskind else np.full(6, 1e-4),
+    }
 
 
 def _drift(files: dict[str, Path | None], listing: Listing, rho: float) -> DriftCoefficients | None:
@@ -268,7 +357,7 @@ def _drift(files: dict[str, Path | None], listing: Listing, rho: float) -> Drift
     if path is None:
         return None
     found = read_mean_drift(path)
-    direction, order = wamit_directions(path, found.heading_deg)
+    direction, order = _directions(path, found.heading_deg)
     scale = rho * listing.g * listing.length_scale ** (1 + ROTATIONS)
     return DriftCoefficients(
         heading=direction,
@@ -277,23 +366,17 @@ def _drift(files: dict[str, Path | None], listing: Listing, rho: float) -> Drift
     )
 
 
-def _there(files: dict[str, Path | None], suffix: str) -> Path:
-    file = files[suffix]
-    assert file is not None
-    return file
-
-
 def _check_periods(listing: Listing, period: FloatArray, path: Path) -> None:
     """Raise unless the listing goes through every period of the matrices."""
     for value in period:
-        if not np.any(np.abs(listing.period - value) <= 1e-5 * value):
+        if not np.any(np.abs(np.array(listing.period) - value) <= 1e-5 * value):
             raise FileFormatError(
-                f"{listing.path}, line {listing.last_line}: the file ends without period {value:g} s of "
+                f"{listing.path}, line {len(listing.lines)}: the file ends without period {value:g} s of "
                 f"{path.name}; it is truncated, or the files are not of one run"
             )
 
 
-def common_periods(
+def _common_periods(
     stem: Path, radiation: Radiation, force: WaveTable, motion: WaveTable | None
 ) -> tuple[FloatArray, FloatArray]:
     """Periods and headings that all files hold, with a warning where one holds more."""
@@ -316,7 +399,7 @@ def common_periods(
     return shared[0], shared[1]
 
 
-def wamit_directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     """Directions in [0, 2 pi), rising, and their places in ``heading_deg``; 360 deg beside 0 is dropped."""
     wrapped = np.round(np.mod(heading_deg, 360.0), 6) % 360.0
     degrees, order = np.unique(wrapped, return_index=True)
@@ -327,7 +410,7 @@ def wamit_directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, N
 
 
 @dataclass(frozen=True, eq=False)
-class WavePicker:
+class _WavePicker:
     """The common headings and periods out of a table, directions and frequencies rising."""
 
     period: FloatArray
@@ -340,11 +423,7 @@ class WavePicker:
         return np.asarray(table.values[np.ix_(rows, columns)])
 
 
-def _density(stem: Path, listing: Listing, control: ForceControl | None, asked: float | None) -> float:
-    return water_density(stem, listing.rho, asked if control is None or control.rho is None else control.rho)
-
-
-def water_density(stem: Path, listed: float | None, given: float | None) -> float:
+def _density(stem: Path, listed: float | None, given: float | None) -> float:
     """kg/m3 of the listing or as given; where both tell it, they have to agree."""
     if given is None and listed is None:
         warn_caller(
@@ -360,53 +439,52 @@ def water_density(stem: Path, listed: float | None, given: float | None) -> floa
     return float(given if given is not None else listed or USUAL_DENSITY)
 
 
-def _mass_matrix(stem: Path, body: _Body) -> FloatArray:
-    """Mass matrix (6, 6): as given, or the displaced mass with the radii of gyration of ``.frc``."""
-    control, listing = body.control, body.listing
-    mass = body.rho * listing.volume
-    asked = "read_wamit(mass_matrix=...)"
-    if body.mass is not None:
-        return body.mass
-    if control is not None and control.mass is not None:
+def _mass_of_control(control: ForceControl, body: ListedBody, rho: float) -> FloatArray | None:
+    """Mass matrix (6, 6) of ``.frc``, or the displaced mass with its radii; None where it has neither."""
+    mass, asked = rho * body.volume, "read_wamit(mass_matrix=...)"
+    if control.mass is not None:
         return mass_of_file(control.path, asked, control.mass, displaced=mass)
-    centre = listing.center_of_buoyancy.copy()
-    if listing.center_of_gravity is not None:
-        centre = listing.center_of_gravity.copy()
-    if control is not None and control.radii is not None and control.height_of_gravity is not None:
-        centre[2] = control.height_of_gravity
-        about_origin = mass * control.radii * np.abs(control.radii)
-        matrix = rigid_mass_matrix(mass, centre, np.zeros((3, 3)))
-        matrix[3:, 3:] = about_origin
-        return mass_of_file(control.path, asked, matrix)
-    if control is not None and control.center_of_gravity is not None:
-        centre = control.center_of_gravity
-    return usual_mass_matrix(
-        stem, "no mass matrix in .frc", mass=mass, centre=centre, length=body.box[0], breadth=body.box[1]
-    )
+    if control.radii is None or control.height_of_gravity is None:
+        return None
+    centre = np.array([*body.gravity[:2], control.height_of_gravity])
+    matrix = rigid_mass_matrix(mass, centre, np.zeros((3, 3)))
+    matrix[3:, 3:] = mass * control.radii * np.abs(control.radii)
+    return mass_of_file(control.path, asked, matrix)
 
 
 def _origin(listing: Listing) -> str:
-    height = listing.body_height
+    height = listing.bodies[0].position[2]
     place = "on the still waterline" if height == 0.0 else f"{height:g} m above the still waterline"
     return f"origin of the WAMIT body axes, {place}"
 
 
-def _source(stem: Path, files: dict[str, Path | None], listing: Listing, haskind: bool) -> str:
+def _by_haskind(control: ForceControl | None) -> bool:
+    return control is None or control.motions_option != 2
+
+
+def _source(stem: Path, files: dict[str, Path | None], listing: Listing, control: ForceControl | None) -> str:
     read = ", ".join(suffix for suffix in SUFFIXES if files[suffix] is not None and suffix != ".pot")
-    method = "Haskind" if haskind else "diffraction"
+    method = "Haskind" if _by_haskind(control) else "diffraction"
     motions = "" if files[".4"] is None else f"; motions by WAMIT from {method} forces"
     return f"WAMIT {listing.version} files {stem.name} ({read}): {listing.title}{motions}"
 
 
-def _trusted(body: _Body, omega: FloatArray) -> tuple[float, float] | None:
+def _source_of_several(stem: Path, listing: Listing, numbers: _Numbers) -> str:
+    lids = ", ".join(f"{body.name} {body.lid_panels}" for body in listing.bodies)
+    return f"WAMIT {listing.version} files {stem.name} ({numbers.files}); interior lid panels: {lids}"
+
+
+def _trusted(
+    listing: Listing, body: GroupBody, symmetric: bool, omega: FloatArray
+) -> tuple[float, float] | None:
     """Up to the frequency whose deep-water wave is eight panels long, panels being equal squares."""
-    if body.listing.panels is None:
+    if listing.panels is None:
         return None
-    length, breadth, draught = body.box
+    length, breadth, draught = body.length, body.breadth, body.draught
     wetted = length * breadth + 2.0 * draught * (length + breadth)
-    sides = 0.5 if body.listing.symmetric else 1.0
-    wavelength = PANELS_PER_WAVELENGTH * np.sqrt(sides * wetted / body.listing.panels)
-    high = min(float(np.sqrt(2.0 * np.pi * body.listing.g / wavelength)), float(omega[-1]))
+    sides = 0.5 if symmetric else 1.0
+    wavelength = PANELS_PER_WAVELENGTH * np.sqrt(sides * wetted / listing.panels)
+    high = min(float(np.sqrt(2.0 * np.pi * listing.g / wavelength)), float(omega[-1]))
     return (float(omega[0]), high) if omega[0] < high else None
 
 

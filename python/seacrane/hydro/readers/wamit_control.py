@@ -1,50 +1,22 @@
-"""What the listing (``.out``) and the control files (``.frc``, ``.cfg``) of a WAMIT run say of the body."""
+"""What the control files (``.frc``, ``.cfg``) of a WAMIT run say of the body."""
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise, takewhile
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.numbers_of_text import NUMBER as WORD
 from seacrane.hydro.readers.numbers_of_text import is_number, number_of_word
-from seacrane.inputs.whole_file import read_whole
+from seacrane.hydro.readers.wamit_listing import listing_lines
 
 FloatArray = NDArray[np.float64]
 
-NUMBER = rf"({WORD}|\*+)"
 IOPTN_MOTIONS = 3  # the fourth option of the second line
-
-
-@dataclass(frozen=True, eq=False)
-class Listing:
-    """Head of a ``.out`` file; ``rho`` is None where it holds none (or the placeholder 1).
-
-    ``period`` holds the positive periods in s; ``last_line`` counts the lines, for messages.
-    """
-
-    path: Path
-    version: str
-    title: str
-    g: float
-    length_scale: float
-    depth: float
-    rho: float | None
-    volume: float
-    center_of_buoyancy: FloatArray
-    center_of_gravity: FloatArray | None
-    body_height: float
-    symmetric: bool | None
-    panels: int | None
-    period: FloatArray
-    last_line: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,59 +37,6 @@ class ForceControl:
     mass: FloatArray | None = None
     damping: FloatArray | None = None
     stiffness: FloatArray | None = None
-
-
-def read_listing(path: Path) -> Listing:
-    """Read the head of the listing and the periods it goes through.
-
-    Raises FileFormatError: something needed is missing, or the body is placed away from the origin.
-    """
-    lines = listing_lines(path)
-    text = "\n".join(lines)
-
-    def find(pattern: str, what: str) -> list[float]:
-        match = re.search(pattern, text)
-        if match is None:
-            raise FileFormatError(
-                f"{path}, line {len(lines)}: the file ends without {what}; it is truncated, or no "
-                "WAMIT listing"
-            )
-        return [_number(path, text, match, group) for group in range(1, 1 + len(match.groups()))]
-
-    def maybe(pattern: str) -> list[float] | None:
-        return find(pattern, "") if re.search(pattern, text) else None
-
-    g, length_scale = find(rf"Gravity:\s+{NUMBER}\s+Length scale:\s+{NUMBER}", "gravity and length scale")
-    volumes = find(rf"Volumes \(VOLX,VOLY,VOLZ\):\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}", "the displaced volumes")
-    triple = rf"\s*:?\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}"
-    buoyancy = find(r"Center of Buoyancy \(Xb,Yb,Zb\)" + triple, "the centre of buoyancy")
-    gravity = maybe(r"Center of Gravity\s+\(Xg,Yg,Zg\)" + triple)
-    if min(g, length_scale, float(np.mean(volumes))) <= 0.0:
-        raise FileFormatError(
-            f"{path}: gravity {g:g}, length scale {length_scale:g} and volumes {volumes} must be positive"
-        )
-    density = maybe(rf"Water density:\s+{NUMBER}")
-    version = re.search(r"WAMIT\s+Version\s+(\S+)", text)
-    symmetry = re.search(r"Symmetry:[^\n]*", text)
-    panels = maybe(r"Total panels:\s+(\d+)")
-    periods = [number_of_word(word) for word in re.findall(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)]
-    return Listing(
-        path=path,
-        version=version.group(1) if version else "of unknown version",
-        title=_title(lines),
-        g=g,
-        length_scale=length_scale,
-        depth=water_depth(path, text, len(lines)),
-        rho=density[0] if density and density[0] > 1.0 else None,
-        volume=float(np.mean(volumes)),
-        center_of_buoyancy=np.array(buoyancy),
-        center_of_gravity=None if gravity is None else np.array(gravity),
-        body_height=_body_height(path, maybe),
-        symmetric=None if symmetry is None else "Y=0" in symmetry.group(0).replace(" ", ""),
-        panels=int(panels[0]) if panels and panels[0] >= 1.0 else None,
-        period=np.array(periods),
-        last_line=len(lines),
-    )
 
 
 def read_force_control(path: Path) -> ForceControl:
@@ -210,51 +129,3 @@ class _ListDirected:
             return number_of_word(word)
         except ValueError as error:
             raise self.error(f"{what}: {error}") from None
-
-
-def listing_lines(path: Path) -> list[str]:
-    try:
-        return read_whole(path).decode("latin-1").replace("\r", "").rstrip("\n").split("\n")
-    except OSError as error:
-        raise FileFormatError(
-            f"{path}: cannot be read ({error.strerror}); check the path and its rights"
-        ) from error
-
-
-def _number(path: Path, text: str, match: re.Match[str], group: int) -> float:
-    word = match.group(group)
-    try:
-        return number_of_word(word)
-    except ValueError as error:
-        line = text.count("\n", 0, match.start()) + 1
-        raise FileFormatError(f"{path}, line {line}: {error}") from None
-
-
-def water_depth(path: Path, text: str, last: int) -> float:
-    match = re.search(r"Water depth:\s+(\S+)", text)
-    if match is None:
-        raise FileFormatError(f"{path}, line {last}: the file ends without the water depth; it is truncated")
-    return math.inf if match.group(1).lower().startswith("inf") else _number(path, text, match, 1)
-
-
-def _body_height(path: Path, maybe: Callable[[str], list[float] | None]) -> float:
-    """ZBODY; a body moved or turned in the plane would need its forces moved and its phases shifted."""
-    pattern = rf"XBODY =\s*{NUMBER}\s+YBODY =\s*{NUMBER}\s+ZBODY =\s*{NUMBER}\s+PHIBODY =\s*{NUMBER}"
-    place = maybe(pattern)
-    if place is None:
-        return 0.0
-    x, y, z, angle = place
-    if x != 0.0 or y != 0.0 or angle != 0.0:
-        raise FileFormatError(
-            f"{path}: XBODY, YBODY, PHIBODY are {x:g}, {y:g}, {angle:g}; only a body at the origin of the "
-            "waves is read: set them to zero and run WAMIT again"
-        )
-    return float(z)
-
-
-def _title(lines: list[str]) -> str:
-    """The line under the name of the geometry file."""
-    for line, following in pairwise(lines):
-        if "Geometric Data File" in line:
-            return following.strip()
-    return ""

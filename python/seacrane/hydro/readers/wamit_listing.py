@@ -1,25 +1,26 @@
-"""The listing (``.out``) of a WAMIT run of several bodies: what it says of each, and its tables."""
+"""The listing (``.out``) of a WAMIT run: what it says of the water and of each body, and its tables."""
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.readers.numbers_of_text import NUMBER as WORD
 from seacrane.hydro.readers.numbers_of_text import number_of_word
-from seacrane.hydro.readers.wamit_control import NUMBER, listing_lines, water_depth
-from seacrane.hydro.readers.wamit_tables import (
-    INFINITE_FREQUENCY_PERIOD,
-    ZERO_FREQUENCY_PERIOD,
-    Table,
-)
+from seacrane.hydro.readers.wamit_tables import INFINITE_FREQUENCY_PERIOD, ZERO_FREQUENCY_PERIOD, Table
+from seacrane.inputs.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 
+NUMBER = rf"({WORD}|\*+)"
+TRIPLE = rf"\s*:?\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}"
 BODY = re.compile(r"Body number: N=\s*(\d+)")
 FILE = re.compile(r"N=\s*(\d+)\s+(\S+)\.gdf", re.IGNORECASE)
 PERIOD = re.compile(r"Wave period\s*(?:\(sec\))?\s*=\s*(\S+)")
@@ -31,6 +32,40 @@ RESTORING = (
     (r"C\(4,4\),C\(4,5\),C\(4,6\):", ((3, 3), (3, 4), (3, 5))),
     (r"C\(5,5\),C\(5,6\):", ((4, 4), (4, 5))),
 )
+ROTATIONS = np.array([0, 0, 0, 1, 1, 1])
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """What a listing says from one character to another, of all bodies or of one (``whose``)."""
+
+    path: Path
+    text: str
+    start: int
+    end: int
+    whose: str = ""
+
+    def maybe(self, pattern: str) -> list[float] | None:
+        """The numbers of the first place like that, if there is one."""
+        found = re.compile(pattern).search(self.text, self.start, self.end)
+        try:
+            return None if found is None else [number_of_word(word) for word in found.groups()]
+        except ValueError as error:
+            line = self.text.count("\n", 0, found.start()) + 1 if found else 1
+            raise FileFormatError(f"{self.path}, line {line}: {error}") from None
+
+    def find(self, pattern: str, what: str) -> list[float]:
+        found = self.maybe(pattern)
+        if found is None:
+            raise self.error(what)
+        return found
+
+    def error(self, what: str) -> FileFormatError:
+        line = self.text.count("\n", 0, self.end) + 1
+        return FileFormatError(
+            f"{self.path}, line {line}: the listing ends without {what}{self.whose}; it is truncated, or no "
+            "WAMIT listing"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +73,7 @@ class ListedBody:
     """One body of the listing, in its own axes.
 
     ``position`` (3,) m and ``heading`` rad of its axes, ``volume`` m3, ``gravity`` (3,) m its centre of mass
-    from its origin, ``restoring`` (6, 6) over rho g.
+    from its origin, that of buoyancy where the listing does not tell it.
     """
 
     name: str
@@ -46,21 +81,41 @@ class ListedBody:
     heading: float
     volume: float
     gravity: FloatArray
-    restoring: FloatArray
-    lid_panels: int
+    lid_panels: int = 0
+    part: _Part | None = None
+
+    def restoring(self, scale: float) -> FloatArray:
+        """(6, 6) over rho g."""
+        assert self.part is not None
+        restoring = np.zeros((6, 6))
+        for label, entries in RESTORING:
+            values = self.part.find(label + rf"\s+{NUMBER}" * len(entries), "restoring coefficients")
+            for (i, j), value in zip(entries, values, strict=True):
+                restoring[i, j] = value
+                if j < 5:
+                    restoring[j, i] = value
+        return np.asarray(restoring * scale ** (2 + np.add.outer(ROTATIONS, ROTATIONS)))
 
 
 @dataclass(frozen=True, eq=False)
-class GroupListing:
-    """Head of the listing, and its tables as rows like those of ``.1`` and ``.3`` files."""
+class Listing:
+    """Head of a ``.out`` file; ``rho`` is None where it holds none (or the placeholder 1).
 
+    ``period`` holds the positive periods in s that it goes through.
+    """
+
+    path: Path
     version: str
+    title: str
     g: float
     length_scale: float
     depth: float
     rho: float | None
     bodies: tuple[ListedBody, ...]
-    lines: list[str]
+    symmetric: bool | None = None
+    panels: int | None = None
+    period: tuple[float, ...] = ()
+    lines: tuple[str, ...] = ()
 
 
 def count_bodies(path: Path) -> int:
@@ -69,85 +124,112 @@ def count_bodies(path: Path) -> int:
     return max(numbers, default=1)
 
 
-def read_group_listing(path: Path) -> GroupListing:
-    """Read the head of a listing of several bodies.
+def read_listing(path: Path) -> Listing:
+    """Read the head of the listing and the periods it goes through.
 
-    Raises FileFormatError: something needed is missing; the message names the body.
+    Raises FileFormatError: something needed is missing, or the one body is placed away from the origin.
     """
     lines = listing_lines(path)
     text = "\n".join(lines)
-    starts = [found.start() for found in BODY.finditer(text)]
-    names = _names(text, len(starts))
-    first, scale = _numbers(path, text, rf"Gravity:\s+{NUMBER}\s+Length scale:\s+{NUMBER}", "gravity", "file")
-    if min(first, scale) <= 0.0:
-        raise FileFormatError(f"{path}: gravity {first:g} and length scale {scale:g} must be positive")
-    density = re.search(rf"Water density:\s+{NUMBER}", text)
+    whole = _Part(path, text, 0, len(text))
+    g, scale = whole.find(rf"Gravity:\s+{NUMBER}\s+Length scale:\s+{NUMBER}", "gravity and length scale")
+    if min(g, scale) <= 0.0:
+        raise FileFormatError(f"{path}: gravity {g:g} and length scale {scale:g} must be positive")
+    density = whole.maybe(rf"Water density:\s+{NUMBER}")
     version = re.search(r"WAMIT\s+Version\s+(\S+)", text)
-    ends = [*starts[1:], len(text)]
-    rho = number_of_word(density.group(1)) if density else 0.0
-    return GroupListing(
+    symmetry = re.search(r"Symmetry:[^\n]*", text)
+    panels = whole.maybe(r"Total panels:\s+(\d+)")
+    periods = [number_of_word(word) for word in re.findall(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)]
+    return Listing(
+        path=path,
         version=version.group(1) if version else "of unknown version",
-        g=first,
+        title=_title(lines),
+        g=g,
         length_scale=scale,
-        depth=water_depth(path, text, len(lines)),
-        rho=rho if rho > 1.0 else None,
-        bodies=tuple(
-            _body(path, name, text[start:end], scale)
-            for name, start, end in zip(names, starts, ends, strict=True)
-        ),
-        lines=lines,
+        depth=_depth(whole),
+        rho=density[0] if density and density[0] > 1.0 else None,
+        bodies=tuple(_bodies(whole)),
+        symmetric=None if symmetry is None else "Y=0" in symmetry.group(0).replace(" ", ""),
+        panels=int(panels[0]) if panels and panels[0] >= 1.0 else None,
+        period=tuple(periods),
+        lines=tuple(lines),
     )
 
 
-def _names(text: str, count: int) -> list[str]:
-    """Names of the geometry files, each once; numbers where there are none."""
-    files = {int(found.group(1)): found.group(2) for found in FILE.finditer(text)}
-    names = [files.get(i, f"body{i}") for i in range(1, count + 1)]
-    return names if len(set(names)) == count else [f"{name}_{i}" for i, name in enumerate(names, start=1)]
+def _bodies(whole: _Part) -> list[ListedBody]:
+    starts = [found.start() for found in BODY.finditer(whole.text)]
+    if len(starts) < 2:
+        return [_body(whole, whole.path.stem, alone=True)]
+    files = {int(found.group(1)): found.group(2) for found in FILE.finditer(whole.text)}
+    names = [files.get(i, f"body{i}") for i in range(1, len(starts) + 1)]
+    if len(set(names)) < len(names):
+        names = [f"{name}_{i}" for i, name in enumerate(names, start=1)]
+    parts = zip(names, starts, [*starts[1:], whole.end], strict=True)
+    return [
+        _body(_Part(whole.path, whole.text, start, end, f" of {name}"), name, alone=False)
+        for name, start, end in parts
+    ]
 
 
-def _body(path: Path, name: str, text: str, scale: float) -> ListedBody:
-    triple = rf"\s*:?\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}"
-    place = _numbers(path, text, PLACE, "XBODY, YBODY, ZBODY, PHIBODY", name)
-    volumes = _numbers(path, text, rf"Volumes \(VOLX,VOLY,VOLZ\){triple}", "volumes", name)
-    buoyancy = _numbers(path, text, r"Center of Buoyancy \(Xb,Yb,Zb\)" + triple, "centre of buoyancy", name)
-    gravity = re.search(r"Center of Gravity\s+\(Xg,Yg,Zg\)" + triple, text)
-    restoring = np.zeros((6, 6))
-    for label, entries in RESTORING:
-        values = _numbers(path, text, label + rf"\s+{NUMBER}" * len(entries), "restoring coefficients", name)
-        for (i, j), value in zip(entries, values, strict=True):
-            restoring[i, j] = value
-            if j < 5:
-                restoring[j, i] = value
-    rotations = np.array([0, 0, 0, 1, 1, 1])
-    free = re.search(r"Free surface panels:\s*(\d+)", text)
+def _body(part: _Part, name: str, *, alone: bool) -> ListedBody:
+    place = part.maybe(PLACE)
+    if place is None and not alone:
+        raise part.error("XBODY, YBODY, ZBODY, PHIBODY")
+    x, y, z, angle = place or (0.0, 0.0, 0.0, 0.0)
+    if alone and (x != 0.0 or y != 0.0 or angle != 0.0):  # its forces and phases would have to be moved
+        raise FileFormatError(
+            f"{part.path}: XBODY, YBODY, PHIBODY are {x:g}, {y:g}, {angle:g}; only a body at the origin of "
+            "the waves is read: set them to zero and run WAMIT again"
+        )
+    volumes = part.find(rf"Volumes \(VOLX,VOLY,VOLZ\){TRIPLE}", "the displaced volumes")
+    buoyancy = part.find(r"Center of Buoyancy \(Xb,Yb,Zb\)" + TRIPLE, "the centre of buoyancy")
+    if np.mean(volumes) <= 0.0:
+        raise FileFormatError(f"{part.path}: volumes {volumes}{part.whose} must be positive")
+    free = part.maybe(r"Free surface panels:\s*(\d+)")
     return ListedBody(
         name=name,
-        position=np.array(place[:3]),
-        heading=float(np.radians(place[3])),
+        position=np.array([x, y, z]),
+        heading=float(np.radians(angle)),
         volume=float(np.mean(volumes)),
-        gravity=np.array([number_of_word(word) for word in gravity.groups()] if gravity else buoyancy),
-        restoring=restoring * scale ** (2 + np.add.outer(rotations, rotations)),
-        lid_panels=int(free.group(1)) if free else 0,
+        gravity=np.array(part.maybe(r"Center of Gravity\s+\(Xg,Yg,Zg\)" + TRIPLE) or buoyancy),
+        lid_panels=int(free[0]) if free else 0,
+        part=part,
     )
 
 
-def _numbers(path: Path, text: str, pattern: str, what: str, name: str) -> list[float]:
-    found = re.search(pattern, text)
-    if found is None:
-        raise FileFormatError(f"{path}: no {what} of {name}; the listing is truncated, or no WAMIT listing")
+def _depth(whole: _Part) -> float:
+    match = re.search(r"Water depth:\s+(\S+)", whole.text)
+    if match is None:
+        raise whole.error("the water depth")
+    if match.group(1).lower().startswith("inf"):
+        return math.inf
+    return _value(whole.path, whole.text.count("\n", 0, match.start()) + 1, match.group(1))
+
+
+def _title(lines: list[str]) -> str:
+    """The line under the name of the geometry file."""
+    for line, following in pairwise(lines):
+        if "Geometric Data File" in line:
+            return following.strip()
+    return ""
+
+
+def listing_lines(path: Path) -> list[str]:
     try:
-        return [number_of_word(word) for word in found.groups()]
-    except ValueError as error:
-        raise FileFormatError(f"{path}: {what} of {name}, {found.group(0)[:80]!r}: {error}") from None
+        return read_whole(path).decode("latin-1").replace("\r", "").rstrip("\n").split("\n")
+    except OSError as error:
+        raise FileFormatError(
+            f"{path}: cannot be read ({error.strerror}); check the path and its rights"
+        ) from error
 
 
-def listed_tables(path: Path, lines: list[str]) -> tuple[Table, Table]:
+def listed_tables(listing: Listing) -> tuple[Table, Table]:
     """Rows of period, i, j, A, B and of period, heading, i, modulus, phase, real, imaginary.
 
     Diffraction forces are taken before those by Haskind's relation, which are taken where there are no
     others.
     """
+    path, lines = listing.path, listing.lines
     matrices: list[tuple[int, list[float]]] = []
     waves: dict[str, list[tuple[int, list[float]]]] = {"DIFFRACTION": [], "HASKIND": []}
     period = heading = np.nan

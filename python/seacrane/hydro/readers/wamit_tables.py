@@ -1,4 +1,9 @@
-"""Numeric output files of WAMIT (``.1 .3 .4 .hst``), non-dimensional as they are, every row accounted for."""
+"""Numeric output files of WAMIT, non-dimensional as they are, every row accounted for: ``.1 .3 .4 .hst``, and
+mean drift in ``.9`` (pressures), ``.8`` (momentum) and ``.12d`` (difference frequencies).
+
+Rows of ``.8`` and ``.9``: period, two headings, i, modulus, phase, real and imaginary part; of ``.12d`` two
+periods first. The mean load of one wave is that of equal headings and equal periods (WAMIT manual, 3.8).
+"""
 
 from __future__ import annotations
 
@@ -11,7 +16,9 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.readers.numbers_of_text import is_number, number_of_word
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.whole_file import read_whole
+from seacrane.warnings import PartialSetWarning
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -22,6 +29,10 @@ INFINITE_FREQUENCY_PERIOD = 0.0
 PHASE_TOLERANCE = 1e-4  # files hold seven digits of modulus, phase, real and imaginary part
 ROUND_OFF = 1e-6  # of the largest force or moment: beyond single precision
 BODY_AXES = (-6.0, -5.0, -4.0)  # rows of mean moments in the axes of the body, beside those of space
+
+MOMENTUM, PRESSURES, SECOND_ORDER = ".8", ".9", ".12d"
+BY_PREFERENCE = (PRESSURES, MOMENTUM, SECOND_ORDER)  # all six loads first
+REAL_TOLERANCE = 1e-3  # of the largest of its motion: a mean load has no imaginary part
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,9 +73,19 @@ class WaveTable:
     values: ComplexArray
 
 
+@dataclass(frozen=True, eq=False)
+class MeanDrift:
+    """Periods (n,) in s and headings (m,) in degrees, both rising; loads (m, n, 6), non-dimensional."""
+
+    path: Path
+    period: FloatArray
+    heading_deg: FloatArray
+    values: FloatArray
+
+
 def read_radiation(path: Path, *, bodies: int = 1) -> Radiation:
     """Read added mass and damping: rows of period, i, j, A, and B where the period is positive."""
-    return radiation_of(read_table(path, (4, 5)), bodies=bodies)
+    return radiation_of(_read_table(path, (4, 5)), bodies=bodies)
 
 
 def radiation_of(table: Table, *, bodies: int) -> Radiation:
@@ -80,9 +101,9 @@ def radiation_of(table: Table, *, bodies: int) -> Radiation:
     bare = np.flatnonzero((period > 0.0) & np.isnan(table.values[:, 4]))
     if bare.size:
         raise table.error(int(bare[0]), "no damping: period, i, j, A, B are expected; the file is truncated")
-    motions = size * motion_of(table, 1, bodies) + motion_of(table, 2, bodies)
+    motions = size * _motion_of(table, 1, bodies) + _motion_of(table, 2, bodies)
     periods, place = np.unique(period, return_inverse=True)
-    check_complete(table, place, motions, len(periods), size**2, "entry i j")
+    _check_complete(table, place, motions, len(periods), size**2, "entry i j")
     both = np.zeros((2, len(periods), size**2))
     both[:, place, motions] = np.nan_to_num(table.values[:, 3:5].T)
     added_mass, damping = both.reshape(2, len(periods), size, size)
@@ -99,7 +120,7 @@ def radiation_of(table: Table, *, bodies: int) -> Radiation:
 
 def read_waves(path: Path, *, bodies: int = 1) -> WaveTable:
     """Read exciting forces or motions: rows of period, heading, i, modulus, phase (deg), real, imaginary."""
-    return waves_of(read_table(path, (7,)), bodies=bodies)
+    return waves_of(_read_table(path, (7,)), bodies=bodies)
 
 
 def waves_of(table: Table, *, bodies: int) -> WaveTable:
@@ -111,7 +132,7 @@ def waves_of(table: Table, *, bodies: int) -> WaveTable:
             len(table.lines) - 1, "ends without a positive period; the file is truncated, or of limits alone"
         )
     table = table.only(rows)
-    motion = motion_of(table, 2, bodies)
+    motion = _motion_of(table, 2, bodies)
     value = _checked_complex(table, motion)
     periods, in_period = np.unique(table.values[:, 0], return_inverse=True)
     headings, in_heading = np.unique(table.values[:, 1], return_inverse=True)
@@ -122,7 +143,7 @@ def waves_of(table: Table, *, bodies: int) -> WaveTable:
             len(rows) - 1,
             f"{n} periods and {m} headings, but only {len(rows)} rows; the file is truncated or damaged",
         )
-    check_complete(table, in_period * m + in_heading, motion, n * m, size, "motion")
+    _check_complete(table, in_period * m + in_heading, motion, n * m, size, "motion")
     values = np.zeros((m, n, size), dtype=complex)
     values[in_heading, in_period, motion] = value
     return WaveTable(table.path, periods, headings, values)
@@ -131,8 +152,8 @@ def waves_of(table: Table, *, bodies: int) -> WaveTable:
 def read_restoring(path: Path, *, bodies: int = 1) -> FloatArray:
     """Read the restoring matrix (6 k, 6 k): rows of i, j, C; of several bodies entries may be left out."""
     size = 6 * bodies
-    table = read_table(path, (3,))
-    first, second = motion_of(table, 0, bodies), motion_of(table, 1, bodies)
+    table = _read_table(path, (3,))
+    first, second = _motion_of(table, 0, bodies), _motion_of(table, 1, bodies)
     motions = size * first + second
     half = bodies == 1 and len(motions) == 21 and (np.all(first <= second) or np.all(first >= second))
     if len(motions) < 36 * bodies and not half:
@@ -140,13 +161,65 @@ def read_restoring(path: Path, *, bodies: int = 1) -> FloatArray:
             len(motions) - 1,
             f"{len(motions)} of {36 * bodies} entries end here; the file is truncated",
         )
-    check_complete(table, np.zeros(len(motions), dtype=np.int64), motions, 1, size**2, "entry i j")
+    _check_complete(table, np.zeros(len(motions), dtype=np.int64), motions, 1, size**2, "entry i j")
     restoring = np.zeros(size**2)
     restoring[motions] = table.values[:, 2]
     return restoring.reshape(size, size)
 
 
-def read_table(path: Path, widths: tuple[int, ...]) -> Table:
+def read_mean_drift(path: Path) -> MeanDrift:
+    """The mean loads of single waves in one of these files.
+
+    Raises FileFormatError: truncated or damaged, with the line; or no row of one wave alone.
+    """
+    first = 2 if path.suffix.lower() == SECOND_ORDER else 1  # columns of periods
+    table = _read_table(path, (first + 7,))
+    one_wave = (table.values[:, 0] == table.values[:, first - 1]) & (
+        table.values[:, first] == table.values[:, first + 1]
+    )
+    rows = np.flatnonzero(one_wave & (table.values[:, 0] > 0.0))
+    if rows.size == 0:
+        raise FileFormatError(f"{path}: no row of one period and one heading; it holds no mean drift")
+    table = _of_space_axes(table.only(rows), first + 2)
+    rows = np.arange(len(table.lines))
+    motion = _motion_of(table, first + 2)
+    real, imaginary = table.values[:, first + 5], table.values[:, first + 6]
+    size = np.hypot(real, imaginary)
+    largest = np.zeros(6)
+    np.maximum.at(largest, motion, size)
+    allowed = REAL_TOLERANCE * largest[motion] + ROUND_OFF * _largest_of_kind(size, motion)
+    bad = np.flatnonzero(np.abs(imaginary) > allowed)
+    if bad.size:
+        raise table.error(
+            int(bad[0]), f"a mean load with an imaginary part of {imaginary[bad[0]]:g}; the line is damaged"
+        )
+    periods, in_period = np.unique(table.values[:, 0], return_inverse=True)
+    headings, in_heading = np.unique(table.values[:, first], return_inverse=True)
+    if len(periods) * len(headings) > len(rows):
+        raise table.error(len(rows) - 1, "not every heading has every period; the file is truncated")
+    group = in_period * len(headings) + in_heading
+    _check_complete(table, group, motion, len(periods) * len(headings), 6, "motion")
+    values = np.zeros((len(headings), len(periods), 6))
+    values[in_heading, in_period, motion] = real
+    return MeanDrift(path, periods, headings, values)
+
+
+def _of_space_axes(table: Table, column: int) -> Table:
+    """Without the mean moments about axes of the body, which stand beside those about axes in space."""
+    aside = np.isin(table.values[:, column], BODY_AXES)
+    if not aside.any():
+        return table
+    if aside.all():
+        raise table.error(0, "holds moments in axes of the body alone; write mean drift in axes of space")
+    warn_caller(
+        f"{table.path}, line {table.lines[aside][0]} on: {aside.sum()} rows of mean moments in axes of the "
+        "body (-4, -5, -6) are left out; those in axes of space are read",
+        PartialSetWarning,
+    )
+    return table.only(np.flatnonzero(~aside))
+
+
+def _read_table(path: Path, widths: tuple[int, ...]) -> Table:
     """All rows of a file; a first line of text (option NUMHDR) is passed over."""
     try:
         text = read_whole(path).decode("latin-1")
@@ -183,7 +256,7 @@ def _check_last_line(path: Path, text: str, every: list[tuple[int, str]]) -> Non
         raise FileFormatError(f"{path}, line {number}: shorter than the line before; the file is truncated")
 
 
-def motion_of(table: Table, column: int, bodies: int = 1) -> IntArray:
+def _motion_of(table: Table, column: int, bodies: int = 1) -> IntArray:
     """Motion indices 0 to 6 k - 1 from a column that counts from 1."""
     values = table.values[:, column]
     bad = np.flatnonzero(~np.isin(values, np.arange(1.0, 6.0 * bodies + 1.0)))
@@ -202,7 +275,9 @@ def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
     modulus, phase_deg, real, imaginary = table.values[:, 3:7].T
     value = real + 1j * imaginary
     error = np.abs(value - modulus * np.exp(1j * np.radians(phase_deg)))
-    bad = np.flatnonzero(error > PHASE_TOLERANCE * np.abs(value) + ROUND_OFF * largest_of_kind(value, motion))
+    bad = np.flatnonzero(
+        error > PHASE_TOLERANCE * np.abs(value) + ROUND_OFF * _largest_of_kind(value, motion)
+    )
     if bad.size:
         row = int(bad[0])
         raise table.error(
@@ -213,14 +288,14 @@ def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
     return np.asarray(value)
 
 
-def largest_of_kind(value: NDArray[Any], motion: IntArray) -> FloatArray:
+def _largest_of_kind(value: NDArray[Any], motion: IntArray) -> FloatArray:
     """Of each row the largest force of all rows, or the largest moment."""
     turns = motion % 6 > 2
     largest = [float(np.abs(value[rows]).max(initial=0.0)) for rows in (~turns, turns)]
     return np.where(turns, largest[1], largest[0])
 
 
-def check_complete(
+def _check_complete(
     table: Table, group: IntArray, entry: IntArray, groups: int, entries: int, what: str
 ) -> None:
     """Raise unless every group (period, or period and heading) holds the same entries, each once."""
