@@ -18,8 +18,7 @@ from seacrane.inputs.shown import listed, shown
 from seacrane.plotting.tabular import write_csv
 from seacrane.series.clock import BROKEN, step_of
 from seacrane.series.mending import ALIASED, is_even, low_passed, on_grid, share_above
-from seacrane.series.reading import Columns, read_series
-from seacrane.series.rows import FEWEST
+from seacrane.series.reading import FEWEST, Columns, read_series
 
 if TYPE_CHECKING:
     import pandas

@@ -6,19 +6,29 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.description.meshes import MOST_TRIANGLES, READERS
 from seacrane.errors import SceneError
+from seacrane.hydro.hull.mesh import closed_below
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import finite_of, number_of, shaped_of, text_of, vector_of
+from seacrane.inputs.checked import (
+    finite_of,
+    number_of,
+    numbers_of,
+    positive_of,
+    shaped_of,
+    text_of,
+    vector_of,
+)
 from seacrane.inputs.shown import shown
 from seacrane.warnings import MeshConvergenceWarning
 from seacrane.water.added_mass import perforation_factor
-from seacrane.water.closed_mesh import closed_mesh
 from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.depth_table import DepthTable
 from seacrane.water.mesh_volume import MeshShape, volumes_below
@@ -30,6 +40,8 @@ Array = NDArray[np.float64]
 MOST_DRAUGHTS, FEWEST_PANELS = 60, 50
 MOST_WETTING = 2.0  # that of a circle as it touches (Wagner)
 LARGEST_ERROR = 0.05  # of panels, which is not warned of
+LARGEST, SMALLEST = 300.0, 0.01  # m, of what hangs on a crane
+NO_VOLUME = 1e-9  # of the cube of the size
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -144,7 +156,7 @@ def from_mesh(
         For an open mesh, one whose faces point inwards, one in mm, one with more triangles than are solved
         for, bad numbers, draughts that are not positive and increasing, and a density in t/m3.
     FileFormatError
-        For a file that is damaged, too large, or of another kind.
+        For a file that is damaged, too large, or of another kind; without trimesh (`seacrane[mesh]`).
     ImportError
         Without Capytaine: pip install 'seacrane[hydro]'. What was solved before needs none.
 
@@ -262,3 +274,60 @@ def _warn(what: str, part: MeshPart) -> None:
                 "without thin walls and gaps",
                 MeshConvergenceWarning,
             )
+
+
+def closed_mesh(mesh: Any, scale: Any) -> tuple[str, Array]:
+    """What messages call a mesh, and its triangles (n, 3, 3), m, anticlockwise from outside.
+
+    Raises
+    ------
+    SceneError, FileFormatError : as `seacrane.water.from_mesh`.
+    """
+    what, triangles = _triangles_of(mesh)
+    factor = positive_of(f"{what}: scale", scale)
+    with np.errstate(over="ignore", invalid="ignore"):
+        triangles = factor * triangles
+        size = float(np.ptp(triangles.reshape(-1, 3), axis=0).max())
+    if not size <= LARGEST:
+        raise SceneError(
+            f"{what}: is {size:.4g} m large, above {LARGEST:g} m; if it is in mm give scale={1e-3 * factor:g}"
+        )
+    if size < SMALLEST:
+        raise SceneError(f"{what}: is {size:.4g} m large, below {SMALLEST:g} m; check scale={factor:g}")
+    try:
+        triangles = closed_below(what, triangles, np.inf, "")
+    except ValueError as error:
+        raise SceneError(str(error)) from None
+    return what, _outwards(what, triangles, size)
+
+
+def _triangles_of(mesh: Any) -> tuple[str, Array]:
+    if isinstance(mesh, str | os.PathLike):
+        path = Path(mesh)
+        reader = READERS.get(path.suffix.lower())
+        if reader is None:
+            raise SceneError(f"mesh: file is {shown(path.name)}; give {', '.join(READERS)}")
+        return f"mesh {path.name!r}", np.asarray(reader(path, most=MOST_TRIANGLES), dtype=float)
+    what = "mesh of triangles"
+    triangles = numbers_of(what, mesh)
+    if triangles.ndim != 3 or triangles.shape[1:] != (3, 3) or not len(triangles):
+        raise SceneError(f"{what}: has shape {triangles.shape}; give a file, or (n, 3, 3) in m")
+    if len(triangles) > MOST_TRIANGLES:
+        raise SceneError(f"{what}: has {len(triangles)} triangles, above {MOST_TRIANGLES}; decimate it")
+    if not np.isfinite(triangles).all():
+        raise SceneError(f"{what}: holds a coordinate that is not finite; repair it")
+    return what, triangles
+
+
+def _outwards(what: str, triangles: Array, size: float) -> Array:
+    """The triangles, once their faces point outwards."""
+    near = triangles - triangles[:1, :1]
+    volume = float(np.einsum("ij,ij->", near[:, 0], np.cross(near[:, 1], near[:, 2]))) / 6.0
+    if volume < -NO_VOLUME * size**3:
+        raise SceneError(
+            f"{what}: encloses {volume:.4g} m3, so its faces point inwards; reverse the order of the "
+            "vertices of each triangle"
+        )
+    if not volume > NO_VOLUME * size**3:
+        raise SceneError(f"{what}: encloses {volume:.4g} m3, which is nothing; give one closed outer skin")
+    return triangles
