@@ -6,7 +6,7 @@ import json
 import re
 import struct
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BytesIO
 from os import PathLike
@@ -68,7 +68,12 @@ def read_stl(path: str | PathLike[str], *, most: int | None = None) -> FloatArra
             raise FileFormatError(f"{source}: has a facet without three 'vertex x y z'; export it again")
     _require_few(source, count, most)
     with _refusing(source):
-        loaded = _reader("stl")(BytesIO(content))
+        from trimesh.exchange import stl
+
+        with warnings.catch_warnings(
+            action="error", category=DeprecationWarning
+        ):  # of text that is no number
+            loaded = stl.load_stl(BytesIO(content))
         solids = loaded["geometry"].values() if "geometry" in loaded else [loaded]
         soup = [np.asarray(one["vertices"], dtype=float).reshape(-1, 3, 3) for one in solids]
         if sum(map(len, soup)) != count:
@@ -92,11 +97,13 @@ def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
     """
     source, content = _content(path, "decimate the mesh in the program that made it")
     with _refusing(source):
+        from trimesh.exchange import gltf
+
         begin, end = 0, len(content)
         if content.startswith(MAGIC):
             version, size, text_size = struct.unpack_from("<III", content, 4)
             if (version, size) != (2, len(content)):
-                raise ValueError(f"it has {len(content)} bytes, and says {size}")
+                raise ValueError(f"version {version}, {size} bytes, of which {len(content)} are there")
             begin, end = 20, 20 + text_size
         document = _needed(source, content[begin:end], most)
         if sum(one["byteLength"] for one in document["bufferViews"]) > SHARED * len(content):
@@ -105,7 +112,8 @@ def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
         if begin:
             size = begin + len(text) + len(content) - end
             text = struct.pack("<4sIII4s", MAGIC, 2, size, len(text), b"JSON") + text + content[end:]
-        loaded = _reader("glb" if begin else "gltf")(BytesIO(text), skip_materials=True)
+        load = gltf.load_glb if begin else gltf.load_gltf
+        loaded = load(BytesIO(text), skip_materials=True)
         parts = list(_placed(loaded))
         _require_few(source, sum(len(faces) for _, _, faces in parts), most)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -123,10 +131,9 @@ def _content(path: str | PathLike[str], fix: str) -> tuple[Path, bytes]:
 
 @contextmanager
 def _refusing(source: Path) -> Iterator[None]:
-    """What a damaged file leads to names the file; so does numpy's warning of a text that is no number."""
+    """What a damaged file leads to names the file and the fix."""
     try:
-        with warnings.catch_warnings(action="error", category=DeprecationWarning):
-            yield
+        yield
     except FileFormatError:
         raise
     except ImportError:
@@ -137,14 +144,6 @@ def _refusing(source: Path) -> Iterator[None]:
         raise FileFormatError(
             f"{source}: is damaged or truncated ({type(error).__name__} {shown(str(error))}); export it again"
         ) from error
-
-
-def _reader(kind: str) -> Callable[..., dict[str, Any]]:
-    from trimesh.exchange import gltf, stl
-
-    readers: dict[str, Callable[..., dict[str, Any]]]
-    readers = {"stl": stl.load_stl, "gltf": gltf.load_gltf, "glb": gltf.load_glb}
-    return readers[kind]
 
 
 def _require_few(source: Path, count: int, most: int | None) -> None:

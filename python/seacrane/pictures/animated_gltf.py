@@ -53,10 +53,7 @@ def gltf_of(drawing: Drawing) -> bytes:
     model.bodies()
     model.wheels()
     model.wires()
-    try:
-        return model.glb.to_bytes()
-    except ValueError as error:
-        raise SceneError(f"view: the glTF model of {drawing.title!r} {error}; save a shorter run") from error
+    return model.glb.to_bytes()
 
 
 class _Model:
@@ -246,13 +243,16 @@ class Glb:
         return len(self.document["accessors"]) - 1
 
     def to_bytes(self) -> bytes:
-        """The file; ValueError where it would be too large for the format."""
+        """The file; SceneError where it would be too large for the format."""
         document = self.document | {"buffers": [{"byteLength": self.size}]}
         text = json.dumps(document, allow_nan=False, separators=(",", ":")).encode("ascii")
         text += b" " * (-len(text) % 4)
         total = HEADER.size + 2 * CHUNK.size + len(text) + self.size
         if total > LARGEST:
-            raise ValueError(f"takes {total} bytes, above {LARGEST}")
+            title = self.document["nodes"][0]["name"]
+            raise SceneError(
+                f"view: the glTF model of {title!r} takes {total} bytes, above {LARGEST}; save a shorter run"
+            )
         chunks = [CHUNK.pack(len(text), b"JSON"), text, CHUNK.pack(self.size, b"BIN\0"), *self.parts]
         return b"".join([HEADER.pack(b"glTF", 2, total), *chunks])
 

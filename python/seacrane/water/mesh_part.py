@@ -6,42 +6,31 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.description.meshes import MOST_TRIANGLES, READERS
 from seacrane.errors import SceneError
-from seacrane.hydro.hull.mesh import closed_below
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import (
-    finite_of,
-    number_of,
-    numbers_of,
-    positive_of,
-    shaped_of,
-    text_of,
-    vector_of,
-)
+from seacrane.inputs.checked import finite_of, number_of, shaped_of, text_of, vector_of
 from seacrane.inputs.shown import shown
 from seacrane.warnings import MeshConvergenceWarning
-from seacrane.water.added_mass import perforation_factor
+from seacrane.water.added_mass import ROUNDING, perforation_factor, ramp
 from seacrane.water.density import SEA_WATER, density_of
-from seacrane.water.depth_table import DepthTable
-from seacrane.water.mesh_volume import MeshShape, volumes_below
+from seacrane.water.mesh_volume import MeshShape, closed_mesh, volumes_below
 from seacrane.water.panel_added_mass import MOST_PANELS, PanelLadder, panel_ladder
-from seacrane.water.parts import LEAST_SLAM, MOST_PERFORATION, Piece, TablePart
+from seacrane.water.parts import LEAST_SLAM, MOST_PERFORATION, RAMP_KNOTS, Piece, TablePart
 
 Array = NDArray[np.float64]
 
 MOST_DRAUGHTS, FEWEST_PANELS = 60, 50
 MOST_WETTING = 2.0  # that of a circle as it touches (Wagner)
 LARGEST_ERROR = 0.05  # of panels, which is not warned of
-LARGEST, SMALLEST = 300.0, 0.01  # m, of what hangs on a crane
-NO_VOLUME = 1e-9  # of the cube of the size
+VOLUME_KNOTS = 32
+BESIDE_KINK = 1e-3  # of the height
+APART = 1e-5  # of the height: the least between two depths
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -276,58 +265,95 @@ def _warn(what: str, part: MeshPart) -> None:
             )
 
 
-def closed_mesh(mesh: Any, scale: Any) -> tuple[str, Array]:
-    """What messages call a mesh, and its triangles (n, 3, 3), m, anticlockwise from outside.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class DepthTable:
+    """Added mass over density (m3) over depth, from a ladder.
 
-    Raises
-    ------
-    SceneError, FileFormatError : as `seacrane.water.from_mesh`.
+    Attributes
+    ----------
+    rungs : (n,) depths of the ladder, m, from 0 to where the fluid is unbounded.
+    added, low : (n, 3) at the rungs, m3, before pile-up and ramp.
+    over : m, of the ramp of a flat bottom; 0 without.
+    mended : largest change of added mass so that it grows, over the largest of all.
     """
-    what, triangles = _triangles_of(mesh)
-    factor = positive_of(f"{what}: scale", scale)
-    with np.errstate(over="ignore", invalid="ignore"):
-        triangles = factor * triangles
-        size = float(np.ptp(triangles.reshape(-1, 3), axis=0).max())
-    if not size <= LARGEST:
-        raise SceneError(
-            f"{what}: is {size:.4g} m large, above {LARGEST:g} m; if it is in mm give scale={1e-3 * factor:g}"
-        )
-    if size < SMALLEST:
-        raise SceneError(f"{what}: is {size:.4g} m large, below {SMALLEST:g} m; check scale={factor:g}")
-    try:
-        triangles = closed_below(what, triangles, np.inf, "")
-    except ValueError as error:
-        raise SceneError(str(error)) from None
-    return what, _outwards(what, triangles, size)
+
+    height: float
+    wetting: float
+    over: float
+    mended: float
+    rungs: Array
+    added: Array
+    low: Array
+
+    @staticmethod
+    def of(ladder: PanelLadder, shape: MeshShape, *, wetting: float, slam: float) -> DepthTable:
+        """Of a ladder of a mesh; wetting and C_S as of `from_mesh`."""
+        size, flat = shape.size, shape.flat
+        last, root = float(ladder.draughts[-1]), float(np.sqrt(size[0] * size[1]))
+        rungs = np.concatenate([[0.0], ladder.draughts, [last + max(last - size[2], root)]])
+        deep = np.diag(ladder.unbounded)
+        touch = at_touch(ladder.draughts, ladder.added, flat)
+        solved = np.concatenate([touch[None], ladder.added, deep[None]])
+        grown = np.maximum.accumulate(np.clip(solved, 0.0, deep), axis=0)
+        slow = at_touch(ladder.draughts, ladder.low, flat)
+        return DepthTable(
+            height=float(size[2]), wetting=wetting, rungs=rungs, added=grown,
+            over=2.0 * touch[2] / (slam * flat) if flat > 0.0 else 0.0,
+            mended=float(np.max(np.abs(grown - solved)) / deep.max()),
+            low=np.concatenate([slow[None], ladder.low, deep[None]]),
+        )  # fmt: skip
+
+    def depths(self, kinks: Array) -> Array:
+        """Depths for splines through volumes and added masses, beside kinks of the volume too."""
+        wetted = self.rungs[self.rungs <= self.height] / self.wetting
+        beside = BESIDE_KINK * self.height
+        ends = np.array([self.height / self.wetting, self.height])
+        found = [
+            self.rungs, wetted, np.linspace(0.0, self.height, VOLUME_KNOTS + 1), ends, kinks, kinks - beside,
+            kinks + beside,
+        ]  # fmt: skip
+        if self.over > 0.0:
+            found.append(np.linspace(0.0, (1.0 + ROUNDING) * self.over, RAMP_KNOTS + 1))
+        depths = np.unique(np.concatenate(found))
+        depths = depths[(depths >= 0.0) & (depths <= self.rungs[-1])]
+        apart = np.diff(depths, prepend=-np.inf) > APART * self.height
+        return np.asarray(depths[apart])
+
+    def fast(self, depths: Array) -> Array:
+        """At infinite frequency: that of the section as it is wetted, a flat bottom's over its ramp."""
+        piled = np.minimum(self.wetting * depths, np.maximum(depths, self.height))
+        out = between(self.rungs, self.added, piled)
+        if self.over > 0.0:
+            out[:, 2] += self.added[0, 2] * (ramp(depths, self.over) - 1.0)
+        return np.maximum.accumulate(np.maximum(out, 0.0), axis=0)
+
+    def slow(self, depths: Array) -> Array:
+        """At zero frequency, without pile-up."""
+        return between(self.rungs, self.low, depths)
+
+    def slower(self) -> Array:
+        """What a slow motion has over what a fast one has, at half its height, along the axes."""
+        half = np.array([0.5 * self.height])
+        fast = between(self.rungs, self.added, half)[0]
+        return np.asarray(self.slow(half)[0] / np.maximum(fast, 1e-12 * fast.max()))
 
 
-def _triangles_of(mesh: Any) -> tuple[str, Array]:
-    if isinstance(mesh, str | os.PathLike):
-        path = Path(mesh)
-        reader = READERS.get(path.suffix.lower())
-        if reader is None:
-            raise SceneError(f"mesh: file is {shown(path.name)}; give {', '.join(READERS)}")
-        return f"mesh {path.name!r}", np.asarray(reader(path, most=MOST_TRIANGLES), dtype=float)
-    what = "mesh of triangles"
-    triangles = numbers_of(what, mesh)
-    if triangles.ndim != 3 or triangles.shape[1:] != (3, 3) or not len(triangles):
-        raise SceneError(f"{what}: has shape {triangles.shape}; give a file, or (n, 3, 3) in m")
-    if len(triangles) > MOST_TRIANGLES:
-        raise SceneError(f"{what}: has {len(triangles)} triangles, above {MOST_TRIANGLES}; decimate it")
-    if not np.isfinite(triangles).all():
-        raise SceneError(f"{what}: holds a coordinate that is not finite; repair it")
-    return what, triangles
+def between(rungs: Array, values: Array, depths: Array) -> Array:
+    """Values (n, 3) at rungs (n,) by a monotone spline, at depths (m,): (m, 3)."""
+    from scipy.interpolate import PchipInterpolator
+
+    return np.asarray(PchipInterpolator(rungs, values)(depths))
 
 
-def _outwards(what: str, triangles: Array, size: float) -> Array:
-    """The triangles, once their faces point outwards."""
-    near = triangles - triangles[:1, :1]
-    volume = float(np.einsum("ij,ij->", near[:, 0], np.cross(near[:, 1], near[:, 2]))) / 6.0
-    if volume < -NO_VOLUME * size**3:
-        raise SceneError(
-            f"{what}: encloses {volume:.4g} m3, so its faces point inwards; reverse the order of the "
-            "vertices of each triangle"
-        )
-    if not volume > NO_VOLUME * size**3:
-        raise SceneError(f"{what}: encloses {volume:.4g} m3, which is nothing; give one closed outer skin")
-    return triangles
+def at_touch(draughts: Array, values: Array, flat: float) -> Array:
+    """Added mass (3,) as the bottom touches: half of a plate's across a flat one, else none.
+
+    The sides add as depth times the logarithm of depth, as of a plate with a thin edge.
+    """
+    out = np.zeros(3)
+    if flat > 0.0:
+        x = draughts[:2] * np.log(np.sqrt(flat) * np.e / draughts[:2])
+        first, second = values[0, 2], values[min(1, len(values) - 1), 2]
+        near = len(x) > 1 and 0.0 < x[0] < x[1] and draughts[1] < np.sqrt(flat)
+        out[2] = first - (second - first) * x[0] / (x[1] - x[0]) if near else first
+    return np.maximum(out, 0.0)
