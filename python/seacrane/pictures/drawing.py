@@ -98,19 +98,10 @@ class Drawing:
         spans = [(start <= times) & (times < end) for start, end in wire["absent"]]
         return np.any(spans, axis=0) if spans else np.zeros(np.shape(times), dtype=bool)
 
-    @property
-    def radius(self) -> float:
-        """Half the diagonal of the box, m."""
-        return 0.5 * float(np.linalg.norm(np.ptp(self.box, axis=0))) or 1.0
-
-    @property
-    def wire_radius(self) -> float:
-        """At which wires are drawn, m: thick enough to be seen."""
-        return 0.002 * self.radius
-
     def radius_of(self, wire: Mapping[str, Any]) -> float:
-        """The radius of a wire as drawn, m."""
-        return max(self.wire_radius, float(wire["radius"]))
+        """The radius of a wire as drawn, m: thick enough to be seen."""
+        diagonal = float(np.linalg.norm(np.ptp(self.box, axis=0))) or 2.0
+        return max(0.001 * diagonal, float(wire["radius"]))
 
     def ends_of(self, wire: Mapping[str, Any], position: Array, quaternion: Array) -> tuple[Array, Array]:
         """Where a wire begins and ends at poses, as `place`; one of limited reach ends there."""
