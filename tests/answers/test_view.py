@@ -22,12 +22,11 @@ from seacrane.description.file import scene_digest
 from seacrane.hydro import shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.pictures.caption import sea_components
 from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.drawn_bodies import looks
-from seacrane.pictures.hull_shapes import schematic_size
-from seacrane.pictures.page_sea import sea_components
 from seacrane.pictures.pose_curves import LARGEST_ERROR, STEPS, motion_of
-from seacrane.pictures.shapes import BoxShape, equivalent_box
+from seacrane.pictures.shapes import BoxShape, equivalent_box, schematic_size
 from seacrane.pictures.wires import wires_of
 
 

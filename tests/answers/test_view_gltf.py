@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation, Slerp
 from view_scenes import angle_between, case2
 
 from seacrane import cases, view
+from seacrane.pictures.animated_gltf import surfaces_of
 from seacrane.pictures.drawing import drawing_of
-from seacrane.pictures.surfaces import surfaces_of
 
 pygltflib = pytest.importorskip("pygltflib", reason="the extra dev holds pygltflib")
 COMPONENTS, WIDTH = {5126: "<f4", 5125: "<u4"}, {"SCALAR": 1, "VEC3": 3, "VEC4": 4}

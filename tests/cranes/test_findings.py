@@ -15,12 +15,12 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.findings import (
     OSCILLATION_PERIOD,
     OSCILLATION_START,
+    PaperRuns,
     amplitude_at,
     memory_effect,
     paper_findings,
     slew_stop,
 )
-from seacrane.pictures.paper_figures import PaperRuns
 from seacrane.result import MOTIONS
 from seacrane.warnings import LargeSwingWarning
 

@@ -25,8 +25,8 @@ from seacrane.crane.urdf import read_urdf
 from seacrane.errors import FileFormatError, SceneError, SimulationError
 from seacrane.hydro import Hull, HydroDatabase
 from seacrane.hydro.readers import bemio, capytaine, nemoh, nemoh_files, orcaflex, veres, wamit
-from seacrane.inputs.gltf import read_gltf
 from seacrane.inputs.hdf5_structure import Structure
+from seacrane.inputs.mesh_files import read_gltf
 from seacrane.inputs.netcdf_limits import LARGEST_DATABASE as LARGEST
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.state import load_state
@@ -235,7 +235,7 @@ _ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
 _VERES = _under(_HYDRO, "veres veres_files veres_hydrostatics text_records")
 _WAMIT = _under(_HYDRO, "wamit wamit_control wamit_listing wamit_tables")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
-_RECORDED = (*_under("series", "series_file headings reading rows clock mending"), "scene/recorded_motion.py")
+_RECORDED = (*_under("series", "series_file reading clock mending"), "scene/recorded_motion.py")
 _LIFT = _under("lift", "document text_lines check_keys curve_text")
 _JOINTED = _under("crane", "jointed_file jointed_check link_frames")
 _URDF = _under("crane", "urdf urdf_values urdf_visuals")
@@ -279,9 +279,9 @@ _ALL = [
     *_set_targets("nemoh-group", _NEMOH_PAIR, _of_nemoh, _NEMOH),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
     Target("offsets", "offsets", "hull.txt", Hull.from_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
-    Target("stl", "stl", "hull.stl", Hull.from_stl, ("inputs/stl.py",), refusals=_SHAPE),
-    Target("gltf", "gltf", "box.gltf", _of(read_gltf, most=1000), ("inputs/gltf.py",), mutate_json),
-    Target("gltf-bytes", "gltf", "box.glb", _of(read_gltf, most=1000), ("inputs/gltf.py",), None),
+    Target("stl", "stl", "hull.stl", Hull.from_stl, ("inputs/mesh_files.py",), refusals=_SHAPE),
+    Target("gltf", "gltf", "box.gltf", _of(read_gltf, most=1000), ("inputs/mesh_files.py",), mutate_json),
+    Target("gltf-bytes", "gltf", "box.glb", _of(read_gltf, most=1000), ("inputs/mesh_files.py",), None),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
     Target("study", "study", "study.toml", _study, ("lift/study_file.py",)),

@@ -15,14 +15,9 @@ from seacrane import MotionHistory
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.operability import WaveHindcast
 from seacrane.sea import MeasuredWaves
-from seacrane.series.headings import heading_of, unit_of_words
+from seacrane.series.series_file import heading_of, unit_of_words
 from seacrane.statistics import MeasuredSeries, interpolated
-from seacrane.warnings import (
-    ClockDriftWarning,
-    FilledGapWarning,
-    NoisyMotionWarning,
-    OutlierWarning,
-)
+from seacrane.warnings import ClockDriftWarning, FilledGapWarning, NoisyMotionWarning, OutlierWarning
 
 TIME = np.arange(0.0, 120.0, 0.1)
 HEAVE, ROLL, PITCH = 1.2 * np.sin(0.7 * TIME), 3.0 * np.sin(0.6 * TIME + 1.0), 1.5 * np.sin(0.65 * TIME)

@@ -7,20 +7,21 @@ import copy
 import json
 import re
 import struct
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from hull_shapes import ascii_stl, write_binary_stl
+from hull_shapes import ascii_stl, stl
 from scipy.spatial.transform import Rotation
 from test_view import Page
 
 from seacrane import FileFormatError, Frame, Lift, Result, Scene, SceneError, cases, simulate, view
 from seacrane.description import meshes
 from seacrane.description.file import scene_digest
-from seacrane.inputs.gltf import read_gltf
+from seacrane.inputs.mesh_files import read_gltf
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.pictures.shapes import HullShape, MeshShape
 
@@ -42,11 +43,6 @@ def pendulum(**mesh: Any) -> Scene:
     if mesh:
         scene.add_mesh(body="ball", **mesh)
     return scene
-
-
-def stl(path: Path, soup: np.ndarray) -> Path:
-    write_binary_stl(str(path), soup)
-    return path
 
 
 def gltf_of_box(**node: Any) -> dict[str, Any]:
@@ -201,17 +197,20 @@ def changed(**changes: Any) -> dict[str, Any]:
     return document
 
 
-BEYOND = "beyond the 168 bytes of its buffer"
+DAMAGED = "damaged or truncated"
+WIDE = [{"buffer": 0, "byteLength": 168}] * 9999
 HOSTILE: list[tuple[Any, str]] = [
-    (changed(asset={"version": "1.0"}), "no glTF 2.0"), ("[" * 100_000, "is no glTF"),
+    (changed(asset={"version": "1.0"}), "no glTF 2.0"), ("[" * 100_000, DAMAGED),
     (changed(extensionsRequired=["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression"),
-    (changed(accessors__0__componentType=5120), "plain VEC3"), (changed(accessors__0__count=9), BEYOND),
+    (changed(accessors__0__componentType=5120), DAMAGED), (changed(accessors__0__count=9), DAMAGED),
     (changed(buffers__0__uri="/etc/passwd"), "buffer in another file"),
-    (changed(bufferViews__1__byteOffset=-8), BEYOND), (changed(bufferViews__0__byteStride=1), BEYOND),
-    (changed(accessors__1__count=35), "no triangles"), (changed(nodes__0__children=[0]), "64 deep"),
-    (changed(meshes__0__primitives__0__mode=5), "strip"), (changed(nodes__0__mesh=-1), "no meshes"),
+    (changed(bufferViews__1__byteOffset=-8), DAMAGED), (changed(bufferViews__0__byteStride=1), "overlap"),
+    (changed(accessors__1__count=35), DAMAGED), (changed(nodes__0__children=[0]), "below two others"),
+    (changed(meshes__0__primitives__0__mode=5), "strip"), (changed(nodes__0__mesh=-1), "no triangles"),
     (changed(accessors__1__count=30_000_000), "10000000 triangles, above 200000"),
-    (changed(scenes__0__nodes=[0] * 19_000), "triangles, above"),
+    (changed(nodes=[{"mesh": 0}] * 19_000, scenes__0__nodes=[*range(19_000)]), "228000 triangles, above"),
+    (changed(nodes=[{}] * 30_000, scenes__0__nodes=[]), "20000 nodes"), (changed(bufferViews=WIDE), "share"),
+    (changed(accessors__0__sparse={}), "sparse"), (changed(accessors__1__componentType=5126), DAMAGED),
 ]  # fmt: skip
 
 
@@ -228,4 +227,11 @@ def test_hostile_and_cut_models_are_refused(tmp_path: Path) -> None:
     whole = path.read_bytes()
     for end in range(0, len(whole), 17):
         path.write_bytes(whole[:end])
-        refused(path, "truncated or damaged|is no glTF")
+        refused(path, DAMAGED)
+
+
+def test_without_trimesh_a_file_says_what_to_install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "trimesh.exchange", None)
+    for name, write in FILES.items():
+        with pytest.raises(FileFormatError, match=rf"{name}.*pip install 'seacrane\[mesh\]'"):
+            pendulum().add_mesh(body="ball", file=write(tmp_path / name))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,12 +90,12 @@ def wigley_mesh(length: float, breadth: float, draught: float, count: int) -> Me
     return np.concatenate(side), np.concatenate([port, starboard])
 
 
-def write_binary_stl(path: str, triangles: Array, header: bytes = b"binary") -> None:
+def stl(path: Path, triangles: Array, header: bytes = b"binary") -> Path:
     """A binary STL file of triangles (n, 3, 3)."""
     record = np.zeros(len(triangles), dtype=[("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
     record["v"] = triangles
-    with open(path, "wb") as file:
-        file.write(header.ljust(80, b" ") + np.uint32(len(triangles)).tobytes() + record.tobytes())
+    path.write_bytes(header.ljust(80, b" ") + np.uint32(len(triangles)).tobytes() + record.tobytes())
+    return path
 
 
 def ascii_stl(triangles: Array) -> str:

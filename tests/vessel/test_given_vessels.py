@@ -195,7 +195,10 @@ def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
         (lambda: response_summed(beside_another(database), body="vessel"), "'barge': its motion"),
         (lambda: given("rest", memory="none"), r"add_vessel\(motion=\): there is no 'memory'"),
         (lambda: Scene().add_vessel(database, ramp=1.0), "of a HydroDatabase: there is no 'ramp'"),
-        (lambda: Scene().add_vessel(two_barges(lid_damping=None), name="a"), "of a HydroGroup: there is no 'name'"),
+        (
+            lambda: Scene().add_vessel(two_barges(lid_damping=None), name="a"),
+            "HydroGroup: there is no 'name'",
+        ),
         (lambda: Scene().add_vessel(database, motion="rest"), "a motion and a hull"),
         (lambda: Scene().add_vessel(raos()), "vessel: is MotionRaos.*motion="),
     ):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 import sys
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ from unittest.mock import Mock
 import mesh_shapes
 import numpy as np
 import pytest
+from hull_shapes import stl
 from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.spatial import ConvexHull, HalfspaceIntersection
@@ -150,14 +150,6 @@ def test_a_ladder_is_found_on_disk_again_to_the_bit(tmp_path: Path, monkeypatch:
     file.write_bytes(file.read_bytes()[:300])
     monkeypatch.setattr(panel_added_mass._Panels, "solved", real)
     assert np.array_equal(from_mesh(BOX, **ROUGH).added_masses, first.added_masses)
-
-
-def stl(path: Path, triangles: Array) -> Path:
-    rows = b"".join(
-        struct.pack("<12fH", 0.0, 0.0, 0.0, *triangle.ravel().astype("<f4"), 0) for triangle in triangles
-    )
-    path.write_bytes(b"\0" * 80 + struct.pack("<I", len(triangles)) + rows)
-    return path
 
 
 def test_a_file_is_read_with_its_scale_and_density_and_holes_are_factors(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 import mesh_shapes
 import numpy as np
 import pytest
-from test_mesh_part import stl
+from hull_shapes import stl
 
 from seacrane import Curve, Lift, Scene, SceneError, balance, equilibrium, shipped_database, simulate
 from seacrane.errors import FileFormatError

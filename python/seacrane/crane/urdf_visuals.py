@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from seacrane.crane.jointed_data import MeshData
 from seacrane.crane.link_frames import Placed
 from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
+from seacrane.description.revolved import revolved
 from seacrane.errors import FileFormatError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
@@ -49,12 +50,12 @@ def _mesh(source: str, folder: Path, name: str, shape: Element, place: Placed) -
             vertices, faces = _box(row_of(source, what, shape, "size"))
         case "cylinder":
             radius, length = (value_of(source, what, shape, key) for key in ("radius", "length"))
-            vertices, faces = _turned_profile(np.array([[0.0, -0.5], [1.0, -0.5], [1.0, 0.5], [0.0, 0.5]])
-                                              * [radius, length])  # fmt: skip
+            profile = np.array([[0.0, -0.5], [1.0, -0.5], [1.0, 0.5], [0.0, 0.5]]) * [radius, length]
+            vertices, faces = revolved(profile, AROUND)
         case "sphere":
             angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, AROUND // 2 + 1)
             radius = value_of(source, what, shape, "radius")
-            vertices, faces = _turned_profile(radius * np.column_stack([np.cos(angle), np.sin(angle)]))
+            vertices, faces = revolved(radius * np.column_stack([np.cos(angle), np.sin(angle)]), AROUND)
         case _:
             raise FileFormatError(
                 f"{source}: {what} is a <{shape.tag[:40]}>; write mesh, box, cylinder or sphere."
@@ -83,21 +84,3 @@ def _box(size: Array) -> tuple[Array, Faces]:
     corners = 0.5 * size * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     return corners, np.array([face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
-
-
-def _turned_profile(profile: Array) -> tuple[Array, Faces]:
-    """A profile of radii and heights, from its lower end on the axis to its upper, turned about z."""
-    angle = 2.0 * np.pi * np.arange(AROUND) / AROUND
-    inner = profile[1:-1]
-    rings = [np.column_stack([r * np.cos(angle), r * np.sin(angle), np.full(AROUND, z)]) for r, z in inner]
-    ends = [[0.0, 0.0, profile[0, 1]], [0.0, 0.0, profile[-1, 1]]]
-    vertices = np.vstack([*rings, ends])
-    low, high, last = len(vertices) - 2, len(vertices) - 1, (len(inner) - 1) * AROUND
-    faces = []
-    for i in range(AROUND):
-        j = (i + 1) % AROUND
-        faces += [(low, j, i), (high, last + i, last + j)]
-        for ring in range(len(inner) - 1):
-            a, b = ring * AROUND, (ring + 1) * AROUND
-            faces += [(a + i, a + j, b + j), (a + i, b + j, b + i)]
-    return vertices, np.array(faces)

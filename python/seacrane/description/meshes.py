@@ -16,10 +16,9 @@ from seacrane import _core
 from seacrane.description.description import Description, insert
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import name_of, number_of, numbers_of, text_of
-from seacrane.inputs.gltf import read_gltf
+from seacrane.inputs.mesh_files import read_gltf, read_stl
 from seacrane.inputs.node import Node
 from seacrane.inputs.shown import shown
-from seacrane.inputs.stl import read_stl
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int64]
@@ -49,17 +48,13 @@ class Mesh:
             array.setflags(write=False)
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Mesh):
-            return NotImplemented
-        alike = (self.name, self.body) == (other.name, other.body)
-        return (
-            alike
-            and np.array_equal(self.vertices, other.vertices)
-            and np.array_equal(self.faces, other.faces)
-        )
+        return isinstance(other, Mesh) and self._content() == other._content()
 
     def __hash__(self) -> int:
-        return hash((self.name, self.body, self.vertices.tobytes(), self.faces.tobytes()))
+        return hash(self._content())
+
+    def _content(self) -> tuple[str, str, bytes, bytes]:
+        return self.name, self.body, self.vertices.tobytes(), self.faces.tobytes()
 
     def __copy__(self) -> Mesh:
         return self
@@ -111,7 +106,7 @@ def add_mesh(
         For an unknown body, a name used twice, more than 200,000 triangles for a body, a mesh without extent,
         or one of more than 1 km, which most likely is in mm.
     FileFormatError
-        For a file that is damaged, too large, or of another kind.
+        For a file that is damaged, too large, or of another kind; without trimesh (`seacrane[mesh]`).
     """
     if text_of("mesh: body", body) not in scene.bodies:
         known = ", ".join(map(repr, scene.bodies)) or "none"

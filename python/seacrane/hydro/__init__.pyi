@@ -1,6 +1,6 @@
 """Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
 
-from seacrane.inputs.stl import read_stl as read_stl
+from seacrane.inputs.mesh_files import read_stl as read_stl
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients as DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices as AdditionalMatrices
 from seacrane.hydro.data.hydro_data import RollDamping as RollDamping

@@ -97,10 +97,6 @@ class Node:
             self.fail("give a finite number")
         return number
 
-    def number_or_none(self) -> float | None:
-        """A finite number, or nothing."""
-        return None if self.value is None else self.number()
-
     def array(self, shape: tuple[int, ...]) -> Array:
         """Numbers of that shape, -1 standing for any length; an empty list has every length 0."""
         values = self.values()

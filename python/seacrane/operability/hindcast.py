@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from seacrane.inputs.checked import number_of, numbers_of, require_unmasked, tex
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import decoded, read_whole
-from seacrane.series.clock_unit import dates_of_numbers
+from seacrane.series.clock import dates_of_numbers
 from seacrane.series.series_file import DELIMITERS, plain_number
 
 if TYPE_CHECKING:
@@ -265,17 +266,14 @@ def _dates(path: Path, given: list[Any]) -> list[Any]:
 
 def _entry(path: Path, number: int, row: list[str], place: int, delimiter: str, *, date: bool) -> Any:
     text = row[place].strip() if place < len(row) else ""
-    try:
-        if date:
-            found = plain_number(text, comma=delimiter != ",")
-            return np.datetime64(text.removesuffix("Z"), "s") if found is None else found
-        found = plain_number(text, comma=delimiter != ",")
-        if found is None:
-            raise ValueError
-        return found
-    except ValueError as error:
+    found: Any = plain_number(text, comma=delimiter != ",")
+    if found is None and date:
+        with suppress(ValueError):
+            found = np.datetime64(text.removesuffix("Z"), "s")
+    if found is None:
         wanted = "a date such as 2020-01-31T12:00" if date else "a number, or nothing"
-        raise FileFormatError(f"{path}, line {number}: {shown(text)} is not {wanted}") from error
+        raise FileFormatError(f"{path}, line {number}: {shown(text)} is not {wanted}")
+    return found
 
 
 def _of_netcdf(path: Path, names: Mapping[str, tuple[str, ...]]) -> WaveHindcast:

@@ -21,7 +21,7 @@ from seacrane.plotting.panel import Panel as Panel
 from seacrane.plotting.panel import draw as draw
 from seacrane.pictures.findings import Finding as Finding
 from seacrane.pictures.findings import paper_findings as paper_findings
-from seacrane.pictures.paper_figures import PaperRuns as PaperRuns
-from seacrane.pictures.paper_figures import save_paper_figures as save_paper_figures
+from seacrane.pictures.findings import PaperRuns as PaperRuns
+from seacrane.pictures.findings import save_paper_figures as save_paper_figures
 from seacrane.pictures.view import view as view
 from seacrane.pictures.view import View as View

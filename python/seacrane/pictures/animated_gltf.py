@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from seacrane.errors import SceneError
 from seacrane.pictures.drawing import Drawing
-from seacrane.pictures.palette import WIRES, rgb
+from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.pose_curves import quaternion_rate
-from seacrane.pictures.surfaces import Surface, surfaces_of, tube
+from seacrane.pictures.shapes import HULL, WIRES, BoxShape, HullShape, MeshShape, TubeShape, body_colour, rgb
 from seacrane.pictures.wheels import turns
 from seacrane.version import __version__
 
@@ -29,6 +30,12 @@ VERTICES, INDICES = 34962, 34963
 TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 HEADER, CHUNK = struct.Struct("<4sII"), struct.Struct("<I4s")
 LARGEST = 2**32 - 2**20  # bytes: lengths have 32 bits
+Faces = NDArray[np.intp]
+SIDES, WIRE_SIDES = 16, 8  # of a tube, of a wire
+NEAR = 1e-3  # m: faces that near to the waterline are below it
+# Corners of a box, anticlockwise from outside, by their places in `BoxShape.points`.
+QUADS = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+BOX_FACES = np.array(QUADS)[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
 
 
 def gltf_of(drawing: Drawing) -> bytes:
@@ -46,10 +53,7 @@ def gltf_of(drawing: Drawing) -> bytes:
     model.bodies()
     model.wheels()
     model.wires()
-    try:
-        return model.glb.to_bytes()
-    except ValueError as error:
-        raise SceneError(f"view: the glTF model of {drawing.title!r} {error}; save a shorter run") from error
+    return model.glb.to_bytes()
 
 
 class _Model:
@@ -72,6 +76,8 @@ class _Model:
                 "nodes": self.nodes,
                 "meshes": self.meshes,
                 "materials": [],
+                "accessors": [],
+                "bufferViews": [],
             }
         )
         self.times = -1
@@ -108,7 +114,9 @@ class _Model:
         """Every wire as a bar of one metre along z, which is moved, turned and stretched."""
         drawing, motion = self.drawing, self.motion
         for wire in drawing.wires:
-            vertices, faces = tube(np.zeros(3), np.array([0.0, 0.0, 1.0]), drawing.radius_of(wire), 8)
+            vertices, faces = tube(
+                np.zeros(3), np.array([0.0, 0.0, 1.0]), drawing.radius_of(wire), WIRE_SIDES
+            )
             bar = Surface(vertices=vertices, faces=faces, colour=WIRES[wire["kind"]])
             start, end = drawing.ends_of(wire, motion.position, motion.quaternion)
             length = np.maximum(np.linalg.norm(end - start, axis=1), SMALLEST)
@@ -184,8 +192,8 @@ def _from_z(direction: Array) -> Array:
 
     The shortest way to the first of them, and from there the shortest: no jump unless a wire turns round.
     """
-    first = _shortest(np.array([0.0, 0.0, 1.0]), direction[:1])[0]
-    turn = _product(_shortest(direction[0], direction), first)
+    first = Rotation.from_quat(_shortest(np.array([0.0, 0.0, 1.0]), direction[:1])[0])
+    turn = (Rotation.from_quat(_shortest(direction[0], direction)) * first).as_quat()
     flips = np.where(np.sum(turn[1:] * turn[:-1], axis=1) < 0.0, -1.0, 1.0)
     return np.asarray(turn * np.cumprod(np.concatenate([[1.0], flips]))[:, None])
 
@@ -196,13 +204,6 @@ def _shortest(start: Array, ends: Array) -> Array:
     across = np.cross(start, np.eye(3)[int(np.argmin(np.abs(start)))])
     half[np.linalg.norm(half, axis=1) < 1e-6] = (*across, 0.0)
     return np.asarray(half / np.linalg.norm(half, axis=1, keepdims=True))
-
-
-def _product(p: Array, q: Array) -> Array:
-    """Products of quaternions (n, 4) with one (4,), which turns first."""
-    v, w = p[:, :3], p[:, 3:]
-    vector = w * q[:3] + q[3] * v + np.cross(v, q[:3])
-    return np.column_stack([vector, w[:, 0] * q[3] - v @ q[:3]])
 
 
 @dataclass
@@ -226,9 +227,9 @@ class Glb:
         array = array.astype("<u4" if whole else "<f4")
         data = array.tobytes()
         view = {"buffer": 0, "byteOffset": self.size, "byteLength": len(data)}
-        self._list("bufferViews").append(view | ({} if target is None else {"target": target}))
+        self.document["bufferViews"].append(view | ({} if target is None else {"target": target}))
         accessor = {
-            "bufferView": len(self._list("bufferViews")) - 1,
+            "bufferView": len(self.document["bufferViews"]) - 1,
             "componentType": UNSIGNED if whole else FLOAT,
             "count": len(array),
             "type": TYPES[1 if array.ndim == 1 else array.shape[1]],
@@ -236,22 +237,77 @@ class Glb:
         if bounds:
             rows = array.reshape(len(array), -1)
             accessor |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
-        self._list("accessors").append(accessor)
+        self.document["accessors"].append(accessor)
         self.parts.append(data)
         self.size += len(data)
-        return len(self._list("accessors")) - 1
-
-    def _list(self, key: str) -> list[Any]:
-        found: list[Any] = self.document.setdefault(key, [])
-        return found
+        return len(self.document["accessors"]) - 1
 
     def to_bytes(self) -> bytes:
-        """The file; ValueError where it would be too large for the format."""
+        """The file; SceneError where it would be too large for the format."""
         document = self.document | {"buffers": [{"byteLength": self.size}]}
         text = json.dumps(document, allow_nan=False, separators=(",", ":")).encode("ascii")
         text += b" " * (-len(text) % 4)
         total = HEADER.size + 2 * CHUNK.size + len(text) + self.size
         if total > LARGEST:
-            raise ValueError(f"takes {total} bytes, above {LARGEST}")
+            title = self.document["nodes"][0]["name"]
+            raise SceneError(
+                f"view: the glTF model of {title!r} takes {total} bytes, above {LARGEST}; save a shorter run"
+            )
         chunks = [CHUNK.pack(len(text), b"JSON"), text, CHUNK.pack(self.size, b"BIN\0"), *self.parts]
         return b"".join([HEADER.pack(b"glTF", 2, total), *chunks])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Surface:
+    """Triangles `faces` (m, 3), anticlockwise from outside, of `vertices` (n, 3), m; `colour` "#rrggbb"."""
+
+    vertices: Array
+    faces: Faces
+    colour: str
+
+
+def surfaces_of(look: Look, number: int) -> list[Surface]:
+    """What a body, by its number among the bodies, shows: relative to its centre of mass, body axes."""
+    found: list[Surface] = []
+    for shape in look.shapes:
+        found += _hull(shape) if isinstance(shape, HullShape) else [_part(shape, look.role, number)]
+    return found
+
+
+def _part(shape: TubeShape | BoxShape | MeshShape, role: str, number: int) -> Surface:
+    if isinstance(shape, MeshShape):
+        vertices, faces = shape.vertices, shape.faces
+    elif isinstance(shape, BoxShape):
+        vertices, faces = shape.points, BOX_FACES
+    else:
+        vertices, faces = tube(shape.start, shape.end, shape.radius, SIDES)
+    return Surface(vertices=vertices, faces=faces, colour=body_colour(shape.colour, role, number))
+
+
+def _hull(shape: HullShape) -> list[Surface]:
+    """Below the still waterline, above it, and the deck."""
+    height = shape.vertices[shape.faces][..., 2]
+    top = float(shape.vertices[:, 2].max())
+    deck = height.min(axis=1) > top - 1e-3 * abs(top) - 1e-4
+    below = ~deck & (height.max(axis=1) <= shape.waterline + NEAR)
+    parts = (("below", below), ("above", ~deck & ~below), ("deck", deck))
+    return [
+        Surface(vertices=shape.vertices, faces=shape.faces[part], colour=HULL[name])
+        for name, part in parts
+        if part.any()
+    ]
+
+
+def tube(start: Array, end: Array, radius: float, sides: int) -> tuple[Array, Faces]:
+    """A closed round bar: vertices (2 sides + 2, 3) and triangles."""
+    along = np.asarray(end) - np.asarray(start)
+    along = along / (float(np.linalg.norm(along)) or 1.0)
+    across = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
+    across /= float(np.linalg.norm(across)) or 1.0
+    angle = 2.0 * np.pi * np.arange(sides)[:, None] / sides
+    ring = radius * (np.cos(angle) * across + np.sin(angle) * np.cross(along, across))
+    vertices = np.concatenate([start + ring, end + ring, [start, end]])
+    i, j = np.arange(sides), (np.arange(sides) + 1) % sides
+    first, last = np.full(sides, 2 * sides), np.full(sides, 2 * sides + 1)
+    faces = [(i, j, sides + j), (i, sides + j, sides + i), (j, i, first), (sides + i, sides + j, last)]
+    return vertices, np.concatenate([np.column_stack(columns) for columns in faces])

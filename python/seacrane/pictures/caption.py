@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane.description.description import Description
 from seacrane.description.file import scene_digest
 from seacrane.description.loads import lines_of
+from seacrane.description.wet_parts import wet_bodies
 from seacrane.pictures.drawn_bodies import Look
-from seacrane.pictures.page_sea import sea_words
 from seacrane.pictures.pose_curves import Motion
 from seacrane.result import Result
 from seacrane.result.contact_loads import contact_loads
@@ -19,6 +20,7 @@ from seacrane.result.kept_scene import NOT_KEPT
 AXES = "x forward, y to port, z up, about the origin of the inertial frame; m, s"
 REAL_WIRES = "as thick as steel ropes of their EA, EA = 40 GPa times the square of the diameter"
 ESTIMATE = "error_estimate_"
+Array = NDArray[np.float64]
 
 
 def caption(
@@ -116,3 +118,36 @@ def _drawn(looks: Mapping[str, Look]) -> str:
 
 def _few(names: list[str]) -> str:
     return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+
+
+def sea_components(scene: Description) -> Array:
+    """Amplitude (m), frequency (rad/s), phase (rad), wavenumber along x and along y (rad/m): (n, 5).
+
+    Elevation = sum a cos(w t + phase - kx x - ky y) in the inertial frame; largest amplitude first.
+    """
+    if scene.waves is None:
+        return np.zeros((0, 5))
+    waves = scene.waves.components()
+    k, b = np.asarray(waves.wavenumber), np.asarray(waves.direction)
+    phase = np.remainder(np.asarray(waves.phase), 2.0 * np.pi)
+    table = np.column_stack([waves.amplitude, waves.omega, phase, k * np.cos(b), k * np.sin(b)])
+    return np.asarray(table[np.argsort(-np.asarray(waves.amplitude), kind="stable")])
+
+
+def without_sea(scene: Description) -> bool:
+    """Whether there is no water to draw."""
+    return scene.waves is None and not scene.vessels and not wet_bodies(scene)
+
+
+def sea_words(scene: Description) -> str:
+    """The sea in words, for the caption."""
+    if scene.waves is None:
+        return "" if without_sea(scene) else "calm water"
+    known = scene.waves.provenance
+    told = (
+        (known.realised_hs, "Hs {:.2f} m realised"),
+        (known.tp, "Tp {:g} s"),
+        (known.wave_direction_deg, "towards {:g} deg from x to y"),
+    )
+    words = [text.format(value) for value, text in told if value is not None]
+    return ", ".join([f"{np.size(scene.waves.omega)} wave components", *words])

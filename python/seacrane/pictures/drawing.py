@@ -20,10 +20,9 @@ from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
 from seacrane.inputs.shown import shown
-from seacrane.pictures.contact_surfaces import surfaces_of_contacts
 from seacrane.pictures.drawn_bodies import Look, looks
 from seacrane.pictures.pose_curves import Motion, motion_of
-from seacrane.pictures.wheels import Wheel, wheels_of
+from seacrane.pictures.wheels import Wheel, surfaces_of_contacts, wheels_of
 from seacrane.pictures.wires import end_of, wires_of
 from seacrane.result import Result
 from seacrane.result.kept_scene import NOT_KEPT
@@ -72,15 +71,8 @@ class Drawing:
         ]
         hung = dict.fromkeys(one.load for one in hung_loads(self.scene))
         labels = {body: label for label, body in crane_parts.payloads(self.scene).items()}
-        hanging = [
-            {
-                "kind": "payload",
-                "name": labels.get(body, body),
-                "at": [list(bodies).index(body), 0.0, 0.0, 0.0],
-            }
-            for body in hung
-        ]
-        return [*tips, *hanging]
+        places = {body: [list(bodies).index(body), 0.0, 0.0, 0.0] for body in hung}
+        return [*tips, *({"kind": "payload", "name": labels.get(b, b), "at": at} for b, at in places.items())]
 
     @cached_property
     def box(self) -> Array:
@@ -106,19 +98,10 @@ class Drawing:
         spans = [(start <= times) & (times < end) for start, end in wire["absent"]]
         return np.any(spans, axis=0) if spans else np.zeros(np.shape(times), dtype=bool)
 
-    @property
-    def radius(self) -> float:
-        """Half the diagonal of the box, m."""
-        return 0.5 * float(np.linalg.norm(np.ptp(self.box, axis=0))) or 1.0
-
-    @property
-    def wire_radius(self) -> float:
-        """At which wires are drawn, m: thick enough to be seen."""
-        return 0.002 * self.radius
-
     def radius_of(self, wire: Mapping[str, Any]) -> float:
-        """The radius of a wire as drawn, m."""
-        return max(self.wire_radius, float(wire["radius"]))
+        """The radius of a wire as drawn, m: thick enough to be seen."""
+        diagonal = float(np.linalg.norm(np.ptp(self.box, axis=0))) or 2.0
+        return max(0.001 * diagonal, float(wire["radius"]))
 
     def ends_of(self, wire: Mapping[str, Any], position: Array, quaternion: Array) -> tuple[Array, Array]:
         """Where a wire begins and ends at poses, as `place`; one of limited reach ends there."""
@@ -178,8 +161,6 @@ def _scene_of(what: Any, scene: Any) -> Description:
 
 
 def _require_same_bodies(scene: Description, motion: Motion) -> None:
-    if not scene.bodies:
-        raise SceneError(f"view: scene {scene.name!r} has no bodies; add some first")
     if set(scene.bodies) != set(motion.bodies):
         apart = sorted(set(scene.bodies) ^ set(motion.bodies))
         raise SceneError(

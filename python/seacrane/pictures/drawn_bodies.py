@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,18 +21,20 @@ from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
 from seacrane.inputs.shown import shown
-from seacrane.pictures.hull_shapes import box_hull, hull_shape, schematic_hull
 from seacrane.pictures.shapes import (
     BoxShape,
     HullShape,
     MeshShape,
     Shape,
     TubeShape,
+    box_hull,
     distinct,
     equivalent_box,
     framework,
+    hull_shape,
+    schematic_hull,
+    wet_shapes,
 )
-from seacrane.pictures.wet_shapes import wet_shapes
 
 Array = NDArray[np.float64]
 
@@ -200,20 +203,17 @@ def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
 
 def body_points(scene: Description, name: str) -> list[Array]:
     """Where joints, springs, cylinders and cranes take hold of a body, in its coordinates, m."""
-    points = []
+    places: list[tuple[str, Any]] = []
     for joint in scene.joints.values():
-        points += [joint.first_frame.point] if joint.first == name else []
-        points += [joint.second_frame.point] if joint.second == name else []
+        places += [(joint.first, joint.first_frame.point), (joint.second, joint.second_frame.point)]
     for spring in scene.springs.values():
-        points += [spring.first_point] if spring.first == name else []
-        points += [spring.second_point] if spring.second == name else []
+        places += [(spring.first, spring.first_point), (spring.second, spring.second_point)]
     for line in lines_of(scene.loads).values():
-        points += [point for body, point in path_of(line) if body == name]
+        places += path_of(line)
     for cylinder in hydraulic_cylinders(scene).values():
-        points += [cylinder.first_point] if cylinder.first == name else []
-        points += [cylinder.second_point] if cylinder.second == name else []
-    points += [np.array(point) for body, point in crane_parts.tips(scene).values() if body == name]
-    return [np.asarray(point, dtype=float).reshape(3) for point in points]
+        places += [(cylinder.first, cylinder.first_point), (cylinder.second, cylinder.second_point)]
+    places += crane_parts.tips(scene).values()
+    return [np.asarray(point, dtype=float).reshape(3) for body, point in places if body == name]
 
 
 def _extent(scene: Description) -> float:

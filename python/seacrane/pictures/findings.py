@@ -1,20 +1,178 @@
-"""The paper's findings as numbers, from the runs its figures show."""
+"""Figures 3 to 10 of Landsverk, Zhou and Hovland from five runs, in our axes, and their findings as numbers.
+
+The paper's axes are x aft, y starboard, z up about {0}, the vessel's reference point: ours turned by half
+a turn about z. What it prints of surge, sway, roll and pitch has the opposite sign; heave and yaw have not.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.pictures.paper_figures import PaperRuns, motion_of, require_same_times
+from seacrane.pictures.pose import save_pose_figure
+from seacrane.plotting.panel import Line, Panel, Picture, Sheet, save_sheet
 from seacrane.result import MOTIONS, Result
 
 Array = NDArray[np.float64]
 
 OSCILLATION_START, OSCILLATION_PERIOD = 50.0, 5.0
 CLEAR_CHANGE = 0.1  # share of a motion's own size from which a change counts as clear
+TRANSLATIONS, ROTATIONS = MOTIONS[:3], MOTIONS[3:]
+MEMORY = {"with memory": "vessel", "without memory": "vessel_without_memory"}
+PAYLOAD = {"case 1, no payload": "case1", "case 2, payload": "case2"}
+OSCILLATION = {"case 1": "case1", "case 3, cylinders oscillate": "case3"}
+ALONE = "The vessel alone in the same waves, with and without the memory term mu of the radiated waves."
+SWING = "Vessel with the crane swinging out, without and with the payload."
+CYLINDERS = "Crane that comes to rest against one whose cylinders oscillate with a 5 s period from 50 s on."
+# Title, caption, motions and runs of each figure of motions.
+OF_MOTIONS: Mapping[int, tuple[str, str, Sequence[str], Mapping[str, str]]] = {
+    3: ("vessel alone, with and without fluid memory", ALONE, MOTIONS, MEMORY),
+    5: ("surge, sway and heave, cases 1 and 2", SWING, TRANSLATIONS, PAYLOAD),
+    6: ("roll, pitch and yaw, cases 1 and 2", SWING, ROTATIONS, PAYLOAD),
+    8: ("surge, sway and heave, cases 1 and 3", CYLINDERS, TRANSLATIONS, OSCILLATION),
+    9: ("roll, pitch and yaw, cases 1 and 3", CYLINDERS, ROTATIONS, OSCILLATION),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PaperRuns:
+    """The five runs that the paper's figures compare; all with the same output times."""
+
+    vessel: Result
+    vessel_without_memory: Result
+    case1: Result
+    case2: Result
+    case3: Result
+
+
+def motion_of(result: Result, motion: str) -> Array:
+    """One vessel motion in the units of the figures.
+
+    Parameters
+    ----------
+    result : Result
+        A run with a vessel.
+    motion : str
+        surge, sway, heave, roll, pitch or yaw.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        m for surge, sway and heave; degrees for roll, pitch and yaw.
+    """
+    values = result.select("vessel_motion", motion=motion)
+    return np.rad2deg(values) if motion in ROTATIONS else values
+
+
+def motion_panel(motion: str, runs: Sequence[tuple[str, Result]]) -> Panel:
+    """One motion of several labelled runs."""
+    styles = ("-", "--", "-.", ":")
+    lines = tuple(
+        Line(label=label, values=motion_of(run, motion), colour=i, style=styles[i % len(styles)])
+        for i, (label, run) in enumerate(runs)
+    )
+    return Panel(quantity=motion, unit="deg" if motion in ROTATIONS else "m", lines=lines)
+
+
+def _motions(number: int, runs: PaperRuns) -> Sheet:
+    """A figure of the vessel's motions in several runs."""
+    title, text, motions, pairs = OF_MOTIONS[number]
+    runs_of = [(label, getattr(runs, name)) for label, name in pairs.items()]
+    return Sheet(
+        title=f"Figure {number}: {title}",
+        caption=text,
+        abscissa=runs_of[0][1].time,
+        panels=tuple(motion_panel(motion, runs_of) for motion in motions),
+        columns=2 if len(motions) == 6 else 1,
+    )
+
+
+def figure_7(runs: PaperRuns) -> Sheet:
+    """Both strokes and the slew angle of case 3."""
+    case3 = runs.case3
+    panels = [
+        Panel(
+            quantity=f"stroke {number}",
+            unit="m",
+            lines=(Line(label="", values=case3.select("stroke", cylinder=name)),),
+        )
+        for number, name in enumerate(case3.coords["cylinder"], 1)
+    ]
+    slew = Line(label="", values=np.rad2deg(case3["slew_angle"]))
+    panels.append(Panel(quantity="slew angle", unit="deg", lines=(slew,)))
+    return Sheet(
+        title="Figure 7: cylinder strokes and slew angle, case 3",
+        caption="Strokes of the main (1) and knuckle (2) cylinder, and the slew angle of king against tower, "
+        "the paper's difference of phi_z between bodies 2 and 1.",
+        abscissa=case3.time,
+        panels=tuple(panels),
+    )
+
+
+def figure_10(runs: PaperRuns) -> Sheet:
+    """Heave of case 3 minus heave of case 1."""
+    require_same_times(runs.case3, runs.case1)
+    difference = motion_of(runs.case3, "heave") - motion_of(runs.case1, "heave")
+    line = Line(label="", values=difference)
+    return Sheet(
+        title="Figure 10: heave of case 3 minus heave of case 1",
+        caption="What the oscillating cylinders add to the heave.",
+        abscissa=runs.case1.time,
+        panels=(Panel(quantity="heave, case 3 - case 1", unit="m", lines=(line,)),),
+    )
+
+
+def require_same_times(first: Result, second: Result) -> None:
+    """Raise ValueError unless two runs were recorded at the same times."""
+    if not np.array_equal(first.time, second.time):
+        raise ValueError(
+            f"runs {first.stats['scene']!r} and {second.stats['scene']!r} were recorded at different times: "
+            f"{first.time.size} outputs to {first.time[-1]:g} s, "
+            f"{second.time.size} outputs to {second.time[-1]:g} s; "
+            "give both the same t_end and dt_out"
+        )
+
+
+TIME_FIGURES: dict[int, Callable[[PaperRuns], Sheet]] = {
+    **{number: partial(_motions, number) for number in OF_MOTIONS},
+    7: figure_7,
+    10: figure_10,
+}
+
+
+def save_paper_figures(*, runs: PaperRuns, folder: Path) -> dict[int, Picture]:
+    """Write ``figure_03.png`` to ``figure_10.png``, and the data behind them as ``figure_NN.csv``.
+
+    Parameters
+    ----------
+    runs : PaperRuns
+        Five runs of equal output times.
+    folder : Path
+        Existing folder.
+
+    Returns
+    -------
+    dict of int to Picture
+        By figure number, in order.
+
+    Raises
+    ------
+    ValueError
+        If the runs were not recorded at the same times.
+    """
+    for other in (runs.vessel_without_memory, runs.case1, runs.case2, runs.case3):
+        require_same_times(runs.vessel, other)
+    pictures = {
+        number: save_sheet(sheet(runs), folder, f"figure_{number:02d}")
+        for number, sheet in TIME_FIGURES.items()
+    }
+    pictures[4] = save_pose_figure(result=runs.case2, folder=folder)
+    return dict(sorted(pictures.items()))
 
 
 @dataclass(frozen=True, kw_only=True)

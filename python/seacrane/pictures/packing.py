@@ -37,12 +37,13 @@ class Blob:
 
     def floats(self, values: Any) -> dict[str, Any]:
         """Add values as they are, in single precision."""
-        array = np.asarray(values, dtype="<f4")
-        return {**self._add(array.tobytes()), "shape": list(array.shape)}
+        return self._plain(np.asarray(values, dtype="<f4"))
 
     def whole(self, values: Any) -> dict[str, Any]:
         """Add indices."""
-        array = np.asarray(values, dtype="<u4")
+        return self._plain(np.asarray(values, dtype="<u4"))
+
+    def _plain(self, array: NDArray[Any]) -> dict[str, Any]:
         return {**self._add(array.tobytes()), "shape": list(array.shape)}
 
     def _add(self, data: bytes) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -52,29 +52,6 @@ def box_lines(size: Sequence[float]) -> list[Array]:
     return [top, bottom, *(np.array([top[i], bottom[i]]) for i in range(4))]
 
 
-def complete_skeleton(
-    result: Result, skeleton: Skeleton | None, payload_size: Sequence[float] = (6.0, 6.0, 4.0)
-) -> dict[str, list[Array]]:
-    """The lines given, with the hull's outline and the payload's box where none are given for them."""
-    lines = {body: [np.asarray(line, float) for line in given] for body, given in (skeleton or {}).items()}
-    bodies = result.coords["body"]
-    unknown = sorted(set(lines) - set(bodies))
-    if unknown:
-        raise ValueError(f"skeleton names {', '.join(unknown)}; the result holds {', '.join(bodies)}")
-    for body, polylines in lines.items():
-        for line in polylines:
-            if line.ndim != 2 or line.shape[1] != 3 or len(line) < 2 or not np.isfinite(line).all():
-                raise ValueError(
-                    f"a line of {body!r} has shape {line.shape}; give finite points (k, 3), k >= 2"
-                )
-    if HULL in bodies and HULL not in lines:
-        turn, centre = _pose(result, HULL, 0)
-        lines[HULL] = [(line - centre) @ turn for line in hull_lines()]
-    for _, payload in _hung(result):
-        lines.setdefault(payload, box_lines(payload_size))
-    return lines
-
-
 def outlined_skeleton(result: Result) -> dict[str, list[Array]]:
     """Lines of every body by what the run noted of its scene: ships, boxes, lines through joints.
 
@@ -111,13 +88,6 @@ def _outlined(about: Mapping[str, Any]) -> list[Array]:
     return [*box_lines(box.tolist()), *arms] if edges[1] > 0 else arms
 
 
-def _hung(result: Result) -> list[tuple[str, str]]:
-    """Bodies that carry a crane's tip, and what hangs there."""
-    cranes = result.about.cranes
-    ends = [(crane["tip"][0], crane["payload"]) for crane in cranes if crane["tip"] and crane["payload"]]
-    return [(jib, payload) for jib, payload in ends if {jib, payload} <= set(result.coords["body"])]
-
-
 def _pose(result: Result, body: str, index: int) -> tuple[Array, Array]:
     turn = rotation_matrix(result.select("quaternion", body=body)[index])
     return turn, result.select("position", body=body)[index]
@@ -129,11 +99,6 @@ def posed_lines(result: Result, skeleton: Skeleton, index: int) -> Iterator[tupl
         turn, centre = _pose(result, body, index)
         for number, line in enumerate(lines):
             yield body, number, centre + line @ turn.T
-
-
-def wire_lines(result: Result, skeleton: Skeleton, index: int) -> list[Array]:
-    """Links from tips, the last points of the first lines of what carries them, to the payloads' tops."""
-    return [_wire(result, skeleton, index, *ends) for ends in _hung(result) if set(ends) <= set(skeleton)]
 
 
 def link_lines(result: Result, index: int) -> list[Array]:
@@ -151,85 +116,56 @@ def _at(result: Result, body: str, point: Sequence[float], index: int) -> Array:
     return np.asarray(centre + turn @ np.asarray(point, dtype=float))
 
 
-def _wire(result: Result, skeleton: Skeleton, index: int, jib: str, payload: str) -> Array:
-    turn, centre = _pose(result, jib, index)
-    tip = centre + turn @ skeleton[jib][0][-1]
-    turn, centre = _pose(result, payload, index)
-    height = max(float(line[:, 2].max()) for line in skeleton[payload])
-    return np.array([tip, centre + turn @ np.array([0.0, 0.0, height])])
-
-
-def save_pose_figure(
-    *,
-    result: Result,
-    folder: Path,
-    skeleton: Skeleton | None = None,
-    thick: Collection[str] = (),
-    stem: str = "figure_04",
-) -> Picture:
+def save_pose_figure(*, result: Result, folder: Path, stem: str = "figure_04") -> Picture:
     """Figure 4: the first and last pose of a run as `stem`.png, and every point drawn as `stem`.csv.
 
     Parameters
     ----------
     result : Result
-        A run with `position` and `quaternion`.
+        As of `plot_scene`.
     folder : Path
         Existing folder.
-    skeleton : mapping of str to sequence of ndarray (k, 3), optional
-        Lines of each body relative to its centre of mass in its own frame, m. The first line of what carries
-        a crane's tip ends there. Hull and payload are added where absent.
-    thick : collection of str
-        Bodies that are drawn thick.
     """
-    lines = complete_skeleton(result, skeleton)
-    caption = f"First ({result.time[0]:g} s) and last ({result.time[-1]:g} s) pose of case 2."
+    title = "Figure 4: initial and final pose, case 2"
+    image = save_figure(_draw_poses(result, title), folder / f"{stem}.png")
     rows = []
     for name, index in (("initial", 0), ("final", -1)):
-        drawn = list(posed_lines(result, lines, index))
-        drawn += [("link", number, wire) for number, wire in enumerate(wire_lines(result, lines, index))]
+        drawn = list(posed_lines(result, outlined_skeleton(result), index))
+        drawn += [("link", number, link) for number, link in enumerate(link_lines(result, index))]
         for body, number, points in drawn:
             rows += [[name, body, number, i, *point] for i, point in enumerate(points.tolist())]
-    data = save_table(
-        ["pose", "body", "line", "point", "x [m]", "y [m]", "z [m]"],
-        rows,
-        folder / f"{stem}.csv",
-    )
-    title = "Figure 4: initial and final pose, case 2"
-    wires = {index: wire_lines(result, lines, index) for index in (0, -1)}
-    image = save_figure(draw_poses(result, lines, wires, thick=thick, title=title), folder / f"{stem}.png")
+    names = ["pose", "body", "line", "point", "x [m]", "y [m]", "z [m]"]
+    caption = f"First ({result.time[0]:g} s) and last ({result.time[-1]:g} s) pose of case 2."
+    data = save_table(names, rows, folder / f"{stem}.csv")
     return Picture(title=title, caption=caption, image=image, data=data)
 
 
-def draw_poses(
-    result: Result,
-    skeleton: Skeleton,
-    wires: Mapping[int, Sequence[Array]],
-    *,
-    thick: Collection[str] = (),
-    title: str,
-) -> Figure:
-    """First and last pose side by side, in equal scales and limits, seen from port and a little aft.
-
-    `wires` are the lines (k, 3) that belong to no body, at outputs 0 and -1, m, inertial axes.
-    """
+def _draw_poses(result: Result, title: str) -> Figure:
+    """First and last pose side by side, in equal scales and limits, seen from port and a little aft."""
+    skeleton = outlined_skeleton(result)
+    if not skeleton:
+        raise ValueError(
+            f"the result of {result.stats['scene']!r} holds no poses or no outline to draw; record position "
+            "and quaternion"
+        )
     figure = new_figure(figsize=(13.0, 5.6))
     ships = ships_of(result)
-    own = {**dict.fromkeys(ships, "0.45"), **{payload: "#8B0000" for payload in _payloads(result)}}
+    payloads = str(result.stats.get("payload", "")).splitlines()
+    own = {**dict.fromkeys(ships, "0.45"), **dict.fromkeys(payloads, "#8B0000")}
     drawn = {index: list(posed_lines(result, skeleton, index)) for index in (0, -1)}
-    points = np.vstack(
-        [line for index in (0, -1) for line in [*(one[2] for one in drawn[index]), *wires[index]]]
-    )
+    links = {index: link_lines(result, index) for index in (0, -1)}
+    points = np.vstack([line for i in (0, -1) for line in [*(one[2] for one in drawn[i]), *links[i]]])
     low, high = _limits(points)
     for place, (name, index) in enumerate((("start", 0), ("end", -1))):
         box = (0.01 + 0.5 * place, 0.04, 0.44, 0.94)
         axes: Any = figure.add_axes(box, projection="3d", proj_type="ortho")
         for body, number, line in drawn[index]:
-            width = 0.8 if body in ships else 4.0 if body in thick else 2.0
+            width = 0.8 if body in ships else 2.0
             colour = own.get(body, COLOURS[list(skeleton).index(body) % len(COLOURS)])
             label = plain(body) if number == 0 else None
             axes.plot(*line.T, color=colour, linewidth=width, label=label, solid_capstyle="butt")
-        for number, wire in enumerate(wires[index]):
-            axes.plot(*wire.T, color="black", linewidth=1.0, label=None if number else "link")
+        for number, link in enumerate(links[index]):
+            axes.plot(*link.T, color="black", linewidth=1.0, label=None if number else "link")
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
         axes.set_box_aspect(high - low, zoom=1.05 if high[2] - low[2] < 0.5 * np.ptp(points) else 0.9)
         axes.view_init(**VIEW)
@@ -243,10 +179,6 @@ def draw_poses(
         figure.legend(handles, labels, loc="lower center", ncols=6, fontsize=8, frameon=False)
     figure.suptitle(plain(title), fontsize=11)
     return figure
-
-
-def _payloads(result: Result) -> list[str]:
-    return [*str(result.stats.get("payload", "")).splitlines(), *(payload for _, payload in _hung(result))]
 
 
 def _limits(points: Array) -> tuple[Array, Array]:
@@ -272,11 +204,4 @@ def plot_scene(result: Result) -> Figure:
     ValueError
         If the result holds no poses, or no outline of its bodies.
     """
-    skeleton = outlined_skeleton(result)
-    if not skeleton:
-        raise ValueError(
-            f"the result of {result.stats['scene']!r} holds no poses or no outline to draw; record position "
-            "and quaternion"
-        )
-    wires = {index: link_lines(result, index) for index in (0, -1)}
-    return draw_poses(result, skeleton, wires, title=str(result.stats["scene"]))
+    return _draw_poses(result, str(result.stats["scene"]))

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
 
 from seacrane.errors import SceneError
 from seacrane.pictures.packing import rounded
@@ -136,25 +137,15 @@ def hermite(times: Array, knots: Array, values: Array, rates: Array) -> Array:
     """Values (n, ...) at times within the knots, from values and rates at the knots."""
     if len(knots) == 1:
         return np.repeat(values, len(times), axis=0)
-    i, u, h = _place(times, knots, values.ndim)
-    first = (1 + 2 * u) * (1 - u) ** 2 * values[i] + u * (1 - u) ** 2 * h * rates[i]
-    second = u**2 * (3 - 2 * u) * values[i + 1] + u**2 * (u - 1) * h * rates[i + 1]
-    return np.asarray(first + second)
+    return np.asarray(CubicHermiteSpline(knots, values, rates)(times))
 
 
 def _linear(times: Array, knots: Array, values: Array) -> Array:
     if len(knots) == 1:
         return np.repeat(values, len(times), axis=0)
-    i, u, _ = _place(times, knots, values.ndim)
-    return np.asarray((1 - u) * values[i] + u * values[i + 1])
-
-
-def _place(times: Array, knots: Array, axes: int) -> tuple[NDArray[np.intp], Array, Array]:
-    """Interval of each time, how far it is in it, and the interval's length, with that many axes."""
     i = np.clip(np.searchsorted(knots, times, side="right") - 1, 0, len(knots) - 2)
-    h = knots[i + 1] - knots[i]
-    more = (slice(None), *(None,) * (axes - 1))
-    return i, ((times - knots[i]) / h)[more], h[more]
+    u = ((times - knots[i]) / (knots[i + 1] - knots[i]))[:, *(None,) * (values.ndim - 1)]
+    return np.asarray((1 - u) * values[i] + u * values[i + 1])
 
 
 def linear_rows(motion: Motion, time: Array, values: Array) -> Array:

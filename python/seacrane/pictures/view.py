@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from html import escape
@@ -30,16 +30,13 @@ from seacrane.inputs.replaceable import GENERATOR, check_replaceable
 from seacrane.inputs.shown import shown
 from seacrane.pictures.animated_gltf import GENERATOR as GLTF_GENERATOR
 from seacrane.pictures.animated_gltf import gltf_of
-from seacrane.pictures.caption import caption
+from seacrane.pictures.caption import caption, sea_components, without_sea
 from seacrane.pictures.drawing import Drawing, drawing_of
 from seacrane.pictures.drawn_bodies import Look
-from seacrane.pictures.marks import forces_of, marks_of
+from seacrane.pictures.marks import forces_of, marks_of, strip_of
 from seacrane.pictures.packing import Blob
-from seacrane.pictures.page_sea import sea_components, without_sea
-from seacrane.pictures.palette import HULL, SLACK, TRACKS, WIRES, body_colour
 from seacrane.pictures.pose_curves import POSES, STEPS, Motion, linear_rows
-from seacrane.pictures.shapes import HullShape, MeshShape
-from seacrane.pictures.strip import strip_of
+from seacrane.pictures.shapes import HULL, SLACK, TRACKS, WIRES, HullShape, MeshShape, body_colour
 from seacrane.pictures.wheels import Wheel
 from seacrane.pictures.wires import end_of
 from seacrane.result import Result
@@ -52,7 +49,7 @@ SLOT = re.compile(r"@@(\w+)@@")
 INSIDE_SCRIPT = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
 Array = NDArray[np.float64]
 FINENESS = 2.0**-14  # step of a force over the largest of its group
-GROUPS = {"link": "link and line tension", "wave": "wave force", "joint": "joint reaction"}
+Arrow = tuple[str, str, list[float], Array]  # name, group, point of application, force over the outputs
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -195,7 +192,7 @@ def view(
         "tracks": [track | {"colour": TRACKS[track["kind"]]} for track in drawing.tracks],
         "forces": forces_of(result, drawing.wires, motion, blob),
         **marks_of(shown_scene, result, motion.bodies),
-        "arrows": arrows_of(shown_scene, result, motion, motion.bodies, blob),
+        "arrows": arrows_of(shown_scene, result, motion, blob),
         "strip": strip_of(result, channels, motion, blob),
     }
     rows = caption(shown_scene, result, motion, drawing.looks)
@@ -274,36 +271,30 @@ def _asset(name: str) -> str:
     return (files("seacrane") / "pictures" / "assets" / name).read_text(encoding="utf-8")
 
 
-def arrows_of(
-    scene: Description, result: Result | None, motion: Motion, bodies: Sequence[str], blob: Blob
-) -> list[dict[str, Any]]:
+def arrows_of(scene: Description, result: Result | None, motion: Motion, blob: Blob) -> list[dict[str, Any]]:
     """Arrows with their point of application and their force over the frames, N, inertial axes."""
     if result is None:
         return []
-    found = [
-        *_reactions(scene, result, motion, bodies),
-        *_pulls(scene, result, motion, bodies),
-        *_waves(scene, result, motion, bodies),
+    found: list[tuple[dict[str, Any], Array]] = [
+        ({"name": name, "group": group, "at": at}, linear_rows(motion, result.time, force))
+        for forces in (_reactions, _pulls, _waves)
+        for name, group, at, force in forces(scene, result, motion.bodies)
     ]
-    largest = {group: 0.0 for group in GROUPS}
+    largest: dict[str, float] = {}
     for arrow, rows in found:
-        largest[arrow["group"]] = max(largest[arrow["group"]], float(np.linalg.norm(rows, axis=0).max()))
+        size = float(np.linalg.norm(rows, axis=0).max())
+        largest[arrow["group"]] = max(largest.get(arrow["group"], 0.0), size)
     return [
-        arrow
-        | {"force": blob.series(rows, largest[arrow["group"]] * FINENESS), "largest": largest[arrow["group"]]}
+        arrow | {"force": blob.series(rows, most * FINENESS), "largest": most}
         for arrow, rows in found
-        if largest[arrow["group"]] > 0.0
+        if (most := largest[arrow["group"]]) > 0.0
     ]
 
 
-def _reactions(
-    scene: Description, result: Result, motion: Motion, bodies: Sequence[str]
-) -> list[tuple[dict[str, Any], Array]]:
+def _reactions(scene: Description, result: Result, bodies: Sequence[str]) -> Iterator[Arrow]:
     """What each joint exerts on its second body."""
-    if "reaction_force" not in result.channels:
-        return []
-    out = []
-    for name in result.coords["joint"]:
+    names = result.coords["joint"] if "reaction_force" in result.channels else ()
+    for name in names:
         if name not in scene.joints:
             continue
         joint = scene.joints[name]
@@ -311,53 +302,38 @@ def _reactions(
         slides = "displacement" in _core.joint_kinds()[joint.kind].coordinates
         first = slides and not hangs
         body, frame = (joint.first, joint.first_frame) if first else (joint.second, joint.second_frame)
-        arrow = {
-            "name": name,
-            "group": "link" if hangs else "joint",
-            "at": end_of(scene, bodies, body, frame.point),
-        }
-        out.append((arrow, linear_rows(motion, result.time, result.select("reaction_force", joint=name))))
-    return out
+        force = result.select("reaction_force", joint=name)
+        yield name, "link" if hangs else "joint", end_of(scene, bodies, body, frame.point), force
 
 
-def _pulls(
-    scene: Description, result: Result, motion: Motion, bodies: Sequence[str]
-) -> list[tuple[dict[str, Any], Array]]:
+def _pulls(scene: Description, result: Result, bodies: Sequence[str]) -> Iterator[Arrow]:
     """What each line exerts on the body at its lower end."""
     if not {"hook_load", *POSES} <= set(result.channels):
-        return []
-    out = []
+        return
     for one in suspensions(scene):
         if one.name in scene.joints or one.channel not in result.coords["suspension"]:
             continue
         up = result.place_of(*one.upper) - result.place_of(*one.lower)
         pull = result.select("hook_load", suspension=one.channel)[:, None] * up
         pull /= np.linalg.norm(up, axis=1, keepdims=True)
-        arrow = {"name": one.name, "group": "link", "at": end_of(scene, bodies, *one.lower)}
-        out.append((arrow, linear_rows(motion, result.time, pull)))
-    return out
+        yield one.name, "link", end_of(scene, bodies, *one.lower), pull
 
 
-def _waves(
-    scene: Description, result: Result, motion: Motion, bodies: Sequence[str]
-) -> list[tuple[dict[str, Any], Array]]:
+def _waves(scene: Description, result: Result, bodies: Sequence[str]) -> Iterator[Arrow]:
     """Wave forces at the reference points of vessels, turned by yaw out of the axes that follow it."""
     if "wave_force" not in result.channels:
-        return []
-    out = []
+        return
+    several = "vessel" in result.dims["wave_force"]
     for vessel in scene.vessels.values():
-        several = "vessel" in result.dims["wave_force"]
-        pick = {"vessel": vessel.name} if several else {}
         if several and vessel.name not in result.coords["vessel"]:
             continue
+        pick = {"vessel": vessel.name} if several else {}
         force, yaw = result.select("wave_force", **pick)[:, :3].copy(), np.zeros(len(result.time))
         if vessel.kinematics == "yaw_following":
             yaw = _yaw(result.select("quaternion", body=vessel.body))
         turn = np.exp(1j * yaw) * (force[:, 0] + 1j * force[:, 1])
         force[:, 0], force[:, 1] = turn.real, turn.imag
-        arrow = {"name": vessel.name, "group": "wave", "at": end_of(scene, bodies, vessel.body, np.zeros(3))}
-        out.append((arrow, linear_rows(motion, result.time, force)))
-    return out
+        yield vessel.name, "wave", end_of(scene, bodies, vessel.body, np.zeros(3)), force
 
 
 def _yaw(quaternion: Array) -> Array:

@@ -1,8 +1,8 @@
-"""Sheaves as discs, and the drums of winches, which turn as they pay out."""
+"""Sheaves as discs, the drums of winches, which turn as they pay out, and what contacts press on."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,9 +11,12 @@ from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.line_path import Array, described_poses, laid
 from seacrane.description.loads import lines_of, winch_of
+from seacrane.description.places import place_of
+from seacrane.description.revolved import revolved
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.pose_curves import Motion, linear_rows
-from seacrane.pictures.shapes import Shape, TubeShape, plain
+from seacrane.pictures.shapes import BoxShape, MeshShape, Shape, TubeShape, plain
 from seacrane.pictures.wires import end_of
 from seacrane.result import Result
 
@@ -23,6 +26,10 @@ UPRIGHT = 1e-6  # sine of the angle to the vertical below which a direction has 
 # Of the radius, along the axis and across it.
 DISC, HUB_WIDTH, HUB = 0.2, 0.3, 0.25
 BARREL, FLANGE_WIDTH, FLANGE, MARK = 1.8, 0.1, 1.3, 0.08
+PLATE = 0.05  # m, that is drawn of a plane, below it
+MARGIN = 1.0  # m, of a plane beyond the points that come down on it
+AROUND = 24  # faces of a pipe
+SURFACE = "surface"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -58,11 +65,6 @@ class Wheel:
     def look(self) -> Look:
         """As of a body."""
         return Look(role=self.kind, shapes=list(self.shapes))
-
-    def turned(self, frame_times: Array, time: float) -> Array:
-        """Unit quaternion (w, x, y, z) of its turning at a time, s."""
-        angle = 0.0 if self.angle is None else float(np.interp(time, frame_times, self.angle))
-        return np.asarray(turns(self.axis, np.array([angle]))[0])
 
 
 def turns(axis: Array, angles: Array) -> Array:
@@ -171,3 +173,42 @@ def _round(axis: Array, width: float, radius: float, colour: str) -> TubeShape:
 
 def _unit(vector: Array) -> Array:
     return np.asarray(vector / np.linalg.norm(vector))
+
+
+def surfaces_of_contacts(scene: Description, motion: Motion) -> Iterator[Wheel]:
+    """Each as something on its body, or on the ground, that does not turn."""
+    for name, contact in scene.loads.items():
+        if isinstance(contact, _core.Contact):
+            at = end_of(scene, motion.bodies, contact.on, contact.place)
+            yield Wheel(name=name, kind=SURFACE, at=at, axis=UP, shapes=[_contact_shape(scene, contact)])
+
+
+def _contact_shape(scene: Description, contact: _core.Contact) -> Shape:
+    """About the place of the surface, in axes of its body."""
+    axes, size = np.asarray(contact.axes, dtype=float), np.asarray(contact.size, dtype=float)
+    if contact.surface == "box":
+        return BoxShape(centre=np.zeros(3), axes=axes, size=size)
+    if contact.surface == "post":
+        half = 0.5 * float(size[2]) * axes[:, 2]
+        return TubeShape(start=-half, end=half, radius=0.5 * float(size[1]))
+    if contact.surface == "pipe":
+        inner, outer, half = 0.5 * size
+        wall = np.array([[inner, -half], [outer, -half], [outer, half], [inner, half]])
+        points, faces = revolved(wall, AROUND, closed=True)
+        return MeshShape(vertices=points @ axes.T, faces=faces)
+    return _plate(axes, _points(scene, contact) @ axes)
+
+
+def _points(scene: Description, contact: _core.Contact) -> Array:
+    """Points of a contact as described, from its place, in axes of the surface's body, (n, 3), m."""
+    places = np.array([place_of(scene, body=contact.body, point=point) for point in contact.points])
+    away = places - place_of(scene, body=contact.on, point=contact.place)
+    body = scene.bodies.get(contact.on)
+    return away if body is None else np.asarray(away @ rotation_matrix(body.quaternion))
+
+
+def _plate(axes: Array, points: Array) -> BoxShape:
+    """A piece of a plane below points (n, 3) in its own axes."""
+    low, high = points[:, :2].min(axis=0) - MARGIN, points[:, :2].max(axis=0) + MARGIN
+    centre = axes @ np.array([*(0.5 * (low + high)), -0.5 * PLATE])
+    return BoxShape(centre=centre, axes=axes, size=np.array([*(high - low), PLATE]))

@@ -37,47 +37,31 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     for name, joint in scene.joints.items():
         if joint.kind == "distance":
             pulls = name in limits
-            found.append(
-                {
-                    "name": name,
-                    "element": name,
-                    "kind": "wire" if pulls else "link",
-                    "from": end_of(scene, bodies, joint.first, joint.first_frame.point),
-                    "to": end_of(scene, bodies, joint.second, joint.second_frame.point),
-                    "length": float(joint.parameters["length"]) if pulls else 0.0,
-                }
-            )
+            start = end_of(scene, bodies, joint.first, joint.first_frame.point)
+            stop = end_of(scene, bodies, joint.second, joint.second_frame.point)
+            slack = float(joint.parameters["length"]) if pulls else 0.0
+            found.append(_wire(name, "wire" if pulls else "link", start, stop, length=slack))
     for name, spring in springs_of(scene.springs, scene.loads):
-        found.append(
-            {
-                "name": name,
-                "element": name,
-                "kind": "spring",
-                "from": end_of(scene, bodies, spring.first, spring.first_point),
-                "to": end_of(scene, bodies, spring.second, spring.second_point),
-                "length": _free_length(spring),
-            }
-        )
+        start = end_of(scene, bodies, spring.first, spring.first_point)
+        stop = end_of(scene, bodies, spring.second, spring.second_point)
+        found.append(_wire(name, "spring", start, stop, length=_free_length(spring)))
     for name, line in lines_of(scene.loads).items():
         found += _over(scene, bodies, name, line)
     for rope in luffing_ropes(scene).values():
         if rope.name not in scene.loads:  # else it is a line
             start, stop = (end_of(scene, bodies, *block) for block in (rope.first, rope.second))
-            found.append(
-                {
-                    "name": rope.name,
-                    "element": rope.name,
-                    "kind": "link",
-                    "from": start,
-                    "to": stop,
-                    "length": 0.0,
-                }
-            )
+            found.append(_wire(rope.name, "link", start, stop))
     of_cranes = {slide for roles in scene.roles.values() for slide in roles.cylinders.values()}
     for name, cylinder in hydraulic_cylinders(scene).items():
         if slide_of(scene, cylinder) not in of_cranes:  # else its barrel and its rod are bodies
             found += _cylinder(scene, bodies, name, cylinder)
-    return [{"radius": 0.0, "reach": 0.0, "size": 0.0} | one for one in found]
+    return found
+
+
+def _wire(element: str, kind: str, start: list[float], stop: list[float], **given: Any) -> dict[str, Any]:
+    """As `wires_of` tells it."""
+    usual = {"name": element, "length": 0.0, "radius": 0.0, "reach": 0.0, "size": 0.0}
+    return {"element": element, "kind": kind, "from": start, "to": stop} | usual | given
 
 
 def _cylinder(
@@ -86,15 +70,14 @@ def _cylinder(
     """A rod from point to point, and about it the barrel, as long as the cylinder is retracted."""
     piston = np.sqrt(one.full_area / np.pi)
     rod = max(np.sqrt((one.full_area - one.rod_side_area) / np.pi), THINNEST_ROD * piston)
-    ends = {
-        "element": name,
-        "from": end_of(scene, bodies, one.first, one.first_point),
-        "to": end_of(scene, bodies, one.second, one.second_point),
-        "length": 0.0,
-    }
+    ends = (
+        end_of(scene, bodies, one.first, one.first_point),
+        end_of(scene, bodies, one.second, one.second_point),
+    )
+    wall = float(WALL * piston)
     return [
-        ends | {"name": name, "kind": "rod", "radius": float(rod)},
-        ends | {"name": "", "kind": "barrel", "radius": float(WALL * piston), "reach": one.retracted_length},
+        _wire(name, "rod", *ends, radius=float(rod)),
+        _wire(name, "barrel", *ends, name="", radius=wall, reach=one.retracted_length),
     ]
 
 
@@ -108,18 +91,13 @@ def _over(scene: Description, bodies: Sequence[str], name: str, line: _core.Line
         return end_of(scene, bodies, line.bodies[at], rotation.T @ (place - origin))
 
     size = 0.5 * float(np.sqrt(line.EA / STEEL_ROPE))
-
-    def link(label: str, start: list[float], stop: list[float]) -> dict[str, Any]:
-        ends = {"from": start, "to": stop, "length": 0.0, "size": size}
-        return {"name": label, "element": name, "kind": "link", **ends}
-
     found = [
-        link(f"{name} {i + 1}", end(i, start), end(i + 1, stop))
+        _wire(name, "link", end(i, start), end(i + 1, stop), name=f"{name} {i + 1}", size=size)
         for i, (start, stop) in enumerate(zip(path.starts, path.ends, strict=True))
     ]
     for at in np.flatnonzero(path.wraps > 0.0).tolist():
         arc = [end(at, place) for place in path.arc(at)]
-        found += [link("", start, stop) for start, stop in pairwise(arc)]
+        found += [_wire(name, "link", *ends, name="", size=size) for ends in pairwise(arc)]
     return found
 
 

@@ -13,8 +13,8 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import texts_of
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.shown import listed
-from seacrane.series.headings import heading_of
 from seacrane.series.measured_series import MeasuredSeries
+from seacrane.series.series_file import heading_of
 
 Array = NDArray[np.float64]
 COMPASS = ("heading", "hdg")

@@ -18,8 +18,7 @@ from seacrane.inputs.shown import listed, shown
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.series.clock import BROKEN, step_of
 from seacrane.series.mending import ALIASED, is_even, low_passed, on_grid, share_above
-from seacrane.series.reading import Columns, read_series
-from seacrane.series.rows import FEWEST
+from seacrane.series.reading import FEWEST, Columns, read_series
 
 Array = NDArray[np.float64]
 MOST_FILLED = 32  # times as many samples as there are, of which the rest would be in gaps

@@ -19,7 +19,7 @@ from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.sections import Slice, slices
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
-from seacrane.inputs.stl import read_stl
+from seacrane.inputs.mesh_files import read_stl
 
 FloatArray = NDArray[np.float64]
 
