@@ -13,9 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.builder import FOOT, KnuckleBoomCrane
-from seacrane.crane.payload import Payload
-from seacrane.crane.records import BodyRecord
+from seacrane.crane import FOOT, BodyRecord, Crane, load_crane
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.pose import Skeleton, save_pose_figure
 from seacrane.plotting.panel import Line, Panel, Picture, Sheet, save_sheet
@@ -216,7 +214,7 @@ def save_paper_figures(
 
 
 def crane_skeleton(
-    crane: KnuckleBoomCrane | None = None, *, foot: tuple[float, float, float] | None = None
+    crane: Crane | None = None, *, foot: tuple[float, float, float] | None = None
 ) -> dict[str, list[Array]]:
     """Lines of the eight crane bodies for `seacrane.pictures.pose`.
 
@@ -232,10 +230,9 @@ def crane_skeleton(
         m, in each body's frame, relative to its centre of mass; the first line of `knuckle_jib` ends at the
         crane's tip.
     """
-    crane = crane or KnuckleBoomCrane.load()
-    foot = foot or FOOT
-    records = {record.name: record for record in crane.bodies(foot=foot)}
-    points = {joint.name: joint.point for joint in crane.joints(foot=foot, payload=Payload())}
+    parts = (crane or load_crane()).parts(foot=foot or FOOT)
+    records = {record.name: record for record in parts.bodies}
+    points = {joint.name: joint.point for joint in parts.joints} | {"link": parts.tip[1]}
     lines = {
         body: [_in_body(records[body], np.array([points[joint] for joint in path])) for path in paths]
         for body, paths in THROUGH_JOINTS.items()
