@@ -14,12 +14,12 @@ import numpy as np
 
 from seacrane import Curve, Scene, balance, cases, simulate
 from seacrane.analysis import feed_forward, reflected_inertia
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload, load_crane
 from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.warnings import LargeSwingWarning
 
-CRANE = KnuckleBoomCrane.load()  # the numbers of the crane data file, with centres of mass and inertias
+CRANE = load_crane()  # the numbers of the crane data file, with centres of mass and inertias
 PAYLOAD = Payload(mass=10e3, size=(6.0, 6.0, 4.0), link_length=8.0)
 FOOT = (33.0, 10.0, 10.0)  # m, in the vessel: forward, to port, up
 DRIVES = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
@@ -29,8 +29,8 @@ MOVE_END = 45.0  # s
 
 def add_bodies(scene: Scene, **pose: float) -> None:
     """The crane's eight bodies and the hanging payload, where they stand in a pose of the crane."""
-    payload = CRANE.payload_body(PAYLOAD, foot=FOOT, **pose)
-    for body in [*CRANE.bodies(foot=FOOT, **pose), payload]:
+    parts = CRANE.parts(foot=FOOT, **pose)
+    for body in [*parts.bodies, PAYLOAD.under(parts.tip[1])]:
         scene.add_body(
             name=body.name,
             mass=body.mass,
@@ -43,8 +43,8 @@ def add_bodies(scene: Scene, **pose: float) -> None:
 
 def add_joints(scene: Scene, base: str, **pose: float) -> None:
     """Slew bearing, jib pivots, the two cylinder loops and the link, at the same pose."""
-    p = {name: point + FOOT for name, point in CRANE.geometry.points(**pose).items()}
-    pivot = CRANE.geometry.pose(**pose)["king"][1][:, 1]  # all jib pivots are parallel
+    p = {name: point + FOOT for name, point in CRANE.points(**pose).items()}
+    pivot = (-np.sin(pose["slew"]), np.cos(pose["slew"]), 0.0)  # all jib pivots are parallel
     main, knuckle = p["D"] - p["B"], p["G"] - p["E"]  # the cylinders' lines
     hook = p["tip"] - [0.0, 0.0, PAYLOAD.link_length]
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from seacrane import Curve, MotionRaos, Scene, simulate
 from seacrane.analysis import reflected_inertia
-from seacrane.crane import FOOT, KnuckleBoomCrane
+from seacrane.crane import FOOT, load_crane
 
 LENGTH, DRAUGHT, BREADTH = 115.0, 6.0, 22.0  # m, a box
 MASS, EA, DURATION, START = 50e3, 1e8, 160.0, 60.0  # kg, N, s, s
@@ -27,8 +27,8 @@ ship_pitch = 3.0 * k * depth * (np.sin(half) - half * np.cos(half)) / half**3
 none = 0.0 * k
 motions = np.stack([none, none, ship_heave, none, -1j * ship_pitch, none], axis=1)
 raos = MotionRaos(omega=omega, heading=[np.pi], values=[motions], name="box")
-CRANE = KnuckleBoomCrane.load()
-TIP = FOOT + CRANE.geometry.tip(**POSE)
+CRANE = load_crane()
+TIP = FOOT + CRANE.tip(**POSE)
 
 
 def lift(*, controlled: bool = False, gas: bool = False) -> Scene:

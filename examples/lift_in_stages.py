@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Curve, Move, Scene, Stage, Until, simulate
-from seacrane.crane import FOOT, KnuckleBoomCrane
+from seacrane.crane import FOOT, load_crane
 
 G, MASS, DECK, PLATFORM = 9.80665, 20e3, 2.0, 8.0  # m/s2, kg, m, m
 
@@ -17,7 +17,7 @@ scene = Scene(name="lift in stages", gravity=G)
 jib, head = scene.add_crane(base="ground", s1=1.5, s2=1.0).tip
 for joint, name in (("A", "slew"), ("main_cylinder", "main"), ("knuckle_cylinder", "knuckle")):
     scene.add_driver(joint=joint, name=name, curve=Curve.constant(value=0.0))
-x, y, tip = FOOT + KnuckleBoomCrane.load().geometry.tip(slew=0.0, s1=1.5, s2=1.0)
+x, y, tip = FOOT + load_crane().tip(slew=0.0, s1=1.5, s2=1.0)
 scene.add_body(name="barge", mass=1e6, inertia=(1e8, 1e8, 1e8), position=(x, y, 0.0))
 scene.add_joint(kind="prismatic", name="heave", first="ground", second="barge")
 scene.add_driver(joint="heave", curve=Curve.harmonic(amplitude=0.2, omega=0.8, phase=-np.pi / 2.0))

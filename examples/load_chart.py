@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Scene, load_chart, statics
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload, load_crane
 from seacrane.hydro import shipped_database
 from seacrane.pictures import plot_load_chart
 
@@ -28,7 +28,7 @@ print(chart)
 # One point by hand, on a fixed base: the force is linear in the load, F = F0 + m (F1 - F0) by virtual work.
 quay = Scene(name="quay")
 quay.add_crane(base="ground", s1=2.0, s2=2.0, payload=Payload(mass=PAYLOAD))
-crane = KnuckleBoomCrane.load()
+crane = load_crane()
 empty, one_tonne = (crane.static_cylinder_forces(s1=2.0, s2=2.0, payload_mass=kg)[0] for kg in (0.0, 1e3))
 radius = float(statics(quay)["tip radius"])
 on_quay = load_chart(quay, radii=radius, limits={"cylinder force main": 12e6})

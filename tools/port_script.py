@@ -65,6 +65,12 @@ CALLS = {
 }
 PASSIVE = re.compile(r"""\b(memory|kind)=(["'])passive\2""")  # a kind of fluid memory that is gone
 
+GONE = {
+    "KnuckleBoomCrane": "KnuckleBoomCrane.load() is load_crane(), crane.geometry.tip(...) is crane.tip(...); "
+    "bodies and joints are those of crane.parts(...)",
+    "JointedCrane": "JointedCrane is Crane, as of load_crane; crane.tip(coordinates=x) is crane.tip(**x)",
+}
+
 
 def ported(text: str) -> tuple[str, list[str]]:
     """The script with the calls of today, and notes with their lines."""
@@ -103,6 +109,10 @@ def _changes(tree: ast.AST) -> Iterator[Change]:
         elif isinstance(node, ast.ImportFrom) and any(one.name in CALLS for one in node.names):
             names = [CALLS[one.name].name if one.name in CALLS else ast.unparse(one) for one in node.names]
             yield node, f"from {node.module} import {', '.join(dict.fromkeys(names))}", ""
+        elif isinstance(node, ast.ImportFrom) and (
+            gone := [one.name for one in node.names if one.name in GONE]
+        ):
+            yield node, ast.unparse(node), "; ".join(GONE[name] for name in gone)
 
 
 def _called(function: ast.expr) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Scene, cases
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import load_crane
 from seacrane.run.method import Method
 from seacrane.trading.case import Case
 from seacrane.trading.measured_case import timed
@@ -29,6 +29,7 @@ LAGS = (0.05, 1.0 / (2.0 * math.pi * 35.0), 0.0)  # s: a pilot-operated valve, a
 TIGHT = Method(integrator="dopri5", rtol=1e-7)
 IDEAL = Method(integrator="dopri5", rtol=1e-2)
 REPEATS = 2
+LENGTHS = {"main": 8.5, "knuckle": 6.8}  # m, of the retracted cylinders
 METHODS = (
     Method(integrator="dopri5", rtol=1e-2),
     Method(integrator="dopri5", rtol=1e-3),
@@ -42,17 +43,17 @@ METHODS = (
 
 def hydraulic_case2(*, spool_lag: float, gas: bool) -> Scene:
     """Case 2 with both cylinders on oil; with accumulators it has six pressures."""
-    scene, data = cases.case2(), KnuckleBoomCrane.load().data
+    scene, crane = cases.case2(), load_crane()
     references = {name: scene.actuators[name].reference for name in ("main", "knuckle")}
     for name in references:
         scene.remove(name)
     for name, reference in references.items():
-        cylinder = getattr(data, f"{name}_cylinder")
-        full = math.pi / 4.0 * cylinder.barrel[0].inner_diameter ** 2
+        barrel, rod = (crane.body(f"{name}_{part}").members[0] for part in ("barrel", "rod"))
+        full = math.pi / 4.0 * barrel.inner_diameter**2
         scene.add_hydraulic_cylinder(
             name=name, first=f"{name}_barrel", second=f"{name}_rod", full_area=full,
-            rod_side_area=full - math.pi / 4.0 * cylinder.rod[0].outer_diameter ** 2,
-            retracted_length=cylinder.retracted_length, stroke=cylinder.stroke, reference=reference,
+            rod_side_area=full - math.pi / 4.0 * rod.outer_diameter**2,
+            retracted_length=LENGTHS[name], stroke=5.0, reference=reference,
             spool_lag=spool_lag, **OIL | (GAS if gas else {}),
         )  # fmt: skip
     return scene

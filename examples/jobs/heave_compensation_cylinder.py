@@ -4,13 +4,13 @@ import numpy as np
 
 from seacrane import MotionHistory, Scene, simulate
 from seacrane.analysis import reflected_inertia
-from seacrane.crane import FOOT, KnuckleBoomCrane
+from seacrane.crane import FOOT, load_crane
 
 HEAVE, OMEGA, HIGH_PASS, LOOP = 0.5, 2.0 * np.pi / 9.0, 0.03, 2.0 * np.pi * 2.0  # m, rad/s, Hz, rad/s
 MASS, ROPE, EA, END = 20e3, 12.0, 4e8, 81.0  # kg, m, N, s
 POSE = {"slew": -np.pi / 2, "s1": 3.0, "s2": 3.8}  # where the knuckle moves the tip up and down
-CRANE = KnuckleBoomCrane.load()
-TIP = FOOT + CRANE.geometry.tip(**POSE)
+CRANE = load_crane()
+TIP = FOOT + CRANE.tip(**POSE)
 HOLDING = CRANE.static_cylinder_forces(s1=POSE["s1"], s2=POSE["s2"], payload_mass=MASS)
 time = np.arange(0.0, END + 1.0, 0.25)
 heave = np.outer(HEAVE * np.sin(OMEGA * time), [0, 0, 1, 0, 0, 0])

@@ -3,7 +3,7 @@
 import numpy as np
 
 from seacrane import Scene, load_chart, shipped_database, statics
-from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
+from seacrane.crane import FOOT, Payload, load_crane
 
 LOAD, FORCE, HEEL, PORT = 30e3, 12e6, np.radians(5.0), -np.pi / 2  # kg, N, rad, rad
 
@@ -25,7 +25,7 @@ for radius, allowable in zip(chart.radii, chart.allowable[1], strict=True):
     print(f"to port at {radius:.0f} m: {allowable / 1e3:6.2f} t, by hand {by_hand / 1e3:6.2f} t")
 
 # By hand, aft: the force of the main cylinder is linear in the load, F = F0 + m (F1 - F0), by virtual work.
-crane = KnuckleBoomCrane.load()
+crane = load_crane()
 empty, one = (crane.static_cylinder_forces(s1=2.0, s2=2.0, payload_mass=kg)[0] for kg in (0.0, 1.0))
 radius = statics(scene)["tip radius"].item()
 aft = load_chart(scene, radii=radius, limits={"cylinder force main": FORCE}).allowable.item()

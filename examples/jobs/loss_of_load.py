@@ -3,7 +3,7 @@
 import numpy as np
 
 from seacrane import Scene, Stage, natural_modes, shipped_database, simulate, statics
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import load_crane
 
 MASS, HEEL, POSE = 100e3, -3.0, {"s1": 1.5, "s2": 3.0}  # kg, deg, m
 OIL = {"pump_pressure": 32e6, "rated_flow": 0.03, "rated_drop": 1e6, "air": 0.002, "viscous_friction": 2e6}
@@ -32,7 +32,7 @@ mode = modes.find("vessel roll")
 arm = result.place_of("tip")[0, 1]  # m to port, at the heel
 back = np.degrees(MASS * arm / (rest["GM"].item() * bare.bodies["vessel"].mass))
 swings = np.exp(-np.pi * modes.damping_ratio[mode])  # of what is left after half a period
-main, _ = KnuckleBoomCrane.load().static_cylinder_forces(**POSE, payload_mass=MASS)
+main, _ = load_crane().static_cylinder_forces(**POSE, payload_mass=MASS)
 oil = scene.loads["main_cylinder"]
 rod = 0.1 * OIL["pump_pressure"] * oil.rod_side_area  # what the side that carries nothing has
 pressure = result.select("hydraulic_pressure", hydraulic_cylinder="main_cylinder", chamber="full")[0]

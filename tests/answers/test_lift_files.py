@@ -16,7 +16,7 @@ from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
 
 from seacrane import Lift, Method, Outputs, Result, Scene, cases, simulate
 from seacrane.cli import main
-from seacrane.crane.data_file import DEFAULT_PATH
+from seacrane.crane.load_crane import SHIPPED
 from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import HydroDatabase, shipped_database
@@ -135,7 +135,7 @@ def test_texts_of_any_kind_are_written(tmp_path: Path) -> None:
 def test_paths_are_from_the_folder_of_the_file(tmp_path: Path) -> None:
     for folder in ("data", "lifts"):
         (tmp_path / folder).mkdir()
-    (tmp_path / "data" / "crane.toml").write_bytes(DEFAULT_PATH.read_bytes())
+    (tmp_path / "data" / "crane.toml").write_bytes((SHIPPED / "knuckle_boom_250t.toml").read_bytes())
     text = HEAD + '[crane]\nbase = "ground"\ncrane = "../data/crane.toml"\n'
     lift = lift_of(text, tmp_path / "lifts")
     lift.save(tmp_path / "moved.toml")

@@ -10,7 +10,7 @@ from lift_examples import HEAD
 from test_jointed_cranes import LATTICE
 
 from seacrane import Lift, MotionRaos, Scene, simulate
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import load_crane
 from seacrane.hydro import shipped_database
 from seacrane.scene import MotionHistory
 
@@ -103,7 +103,7 @@ t_end_s = 0.5
 
 
 def test_pressures_hold_a_crane_with_its_load(tmp_path: Path) -> None:
-    crane = KnuckleBoomCrane.load()
+    crane = load_crane()
     scene = Scene()
     scene.add_crane(crane, base="ground", foot=(0, 0, 0), slew=-1.0, s1=2.0, s2=3.0, held=True)
     body, point = scene.roles[""].tip

@@ -8,23 +8,24 @@ import numpy as np
 import pytest
 
 from seacrane import FileFormatError, Scene, SceneError, load_chart, statics
-from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.crane.data_file import DEFAULT_PATH, parse
+from seacrane.crane import Crane, Payload, load_crane
+from seacrane.crane.load_crane import SHIPPED, parse_crane
 from seacrane.hydro import shipped_database
 from seacrane.pictures import plot_load_chart
 
 G = 9.80665
 MASS = 5e4
+KNUCKLE = SHIPPED / "knuckle_boom_250t.toml"
 TABLE = "[capacity]\nrows = [[10.0, 120e3], [20.0, 60e3], [30.0, 30e3]]\n"
 
 
-def with_table(folder: Path) -> KnuckleBoomCrane:
+def with_table(folder: Path) -> Crane:
     path = folder / "crane.toml"
-    path.write_text(f"{DEFAULT_PATH.read_text()}\n{TABLE}")
-    return KnuckleBoomCrane.load(path)
+    path.write_text(f"{KNUCKLE.read_text()}\n{TABLE}")
+    return load_crane(path)
 
 
-def quay(crane: KnuckleBoomCrane | None = None, *, mass: float = MASS) -> Scene:
+def quay(crane: Crane | None = None, *, mass: float = MASS) -> Scene:
     scene = Scene(name="quay")
     scene.add_crane(crane, base="ground", s1=2.0, s2=2.0, payload=Payload(mass=mass))
     return scene
@@ -40,7 +41,7 @@ def ship() -> Scene:
 
 def test_one_point_in_closed_form() -> None:
     """On a fixed base a cylinder's force is linear in the load: F(m) = F(0) + m (F(1) - F(0))."""
-    crane, limit = KnuckleBoomCrane.load(), 12e6
+    crane, limit = load_crane(), 12e6
     empty, one = (crane.static_cylinder_forces(s1=2.0, s2=2.0, payload_mass=m)[0] for m in (0.0, 1.0))
     radius = statics(quay())["tip radius"].item()
     chart = load_chart(quay(), radii=radius, limits={"cylinder force main": limit})
@@ -90,4 +91,4 @@ def test_what_makes_no_chart_is_refused() -> None:
         with pytest.raises(SceneError, match=words):
             load_chart(quay(), radii=25.0, limits=limits)
     with pytest.raises(FileFormatError, match="increasing"):
-        parse(f"{DEFAULT_PATH.read_text()}\n[capacity]\nrows = [[20.0, 60e3], [10.0, 1e5]]\n")
+        parse_crane(f"{KNUCKLE.read_text()}\n[capacity]\nrows = [[20.0, 60e3], [10.0, 1e5]]\n")

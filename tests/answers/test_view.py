@@ -16,8 +16,7 @@ from hydraulic_scenes import BORE, RETRACTED, ROD, START, raised
 from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 
 from seacrane import Scene, SceneError, cases, simulate, view
-from seacrane.crane import BODIES, KnuckleBoomCrane
-from seacrane.crane.geometry import plane_axes
+from seacrane.crane import load_crane
 from seacrane.description.file import scene_digest
 from seacrane.hydro import shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
@@ -101,12 +100,10 @@ def test_the_sea_is_that_of_the_scene() -> None:
 
 def test_crane_members_are_those_of_the_data_file() -> None:
     found = looks(cases.case2())
-    crane = KnuckleBoomCrane.load()
-    for name in BODIES:
-        assert found[name].role == "crane"
-        for shape, member in zip(found[name].shapes, crane.data.members()[name], strict=True):
-            ends = [plane_axes(name) @ np.array(end) for end in (member.start, member.end)]
-            middle = 0.5 * (ends[0] + ends[1]) - crane.mass_properties[name].center_of_mass
+    for body in load_crane().data.bodies:
+        assert found[body.name].role == "crane"
+        for shape, member in zip(found[body.name].shapes, body.members, strict=True):
+            middle = 0.5 * np.add(member.start, member.end) - body.properties.center_of_mass
             centre = shape.centre if isinstance(shape, BoxShape) else shape.points.mean(axis=0)
             np.testing.assert_allclose(centre, middle, atol=1e-9)
     (box,) = found["payload"].shapes

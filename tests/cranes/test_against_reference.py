@@ -18,7 +18,7 @@ from reference.system import System
 
 from seacrane import Scene, cases, simulate
 from seacrane._core import Curve
-from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
+from seacrane.crane import FOOT, Payload, load_crane
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.inputs.frames import rotation_matrix
 
@@ -81,10 +81,13 @@ def body_records(scene: Scene) -> list[dict[str, Any]]:
 
 
 def joint_records(payload: Payload | None) -> list[dict[str, Any]]:
+    parts = load_crane().parts(foot=FOOT)
+    joints = [*parts.joints, *([] if payload is None else [payload.link(parts.tip[1], parts.tip[0])])]
     keys = ("kind", "name", "first", "second", "point", "axis", "second_axis", "second_point", "length")
     return [
         {key: getattr(joint, key) for key in keys if getattr(joint, key) is not None}
-        for joint in KnuckleBoomCrane.load().joints(foot=FOOT, payload=payload)
+        | ({} if joint.first else {"first": "vessel"})
+        for joint in joints
     ]
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SceneError, balance, cases, simulate
 from seacrane.analysis import Evaluator, driven, feed_forward, quasi_static_loads
-from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
+from seacrane.crane import FOOT, Payload, load_crane
 from seacrane.warnings import UnstableRestWarning
 
 Array = NDArray[np.float64]
@@ -76,10 +76,10 @@ def test_balance_equals_weight_and_moments_by_hand(payload: Payload | None) -> N
     scene = cases.case2(payload=payload) if payload else cases.case1()
     del scene.point_forces["balance"]
     held = balance(scene)
-    crane = KnuckleBoomCrane.load()
-    weight, moment = crane.mass * G, crane.mass * G * crane.center_of_mass()
+    crane = load_crane()
+    weight, moment = crane.mass * G, crane.mass * G * crane.center_of_mass(foot=FOOT)
     if payload:
-        tip = np.array(FOOT) + crane.geometry.tip(slew=0.0, s1=0.0, s2=0.0)
+        tip = np.array(FOOT) + crane.tip(slew=0.0, s1=0.0, s2=0.0)
         weight, moment = weight + payload.mass * G, moment + payload.mass * G * tip
     assert held.vessel_wrench is not None
     expected = [0.0, 0.0, weight, moment[1], -moment[0], 0.0]
@@ -113,7 +113,7 @@ def test_on_a_fixed_base_they_are_the_cranes_static_forces(payload: Payload | No
     for i, time in enumerate(times):
         s1, s2 = (float(moves()[name].evaluate([time])[0, 0]) for name in STROKES)
         mass = 0.0 if payload is None else payload.mass
-        forces = KnuckleBoomCrane.load().static_cylinder_forces(s1=s1, s2=s2, payload_mass=mass)
+        forces = load_crane().static_cylinder_forces(s1=s1, s2=s2, payload_mass=mass)
         np.testing.assert_allclose([loads[name][i] for name in STROKES], forces, rtol=1e-7)
         assert abs(loads["slew"][i]) < 1.0
 

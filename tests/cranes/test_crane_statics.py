@@ -6,13 +6,12 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.crane.builder import BodyRecord
+from seacrane.crane import BodyRecord, Payload, load_crane
 from seacrane.inputs.frames import rotation_matrix
 
 Array = npt.NDArray[np.float64]
 G = 9.80665
-CRANE = KnuckleBoomCrane.load()
+CRANE = load_crane()
 POSES = [(0.0, 0.0), (2.0, 2.0), (4.0, 4.0), (0.0, 5.0), (5.0, 0.0), (1.3, 3.7)]
 
 
@@ -50,8 +49,8 @@ def cylinder(
 
 
 def forces_by_hand(s1: float, s2: float, payload_mass: float) -> Array:
-    b = {body.name: body for body in CRANE.bodies(foot=(0.0, 0.0, 0.0), s1=s1, s2=s2)}
-    p = {k: flat(v) for k, v in CRANE.geometry.points(slew=0.0, s1=s1, s2=s2).items()}
+    b = {body.name: body for body in CRANE.parts(s1=s1, s2=s2).bodies}
+    p = {k: flat(v) for k, v in CRANE.points(slew=0.0, s1=s1, s2=s2).items()}
 
     def weight(name: str, pivot: str) -> float:
         return cross(flat(centre(b[name])) - p[pivot], np.array([0.0, -b[name].mass * G]))
@@ -74,8 +73,8 @@ def test_virtual_work_equals_moments(s1: float, s2: float, payload_mass: float) 
 
 
 def potential(s1: float, s2: float, payload: Payload) -> float:
-    place = {"slew": 0.4, "s1": s1, "s2": s2}
-    bodies = [*CRANE.bodies(**place), CRANE.payload_body(payload, **place)]
+    parts = CRANE.parts(slew=0.4, s1=s1, s2=s2)
+    bodies = [*parts.bodies, payload.under(parts.tip[1])]
     return G * sum(body.mass * float(centre(body)[2]) for body in bodies)
 
 
@@ -86,9 +85,9 @@ def test_virtual_work_is_the_slope_of_potential_energy(s1: float, s2: float) -> 
         (potential(s1 + h, s2, load) - potential(s1 - h, s2, load)) / (2.0 * h),
         (potential(s1, s2 + h, load) - potential(s1, s2 - h, load)) / (2.0 * h),
     ]
-    place = {"foot": (33.0, 10.0, 10.0), "slew": -0.9, "s1": s1, "s2": s2}
-    bodies = CRANE.bodies(**place)  # type: ignore[arg-type]
+    foot, place = (33.0, 10.0, 10.0), {"slew": -0.9, "s1": s1, "s2": s2}
+    bodies = CRANE.parts(foot=foot, **place).bodies
     mean = sum(body.mass * centre(body) for body in bodies) / sum(body.mass for body in bodies)
-    np.testing.assert_allclose(CRANE.center_of_mass(**place), mean, atol=1e-11)  # type: ignore[arg-type]
+    np.testing.assert_allclose(CRANE.center_of_mass(foot=foot, **place), mean, atol=1e-11)
     got = CRANE.static_cylinder_forces(s1=s1, s2=s2, payload_mass=load.mass)
     np.testing.assert_allclose(got, slope, rtol=2e-6)

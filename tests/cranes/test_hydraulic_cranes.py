@@ -13,7 +13,7 @@ from line_scenes import add_led
 from multibody_runs import record
 
 from seacrane import Curve, Move, Scene, Stage, Until, natural_modes, simulate, statics
-from seacrane.crane import KnuckleBoomCrane, Payload, data_file, load_crane
+from seacrane.crane import Payload, load_crane
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 
@@ -46,9 +46,7 @@ def test_a_stroke_has_one_name_whatever_drives_it() -> None:
 
 def test_a_crane_starts_at_rest_on_its_oil() -> None:
     scene = crane()
-    expected = KnuckleBoomCrane.load().static_cylinder_forces(
-        s1=POSE["s1"], s2=POSE["s2"], payload_mass=Payload().mass
-    )
+    expected = load_crane().static_cylinder_forces(s1=POSE["s1"], s2=POSE["s2"], payload_mass=Payload().mass)
     for name, force in zip(("main_cylinder", "knuckle_cylinder"), expected, strict=True):
         ram = scene.loads[name]
         assert ram.pressure * ram.full_area - ram.pressure_rod * ram.rod_side_area == pytest.approx(force)
@@ -145,7 +143,7 @@ def test_an_a_frame_starts_at_rest_on_its_oil(tilt: float) -> None:
         assert result["cylinder_force"][0, 0] == pytest.approx(told, rel=1e-5)
 
 
-KNUCKLE_FILE = data_file.DEFAULT_PATH.read_text(encoding="utf-8")
+KNUCKLE_FILE = (SHIPPED / "knuckle_boom_250t.toml").read_text(encoding="utf-8")
 FRAME_FILE = (SHIPPED / "a_frame_40t.toml").read_text(encoding="utf-8")
 PISTON = '\n[[pistons]]\ncylinder = "tilt"\n[pistons.hydraulics]\n'
 MAIN = "[main_cylinder.hydraulics]\n"

@@ -19,8 +19,7 @@ from fuzz.limits import bounded
 from fuzz.mutate import mutate_json, mutate_text
 from fuzz.netcdf_spec import build
 from seacrane import Lift, MotionHistory, Scene, sea
-from seacrane.crane import JointedCrane, KnuckleBoomCrane
-from seacrane.crane.jointed_file import load as load_jointed
+from seacrane.crane import load_crane
 from seacrane.crane.urdf import read_urdf
 from seacrane.errors import FileFormatError, SceneError, SimulationError
 from seacrane.hydro import Hull, HydroDatabase
@@ -143,15 +142,10 @@ def _scene(path: Path) -> Any:
 
 
 def _crane(path: Path) -> Any:
-    """A crane file that is read gives bodies with mass and inertia."""
-    return list(KnuckleBoomCrane.load(path).mass_properties.values())
-
-
-def _jointed(path: Path) -> Any:
-    """A crane of bodies and joints that is read gives its parts, or a pose that is refused by name."""
-    crane = JointedCrane(load_jointed(path))
+    """A crane that is read gives its parts, or a pose that is refused by name."""
+    crane = load_crane(path)
     with contextlib.suppress(SceneError):
-        crane.parts(foot=(0.0, 0.0, 0.0))
+        crane.parts()
     return list(crane.mass_properties.values())
 
 
@@ -237,7 +231,7 @@ _WAMIT = _under(_HYDRO, "wamit wamit_control wamit_listing wamit_tables")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
 _RECORDED = (*_under("series", "series_file reading clock mending"), "scene/recorded_motion.py")
 _LIFT = _under("lift", "document text_lines check_keys curve_text")
-_JOINTED = _under("crane", "jointed_file jointed_check link_frames")
+_JOINTED = _under("crane", "load_crane check")
 _URDF = _under("crane", "urdf urdf_values urdf_visuals")
 _SHAPE, _SEEN = (FileFormatError, ValueError), (FileFormatError, SceneError)
 _MATRICES = {"mass_matrix": np.diag([1e7] * 3 + [1e9] * 3), "restoring": np.eye(6) * 1e7}
@@ -285,8 +279,8 @@ _ALL = [
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
     Target("study", "study", "study.toml", _study, ("lift/study_file.py",)),
-    Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),
-    Target("jointed", "jointed", "crane.toml", _jointed, _JOINTED),
+    Target("crane", "crane", "crane.toml", _crane, _under("crane", "file_table knuckle_boom")),
+    Target("jointed", "jointed", "crane.toml", _crane, _JOINTED),
     Target("urdf", "urdf", "crane.urdf", _urdf, _URDF),
     Target("measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
            refusals=(SceneError,)),

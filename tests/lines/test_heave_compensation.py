@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from seacrane import SampledController, Scene, SceneError, linear_model, simulate
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import load_crane
 
 OMEGA = 0.7
 
@@ -158,8 +158,8 @@ def test_a_controller_in_python_takes_the_place_of_the_compiled_one() -> None:
 def test_the_ratio_of_a_cylinder_is_that_of_the_tip() -> None:
     """Against the tip's height over the stroke, from the crane's geometry."""
     pose, step = {"slew": -1.0, "s1": 1.0, "s2": 1.5}, 1e-5
-    geometry = KnuckleBoomCrane.load().geometry
-    high, low = (geometry.tip(**pose | {"s2": 1.5 + sign * step}) for sign in (1.0, -1.0))
+    crane = load_crane()
+    high, low = (crane.tip(**pose | {"s2": 1.5 + sign * step}) for sign in (1.0, -1.0))
     scene = Scene(name="on land")
     scene.add_crane(base="ground", **pose)
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):

@@ -20,7 +20,7 @@ from fuzz.targets import CORPUS, TARGETS
 from test_fuzz import placed
 
 from seacrane import Lift, Result, Scene
-from seacrane.crane.data_file import load as load_crane
+from seacrane.crane import load_crane
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,

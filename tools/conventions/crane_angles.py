@@ -22,7 +22,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from seacrane.crane import FOOT, KnuckleBoomCrane
+from seacrane.crane import FOOT, load_crane
 
 LINES = (("A", "C"), ("A", "B"), ("C", "F"), ("F", "tip"))
 CYLINDERS = (("B", "D"), ("E", "G"))
@@ -43,7 +43,7 @@ def crane_figure() -> Figure:
 
 
 def _points(slew: float, strokes: tuple[float, float]) -> dict[str, Array]:
-    return KnuckleBoomCrane.load().geometry.points(slew=slew, s1=strokes[0], s2=strokes[1])
+    return load_crane().points(slew=slew, s1=strokes[0], s2=strokes[1])
 
 
 def _slew(axes: Axes) -> None:
@@ -73,14 +73,13 @@ def _angles(axes: Axes) -> None:
     points = _points(0.0, HIGH)
     _draw(axes, points, jib=INK, cylinder=MOVED)
     c, f, tip = (points[name][[0, 2]] for name in ("C", "F", "tip"))
-    main, knuckle = KnuckleBoomCrane.load().geometry.jib_angles(s1=HIGH[0], s2=HIGH[1])
     axes.plot([c[0], c[0] - 17], [c[1], c[1]], ":", color=INK, linewidth=1.0)
-    arc(axes, c, 13, np.pi, np.pi - main, colour=Z_COLOUR)
+    main, hand = (np.arctan2(*(end - start)[::-1]) for start, end in ((c, f), (f, tip)))
+    arc(axes, c, 13, np.pi, main, colour=Z_COLOUR)
     label(axes, c + np.array([-15.5, 4.0]), "main jib\nangle +", colour=Z_COLOUR, ha="right")
     along = (f - c) / np.linalg.norm(f - c)
     axes.plot(*np.array([f, f + 12 * along]).T, ":", color=INK, linewidth=1.0)
-    start = np.arctan2(along[1], along[0])
-    arc(axes, f, 8, start - knuckle, start - knuckle - np.radians(28.0), colour=Z_COLOUR)
+    arc(axes, f, 8, hand, hand - np.radians(28.0), colour=Z_COLOUR)
     label(axes, f + np.array([-11.5, 2.6]), KNUCKLE, colour=Z_COLOUR, ha="right", size=8)
     for first, second, name, shift in (("B", "D", "s1 +", (-3.4, -0.8)), ("E", "G", "s2 +", (-2.6, -2.4))):
         start_point, end = (points[one][[0, 2]] for one in (first, second))

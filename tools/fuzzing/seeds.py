@@ -24,7 +24,7 @@ from test_elements import every_load
 from test_scene_file import every_kind
 
 from seacrane import Result, Scene, cases, shipped_database, simulate
-from seacrane.crane.data_file import DEFAULT_PATH
+from seacrane.crane.load_crane import SHIPPED
 from seacrane.description.file import described
 from seacrane.hydro import HydroDatabase, motion_response
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients
@@ -94,9 +94,9 @@ def main() -> None:
         put_both("result", "run", simulate(cases.case1(), t_end=1.0, dt_out=0.5), Path(name))
         put_both("result", "small", pendulum(), Path(name))
     scene_seeds()
-    put("crane", "shipped", DEFAULT_PATH.read_bytes())
+    put("crane", "shipped", (SHIPPED / "knuckle_boom_250t.toml").read_bytes())
     put("lift", "every-table", EVERY_TABLE)
-    put("lift", "case3", DEFAULT_PATH.with_name("lifts").joinpath("case3.toml").read_bytes())
+    put("lift", "case3", (SHIPPED.parent / "lifts" / "case3.toml").read_bytes())
 
 
 if __name__ == "__main__":

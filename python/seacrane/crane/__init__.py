@@ -1,4 +1,4 @@
-"""Cranes built from documented data files: knuckle booms, and others as bodies and joints."""
+"""Cranes of bodies and joints, built from documented data files."""
 
 from seacrane.lazy import face
 

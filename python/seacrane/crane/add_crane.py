@@ -9,13 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from seacrane import _core
-from seacrane.crane.add_hydraulics import add_hydraulics, hydraulics_of
-from seacrane.crane.builder import FOOT, KnuckleBoomCrane, Vector
-from seacrane.crane.jointed import JointedCrane
-from seacrane.crane.jointed_data import MeshData, RopeData
-from seacrane.crane.parts import CraneParts
+from seacrane.crane.crane import Crane, Vector
+from seacrane.crane.data import MeshData, RopeData
+from seacrane.crane.hydraulics import add_hydraulics, hydraulics_of
+from seacrane.crane.load_crane import load_crane
+from seacrane.crane.parts import BodyRecord, CraneParts, JointRecord
 from seacrane.crane.payload import Payload
-from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.crane.structure import FAR, STRUCTURE, UP, Lean, leaning
 from seacrane.description.bodies import add_body
 from seacrane.description.crane_parts import add_roles
@@ -29,7 +28,7 @@ from seacrane.description.meshes import add_mesh
 from seacrane.description.recorded import add_range, record_coordinate
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import flag_of, positive_of, text_of
+from seacrane.inputs.checked import flag_of, number_of, positive_of, text_of
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.inputs.shown import shown
 
@@ -39,10 +38,13 @@ TOO_LARGE = 20.0  # times the crane's extent: no mesh in m
 POINTS = ("point", "second_point")
 AXES = ("axis", "second_axis")
 
+FOOT: Vector = (33.0, 10.0, 10.0)
+"""Crane foot V seen from {0} in the paper's vessel: 33 m forward, 10 m to port, 10 m above."""
+
 
 def add_crane(
     scene: Description,
-    crane: KnuckleBoomCrane | JointedCrane | None = None,
+    crane: Crane | None = None,
     *,
     base: str = "vessel",
     foot: Vector = FOOT,
@@ -63,16 +65,16 @@ def add_crane(
 
     Parameters
     ----------
-    crane : KnuckleBoomCrane or JointedCrane, optional
+    crane : Crane, optional
         As `load_crane` reads it. Default: the 250 t knuckle boom that comes with seacrane.
     base : str
         Body that carries the crane, wherever it is described ("ground" for a fixed base).
     foot : (float, float, float)
         Crane foot in the frame of the base, m.
     slew, s1, s2 : float
-        Of a knuckle boom: slew angle, rad; strokes of the main and the knuckle cylinder, m.
+        Slew angle, rad; of a knuckle boom, strokes of the main and the knuckle cylinder, m.
     coordinates : mapping of str to float, optional
-        Of another crane: angles (rad) and strokes (m) from the pose in which it is drawn, by label, such as
+        Angles (rad) and strokes (m) from the pose in which the crane is drawn, by label, such as
         ``{"slew": 0.5, "boom": 1.0}``; those that are not given stay there, or follow their loop.
     payload : Payload, optional
         What hangs from the tip; default: nothing.
@@ -117,11 +119,14 @@ def add_crane(
         A slew angle that looks like degrees.
     """
     if crane is None:
-        crane = KnuckleBoomCrane.load()
+        crane = load_crane()
     prefix = text_of("crane: prefix", prefix) if prefix else ""
     if prefix in scene.roles:
         raise SceneError(f"crane: there is one with prefix {prefix!r}; give this one another, such as 'aft '")
-    parts = _parts(crane, foot, {"slew": slew, "s1": s1, "s2": s2}, coordinates)
+    if not isinstance(crane, Crane):
+        raise SceneError(f"crane is {shown(crane)}; give what load_crane returns, or leave it out")
+    place = _place(crane, {"slew": slew, "s1": s1, "s2": s2}, coordinates)
+    parts = crane.parts(foot=foot, **place)
     damped = flag_of("crane: damping", damping)
     is_held = None if held is None else flag_of("crane: held", held)
     if payload_mass is not None:
@@ -148,9 +153,8 @@ def add_crane(
     for body_name, meshes in parts.meshes.items():
         for mesh in meshes:
             _draw(scene, mesh, names[body_name], prefix, parts)
-    pose = {"s1": s1, "s2": s2} if isinstance(crane, KnuckleBoomCrane) else dict(coordinates or {})
     load = 0.0 if payload is None else payload.mass
-    add_hydraulics(scene, crane, oil, pose=pose, payload_mass=load, prefix=prefix)
+    add_hydraulics(scene, crane, oil, coordinates=place, payload_mass=load, prefix=prefix)
     tip = frame.in_body(prefix + parts.tip[0], parts.tip[1])
     if lean is not None and stiffness is not None:
         frame.add_lean(lean, stiffness, load, prefix + STRUCTURE, names)
@@ -178,32 +182,26 @@ def add_crane(
     )
 
 
-def _parts(
-    crane: Any, foot: Vector, place: dict[str, float], coordinates: Mapping[str, float] | None
-) -> CraneParts:
-    """The parts of either kind of crane, each by its own coordinates."""
-    if isinstance(crane, KnuckleBoomCrane):
-        if coordinates is not None:
-            raise SceneError("crane: coordinates are those of other cranes; give a knuckle boom slew, s1, s2")
-        return crane.parts(foot=foot, **place)
-    if not isinstance(crane, JointedCrane):
-        raise SceneError(
-            f"crane is {shown(crane)}; give what load_crane or KnuckleBoomCrane.load returns, or leave it out"
-        )
-    given = ", ".join(name for name, value in place.items() if value != 0.0)
-    if given:
-        raise SceneError(
-            f"crane: {given} are those of a knuckle boom; give coordinates={{...}} with the labels "
-            f"{', '.join(map(repr, crane.data.coordinates))}"
-        )
+def _place(
+    crane: Crane, given: dict[str, float], coordinates: Mapping[str, float] | None
+) -> dict[str, float]:
+    """Coordinates by name; those that have a keyword of their own are left out where they are 0."""
     if not isinstance(coordinates, Mapping | None):
         raise SceneError(f"crane: coordinates are {shown(coordinates)}; give {{label: rad or m}}")
-    return crane.parts(foot=foot, coordinates=coordinates)
+    found = dict(coordinates or {})
+    for label in found:
+        crane.data.led_by(label)
+    for name, value in given.items():
+        if number_of(f"crane: {name}", value) != 0.0:
+            if name in found:
+                raise SceneError(f"crane: {name} is given, and one of the coordinates; give it once")
+            found[name] = value
+    return found
 
 
 def _draw(scene: Description, mesh: MeshData, body: str, prefix: str, parts: CraneParts) -> None:
     """SceneError for a mesh that is far larger than its crane."""
-    frame = _core.Frame(point=mesh.origin, axes=mesh.axes)
+    frame = _core.Frame(point=mesh.frame.origin, axes=mesh.frame.axes)
     shape: dict[str, Any] = {"file": mesh.file, "scale": mesh.scale}
     if mesh.file is None:
         shape = {"vertices": mesh.vertices, "faces": mesh.faces}

@@ -6,8 +6,13 @@ import math
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.description.capacity import Capacity, capacity_of
 from seacrane.description.cylinder_areas import Areas, areas_of
@@ -15,7 +20,12 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole
 
+Array = NDArray[np.float64]
 SCHEMA = 1
+GEOMETRY = {"full_area", "rod_side_area", "retracted_length", "stroke"}
+HYDRAULIC_KEYS = {
+    field.name for field in _core.HydraulicCylinder.FIELDS if field.type in ("number", "flag")
+} - GEOMETRY
 LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with
 LARGEST_FILE = 2**20  # bytes
 LONGEST_TEXT = 200
@@ -104,7 +114,8 @@ class FileTable:
             )
         return tuple(number_at(self.source, self.label(key), item) for item in value)
 
-    def point(self, key: str) -> Point:
+    def point(self, key: str) -> tuple[float, float]:
+        """Two numbers."""
         value = self.take(key)
         if not isinstance(value, list) or len(value) != 2:
             raise FileFormatError(
@@ -113,11 +124,11 @@ class FileTable:
         first, second = (number_at(self.source, self.label(key), item) for item in value)
         return first, second
 
-    def capacity(self, key: str) -> Capacity:
+    def capacity(self) -> Capacity:
         """An optional table of its own: rows of radius and load."""
-        if key not in self.values:
+        if "capacity" not in self.values:
             return ()
-        table = self.table(key)
+        table = self.table("capacity")
         rows = table.take("rows")
         table.finish()
         if not isinstance(rows, list):
@@ -139,13 +150,24 @@ class FileTable:
         except SceneError as error:
             raise FileFormatError(f"{error}.") from error
 
-    def members(self, key: str, *, in_space: bool = False) -> tuple[Member, ...]:
-        """Uniform bodies, their ends in the crane plane or in space."""
+    def hydraulics(self) -> Mapping[str, float] | None:
+        """Entries of a hydraulic cylinder, SI units, in a table of its own; None for none."""
+        if "hydraulics" not in self.values:
+            return None
+        inner, found = self.table("hydraulics"), {}
+        for key in HYDRAULIC_KEYS & set(inner.values):
+            value = inner.take(key)
+            found[key] = value if isinstance(value, bool) else number_at(self.source, inner.label(key), value)
+        inner.finish()
+        return MappingProxyType(found)
+
+    def members(self, key: str, plane: Array | None = None) -> tuple[Member, ...]:
+        """Uniform bodies, their ends three numbers, or two along the axes (3, 2) of a plane."""
         value = self.take(key)
         if not isinstance(value, list) or not value:
             raise FileFormatError(f"{self.source}: {self.label(key)} needs at least one member; add one.")
         return tuple(
-            member_at(FileTable(self.source, f"{self.label(key)}[{index}]", item), in_space=in_space)
+            _member(FileTable(self.source, f"{self.label(key)}[{index}]", item), plane)
             for index, item in enumerate(value)
         )
 
@@ -164,14 +186,16 @@ def number_at(source: str, label: str, value: object) -> float:
     return float(value)
 
 
-def member_at(table: FileTable, *, in_space: bool) -> Member:
+def _member(table: FileTable, plane: Array | None) -> Member:
     """A tube or a box."""
     name = table.text("name")
     table.where = f"{table.where} ({name})"
     shape = table.text("shape")
     mass = table.number("mass")
-    point = table.space_point if in_space else table.point
-    start, end = point("start"), point("end")
+    start, end = (
+        table.space_point(key) if plane is None else tuple((plane @ table.point(key)).tolist())
+        for key in ("start", "end")
+    )
     if math.dist(start, end) == 0.0:
         raise FileFormatError(f"{table.source}: {table.where} has length 0; move its start or its end.")
     member: Member

@@ -12,19 +12,19 @@ import numpy.typing as npt
 Array = npt.NDArray[np.float64]
 UPRIGHT = 1e-9  # level part of a unit vector, below which it is upright
 Point = tuple[float, ...]
-"""(along, above) in the crane plane of a body, or (x, y, z); m."""
+"""(x, y, z), m."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tube:
-    """Uniform circular tube from `start` to `end` in the crane plane.
+    """Uniform circular tube from `start` to `end`.
 
     Attributes
     ----------
     mass : float
         kg.
-    start, end : (float, float) or (float, float, float)
-        Ends of the centre line, m, (along, above) in the body's plane frame, or (x, y, z) in its own.
+    start, end : (float, float, float)
+        Ends of the centre line in the body's frame, m.
     outer_diameter, inner_diameter : float
         m; inner 0 means a solid cylinder.
     """
@@ -37,7 +37,7 @@ class Tube:
     inner_diameter: float
 
     def principal_moments(self) -> tuple[float, float, float]:
-        """Moments about the member's own centre: along it, across the crane plane, normal in it, kg m2."""
+        """Moments about the member's own centre: along it, across its vertical plane, normal in it, kg m2."""
         squares = (self.outer_diameter**2 + self.inner_diameter**2) / 4.0
         axial = self.mass * squares / 2.0
         transverse = self.mass * (3.0 * squares + _length(self) ** 2) / 12.0
@@ -46,17 +46,16 @@ class Tube:
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """Uniform rectangular box, solid or hollow with open ends, from `start` to `end` in the crane plane.
+    """Uniform rectangular box, solid or hollow with open ends, from `start` to `end`.
 
     Attributes
     ----------
     mass : float
         kg.
-    start, end : (float, float) or (float, float, float)
-        Ends of the centre line, m, (along, above) in the body's plane frame, or (x, y, z) in its own.
+    start, end : (float, float, float)
+        Ends of the centre line in the body's frame, m.
     width, depth : float
-        Section across the crane plane and in it, m; in space, across the vertical plane of the member and
-        in it, of an upright one along y and along x.
+        Section across the vertical plane of the member and in it, m; of an upright one along y and along x.
     wall : float
         Wall thickness, m; 0 means solid.
     """
@@ -70,7 +69,7 @@ class Box:
     wall: float
 
     def principal_moments(self) -> tuple[float, float, float]:
-        """Moments about the member's own centre: along it, across the crane plane, normal in it, kg m2."""
+        """Moments about the member's own centre: along it, across its vertical plane, normal in it, kg m2."""
         w, d = self.width, self.depth
         hole_w, hole_d = (w - 2.0 * self.wall, d - 2.0 * self.wall) if self.wall > 0.0 else (0.0, 0.0)
         area = w * d - hole_w * hole_d
@@ -110,38 +109,25 @@ def _length(member: Member) -> float:
     return math.dist(member.start, member.end)
 
 
-def combine(members: Sequence[Member], plane: Array) -> MassProperties:
-    """Add up members that form one rigid body.
+def combine(members: Sequence[Member]) -> MassProperties:
+    """Add up members, at least one, that form one rigid body, in the axes of their ends.
 
-    Parameters
-    ----------
-    members : sequence of Tube or Box
-        At least one.
-    plane : ndarray, shape (3, 2)
-        Columns: the unit vectors "along" and "above" of the crane plane in body axes; body y is across it.
-
-    Returns
-    -------
-    MassProperties
-        In body axes; the parallel-axis theorem carries each member to the common centre of mass.
+    The parallel-axis theorem carries each member to the common centre of mass.
     """
-    along, above = plane[:, 0], plane[:, 1]
-    across = np.array([0.0, 1.0, 0.0])
     centres = [
-        plane @ ((np.asarray(m.start, dtype=float) + np.asarray(m.end, dtype=float)) / 2.0) for m in members
+        (np.asarray(one.start, dtype=float) + np.asarray(one.end, dtype=float)) / 2.0 for one in members
     ]
-    triads = []
-    for member in members:
-        delta = (np.asarray(member.end) - np.asarray(member.start)) / _length(member)
-        axis = delta[0] * along + delta[1] * above
-        triads.append((axis, across, -delta[1] * along + delta[0] * above))
-    return _sum(members, centres, triads)
-
-
-def combine_in_space(members: Sequence[Member]) -> MassProperties:
-    """Add up members whose ends have three coordinates, in body axes; see `combine`."""
-    centres = [(np.asarray(m.start, dtype=float) + np.asarray(m.end, dtype=float)) / 2.0 for m in members]
-    return _sum(members, centres, [member_axes(member) for member in members])
+    mass = math.fsum(member.mass for member in members)
+    center = np.sum([one.mass * c for one, c in zip(members, centres, strict=True)], axis=0) / mass
+    inertia = np.zeros((3, 3))
+    for member, centre in zip(members, centres, strict=True):
+        axis, across, normal = member_axes(member)
+        axial, lateral, vertical = member.principal_moments()
+        inertia += axial * np.outer(axis, axis) + lateral * np.outer(across, across)
+        inertia += vertical * np.outer(normal, normal)
+        arm = centre - center
+        inertia += member.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return MassProperties(mass, center, (inertia + inertia.T) / 2.0)
 
 
 def member_axes(member: Member) -> tuple[Array, Array, Array]:
@@ -151,19 +137,3 @@ def member_axes(member: Member) -> tuple[Array, Array, Array]:
     level = float(np.linalg.norm(across))
     across = np.array([0.0, 1.0, 0.0]) if level < UPRIGHT else across / level
     return axis, across, np.cross(axis, across)
-
-
-def _sum(
-    members: Sequence[Member], centres: Sequence[Array], triads: Sequence[tuple[Array, Array, Array]]
-) -> MassProperties:
-    """The sum of members by their centres and their principal axes, in body axes."""
-    mass = math.fsum(member.mass for member in members)
-    center = np.sum([m.mass * c for m, c in zip(members, centres, strict=True)], axis=0) / mass
-    inertia = np.zeros((3, 3))
-    for member, centre, (axis, across, normal) in zip(members, centres, triads, strict=True):
-        axial, lateral, vertical = member.principal_moments()
-        inertia += axial * np.outer(axis, axis) + lateral * np.outer(across, across)
-        inertia += vertical * np.outer(normal, normal)
-        arm = centre - center
-        inertia += member.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    return MassProperties(mass, center, (inertia + inertia.T) / 2.0)

@@ -1,4 +1,4 @@
-"""All that a crane brings into a scene, at one pose, in the frame of what carries it."""
+"""What a crane brings into a scene at one pose: plain values, in the frame of what carries it."""
 
 from __future__ import annotations
 
@@ -8,12 +8,66 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.jointed_data import MeshData, RopeData
-from seacrane.crane.records import BodyRecord, JointRecord
+from seacrane.crane.data import MeshData, RopeData
 from seacrane.description.capacity import Capacity
 from seacrane.description.cylinder_areas import Areas
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BodyRecord:
+    """A body of the crane or its payload.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    inertia : ndarray, shape (3, 3)
+        About the centre of mass, body axes, kg m2.
+    center_of_mass : ndarray, shape (3,)
+        From the body origin, body axes, m.
+    position : ndarray, shape (3,)
+        Body origin, m.
+    quaternion : ndarray, shape (4,)
+        Scalar first, body to base frame.
+    """
+
+    name: str
+    mass: float
+    inertia: Array
+    center_of_mass: Array
+    position: Array
+    quaternion: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointRecord:
+    """A joint of the crane; points and axes at the described pose, None where unused.
+
+    Attributes
+    ----------
+    point : ndarray, shape (3,)
+        Joint point, m; for "distance" the point on the first body.
+    second_point : ndarray, shape (3,), or None
+        Point on the second body of a "distance" joint.
+    axis : ndarray, shape (3,), or None
+        Joint axis; for "universal" the axis fixed on the first body.
+    second_axis : ndarray, shape (3,), or None
+        Axis of a "universal" joint fixed on the second body.
+    length : float or None
+        Of a "distance" joint, m.
+    """
+
+    name: str
+    kind: str
+    first: str
+    second: str
+    point: Array
+    second_point: Array | None = None
+    axis: Array | None = None
+    second_axis: Array | None = None
+    length: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -32,7 +86,7 @@ class CraneParts:
         Where coordinates are meant to stay from the pose on, by joint.
     ropes : With their blocks at the pose.
     meshes : mapping of str to tuple of MeshData
-        That bodies are drawn by, in body coordinates.
+        That bodies are drawn by.
     capacity, areas
         As of `CraneRoles`.
     """

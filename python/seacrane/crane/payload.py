@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from seacrane.crane.records import BodyRecord, JointRecord
+from seacrane.crane.parts import BodyRecord, JointRecord
 from seacrane.description.damping import BOX_DRAG, SWING_RATIO
 from seacrane.inputs.checked import not_negative_of, positive_of
 from seacrane.inputs.keywords import named

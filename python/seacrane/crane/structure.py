@@ -8,8 +8,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.parts import CraneParts
-from seacrane.crane.records import BodyRecord, JointRecord
+from seacrane.crane.parts import BodyRecord, CraneParts, JointRecord
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 

@@ -14,8 +14,7 @@ from xml.etree.ElementTree import Element, ParseError, fromstring
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.jointed_data import BodyData, JointData
-from seacrane.crane.link_frames import FOOT_FRAME, Frames, Placed
+from seacrane.crane.data import HOME, BodyData, JointData, Placed
 from seacrane.crane.mass_properties import MassProperties
 from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
 from seacrane.crane.urdf_visuals import meshes_of
@@ -40,13 +39,15 @@ class UrdfTree:
     root : The link that no joint carries.
     bodies : Links with mass.
     joints : From the root outwards.
-    frames : Of all links, at zero of all joints; the root's is that of the crane foot.
+    placed : Frames of all links, at zero of all joints; the root's is that of the crane foot.
+    owner : Body whose part each link is.
     """
 
     root: str
     bodies: tuple[BodyData, ...]
     joints: tuple[JointData, ...]
-    frames: Frames
+    placed: Mapping[str, Placed]
+    owner: Mapping[str, str]
 
 
 def read_urdf(path: Path) -> UrdfTree:
@@ -74,10 +75,10 @@ def read_urdf(path: Path) -> UrdfTree:
     carried = _carried(source, joints, links)
     root = _root(source, links, carried)
     ordered = _outwards(source, root, joints)
-    placed: dict[str, Placed] = {root: FOOT_FRAME}
+    placed: dict[str, Placed] = {root: HOME}
     for joint in ordered:
         parent, child = _ends(joint)
-        placed[child] = placed[parent].inner(*origin_of(source, joint))
+        placed[child] = placed[parent].inner(origin_of(source, joint))
     owner = _owners(source, root, ordered, links)
     parts: dict[str, list[str]] = {}
     for name, holder in owner.items():
@@ -98,10 +99,7 @@ def read_urdf(path: Path) -> UrdfTree:
     found = tuple(
         _joint(source, joint, placed, owner) for joint in ordered if owner[_ends(joint)[1]] == _ends(joint)[1]
     )
-    return UrdfTree(
-        root=root, bodies=bodies, joints=found,
-        frames=Frames(placed, owner),
-    )  # fmt: skip
+    return UrdfTree(root=root, bodies=bodies, joints=found, placed=placed, owner=owner)
 
 
 def _robot(path: Path) -> Element:
@@ -205,7 +203,7 @@ def _properties(source: str, link: Element, frame: Placed) -> MassProperties:
     what = f"link {name_of(source, link)!r}"
     inertial = link.find("inertial")
     assert inertial is not None
-    inner = frame.inner(*origin_of(source, inertial))
+    inner = frame.inner(origin_of(source, inertial))
     mass = value_of(source, what, inertial.find("mass"), "value")
     if not mass > 0.0:
         raise FileFormatError(f"{source}: {what} has mass {mass:g} kg; give one above zero.")

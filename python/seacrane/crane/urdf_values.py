@@ -8,6 +8,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.crane.data import HOME, Placed
 from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import shown
 
@@ -55,14 +56,14 @@ def row_of(source: str, what: str, element: Element, key: str) -> Array:
     return np.array(row)
 
 
-def origin_of(source: str, element: Element) -> tuple[Array, Array]:
-    """Axes (columns) and origin (m) of an <origin>: rotations about the fixed axes x, y, z."""
+def origin_of(source: str, element: Element) -> Placed:
+    """The frame of an <origin>, m: rotations about the fixed axes x, y, z."""
     origin = element.find("origin")
     if origin is None:
-        return np.eye(3), np.zeros(3)
+        return HOME
     what = f"<origin> of {element.get('name') or '<' + element.tag + '>'}"
     roll, pitch, yaw = row_of(source, what, origin, "rpy")
-    return fixed_axes(roll, pitch, yaw), row_of(source, what, origin, "xyz")
+    return Placed(fixed_axes(roll, pitch, yaw), row_of(source, what, origin, "xyz"))
 
 
 def fixed_axes(roll: float, pitch: float, yaw: float) -> Array:

@@ -10,8 +10,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.jointed_data import MeshData
-from seacrane.crane.link_frames import Placed
+from seacrane.crane.data import MeshData, Placed
 from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
 from seacrane.description.revolved import revolved
 from seacrane.errors import FileFormatError
@@ -33,7 +32,7 @@ def meshes_of(source: str, folder: Path, link: Element, frame: Placed) -> Iterat
         shape = None if geometry is None else next(iter(geometry), None)
         if shape is None:
             continue
-        place = frame.inner(*origin_of(source, visual))
+        place = frame.inner(origin_of(source, visual))
         label = name if i == 0 else f"{name} {i + 1}"
         mesh = _mesh(source, folder, label, shape, place)
         if mesh is not None:
@@ -42,7 +41,7 @@ def meshes_of(source: str, folder: Path, link: Element, frame: Placed) -> Iterat
 
 def _mesh(source: str, folder: Path, name: str, shape: Element, place: Placed) -> MeshData | None:
     what = f"visual {name!r}"
-    where: dict[str, Any] = {"name": name, "origin": place.origin, "axes": place.axes}
+    where: dict[str, Any] = {"name": name, "frame": place}
     match shape.tag:
         case "mesh":
             return _file(source, folder, what, shape, where)

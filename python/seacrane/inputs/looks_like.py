@@ -21,8 +21,8 @@ _SUFFIXES = {
     ".yaml": "YAML, as of an OrcaFlex model (load_database)",
     ".stl": "a surface (Hull.from_stl)",
 }
-_LIFT, _CRANE = "a lift in TOML (Lift.load, seacrane run)", "a crane in TOML (KnuckleBoomCrane.load)"
-_TOML = "TOML, as of a crane (KnuckleBoomCrane.load) or a lift (Lift.load, seacrane run)"
+_LIFT, _CRANE = "a lift in TOML (Lift.load, seacrane run)", "a crane in TOML (load_crane)"
+_TOML = "TOML, as of a crane (load_crane) or a lift (Lift.load, seacrane run)"
 _LINES = 200  # that are looked at for what a text says of itself
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
-from seacrane.crane import Crane, JointedCrane, Payload, load_crane
+from seacrane.crane import Crane, Payload, load_crane
 from seacrane.description.channels import CHANNELS, OWN, unit_of
 from seacrane.description.databases import source_of
 from seacrane.description.description import coordinate_of
@@ -162,7 +162,7 @@ class Caller:
         """Add a crane, with keywords that are not those of its table."""
         given = keywords(table.keys, values) | changes
         file = given.pop("crane", None)
-        crane = None if file is None else load_crane(file)
+        crane = load_crane() if file is None else load_crane(file)
         if "coordinates" in given:
             _require_units(crane, values.get("coordinates", ()))
             given["coordinates"] = {row["name"]: row["value"] for row in given["coordinates"]}
@@ -260,13 +260,10 @@ def _system(given: Keywords) -> WaveSystem:
     return WaveSystem(spectrum=spectrum, **given)
 
 
-def _require_units(crane: Crane | None, rows: Iterable[Mapping[str, Any]]) -> None:
+def _require_units(crane: Crane, rows: Iterable[Mapping[str, Any]]) -> None:
     """Refuse metres of an angle, and degrees of a stroke."""
-    if not isinstance(crane, JointedCrane):
-        return  # the call says so
-    kinds = {joint.name: joint.kind for joint in crane.data.joints}
     for row in rows:
-        kind = kinds.get(crane.data.coordinates.get(str(row["name"]), ""))
-        if kind is not None and ("value_m" in row) != (kind == "prismatic"):
+        kind = crane.data.led_by(str(row["name"])).kind
+        if ("value_m" in row) != (kind == "prismatic"):
             right = "value_m" if kind == "prismatic" else "value_deg or value_rad"
             raise SceneError(f"crane: coordinate {row['name']!r} is of a {kind} joint; give {right}")

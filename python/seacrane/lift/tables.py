@@ -11,7 +11,7 @@ from seacrane import _core
 from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.tanks import Tank
 from seacrane.crane.add_crane import add_crane
-from seacrane.crane.builder import CYLINDERS
+from seacrane.crane.knuckle_boom import CYLINDERS
 from seacrane.crane.payload import Payload
 from seacrane.description import (
     bodies,

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane import Crane, KnuckleBoomCrane, load_crane, shipped_cranes
-from seacrane.crane.geometry import BODIES, plane_axes
+from seacrane.crane import Crane, load_crane, shipped_cranes
 from seacrane.crane.mass_properties import MassProperties, Member, Tube, member_axes
 from seacrane.description import crane_parts
 from seacrane.description.description import Description
@@ -234,24 +233,14 @@ def crane_shapes(scene: Description, crane: Crane | None) -> dict[str, list[Shap
     centre of mass and inertia, in every crane of the scene."""
     if not scene.roles:
         return {}
-    known = list(_known(crane))
+    known = [crane] if crane is not None else [load_crane(name) for name in shipped_cranes()]
     shapes: dict[str, list[Shape]] = {}
     for prefix in scene.roles:
-        for one, members in known:
-            for name, parts in members.items():
-                properties = one.mass_properties[name]
-                if _is(scene, prefix + name, properties):
-                    centre = properties.center_of_mass
-                    shapes[prefix + name] = [_shape(name, part, one, centre) for part in parts]
+        for body in [body for one in known for body in one.data.bodies if body.members]:
+            if _is(scene, prefix + body.name, body.properties):
+                centre = body.properties.center_of_mass
+                shapes[prefix + body.name] = [_shape(body.name, part, centre) for part in body.members]
     return shapes
-
-
-def _known(crane: Crane | None) -> Iterator[tuple[Crane, dict[str, tuple[Member, ...]]]]:
-    for one in [crane] if crane is not None else map(load_crane, shipped_cranes()):
-        if isinstance(one, KnuckleBoomCrane):
-            yield one, {name: one.data.members()[name] for name in BODIES}
-        else:
-            yield one, one.members()
 
 
 def _is(scene: Description, body: str, wanted: MassProperties) -> bool:
@@ -262,19 +251,12 @@ def _is(scene: Description, body: str, wanted: MassProperties) -> bool:
     return all(np.allclose(a, b, rtol=1e-9, atol=1e-9 * float(np.abs(b).max())) for a, b in pairs)
 
 
-def _shape(name: str, member: Member, crane: Crane, centre: Array) -> Shape:
+def _shape(name: str, member: Member, centre: Array) -> Shape:
     """A member relative to the body's centre of mass, body axes."""
-    ends = [np.array(point) for point in (member.start, member.end)]
-    if isinstance(crane, KnuckleBoomCrane):
-        ends = [plane_axes(name) @ point for point in ends]
-    start, end = (point - centre for point in ends)
+    start, end = (np.array(point) - centre for point in (member.start, member.end))
     colour = COLOURS.get(name, "crane")
     if isinstance(member, Tube):
         return TubeShape(start=start, end=end, radius=0.5 * member.outer_diameter, colour=colour)
-    along = (end - start) / np.linalg.norm(end - start)
-    across = np.array([0.0, 1.0, 0.0])
-    if not isinstance(crane, KnuckleBoomCrane):
-        across = member_axes(member)[1]
     size = np.array([float(np.linalg.norm(end - start)), member.width, member.depth])
-    axes = np.column_stack([along, across, np.cross(along, across)])
+    axes = np.column_stack(member_axes(member))
     return BoxShape(centre=0.5 * (start + end), axes=axes, size=size, colour=colour)

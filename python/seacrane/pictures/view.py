@@ -158,7 +158,7 @@ def view(
     hulls : mapping of str to Hull, optional
         Hulls by the vessel's body. Default: the shipped hull for the shipped database; for other vessels a
         schematic one from mass and inertia, which the caption says.
-    crane : KnuckleBoomCrane or JointedCrane, optional
+    crane : Crane, optional
         Whose members are drawn for bodies with the same mass and inertia; default: the cranes that come with
         seacrane. Other bodies are drawn as bars between their joints, payloads as boxes.
     height : int

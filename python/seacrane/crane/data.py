@@ -1,9 +1,11 @@
-"""What a crane of bodies and joints is made of, as drawn in its home pose."""
+"""What a crane is made of: bodies, joints and the roles of its parts, as drawn in its home pose."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import dataclasses
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +14,34 @@ from numpy.typing import NDArray
 from seacrane.crane.mass_properties import MassProperties, Member
 from seacrane.description.capacity import Capacity
 from seacrane.description.cylinder_areas import Areas
+from seacrane.errors import SceneError
+from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
 
 FREEDOMS: Mapping[str, int] = {"weld": 0, "revolute": 1, "prismatic": 1, "universal": 2, "spherical": 3}
 """Coordinates of the kinds of joints that a crane may have."""
 CLOSING = ("revolute", "universal", "spherical")
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A frame by its axes (columns) and its origin, m; or a motion, x to axes x + origin."""
+
+    axes: Array
+    origin: Array
+
+    def point(self, at: Array) -> Array:
+        """A point of this frame in the frame that it is given in."""
+        return np.asarray(self.axes @ at + self.origin)
+
+    def inner(self, other: Placed) -> Placed:
+        """A frame that is given in this one."""
+        return Placed(self.axes @ other.axes, self.point(other.origin))
+
+
+HOME = Placed(np.eye(3), np.zeros(3))
+"""The frame of the crane foot, and no motion."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -29,8 +53,7 @@ class MeshData:
     vertices, faces : ndarray (n, 3) and (m, 3), or None
         m, in place of a file.
     scale : By which coordinates are multiplied to be m.
-    origin, axes : ndarray (3,) and (3, 3)
-        Of the mesh in the crane-foot frame at home.
+    frame : Of the mesh in that of its body.
     """
 
     name: str
@@ -38,26 +61,52 @@ class MeshData:
     vertices: Array | None = None
     faces: NDArray[np.int64] | None = None
     scale: float = 1.0
-    origin: Array
-    axes: Array
+    frame: Placed
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BodyData:
-    """A rigid part of a crane, in the crane-foot frame at home.
+    """A rigid part of a crane.
 
     Attributes
     ----------
-    properties : Its centre of mass from the crane foot, its inertia along the foot's axes.
+    properties : In its own frame.
+    frame : In that of the crane foot, at home.
     members : tuple of Tube or Box
-        That it is made of and drawn by; empty where only its mass is known.
+        That it is made of and drawn by, in its own frame; empty where only its mass is known.
     meshes : That it is drawn by in their place.
     """
 
     name: str
     properties: MassProperties
+    frame: Placed = HOME
     members: tuple[Member, ...] = ()
     meshes: tuple[MeshData, ...] = ()
+
+    @property
+    def center(self) -> Array:
+        """Centre of mass from the crane foot at home, m."""
+        return self.frame.point(self.properties.center_of_mass)
+
+    def shifted(self, origin: Array) -> BodyData:
+        """With the origin of its frame, which was the crane foot, elsewhere (m)."""
+        given = self.properties
+
+        def moved(point: Iterable[float]) -> tuple[float, ...]:
+            return tuple((np.array(point) - origin).tolist())
+
+        return BodyData(
+            name=self.name,
+            properties=MassProperties(given.mass, given.center_of_mass - origin, given.inertia),
+            frame=Placed(np.eye(3), origin),
+            members=tuple(
+                dataclasses.replace(one, start=moved(one.start), end=moved(one.end)) for one in self.members
+            ),
+            meshes=tuple(
+                dataclasses.replace(one, frame=Placed(one.frame.axes, one.frame.origin - origin))
+                for one in self.meshes
+            ),
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,6 +122,7 @@ class JointData:
         Unit vectors; the second one of a universal joint alone, fixed on the second body.
     range : (float, float) or None
         Of its coordinate from home, rad or m.
+    closes : Whether it closes a loop, and carries nothing.
     """
 
     name: str
@@ -83,6 +133,7 @@ class JointData:
     axis: Array | None = None
     second_axis: Array | None = None
     range: tuple[float, float] | None = None
+    closes: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -107,14 +158,15 @@ class RopeData:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class JointedData:
+class CraneData:
     """A crane as a tree of bodies and joints, joints that close loops, and the roles of its parts.
 
     Attributes
     ----------
     root : What stands on the base: a body, or a frame without mass that is the base itself.
     joints : tuple of JointData
-        One for each body but the root, in an order in which each joint's first body is there already.
+        Of the tree one for each body but the root, each after what carries its first body; and those that
+        close loops.
     slew : Joint of the slew drive.
     luffs, cylinders : mapping of str to str
         Hinges that raise and lower the jib, and sliding joints, by label.
@@ -124,13 +176,14 @@ class JointedData:
         As of `CraneRoles`.
     hydraulics : mapping of str to mapping
         Entries of `add_hydraulic_cylinder` by the labels of cylinders that the file says are hydraulic.
+    short_names : mapping of str to str
+        Other names of coordinates, with their labels.
     """
 
     name: str
     root: str
     bodies: tuple[BodyData, ...]
     joints: tuple[JointData, ...]
-    closing_joints: tuple[JointData, ...] = ()
     slew: str | None = None
     luffs: Mapping[str, str] = field(default_factory=dict)
     cylinders: Mapping[str, str] = field(default_factory=dict)
@@ -139,9 +192,45 @@ class JointedData:
     capacity: Capacity = ()
     areas: Mapping[str, Areas] = field(default_factory=dict)
     hydraulics: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    short_names: Mapping[str, str] = field(default_factory=dict)
+
+    @cached_property
+    def tree(self) -> dict[str, JointData]:
+        """Joints that carry a body, by name."""
+        return {joint.name: joint for joint in self.joints if not joint.closes}
+
+    @cached_property
+    def closing_joints(self) -> tuple[JointData, ...]:
+        """Joints that close loops."""
+        return tuple(joint for joint in self.joints if joint.closes)
 
     @property
     def coordinates(self) -> dict[str, str]:
         """Joint of every coordinate by its label: "slew", and those of luffs and cylinders."""
         slew = {} if self.slew is None else {"slew": self.slew}
         return slew | dict(self.luffs) | dict(self.cylinders)
+
+    def led_by(self, label: str) -> JointData:
+        """Joint of a coordinate, by its label or another name; SceneError for none."""
+        known = self.coordinates
+        name = known.get(self.short_names.get(label, label))
+        if name is None:
+            raise SceneError(
+                f"crane {self.name!r}: has no coordinate {shown(label)}; it has "
+                f"{', '.join(map(repr, known)) or 'none'}"
+            )
+        return self.tree[name]
+
+    def beyond(self, joint: str) -> set[str]:
+        """Bodies beyond a joint of the tree."""
+        found: set[str] = set()
+        for one in self.tree.values():
+            if one.name == joint or one.first in found:
+                found.add(one.second)
+        return found
+
+    def at_joints(self) -> CraneData:
+        """With the frames of bodies, which were given from the crane foot, at the joints that carry them."""
+        carried = {joint.second: joint.point for joint in self.tree.values()}
+        bodies = tuple(one.shifted(carried.get(one.name, np.zeros(3))) for one in self.bodies)
+        return dataclasses.replace(self, bodies=bodies)

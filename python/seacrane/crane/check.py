@@ -6,21 +6,22 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from seacrane.crane.jointed_data import CLOSING, FREEDOMS, JointData, JointedData
-from seacrane.crane.jointed_pose import CLOSED, extent_of, pose_of
+from seacrane.crane.data import CLOSING, FREEDOMS, CraneData, JointData
+from seacrane.crane.pose import CLOSED, extent_of, pose_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import listed, shown
 
 ALIGNED = 1e-6  # cosine between the axes of a universal joint
+KEYWORDS = ("foot", "payload_mass", "gravity")  # of methods that take coordinates by their labels
 
 
-def check(source: str, data: JointedData) -> None:
+def check(source: str, data: CraneData) -> None:
     """FileFormatError that names the item which does not fit."""
     if not data.bodies:
         raise FileFormatError(f"{source}: has no bodies; write [[bodies]].")
     _different(source, "body", (body.name for body in data.bodies))
-    _different(source, "joint", ("deck", "link", *(j.name for j in (*data.joints, *data.closing_joints))))
-    for joint in (*data.joints, *data.closing_joints):
+    _different(source, "joint", ("deck", "link", *(joint.name for joint in data.joints)))
+    for joint in data.joints:
         _check_joint(source, joint)
     _check_tree(source, data)
     _check_closing(source, data)
@@ -55,9 +56,9 @@ def _check_joint(source: str, joint: JointData) -> None:
         raise FileFormatError(f"{what}: a {joint.kind} joint has no range; leave it out.")
 
 
-def _check_tree(source: str, data: JointedData) -> None:
+def _check_tree(source: str, data: CraneData) -> None:
     there, names = {data.root}, {data.root, *(one.name for one in data.bodies)}
-    for joint in data.joints:
+    for joint in data.tree.values():
         for role, body in (("first", joint.first), ("second", joint.second)):
             if body not in names:
                 known = listed([one.name for one in data.bodies])
@@ -80,7 +81,7 @@ def _check_tree(source: str, data: JointedData) -> None:
         raise FileFormatError(f"{source}: no joint carries body {loose[0]!r}; add one, or take it out.")
 
 
-def _check_closing(source: str, data: JointedData) -> None:
+def _check_closing(source: str, data: CraneData) -> None:
     known = {data.root, *(body.name for body in data.bodies)}
     for joint in data.closing_joints:
         what = f"{source}: closing joint {joint.name!r}"
@@ -94,8 +95,8 @@ def _check_closing(source: str, data: JointedData) -> None:
             raise FileFormatError(f"{what}: has a range; give one to a joint of the tree.")
 
 
-def _check_roles(source: str, data: JointedData) -> None:
-    kinds = {joint.name: joint.kind for joint in data.joints}
+def _check_roles(source: str, data: CraneData) -> None:
+    kinds = {name: joint.kind for name, joint in data.tree.items()}
     wanted = {"luff": (data.luffs, "revolute"), "cylinder": (data.cylinders, "prismatic")}
     slew = {} if data.slew is None else {"slew": data.slew}
     for role, (joints, kind) in {"slew drive": (slew, "revolute"), **wanted}.items():
@@ -106,13 +107,12 @@ def _check_roles(source: str, data: JointedData) -> None:
                     f"{source}: {role} {label!r} is joint {shown(joint)}, which is no {kind} joint of the "
                     f"tree; there are {fitting}."
                 )
-    labels = [*slew, *data.luffs, *data.cylinders]
-    _different(source, "coordinate", labels)
+    _different(source, "coordinate", [*KEYWORDS, *slew, *data.luffs, *data.cylinders])
     if data.tip[0] not in {body.name for body in data.bodies}:
         raise FileFormatError(f"{source}: the tip is on {shown(data.tip[0])}; name a body of the crane.")
 
 
-def _check_ropes(source: str, data: JointedData) -> None:
+def _check_ropes(source: str, data: CraneData) -> None:
     _different(source, "rope's luff", (rope.luff for rope in data.ropes))
     for rope in data.ropes:
         what = f"{source}: rope {rope.name!r}"
@@ -121,7 +121,7 @@ def _check_ropes(source: str, data: JointedData) -> None:
                 f"{what}: holds luff {shown(rope.luff)}; the luffs are "
                 f"{listed([repr(name) for name in data.luffs]) or 'none'}."
             )
-        beyond = _carried(data, data.luffs[rope.luff])
+        beyond = data.beyond(data.luffs[rope.luff])
         if rope.first[0] in beyond or rope.second[0] not in beyond:
             raise FileFormatError(
                 f"{what}: runs from {shown(rope.first[0])} to {shown(rope.second[0])}; its first body must "
@@ -129,12 +129,3 @@ def _check_ropes(source: str, data: JointedData) -> None:
             )
         if np.linalg.norm(rope.second[1] - rope.first[1]) < CLOSED * extent_of(data):
             raise FileFormatError(f"{what}: has no length at home; move one of its blocks.")
-
-
-def _carried(data: JointedData, hinge: str) -> set[str]:
-    """Bodies beyond a joint of the tree."""
-    found: set[str] = set()
-    for joint in data.joints:
-        if joint.name == hinge or joint.first in found:
-            found.add(joint.second)
-    return found

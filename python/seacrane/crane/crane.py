@@ -1,0 +1,186 @@
+"""A crane of bodies and joints: knuckle and lattice booms, A-frames, gantries, robots' arms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.crane.data import BodyData, CraneData, JointData, Placed, RopeData
+from seacrane.crane.mass_properties import MassProperties
+from seacrane.crane.parts import BodyRecord, CraneParts, JointRecord
+from seacrane.crane.pose import UNITS, Pose, gap_rates, in_loops, pose_of, twists
+from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
+from seacrane.inputs.checked import numbers_of
+from seacrane.inputs.frames import quaternion_of
+from seacrane.one_thread import one_thread
+
+Array = NDArray[np.float64]
+Vector = tuple[float, float, float]
+ROUNDING = 1e-9  # rad or m
+STANDARD_GRAVITY = 9.80665
+
+
+@dataclass(frozen=True, eq=False)
+class Crane:
+    """A crane of bodies and joints, from its data. Make one with `load_crane`.
+
+    Coordinates are those of its joints from the pose in which it is drawn, its home: rad and m, by the labels
+    "slew" and those of its luffs and cylinders, of a knuckle boom also "s1" and "s2". Methods take them as
+    keywords; those that are not given stay at home, or follow their loop. An unknown coordinate, a value
+    out of its range and a loop that cannot close are a SceneError.
+    """
+
+    data: CraneData
+
+    __repr__ = brief
+
+    @property
+    def mass_properties(self) -> dict[str, MassProperties]:
+        """Of every body, in its own frame."""
+        return {body.name: body.properties for body in self.data.bodies}
+
+    @property
+    def mass(self) -> float:
+        """The mass of all bodies, kg."""
+        return math.fsum(body.properties.mass for body in self.data.bodies)
+
+    def body(self, name: str) -> BodyData:
+        """The data of a body."""
+        return next(one for one in self.data.bodies if one.name == name)
+
+    def tip(self, **coordinates: float) -> Array:
+        """The tip in the crane-foot frame, shape (3,), m."""
+        return self.points(**coordinates)["tip"]
+
+    def points(self, **coordinates: float) -> dict[str, Array]:
+        """Points of its joints by name and the "tip", in the crane-foot frame, each shape (3,), m."""
+        moved = pose_of(self.data, coordinates).moved
+        body, tip = self.data.tip
+        points = {joint.name: moved[joint.first].point(joint.point) for joint in self.data.joints}
+        return points | {"tip": moved[body].point(tip)}
+
+    def center_of_mass(self, *, foot: Vector | Array = (0.0, 0.0, 0.0), **coordinates: float) -> Array:
+        """Common centre of mass of all bodies, shape (3,), m, of a crane whose foot is at `foot`."""
+        moved = pose_of(self.data, coordinates).moved
+        moments = [one.properties.mass * moved[one.name].point(one.center) for one in self.data.bodies]
+        return np.asarray(_point("foot", foot) + np.sum(moments, axis=0) / self.mass)
+
+    def static_cylinder_forces(
+        self, *, payload_mass: float = 0.0, gravity: float = STANDARD_GRAVITY, **coordinates: float
+    ) -> Array:
+        """Forces of the cylinders at rest on a level base, N, shape (cylinders,), positive when they push.
+
+        By virtual work, the slope of the potential energy over each stroke, the other strokes held. The
+        cylinders' own weights count.
+
+        Parameters
+        ----------
+        payload_mass : float
+            Hanging at rest from the tip, kg.
+        gravity : float
+            m/s2.
+        """
+        moved = pose_of(self.data, coordinates).moved
+        strokes = [self.data.tree[name] for name in self.data.cylinders.values()]
+        follow = [joint for joint in in_loops(self.data) if joint not in strokes]
+        forces = np.array([self._weight(joint, moved, payload_mass)[0] for joint in strokes])
+        if strokes and follow:
+            weights = np.concatenate([self._weight(joint, moved, payload_mass) for joint in follow])
+            with one_thread:
+                rates = np.linalg.lstsq(
+                    gap_rates(self.data, follow, moved), -gap_rates(self.data, strokes, moved), rcond=None
+                )[0]
+            forces = forces + weights @ rates
+        return np.asarray(gravity * forces)
+
+    def parts(self, *, foot: Vector | Array = (0.0, 0.0, 0.0), **coordinates: float) -> CraneParts:
+        """All that it brings into a scene at a pose, with its foot at `foot` of its base's frame, m."""
+        at, pose = _point("foot", foot), pose_of(self.data, coordinates)
+        decks = [
+            JointRecord(name="deck", kind="weld", first="", second=body.name, point=at.copy())
+            for body in self.data.bodies
+            if body.name == self.data.root
+        ]
+        body, tip = self.data.tip
+        return CraneParts(
+            bodies=[_body(one, at, pose) for one in self.data.bodies],
+            joints=[*decks, *(self._joint(joint, at, pose) for joint in self.data.joints)],
+            tip=(body, at + pose.moved[body].point(tip)),
+            slew=self.data.slew,
+            luffs=dict(self.data.luffs),
+            cylinders=dict(self.data.cylinders),
+            ranges=self._ranges(pose),
+            ropes=tuple(_rope(rope, at, pose) for rope in self.data.ropes),
+            meshes={one.name: one.meshes for one in self.data.bodies if one.meshes},
+            capacity=self.data.capacity,
+            areas=dict(self.data.areas),
+        )
+
+    def _weight(self, joint: JointData, moved: Mapping[str, Placed], payload_mass: float) -> Array:
+        """Rates of mass times height, kg m, with each coordinate of a joint."""
+        beyond, (holder, tip) = self.data.beyond(joint.name), self.data.tip
+        loads = [
+            (one.properties.mass, moved[one.name].point(one.center))
+            for one in self.data.bodies
+            if one.name in beyond
+        ]
+        loads += [(payload_mass, moved[holder].point(tip))] if holder in beyond else []
+        return np.array(
+            [math.fsum(mass * twist.at(place)[2] for mass, place in loads) for twist in twists(joint, moved)]
+        )
+
+    def _joint(self, joint: JointData, foot: Array, pose: Pose) -> JointRecord:
+        first, second = pose.moved[joint.first], pose.moved[joint.second]
+        massless = {self.data.root: ""} if self.data.root not in self.mass_properties else {}
+        return JointRecord(
+            name=joint.name,
+            kind=joint.kind,
+            first=massless.get(joint.first, joint.first),
+            second=massless.get(joint.second, joint.second),
+            point=foot + first.point(joint.point),
+            axis=None if joint.axis is None else first.axes @ joint.axis,
+            second_axis=None if joint.second_axis is None else second.axes @ joint.second_axis,
+        )
+
+    def _ranges(self, pose: Pose) -> dict[str, tuple[float, float]]:
+        """From the pose on; SceneError for a pose that is out of one."""
+        found = {}
+        for joint in self.data.tree.values():
+            if joint.range is not None:
+                value, (low, high) = float(pose.values[joint.name][0]), joint.range
+                if not low - ROUNDING <= value <= high + ROUNDING:
+                    raise SceneError(
+                        f"crane {self.data.name!r}: joint {joint.name!r} is at {value:g} {UNITS[joint.kind]} "
+                        f"in this pose, outside its range of {low:g} to {high:g}; give coordinates within"
+                    )
+                found[joint.name] = (min(low - value, 0.0), max(high - value, 0.0))
+        return found
+
+
+def _body(body: BodyData, foot: Array, pose: Pose) -> BodyRecord:
+    placed = pose.moved[body.name].inner(body.frame)
+    return BodyRecord(
+        name=body.name,
+        mass=body.properties.mass,
+        inertia=body.properties.inertia.copy(),
+        center_of_mass=body.properties.center_of_mass.copy(),
+        position=foot + placed.origin,
+        quaternion=quaternion_of(placed.axes),
+    )
+
+
+def _rope(rope: RopeData, foot: Array, pose: Pose) -> RopeData:
+    ends = [(body, foot + pose.moved[body].point(at)) for body, at in (rope.first, rope.second)]
+    return replace(rope, first=ends[0], second=ends[1])
+
+
+def _point(name: str, value: Vector | Array) -> Array:
+    point = numbers_of(f"crane: {name}", value).copy()
+    if point.shape != (3,) or not np.all(np.isfinite(point)):
+        raise SceneError(f"crane: {name} is {value!r}; give three finite numbers (x, y, z) in m.")
+    return point

@@ -1,0 +1,235 @@
+"""Where the bodies of a crane are at values of its coordinates, and how they move with its joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.crane.data import FREEDOMS, HOME, CraneData, JointData, Placed
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.plausible import angle_of
+from seacrane.one_thread import one_thread
+
+Array = NDArray[np.float64]
+CLOSED = 1e-8  # of the crane's extent: gap of a loop that counts as closed
+STEPS, LAST = 10, 6  # of Newton's method: on the way from home, and at the pose
+UNITS = {"revolute": "rad", "prismatic": "m"}
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """A crane at values of its coordinates.
+
+    Attributes
+    ----------
+    moved : mapping of str to Placed
+        Motion of every body from home, crane-foot frame.
+    values : mapping of str to ndarray
+        Of every joint of the tree, from home, rad and m: of a spherical one its rotation matrix.
+    """
+
+    moved: Mapping[str, Placed]
+    values: Mapping[str, Array]
+
+
+@dataclass(frozen=True, eq=False)
+class Twist:
+    """Velocities for a unit rate of a joint: of rotation, and of what is at the crane foot."""
+
+    turning: Array
+    speed: Array
+
+    def at(self, point: Array) -> Array:
+        return self.speed + self.turning @ point
+
+    def __sub__(self, other: Twist) -> Twist:
+        return Twist(self.turning - other.turning, self.speed - other.speed)
+
+
+STILL = Twist(np.zeros((3, 3)), np.zeros(3))
+
+
+def pose_of(data: CraneData, coordinates: Mapping[str, float]) -> Pose:
+    """The crane at values of its coordinates, by label or short name.
+
+    Coordinates that are not given stay at home; those of a loop follow the ones that are given, on the way
+    from home on which these grow together.
+
+    Raises SceneError for an unknown coordinate, a value out of its range, or a loop that cannot close.
+    """
+    given = _given(data, coordinates)
+    values = {
+        one.name: np.eye(3) if one.kind == "spherical" else np.zeros(FREEDOMS[one.kind])
+        for one in data.tree.values()
+    }
+    looped = in_loops(data)
+    free = [joint for joint in looped if joint.name not in given]
+    steps = STEPS if any(joint.name in given for joint in looped) else 1
+    for step in range(1, steps + LAST) if looped else ():
+        values |= {name: min(step / steps, 1.0) * value for name, value in given.items()}
+        _close(data, free, values)
+    values |= given
+    moved = _motions(data, values)
+    worst = max((float(np.abs(_gap(joint, moved)).max()) for joint in data.closing_joints), default=0.0)
+    if not worst <= CLOSED * extent_of(data):
+        asked = ", ".join(f"{label} {value:g}" for label, value in coordinates.items()) or "its home pose"
+        raise SceneError(
+            f"crane {data.name!r}: its loops stay open by {worst:.3g} m with {asked}; give values that its "
+            "closing joints allow"
+        )
+    return Pose(moved, values)
+
+
+def in_loops(data: CraneData) -> list[JointData]:
+    """Joints of the tree between the bodies of a closing joint, that move."""
+    carrier = {joint.second: joint for joint in data.tree.values()}
+
+    def inwards(body: str) -> set[str]:
+        found = set()
+        while body in carrier:
+            found.add(carrier[body].name)
+            body = carrier[body].first
+        return found
+
+    looped = {name for one in data.closing_joints for name in inwards(one.first) ^ inwards(one.second)}
+    return [joint for name, joint in data.tree.items() if name in looped and FREEDOMS[joint.kind]]
+
+
+def extent_of(data: CraneData) -> float:
+    """Largest distance between its joints, tip and centres of mass, m; 1 where there is none."""
+    points = [joint.point for joint in data.joints]
+    points += [data.tip[1], *(body.center for body in data.bodies), np.zeros(3)]
+    found = np.array(points)
+    return float(np.linalg.norm(found.max(axis=0) - found.min(axis=0))) or 1.0
+
+
+def twists(joint: JointData, moved: Mapping[str, Placed]) -> list[Twist]:
+    """Motion of what is beyond a joint, one for each of its coordinates (of a spherical one x, y, z)."""
+    first, second = moved[joint.first], moved[joint.second]
+    if joint.kind == "prismatic":
+        assert joint.axis is not None
+        return [Twist(np.zeros((3, 3)), first.axes @ joint.axis)]
+    axes = [*np.eye(3)] if joint.kind == "spherical" else []
+    axes += [] if joint.axis is None else [first.axes @ joint.axis]
+    axes += [] if joint.second_axis is None else [second.axes @ joint.second_axis]
+    at = first.point(joint.point)
+    return [Twist(_cross(axis), -_cross(axis) @ at) for axis in axes]
+
+
+def gap_rates(data: CraneData, joints: Iterable[JointData], moved: Mapping[str, Placed]) -> Array:
+    """Rates of the gaps of all closing joints (rows) with the coordinates of joints of the tree."""
+    columns = []
+    for joint in joints:
+        beyond = data.beyond(joint.name)
+        for twist in twists(joint, moved):
+            rows = [
+                _gap_rate(
+                    one, moved, *(twist if body in beyond else STILL for body in (one.first, one.second))
+                )
+                for one in data.closing_joints
+            ]
+            columns.append(np.concatenate(rows))
+    return np.array(columns).T
+
+
+def _close(data: CraneData, free: Iterable[JointData], values: dict[str, Array]) -> None:
+    """Move free joints by a step of Newton's method."""
+    moved = _motions(data, values)
+    gaps = np.concatenate([_gap(joint, moved) for joint in data.closing_joints])
+    rates = gap_rates(data, free, moved)
+    if rates.size == 0 or not np.all(np.isfinite(rates)):
+        return
+    with one_thread:
+        left = np.linalg.lstsq(rates, -gaps, rcond=None)[0]
+    for joint in free:
+        step, left = np.split(left, [FREEDOMS[joint.kind]])
+        if joint.kind == "spherical":
+            values[joint.name] = turned(moved[joint.first].axes.T @ step) @ values[joint.name]
+        else:
+            values[joint.name] = values[joint.name] + step
+
+
+def _given(data: CraneData, coordinates: Mapping[str, float]) -> dict[str, Array]:
+    """Values by the names of joints."""
+    found: dict[str, Array] = {}
+    for label, given in coordinates.items():
+        joint = data.led_by(label)
+        if joint.name in found:
+            raise SceneError(f"crane {data.name!r}: {label!r} is given under two names; give one of them")
+        value = number_of(f"crane {data.name!r}: {label}", given)
+        low, high = joint.range or (-np.inf, np.inf)
+        if not (np.isfinite(value) and low <= value <= high):
+            raise SceneError(
+                f"crane {data.name!r}: {label} is {value:g} {UNITS[joint.kind]}, outside its range of "
+                f"{low:g} to {high:g}; give one within"
+            )
+        if joint.kind == "revolute":
+            angle_of(f"crane: {label}", value)
+        found[joint.name] = np.array([value])
+    return found
+
+
+def _motions(data: CraneData, values: Mapping[str, Array]) -> dict[str, Placed]:
+    moved = {data.root: HOME}
+    for joint in data.tree.values():
+        moved[joint.second] = moved[joint.first].inner(_motion(joint, values[joint.name]))
+    return moved
+
+
+def _motion(joint: JointData, values: Array) -> Placed:
+    """The motion of the second body relative to the first one."""
+    if joint.kind == "prismatic":
+        assert joint.axis is not None
+        return Placed(np.eye(3), values[0] * joint.axis)
+    turn = values if joint.kind == "spherical" else np.eye(3)
+    for axis, value in zip((joint.axis, joint.second_axis), values, strict=False):
+        turn = turn if axis is None else turn @ turned(value * axis)
+    return Placed(turn, joint.point - turn @ joint.point)
+
+
+def turned(vector: Array) -> Array:
+    """Rotation matrix (3, 3) of a rotation vector (3,), rad: Rodrigues' formula."""
+    angle = float(np.linalg.norm(vector))
+    if angle == 0.0:
+        return np.eye(3)
+    across = _cross(vector / angle)
+    return np.asarray(np.eye(3) + np.sin(angle) * across + (1.0 - np.cos(angle)) * (across @ across))
+
+
+def _cross(vector: Array) -> Array:
+    """The matrix (3, 3) of a cross product."""
+    x, y, z = vector.tolist()
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def _gap(joint: JointData, moved: Mapping[str, Placed]) -> Array:
+    """What keeps a closing joint from fitting: m, and sines of angles."""
+    first, second = moved[joint.first], moved[joint.second]
+    apart = second.point(joint.point) - first.point(joint.point)
+    if joint.kind == "spherical":
+        return apart
+    assert joint.axis is not None
+    axis = first.axes @ joint.axis
+    if joint.second_axis is not None:
+        return np.append(apart, axis @ second.axes @ joint.second_axis)
+    return np.concatenate([apart, _cross(axis) @ second.axes @ joint.axis])
+
+
+def _gap_rate(joint: JointData, moved: Mapping[str, Placed], before: Twist, after: Twist) -> Array:
+    """The rate of `_gap`, where both bodies move at the twists `before` and `after`."""
+    first, second = moved[joint.first], moved[joint.second]
+    apart = after.at(second.point(joint.point)) - before.at(first.point(joint.point))
+    if joint.kind == "spherical":
+        return apart
+    assert joint.axis is not None
+    axis, turning = first.axes @ joint.axis, (after - before).turning
+    if joint.second_axis is not None:
+        return np.append(apart, axis @ turning @ second.axes @ joint.second_axis)
+    other = second.axes @ joint.axis
+    return np.concatenate(
+        [apart, _cross(before.turning @ axis) @ other + _cross(axis) @ after.turning @ other]
+    )
