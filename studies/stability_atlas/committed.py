@@ -9,8 +9,8 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-from seacrane.trading import row as rows
-from seacrane.trading.row import Row
+from seacrane.accuracy import row as rows
+from seacrane.accuracy.row import Row
 from stability_atlas.methods import DEFAULT
 from stability_atlas.points import POINTS
 

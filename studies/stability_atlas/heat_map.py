@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from seacrane.accuracy import row as rows
+from seacrane.accuracy.row import Row
 from seacrane.inputs.atomic import atomic_write
-from seacrane.trading import row as rows
-from seacrane.trading.row import Row
 from stability_atlas.axes import AXES
 from stability_atlas.points import POINTS
 from stability_atlas.step_limit import StepLimit, step_limit_figure

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from seacrane.trading.row import UNKNOWN, Row
-from seacrane.trading.row_file import write_table
+from seacrane.accuracy.row import UNKNOWN, Row, write_table
 from stability_atlas.points import POINTS
 
 COLUMNS = ("axis", "value", "formulation", "integrator", "setting", "verdict", "error", "uncertainty",

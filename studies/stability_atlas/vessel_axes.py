@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from seacrane import Method, _core, cases, simulate
+from seacrane.accuracy.case import Case
 from seacrane.description.description import STANDARD_GRAVITY
 from seacrane.sea import steepness_limit
-from seacrane.trading.case import Case
 from stability_atlas.altered import change_body, change_vessel, scaled_memory
 from stability_atlas.axis import Axis
 from stability_atlas.crane_axes import DT_OUT, WAVES

@@ -11,11 +11,12 @@ another method that is as good, and nothing is made of a ratio.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from seacrane.accuracy.case import BESIDE, Case, Done
+from seacrane.accuracy.asked import BESIDE, Asked, asked
+from seacrane.accuracy.case import Case
 from seacrane.accuracy.expected import MARGIN, STIFF, TIGHTEST, expected_error, method_for, probe_of
 from seacrane.accuracy.model_error import model_errors
 from seacrane.description.loads import any_stiff
@@ -48,21 +49,38 @@ SINGULAR = "a singular position of the mechanism, where constraints depend on ea
 AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
 
 
+@dataclass(frozen=True, kw_only=True)
+class Done:
+    """A finished run and its method."""
+
+    method: Method
+    result: Result
+
+    @property
+    def expected(self) -> float:
+        """Its expected error over the scale of a quantity."""
+        return expected_error(self.method)
+
+    @property
+    def tolerance(self) -> float:
+        return self.method.used_rtol
+
+
 def run_to_accuracy(
-    make: Callable[[Outputs], Case],
+    case: Case,
+    accuracy: Any,
     *,
     method: Method | None,
     outputs: Outputs | None,
     shorthand: Mapping[str, Any],
     controllers: Sequence[SampledController] = (),
+    progress: bool = False,
 ) -> Result:
-    """The run whose estimated error meets all limits.
+    """The run of a case whose estimated error meets all limits.
 
     Parameters
     ----------
-    make : callable
-        From what is recorded to what is asked for, and of what.
-    method, outputs, shorthand, controllers
+    accuracy, method, outputs, shorthand, controllers, progress
         As `simulate`; the integrator and its tolerance are chosen here, and no controllers can be.
 
     Returns
@@ -76,18 +94,16 @@ def run_to_accuracy(
     """
     refuse_what_is_chosen(method, shorthand, controllers)
     kept, outputs = settled(method, outputs, shorthand)
-    case = make(outputs)
-    result = _converged(case, kept)
-    case.warn()
-    asked = outputs.channels
-    if asked is None:
+    wanted = asked(case, accuracy, outputs, progress=progress)
+    result = _converged(wanted, kept)
+    wanted.warn()
+    if outputs.channels is None:
         return result
-    return replace(
-        result, channels={name: result.channels[name] for name in asked if name in result.channels}
-    )
+    named = {name: result.channels[name] for name in outputs.channels if name in result.channels}
+    return replace(result, channels=named)
 
 
-def error_of(case: Case, method: Method) -> tuple[dict[str, float], int, int]:
+def error_of(case: Asked, method: Method) -> tuple[dict[str, float], int, int]:
     """Estimated errors of a run by a method that `run_to_accuracy` chose for another scene.
 
     Returns
@@ -111,7 +127,7 @@ def error_of(case: Case, method: Method) -> tuple[dict[str, float], int, int]:
     return _estimate(case, done).errors, run, other
 
 
-def _cheap(case: Case, method: Method) -> Method:
+def _cheap(case: Asked, method: Method) -> Method:
     """What tells the error of a method."""
     if method.used_rtol <= ROUNDING:
         return _looser(method)
@@ -144,7 +160,7 @@ def without_what_is_chosen(method: Method) -> Method:
     return replace(method, **{name: getattr(usual, name) for name in CHOSEN})
 
 
-def _converged(case: Case, kept: Method) -> Result:
+def _converged(case: Asked, kept: Method) -> Result:
     """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
     method = _with_setting(kept, first_method(case))
     done = [_beside(case, method)]
@@ -168,11 +184,11 @@ def _converged(case: Case, kept: Method) -> Result:
     return done[-1].result
 
 
-def _run(case: Case, method: Method) -> Done:
-    return Done(method=method, result=case.run(case.scene, method))
+def _run(case: Asked, method: Method) -> Done:
+    return Done(method=method, result=case.run(method))
 
 
-def _beside(case: Case, method: Method) -> Done:
+def _beside(case: Asked, method: Method) -> Done:
     """The run that tells the error of a method; of a lift that it does not carry out one that is nearer."""
     try:
         return _run(case, _cheap(case, method))
@@ -199,10 +215,9 @@ def _tighter(method: Method, factor: float) -> Method:
     return replace(found, rtol=max(found.used_rtol, TIGHTEST))
 
 
-def first_method(case: Case) -> Method:
+def first_method(case: Asked) -> Method:
     """What met such limits in measured trades."""
-    asked = {name: limit for name, limit in case.limits.items() if math.isfinite(limit)}
-    smallest = min(limit / case.scale(name) for name, limit in asked.items())
+    smallest = min(limit / case.scale(name) for name, limit in case.limits.items())
     return method_for(smallest / (MARGIN * PESSIMISM), stiff=any_stiff(case.scene.loads))
 
 
@@ -215,7 +230,7 @@ class _Estimate:
     course: str
 
 
-def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
+def _estimate(case: Asked, done: Sequence[Done]) -> _Estimate:
     """Estimated errors of the last run.
 
     Every looser run has its say: two errors alone may be alike by chance where a motion amplifies them. But
@@ -258,7 +273,7 @@ def _cut_short(result: Result) -> bool:
     return int(result.stats["restarts"]) > CUT_SHORT * int(result.stats["steps"])
 
 
-def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
+def _with_estimate(case: Asked, done: Sequence[Done], told: _Estimate) -> Result:
     """The last run, with what differences of tolerance do not tell added to its errors."""
     last, errors = done[-1], told.errors
     runs = [one.result for one in done]
@@ -273,7 +288,7 @@ def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
         if case.excess(errors) > 1.0:
             raise SceneError(_unreachable(case, errors, SINGULAR))
     if _table_may_show(case, last.result):
-        exact = case.run(_with_exact_waves(case.scene), last.method)
+        exact = case.run(last.method, _with_exact_waves(case.scene))
         if exact.interrupted:
             return exact
         errors = _added(errors, case.difference(last.result, exact).by_name, 1.0)
@@ -294,7 +309,7 @@ def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
     return replace(last.result, stats=stats | _by_model(case, last.result))
 
 
-def _by_model(case: Case, result: Result) -> dict[str, float]:
+def _by_model(case: Asked, result: Result) -> dict[str, float]:
     """What the fit of the memory leaves, of a run whose scene stays what it is."""
     if case.staged:
         return {}
@@ -312,14 +327,14 @@ def _added(errors: Mapping[str, float], more: Mapping[str, float], factor: float
     return {name: error + factor * more[name] for name, error in errors.items()}
 
 
-def _other_formulation(case: Case, done: Done) -> Result:
+def _other_formulation(case: Asked, done: Done) -> Result:
     """The same run in the other coordinates: at a singular position both leave combinations of rows out, of
     rows of their own, and what that does to the motion no tolerance changes."""
     other = "redundant" if done.result.stats["formulation"] == "recursive" else "recursive"
-    return case.run(case.scene, replace(done.method, formulation=other))
+    return case.run(replace(done.method, formulation=other))
 
 
-def _table_may_show(case: Case, result: Result) -> bool:
+def _table_may_show(case: Asked, result: Result) -> bool:
     """Whether the bound of the wave table, as a part of the motion, exceeds a limit."""
     waves = case.scene.waves
     if waves is None or waves.evaluation != "table" or not waves.has_tables():
@@ -338,7 +353,7 @@ def _bound_of_table(scene: Scene) -> str:
     return f"the wave table, whose relative_bound is {scene.waves.relative_bound:g}: tighten it"
 
 
-def _unreachable(case: Case, errors: Mapping[str, float], term: str = "") -> str:
+def _unreachable(case: Asked, errors: Mapping[str, float], term: str = "") -> str:
     name = max(case.limits, key=lambda quantity: errors[quantity] / case.limits[quantity])
     expected = expected_error(method_for(0.0)) * case.scale(name)
     if not term and errors[name] > AMPLIFIED * expected:

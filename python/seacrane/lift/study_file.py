@@ -10,7 +10,7 @@ from typing import Any, Literal, NoReturn
 
 import numpy as np
 
-from seacrane.accuracy.case import EVENT_TIMES
+from seacrane.accuracy.asked import EVENT_TIMES
 from seacrane.accuracy.choice import refuse_what_is_chosen, without_what_is_chosen
 from seacrane.accuracy.quantities import limits_of, quantities_of
 from seacrane.ensembles.growing import growth_of

@@ -8,10 +8,10 @@ from functools import partial
 import numpy as np
 
 from seacrane import _core
+from seacrane.accuracy.simpler_scenes import locked
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.needs.choice import Choice
 from seacrane.scene.scene import Scene
-from seacrane.trading.simpler_scenes import locked
 
 
 def held_oil(scene: Scene) -> Iterator[Choice]:

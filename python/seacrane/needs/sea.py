@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.accuracy.simpler_scenes import memory_name, strongest, with_memory
 from seacrane.description.databases import source_of
 from seacrane.description.given import given_vessels
 from seacrane.description.wet_parts import immersed_parts
@@ -16,7 +17,6 @@ from seacrane.hydro import HydroDatabase
 from seacrane.needs.choice import Choice
 from seacrane.scene.scene import Scene
 from seacrane.scene.sea import as_put
-from seacrane.trading.simpler_scenes import memory_name, strongest, with_memory
 
 SHARES = (0.5, 0.25)  # of the components, the strongest
 COARSE = 1e-4  # bound of a wave table

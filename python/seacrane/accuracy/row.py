@@ -1,13 +1,18 @@
-"""A row of an experiment: one case run with one method."""
+"""Rows of an experiment, each one case run with one method: on disk, from which it goes on, and as tables."""
 
 from __future__ import annotations
 
+import csv
+import json
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields, replace
+from pathlib import Path
 from typing import Any
 
 from seacrane.accuracy.quantities import ErrorMeasures
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.whole_file import read_whole
 from seacrane.run.method import Method
 
 UNKNOWN = math.nan
@@ -20,6 +25,7 @@ UNNAMED = "unnamed"  # an exception that is none of seacrane's
 HUNG = "hung"  # did not even answer the interrupt
 CRASHED = "crashed"  # took the process with it
 FORBIDDEN = (NOT_FINITE, UNNAMED, HUNG, CRASHED)
+LARGEST_FILE = 2**28  # bytes; a row takes some hundred
 LEAST_MOTION = 1e-9  # what rests within it has no relative error
 
 
@@ -109,3 +115,75 @@ class Row:
         """From the mapping that `dataclasses.asdict` gives."""
         errors = {name: ErrorMeasures(**value) for name, value in data["errors"].items()}
         return cls(**{**data, "method": Method(**data["method"]), "errors": errors})
+
+
+def front(rows: Sequence[Row], quantity: str, *, cost: str = "cpu_s") -> list[bool]:
+    """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
+    costs = [getattr(row, cost) for row in rows]
+    errors = [row.error(quantity) for row in rows]
+    usable = [i for i, row in enumerate(rows) if row.stable and math.isfinite(errors[i] + costs[i])]
+    on = [False] * len(rows)
+    best = math.inf
+    for i in sorted(usable, key=lambda i: (costs[i], errors[i])):
+        if errors[i] < best:
+            best, on[i] = errors[i], True
+    return on
+
+
+class RowFile:
+    """Rows on disk, one per line under a first line that says which experiment they belong to.
+
+    A file of another experiment (another scene, version or list of quantities) is begun anew.
+
+    Attributes
+    ----------
+    rows : dict of str to Row
+        By the key that each had before it was measured.
+    """
+
+    def __init__(self, path: Path | None, experiment: Mapping[str, Any]) -> None:
+        self.path = path
+        self.rows: dict[str, Row] = {}
+        if path is None:
+            return
+        head = json.dumps({**experiment, "columns": [part.name for part in fields(Row)]}, sort_keys=True)
+        lines = _lines(path) if path.is_file() else []
+        if lines and lines[0] == head:
+            for line in lines[1:]:
+                try:
+                    kept = json.loads(line)
+                    self.rows[kept["key"]] = Row.from_data(kept["row"])
+                except (ValueError, TypeError, KeyError, RecursionError):  # a line cut short by an interrupt
+                    continue
+        with atomic_write(path) as draft:
+            lines = [head, *(_line(key, row) for key, row in self.rows.items())]
+            draft.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    def add(self, key: str, row: Row) -> None:
+        """Keep a row under the key that it had before it was measured."""
+        self.rows[key] = row
+        if self.path is not None:
+            with self.path.open("a", encoding="utf-8") as file:
+                file.write(_line(key, row) + "\n")
+
+
+def _lines(path: Path) -> list[str]:
+    return read_whole(path, LARGEST_FILE, "remove it").decode("utf-8", "replace").splitlines()
+
+
+def _line(key: str, row: Row) -> str:
+    return json.dumps({"key": key, "row": asdict(row)})
+
+
+def write_table(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, digits: int) -> None:
+    """Write a table as CSV; a cell is empty where there is no number."""
+    with atomic_write(path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(columns)
+        writer.writerows([_cell(value, digits) for value in row] for row in rows)
+
+
+def _cell(value: Any, digits: int) -> Any:
+    if isinstance(value, float):
+        return "" if math.isnan(value) else f"{value:.{digits}g}"
+    return value

@@ -1,4 +1,5 @@
-"""Scenes with less physics: another fluid memory, fewer waves, a locked crane, a prescribed vessel."""
+"""Scenes with less physics: another fluid memory, fewer waves, lines on another rung, a locked crane, a
+prescribed vessel."""
 
 from __future__ import annotations
 
@@ -15,13 +16,14 @@ from seacrane.analysis.inverse import SIX, driven, hold_vessel
 from seacrane.description.crane_parts import hooks
 from seacrane.description.curves import spline_curve
 from seacrane.description.given import given_vessels
-from seacrane.description.loads import bodies_of
+from seacrane.description.loads import bodies_of, lines_of, path_of
+from seacrane.description.places import place_of
 from seacrane.description.provenance import VesselProvenance
+from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, with_rungs
 from seacrane.description.waves import HullLoads, calm_water
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, fit_memory
 from seacrane.scene.scene import Scene
-from seacrane.trading.lines_on_rungs import line_variants
 
 if TYPE_CHECKING:
     from seacrane.hydro.data.memory_model import MemoryModel
@@ -30,6 +32,8 @@ Array = NDArray[np.float64]
 FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
     "full", "crane locked", "vessel prescribed", "payload as weight", "frequency domain",
 )  # fmt: skip
+RIGID_LINES = "lines rigid"
+LINE_RUNGS = (RIGID_LINES, f"lines {QUASI_STATIC}", f"lines {ELASTIC}")
 SHARES = (0.5, 0.25)  # of the wave components, the strongest
 BOUND = 1e-4  # of a coarse wave table
 
@@ -86,7 +90,7 @@ def variants(scene: Scene, *, quick: bool) -> Iterator[Variant]:
         if len(scene.vessels) == 1 and not given_vessels(scene):
             yield Variant(memory=memory, waves=waves, rung=PRESCRIBED, build=lambda: scene)
     if hanging(scene):
-        yield Variant(memory=memory, waves=waves, rung=WEIGHT, build=lambda: scene)
+        yield Variant(memory=memory, waves=waves, rung=WEIGHT, build=lambda: payload_as_weight(scene))
     if scene.waves is not None and scene.vessels and not given_vessels(scene):
         yield Variant(memory=memory, waves=waves, rung=LINEAR, build=lambda: scene)
 
@@ -203,6 +207,40 @@ def _of_components(hull: HullLoads, kept: NDArray[np.intp]) -> HullLoads:
     }
     drift = None if hull.drift is None else np.asarray(hull.drift)[kept]
     return replace(hull, transfer=np.asarray(hull.transfer)[kept], drift=drift, **tables)
+
+
+def line_variants(scene: Scene) -> Iterator[tuple[str, Callable[[], Scene]]]:
+    """The rungs that the lines of a scene do not have already, each with what makes the scene."""
+    lines = lines_of(scene.loads)
+    own = {ELASTIC if line.rung == AUTO else line.rung for line in lines.values()}
+    if not lines:
+        return
+    yield RIGID_LINES, partial(with_rigid_lines, scene)
+    for rung, title in ((QUASI_STATIC, LINE_RUNGS[1]), (ELASTIC, LINE_RUNGS[2])):
+        if own != {rung}:
+            yield title, partial(with_rungs, scene, dict.fromkeys(lines, rung))
+
+
+def with_rigid_lines(scene: Scene) -> Scene:
+    """Every line replaced by a link as long as its path is described, which also pushes.
+
+    Raises SceneError for a line over more than two points, or whose length changes.
+    """
+    out = scene.copy()
+    for name, line in lines_of(scene.loads).items():
+        if len(line.bodies) > 2:
+            raise SceneError(f"line {name!r}: runs over {len(line.bodies)} points, and a rigid link over two")
+        pieces = np.asarray(line.length.to_pieces()["coefficients"])
+        if line.winch or pieces.reshape(-1, 6)[:, 1:].any() or len(pieces) > 1:
+            raise SceneError(f"line {name!r}: its length changes, and that of a rigid link does not")
+        (first, start), (second, end) = path_of(line)
+        out.remove(name)
+        out.add_joint(
+            kind="distance", name=name, first=first, second=second,
+            point=place_of(scene, body=first, point=start),
+            second_point=place_of(scene, body=second, point=end),
+        )  # fmt: skip
+    return out
 
 
 def locked(scene: Scene) -> Scene:

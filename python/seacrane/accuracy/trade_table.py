@@ -2,31 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from seacrane.accuracy.quantities import Quantity
+from seacrane.accuracy.row import UNKNOWN, Row, write_table
 from seacrane.plotting.answer import Table
-from seacrane.trading.row import UNKNOWN, Row
-from seacrane.trading.row_file import write_table
-
-
-def front(rows: Sequence[Row], quantity: str, *, cost: str = "cpu_s") -> list[bool]:
-    """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
-    costs = [getattr(row, cost) for row in rows]
-    usable = [
-        i for i, row in enumerate(rows) if row.stable and np.isfinite([row.error(quantity), costs[i]]).all()
-    ]
-    on = [False] * len(rows)
-    best = math.inf
-    for i in sorted(usable, key=lambda i: (costs[i], rows[i].error(quantity))):
-        if rows[i].error(quantity) < best:
-            best, on[i] = rows[i].error(quantity), True
-    return on
 
 
 def write_csv(path: Path, rows: Sequence[Row], quantities: Sequence[str], on_front: Sequence[bool]) -> None:
