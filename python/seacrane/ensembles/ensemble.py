@@ -15,25 +15,29 @@ from typing import TYPE_CHECKING, Any, Literal
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.analysis.rest_state import equilibrium
-from seacrane.ensembles.beside import SIDE_BY_SIDE, lanes_for, remark
 from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
-from seacrane.ensembles.dataset import table_of
-from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
-from seacrane.ensembles.grouping import order_of
+from seacrane.ensembles.dataset import NOT_RUN, RESERVED, table_of
+from seacrane.ensembles.filling import (
+    SIDE_BY_SIDE,
+    any_outcome,
+    fill,
+    lanes_for,
+    progress_bar,
+    remark,
+    require_success,
+)
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
-from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, Value, members_of
 from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.packs import Packs, pack_size
+from seacrane.ensembles.packs import Packs, order_of, pack_size
 from seacrane.ensembles.stage_values import START_TIME, Stages, checked_stages_of
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
-from seacrane.ensembles.study_folder import claimed, study_in
+from seacrane.ensembles.study_folder import claimed, identity_of, study_in
 from seacrane.ensembles.targets import targets_of, with_static_parts
-from seacrane.ensembles.variables import NOT_RUN, RESERVED
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import not_negative_of, number_of

@@ -32,9 +32,8 @@ from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import FEWEST_SEEDS
-from seacrane.operability.linear_seas import LinearSeas
-from seacrane.operability.probe import Prober, Sea
-from seacrane.operability.time_domain import Cell, Storms
+from seacrane.operability.linear_channels import LinearSeas
+from seacrane.operability.time_domain import Cell, Prober, Sea, Storms
 from seacrane.result import Result
 from seacrane.run.advance import finished
 from seacrane.run.method import Method

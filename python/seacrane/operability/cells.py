@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.operability.criterion import Criterion
-from seacrane.operability.linear_seas import LinearSeas
+from seacrane.operability.linear_channels import LinearSeas
 from seacrane.operability.time_domain import ByTime
 
 Array = NDArray[np.float64]
