@@ -29,10 +29,10 @@ from seacrane.validity.left_range import warn_of
 from seacrane.warnings import AnotherCourseWarning
 
 if TYPE_CHECKING:
+    from seacrane.description.waves import Waves
     from seacrane.result import Result
     from seacrane.run.outputs import Outputs
     from seacrane.run.sampled_controller import SampledController
-    from seacrane.scene.scene import Scene
 
 MOST_STEPS = 1e6  # that the fastest mode may ask of an explicit one of them
 OF_STAGES = 3.0  # times the margin, of lifts whose stages end where a condition is met, inside a step
@@ -43,7 +43,6 @@ COARSE = 0.1  # of the motion: a difference above it is no error that linearised
 ROUNDING = 1e-10  # tolerance below which rounding may set the error, and only runs of like tolerance tell
 MOST_COURSES = 3  # runs, from which on another course is taken for what the lift does
 OTHER_COURSE = "another course"
-OF_EXTREMES = "errors of curves are those of their extremes"
 CUT_SHORT = 0.1  # restarts over steps from which on the tolerance does not set the error of a run
 SINGULAR = "a singular position of the mechanism, where constraints depend on each other: keep away from it"
 AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
@@ -287,14 +286,16 @@ def _with_estimate(case: Asked, done: Sequence[Done], told: _Estimate) -> Result
         runs.append(other)
         if case.excess(errors) > 1.0:
             raise SceneError(_unreachable(case, errors, SINGULAR))
-    if _table_may_show(case, last.result):
-        exact = case.run(last.method, _with_exact_waves(case.scene))
+    waves = case.scene.waves
+    if waves is not None and _table_may_show(case, waves, last.result):
+        exact = case.run(last.method, case.scene.copy(waves=replace(waves, evaluation="exact")))
         if exact.interrupted:
             return exact
         errors = _added(errors, case.difference(last.result, exact).by_name, 1.0)
         runs.append(exact)
         if case.excess(errors) > 1.0:
-            raise SceneError(_unreachable(case, errors, _bound_of_table(case.scene)))
+            bound = f"the wave table, whose relative_bound is {waves.relative_bound:g}: tighten it"
+            raise SceneError(_unreachable(case, errors, bound))
     stats: dict[str, Any] = {**last.result.stats, "accuracy_runs": len(runs)}
     stats["accuracy_wall_s"] = sum(float(result.stats["wall_s"]) for result in runs)
     stats["accuracy_evaluations"] = sum(int(result.stats["evaluations"]) for result in runs)
@@ -334,26 +335,15 @@ def _other_formulation(case: Asked, done: Done) -> Result:
     return case.run(replace(done.method, formulation=other))
 
 
-def _table_may_show(case: Asked, result: Result) -> bool:
+def _table_may_show(case: Asked, waves: Waves, result: Result) -> bool:
     """Whether the bound of the wave table, as a part of the motion, exceeds a limit."""
-    waves = case.scene.waves
-    if waves is None or waves.evaluation != "table" or not waves.has_tables():
+    if waves.evaluation != "table" or not waves.has_tables():
         return False
     motions = case.motions(result)
     return any(waves.relative_bound * motions[n] > limit for n, limit in case.limits.items())
 
 
-def _with_exact_waves(scene: Scene) -> Scene:
-    assert scene.waves is not None
-    return scene.copy(waves=replace(scene.waves, evaluation="exact"))
-
-
-def _bound_of_table(scene: Scene) -> str:
-    assert scene.waves is not None
-    return f"the wave table, whose relative_bound is {scene.waves.relative_bound:g}: tighten it"
-
-
-def _unreachable(case: Asked, errors: Mapping[str, float], term: str = "") -> str:
+def _unreachable(case: Asked, errors: Mapping[str, float], term: str) -> str:
     name = max(case.limits, key=lambda quantity: errors[quantity] / case.limits[quantity])
     expected = expected_error(method_for(0.0)) * case.scale(name)
     if not term and errors[name] > AMPLIFIED * expected:

@@ -26,7 +26,6 @@ HUNG = "hung"  # did not even answer the interrupt
 CRASHED = "crashed"  # took the process with it
 FORBIDDEN = (NOT_FINITE, UNNAMED, HUNG, CRASHED)
 LARGEST_FILE = 2**28  # bytes; a row takes some hundred
-LEAST_MOTION = 1e-9  # what rests within it has no relative error
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,18 +92,6 @@ class Row:
     def error(self, quantity: str) -> float:
         """Largest error of a quantity over time; NaN where the row has none."""
         return self.errors[quantity].largest if quantity in self.errors else UNKNOWN
-
-    def relative_error(self, quantity: str) -> float:
-        """The error over the motion; NaN where it rests."""
-        return self._over_motion(quantity, self.error(quantity))
-
-    def relative_uncertainty(self, quantity: str) -> float:
-        """How far tight runs differ, over the motion; NaN where that is not known."""
-        return self._over_motion(quantity, self.uncertainty.get(quantity, UNKNOWN))
-
-    def _over_motion(self, quantity: str, value: float) -> float:
-        motion = self.motion.get(quantity, UNKNOWN)
-        return value / motion if motion > LEAST_MOTION else UNKNOWN
 
     def ended(self, verdict: str, message: str | BaseException) -> Row:
         """The row with how its run ended, on one line."""

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from seacrane.hydro.data.memory_model import MemoryModel
 
 Array = NDArray[np.float64]
+Build = Callable[[], Scene]
 FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
     "full", "crane locked", "vessel prescribed", "payload as weight", "frequency domain",
 )  # fmt: skip
@@ -52,16 +53,6 @@ LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), usual=0.01)
 FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS, "passive": R2_LEVELS}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Variant:
-    """A scene that differs from the full one in one thing; made when it is measured."""
-
-    memory: str
-    waves: str
-    rung: str
-    build: Callable[[], Scene]
-
-
 def memory_name(scene: Scene) -> str:
     """Kind of fluid memory of a scene."""
     known = [scene.provenance.get(name, VesselProvenance()).memory for name in scene.vessels]
@@ -76,26 +67,36 @@ def waves_name(scene: Scene) -> str:
     return scene.waves.evaluation
 
 
-def variants(scene: Scene, *, quick: bool) -> Iterator[Variant]:
-    """Scenes with one thing changed: memory models, wave evaluations, rungs of lines and of coupling."""
-    memory, waves = memory_name(scene), waves_name(scene)
-    for name, build in _memory_variants(scene, quick=quick):
-        yield Variant(memory=name, waves=waves, rung=FULL, build=build)
-    for name, build in _wave_variants(scene, quick=quick):
-        yield Variant(memory=memory, waves=name, rung=FULL, build=build)
-    for name, build in line_variants(scene):
-        yield Variant(memory=memory, waves=waves, rung=name, build=build)
+def full_case(scene: Scene) -> dict[str, str]:
+    """What tells rows of the scene as it is from others."""
+    return {"memory": memory_name(scene), "waves": waves_name(scene), "rung": FULL}
+
+
+def variants(scene: Scene, *, quick: bool) -> Iterator[tuple[dict[str, str], Build]]:
+    """Scenes with one thing changed, by what tells their rows from others, each made when it is measured."""
+    for what, made in (
+        ("memory", _memory_variants(scene, quick=quick)),
+        ("waves", _wave_variants(scene, quick=quick)),
+        ("rung", line_variants(scene)),
+        ("rung", _coupling_variants(scene)),
+    ):
+        for name, build in made:
+            yield {**full_case(scene), what: name}, build
+
+
+def _coupling_variants(scene: Scene) -> Iterator[tuple[str, Build]]:
+    """Of crane, payload and vessel; motion and linear model of the full scene are found by a row itself."""
     if scene.actuators:
-        yield Variant(memory=memory, waves=waves, rung=LOCKED, build=lambda: locked(scene))
+        yield LOCKED, partial(locked, scene)
         if len(scene.vessels) == 1 and not given_vessels(scene):
-            yield Variant(memory=memory, waves=waves, rung=PRESCRIBED, build=lambda: scene)
+            yield PRESCRIBED, lambda: scene
     if hanging(scene):
-        yield Variant(memory=memory, waves=waves, rung=WEIGHT, build=lambda: payload_as_weight(scene))
+        yield WEIGHT, partial(payload_as_weight, scene)
     if scene.waves is not None and scene.vessels and not given_vessels(scene):
-        yield Variant(memory=memory, waves=waves, rung=LINEAR, build=lambda: scene)
+        yield LINEAR, lambda: scene
 
 
-def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
+def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Build]]:
     """None, convolution, and fits of each kind at several R2 or limits; `quick`: none alone."""
     memory = memory_name(scene)
     if len(scene.vessels) != 1 or given_vessels(scene):
@@ -164,7 +165,7 @@ def _fit(database: HydroDatabase, kind: str, level: float) -> MemoryModel:
     return fit_memory(database=database, kind=kind, r2=level)
 
 
-def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
+def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Build]]:
     waves = scene.waves
     if waves is None:
         return
@@ -209,7 +210,7 @@ def _of_components(hull: HullLoads, kept: NDArray[np.intp]) -> HullLoads:
     return replace(hull, transfer=np.asarray(hull.transfer)[kept], drift=drift, **tables)
 
 
-def line_variants(scene: Scene) -> Iterator[tuple[str, Callable[[], Scene]]]:
+def line_variants(scene: Scene) -> Iterator[tuple[str, Build]]:
     """The rungs that the lines of a scene do not have already, each with what makes the scene."""
     lines = lines_of(scene.loads)
     own = {ELASTIC if line.rung == AUTO else line.rung for line in lines.values()}

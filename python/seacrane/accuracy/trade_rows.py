@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -29,8 +29,9 @@ from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
 
 Array = NDArray[np.float64]
-Build = Callable[[], Scene]
-Task = tuple[Row, Build | None]  # a row to be filled in, and what makes its scene with less physics
+Task = tuple[
+    Row, simpler_scenes.Build | None
+]  # a row to be filled in, and what makes its scene with less physics
 LONG = 0.3  # s of wall time from which on one run tells the cost
 LINEAR = Method(integrator="none")  # the frequency domain has no integrator
 
@@ -51,23 +52,12 @@ class Bench:
     truth: Reference
     repeats: int
 
-    @property
-    def full(self) -> dict[str, str | float]:
-        """What tells rows of the full scene from others."""
-        scene = self.case.scene
-        return {
-            "memory": simpler_scenes.memory_name(scene),
-            "waves": simpler_scenes.waves_name(scene),
-            "rung": simpler_scenes.FULL,
-        }
-
 
 def physics(bench: Bench, *, quick: bool) -> Iterator[Task]:
     """Each scene with less physics, all by the same method; rungs of lines by several."""
-    for variant in simpler_scenes.variants(bench.case.scene, quick=quick):
-        for method in _of_rung(variant.rung, quick=quick):
-            case = {"memory": variant.memory, "waves": variant.waves, "rung": variant.rung}
-            yield Row(case=case, method=method), variant.build
+    for case, build in simpler_scenes.variants(bench.case.scene, quick=quick):
+        for method in _of_rung(case["rung"], quick=quick):
+            yield Row(case=case, method=method), build
 
 
 def _of_rung(rung: str, *, quick: bool) -> Sequence[Method]:
@@ -78,7 +68,9 @@ def _of_rung(rung: str, *, quick: bool) -> Sequence[Method]:
     return (Method(),) if quick else (PHYSICS,)
 
 
-def measure(bench: Bench, row: Row, build: Build | None = None, limit_s: float | None = None) -> Row:
+def measure(
+    bench: Bench, row: Row, build: simpler_scenes.Build | None = None, limit_s: float | None = None
+) -> Row:
     """The row filled in; a fitted memory is named by its states.
 
     Parameters

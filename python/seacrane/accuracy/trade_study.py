@@ -204,7 +204,8 @@ def _measured(
 
     few, every = math.isfinite(spending.runs), methods is not None or math.isinf(spending.runs)
     tried = measured_methods() if methods is None else methods
-    wanted: list[Task] = [(Row(case=bench.full, method=one), None) for one in tried]
+    full = simpler_scenes.full_case(bench.case.scene)
+    wanted: list[Task] = [(Row(case=full, method=one), None) for one in tried]
     grid = {row.key: row.method for row, _ in wanted}
     less = () if bench.case.stages else physics(bench, quick=few)
     tasks = {task[0].key: task for task in (*wanted, *less)}

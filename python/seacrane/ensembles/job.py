@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from seacrane import _core
 from seacrane.description.given import given_vessels
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import WORDS
+from seacrane.ensembles.other_sea import WORDS, with_sea
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.stage_values import START_TIME
 from seacrane.ensembles.study import Study, Values
@@ -260,7 +260,7 @@ class Prepared:
         if not sea or study.start is not None or not isinstance(source, Scene) or given_vessels(source):
             return self._begun(study.scene(values))
         first = self._first(others)
-        waves = study.in_sea(first.scene, sea).waves
+        waves = with_sea(first.scene, sea).waves
         assert waves is not None
         return first.in_sea(waves)
 

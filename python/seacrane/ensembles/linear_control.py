@@ -87,13 +87,10 @@ def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
     return Motion(channel=pick.channel, **pick.names, point=point)
 
 
-class LinearMotions:
-    """Several motions at even times, in the sea of any seed: what the constructors of controls share.
+class _Control(ABC):
+    """A series for each seed, made of linear motions at even `times` (s, shape (n,)), and its extremes.
 
     Waves load vessels, and parts and lines under water, with drag made linear in the sea as described.
-
-    Raises SceneError for a scene without a sea of one wave system, a value that makes no sense, a vessel
-    whose memory is a convolution, or a part that crosses the surface at rest.
     """
 
     def __init__(
@@ -131,7 +128,17 @@ class LinearMotions:
         self._orders = [ORDERS[motion.channel] for motion in motions]
         self._decays = _decays(linear.a, self._rows, self._orders, self.times)
 
+    @abstractmethod
     def series(self, seed: int) -> Array:
+        """The series of a seed at `times`, shape (n,)."""
+
+    def extremes(self, seeds: Iterable[int], *, what: str = "maximum") -> Array:
+        """The largest ("maximum") or smallest ("minimum") value of each seed."""
+        if what not in EXTREMES:
+            raise SceneError(f"control: what is {shown(what)}; choose 'maximum' or 'minimum'")
+        return np.array([EXTREMES[what](self.series(seed)) for seed in seeds])
+
+    def _curves(self, seed: int) -> Array:
         """All motions in the sea of a seed, shape (motions, times)."""
         sea = with_sea(self._scene, {**self._words, "seed": int(seed)}).waves
         assert sea is not None
@@ -188,27 +195,6 @@ def _sums_of(omega: Array, amplitudes: Complex, times: Array) -> Array:
     return np.asarray(sums.reshape(len(amplitudes), -1)[:, : times.size])
 
 
-class _Control(ABC):
-    """A series for each seed, and its extremes."""
-
-    _motions: LinearMotions
-
-    @property
-    def times(self) -> Array:
-        """s, shape (n,)."""
-        return self._motions.times
-
-    @abstractmethod
-    def series(self, seed: int) -> Array:
-        """The series of a seed at `times`, shape (n,)."""
-
-    def extremes(self, seeds: Iterable[int], *, what: str = "maximum") -> Array:
-        """The largest ("maximum") or smallest ("minimum") value of each seed."""
-        if what not in EXTREMES:
-            raise SceneError(f"control: what is {shown(what)}; choose 'maximum' or 'minimum'")
-        return np.array([EXTREMES[what](self.series(seed)) for seed in seeds])
-
-
 class LinearControl(_Control):
     """A motion of the linearised scene, from rest, in the waves of any seed.
 
@@ -249,14 +235,12 @@ class LinearControl(_Control):
         words: Mapping[str, Value] | None = None,
         state: _core.State | None = None,
     ) -> None:
-        self._motions = LinearMotions(
-            scene, [motion_of(channel, point)],
-            t_end=t_end, after=after, dt_out=dt_out, words=words, state=state,
-        )  # fmt: skip
+        motions = [motion_of(channel, point)]
+        super().__init__(scene, motions, t_end=t_end, after=after, dt_out=dt_out, words=words, state=state)
 
     def series(self, seed: int) -> Array:
         """The motion of a seed at `times`, shape (n,)."""
-        return np.asarray(self._motions.series(seed)[0])
+        return np.asarray(self._curves(seed)[0])
 
 
 class HookLoadControl(_Control):
@@ -308,14 +292,12 @@ class HookLoadControl(_Control):
             for channel in ("position", "velocity")
             for body, point in ((joint.second, None), (joint.first, head))
         ]
-        lift = Motion(channel="acceleration", body=joint.first, axis="z", point=head)
-        self._motions = LinearMotions(
-            scene, [*motions, lift], t_end=t_end, after=after, dt_out=dt_out, words=words, state=state
-        )
+        motions.append(Motion(channel="acceleration", body=joint.first, axis="z", point=head))
+        super().__init__(scene, motions, t_end=t_end, after=after, dt_out=dt_out, words=words, state=state)
 
     def series(self, seed: int) -> Array:
         """The load in the link of a seed at `times`, N, shape (n,)."""
-        *ends, lift = self._motions.series(seed)
+        *ends, lift = self._curves(seed)
         x, x_rate, y, y_rate = (
             (below - above) / self._length for below, above in zip(ends[::2], ends[1::2], strict=True)
         )

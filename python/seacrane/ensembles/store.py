@@ -44,12 +44,15 @@ class Store(Protocol):
 
     def outcomes(self) -> Iterator[Outcome]:
         """The outcomes of all packs that are there, in order."""
+        for pack in sorted(self.done()):
+            yield from self.of(pack)
 
     def dataset(self, members: Members) -> xarray.Dataset:
         """All that is there, over these members."""
+        return table_of(members, self.outcomes()).dataset()
 
 
-class Memory:
+class Memory(Store):
     """A store for as long as the process lives."""
 
     def __init__(self) -> None:
@@ -67,15 +70,8 @@ class Memory:
     def of(self, pack: int) -> list[Outcome]:
         return self._packs[pack]
 
-    def outcomes(self) -> Iterator[Outcome]:
-        for pack in sorted(self._packs):
-            yield from self._packs[pack]
 
-    def dataset(self, members: Members) -> xarray.Dataset:
-        return table_of(members, self.outcomes()).dataset()
-
-
-class Folder:
+class Folder(Store):
     """A NetCDF file for each pack; one process writes."""
 
     def __init__(self, path: Path) -> None:
@@ -104,13 +100,6 @@ class Folder:
     @interrupts_kept()
     def of(self, pack: int) -> list[Outcome]:
         return read_pack(self._file(pack))
-
-    def outcomes(self) -> Iterator[Outcome]:
-        for pack in sorted(self.done()):
-            yield from read_pack(self._file(pack))
-
-    def dataset(self, members: Members) -> xarray.Dataset:
-        return table_of(members, self.outcomes()).dataset()
 
     def _file(self, pack: int) -> Path:
         return self.path / f"pack_{pack:0{DIGITS}d}.nc"

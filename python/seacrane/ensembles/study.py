@@ -80,7 +80,7 @@ class Study:
         if isinstance(self.source, Scene):
             sea, others = self.parts(scene_values(values))
             made = with_values(self.source, others)
-            return self.in_sea(made, sea) if sea else made
+            return with_sea(made, sea) if sea else made
         made = self.source(**scene_values(values))
         if not isinstance(made, Scene):
             raise SceneError(f"the function returned {shown(made)}; return a Scene")
@@ -94,10 +94,6 @@ class Study:
     def start_of(self, scene: Scene) -> _core.State | None:
         """Where the run of a scene begins; None: its assembled start."""
         return self.start(scene) if callable(self.start) else self.start
-
-    def in_sea(self, scene: Scene, words: Values) -> Scene:
-        """A copy of a scene in another sea."""
-        return with_sea(scene, words)
 
     def kept_of(self, result: Result) -> dict[str, Labelled]:
         """What is kept of a result."""

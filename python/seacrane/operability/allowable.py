@@ -30,10 +30,9 @@ from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.cells import Cells
-from seacrane.operability.criterion import Criterion
-from seacrane.operability.levels import FEWEST_SEEDS
+from seacrane.operability.criterion import FEWEST_SEEDS, Criterion
 from seacrane.operability.linear_channels import LinearSeas
-from seacrane.operability.time_domain import Cell, Prober, Sea, Storms
+from seacrane.operability.time_domain import Cell, Prober, Storms
 from seacrane.result import Result
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
@@ -298,17 +297,14 @@ class _Study:
         )  # fmt: skip
         places = [place for place in cells.places if cells.allowable[place] > 0.0]
         seas = [
-            Sea(hs=float(cells.allowable[i, j]), tp=tp, direction_deg=direction, seed=seed)
+            {"hs": float(cells.allowable[i, j]), "tp": tp, "direction_deg": direction, "seed": seed}
             for i, j in places
             for tp, direction in [(self.asked.tp[i], self.asked.directions[j])]
             for seed in self.asked.seeds[:PROBES]
         ]
         with _bar("test of the linear model", len(seas), progress) as bar:
-            for place, found in zip(
-                (place for place in places for _ in self.asked.seeds[:PROBES]),
-                prober.differences(seas, executor),
-                strict=True,
-            ):
+            of_places = [place for place in places for _ in self.asked.seeds[:PROBES]]
+            for place, found in zip(of_places, prober.differences(seas, executor), strict=True):
                 cells.take_difference(place, found, self.asked.linear_within)
                 bar(1)
 

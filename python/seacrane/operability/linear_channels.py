@@ -18,8 +18,7 @@ from seacrane.description.databases import database_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
-from seacrane.operability.criterion import Criterion
-from seacrane.operability.levels import gaussian_level
+from seacrane.operability.criterion import Criterion, gaussian_level
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.scene.realised_sea import spectrum_named

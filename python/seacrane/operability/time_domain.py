@@ -14,15 +14,13 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.databases import without_databases
 from seacrane.ensembles.ensemble import Ensemble, ensemble
+from seacrane.ensembles.job import stepped
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.stage_values import Stages
 from seacrane.ensembles.study import Start
 from seacrane.errors import SeacraneError
-from seacrane.operability.criterion import Criterion
-from seacrane.operability.levels import RecordNumbers, reached, record_numbers, seeds_level
+from seacrane.operability.criterion import Criterion, RecordNumbers, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import LinearSeas
-from seacrane.run.advance import ended
-from seacrane.run.interrupts import Interrupts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
@@ -168,16 +166,6 @@ def first_unknown(hs: Sequence[float], levels: Sequence[float], allowance: float
     return float("nan")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sea:
-    """One sea state: m, s, degrees of travel, and the seed of its phases."""
-
-    hs: float
-    tp: float
-    direction_deg: float
-    seed: int
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Probe:
     """One run to be compared.
@@ -200,12 +188,7 @@ class Probe:
         """`record_numbers` of each criterion's channel, (m, 4), or why the run failed."""
         try:
             run = Run(self.scene, self.t_end, start=self.start, method=self.method, outputs=self.outputs)
-            with Interrupts() as interrupts:
-                run = ended(run, (), interrupts)
-            interrupts.take()
-            if run.interrupted:
-                raise KeyboardInterrupt
-            result = require_finite(run.result())
+            result = require_finite(stepped(run).result())
             return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in self.criteria])
         except (SeacraneError, ArithmeticError, ValueError) as error:
             return f"{type(error).__name__}: {error}"
@@ -231,10 +214,12 @@ class Prober:
     method: Method
     outputs: Outputs
 
-    def differences(self, seas: Sequence[Sea], executor: Executor | None) -> Iterator[Array | str]:
+    def differences(
+        self, seas: Sequence[Mapping[str, Any]], executor: Executor | None
+    ) -> Iterator[Array | str]:
         """For each sea and criterion what the run reached beyond the linear model, over the allowance, (m,).
 
-        A text where the run failed: why.
+        Seas are told by their words. A text where the run failed: why.
         """
         made = [self._probe(sea) for sea in seas]
         probes = [probe for probe, _ in made]
@@ -244,9 +229,8 @@ class Prober:
         for (_, linear), found in zip(made, runs, strict=True):
             yield found if isinstance(found, str) else self._difference(found, linear)
 
-    def _probe(self, sea: Sea) -> tuple[Probe, Array]:
-        words = {"hs": sea.hs, "tp": sea.tp, "direction_deg": sea.direction_deg, "seed": sea.seed}
-        scene = with_sea(self.scene, words)
+    def _probe(self, sea: Mapping[str, Any]) -> tuple[Probe, Array]:
+        scene = with_sea(self.scene, sea)
         assert scene.waves is not None
         end = self.start + self.duration
         steps = np.arange(round(self.duration / self.outputs.dt_out) + 1, dtype=float)

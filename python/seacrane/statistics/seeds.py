@@ -321,23 +321,19 @@ def _empirical_maximum(ascending: Array, duration: float, exposure: float) -> Ma
     mean = float(np.sum(ascending * np.diff(rank**records)))
     return Maximum(
         mpm=_ordered(ascending, float(np.exp(-1.0 / records))),
-        mean=Estimate(value=mean, **_mean_interval(ascending, records)),
+        mean=mean_of(ascending) if records == 1.0 else Estimate(value=mean),
         p90=_ordered(ascending, 0.9 ** (1.0 / records)),
         exposure=exposure,
     )
 
 
-def _mean_interval(ascending: Array, records: float) -> dict[str, float]:
-    """By Student's t, where one record is the exposure; nothing elsewhere."""
+def mean_of(values: Array) -> Estimate:
+    """The mean of independent values, with its interval by Student's t."""
     from scipy.stats import t
 
-    if records != 1.0:
-        return {}
-    half = (
-        float(t.ppf((1.0 + CONFIDENCE) / 2.0, ascending.size - 1) * ascending.std(ddof=1))
-        / ascending.size**0.5
-    )
-    return {"low": float(ascending.mean()) - half, "high": float(ascending.mean()) + half}
+    half = float(t.ppf((1.0 + CONFIDENCE) / 2.0, values.size - 1) * values.std(ddof=1)) / values.size**0.5
+    mean = float(values.mean())
+    return Estimate(value=mean, low=mean - half, high=mean + half)
 
 
 def _ordered(ascending: Array, share: float) -> Estimate:
