@@ -16,7 +16,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = output_folder(arguments.out)
     from seacrane.accuracy import trade
     from seacrane.needs import required
-    from seacrane.needs.asked import usual
+    from seacrane.needs.bench import usual
     from seacrane.run.outputs import Outputs
 
     outputs = Outputs(dt_out=(source.outputs or Outputs()).dt_out)
