@@ -16,7 +16,7 @@ from seacrane.accuracy.measured import Reference, measured
 from seacrane.accuracy.quantities import compare, motion_of
 from seacrane.accuracy.row import UNNAMED, Row
 from stability_atlas.methods import TIGHT
-from stability_atlas.points import POINTS, QUANTITIES
+from stability_atlas.points import POINTS, QUANTITIES, KnownCase
 
 Array = NDArray[np.float64]
 REST = 1e-300  # in place of no motion
@@ -26,8 +26,8 @@ SLOWER = 4.0  # a tight run may take that many times the time of others
 
 def reference_of(case: Case, limit_s: float) -> Reference:
     """From two tight runs that differ in equations and method; if they disagree, the two nearest of all."""
-    if case.truth is not None:
-        return Reference(values=case.truth)
+    if isinstance(case, KnownCase):
+        return Reference(values={POINTS.name: case.truth})
 
     found: dict[str, Array] = {}
     refused = {}

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.accuracy.case import Case
 from seacrane.accuracy.quantities import Quantity
 from seacrane.accuracy.row import UNKNOWN, Row
 from seacrane.inputs.frames import rotation_matrix
@@ -42,3 +45,10 @@ def relative_uncertainty(row: Row) -> float:
 def _over_motion(row: Row, value: float) -> float:
     motion = row.motion.get(POINTS.name, UNKNOWN)
     return value / motion if motion > LEAST_MOTION else UNKNOWN
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class KnownCase(Case):
+    """A case whose points are known otherwise than by tight runs of the same scene."""
+
+    truth: Array

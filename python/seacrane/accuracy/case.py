@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.accuracy.quantities import offered_channels
@@ -24,8 +23,6 @@ from seacrane.run.staged_run import StagedRun
 from seacrane.run.start import Start
 from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Case:
@@ -34,13 +31,11 @@ class Case:
     Attributes
     ----------
     t_end, dt_out : float
-        s; when errors are taken, where no outputs say so.
+        End of a run, and between outputs where none are given, s.
     start : State or "rest", optional
         Where to begin; default: the assembled start.
     stages : tuple of Stage, optional
         Carried out in place of one run to `t_end`; `first` names the one to begin with.
-    truth : mapping of str to ndarray, optional
-        Values of quantities, known otherwise than by tight runs of the same scene.
     compiled : Model, optional
         The compiled scene, to save compiling it again.
     """
@@ -51,7 +46,6 @@ class Case:
     start: Start = None
     stages: tuple[Stage, ...] | None = None
     first: str | None = None
-    truth: Mapping[str, Array] | None = None
     compiled: _core.Model | None = None
 
     @cached_property

@@ -60,10 +60,6 @@ class Done:
         """Its expected error over the scale of a quantity."""
         return expected_error(self.method)
 
-    @property
-    def tolerance(self) -> float:
-        return self.method.used_rtol
-
 
 def run_to_accuracy(
     case: Case,
@@ -178,7 +174,7 @@ def _converged(case: Asked, kept: Method) -> Result:
         method = _tighter(method, case.excess(told.errors) if told.known else STEP)
         if method.integrator == STIFF:
             done.append(_beside(case, method))
-        elif method.used_rtol < ROUNDING and done[-1].tolerance > STEP * 1.1 * method.used_rtol:
+        elif method.used_rtol < ROUNDING and done[-1].method.used_rtol > STEP * 1.1 * method.used_rtol:
             done.append(_run(case, _looser(method)))
     return done[-1].result
 
@@ -243,7 +239,7 @@ def _estimate(case: Asked, done: Sequence[Done]) -> _Estimate:
         linear_all = all(d <= COARSE * motions[name] for name, d in apart.by_name.items())
         return _Estimate(
             errors={name: BESIDE * d for name, d in apart.by_name.items()},
-            known=linear_all and not apart.course and tight.tolerance > ROUNDING, course=apart.course,
+            known=linear_all and not apart.course and tight.method.used_rtol > ROUNDING, course=apart.course,
         )  # fmt: skip
     looser = [one for one in done[:-1] if one.expected > tight.expected]
     pairs = [(one, case.difference(tight.result, one.result)) for one in looser]
@@ -263,7 +259,7 @@ def _estimate(case: Asked, done: Sequence[Done]) -> _Estimate:
     by_tolerance = not (_cut_short(near.result) or _cut_short(tight.result))
     whole = {name: d for name, d in last.by_name.items() if not (linear[name] and by_tolerance)}
     errors |= {name: max(errors[name], case.over_difference(name) * d) for name, d in whole.items()}
-    known = all(linear.values()) and by_tolerance and tight.tolerance > ROUNDING
+    known = all(linear.values()) and by_tolerance and tight.method.used_rtol > ROUNDING
     return _Estimate(errors=errors, known=known, course=last.course)
 
 

@@ -21,7 +21,6 @@ from seacrane.inputs.shown import shown
 
 MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
 LARGEST_PACK = 64
-SEED = "seed"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,10 +69,10 @@ def order_of(study: Study, members: Members) -> Sequence[int]:
     if study.lanes == 1:
         return range(len(members))
     others = sorted(name for name in members.axes if name not in WORDS)
-    sea = sorted(name for name in members.axes if name in WORDS and name != SEED)
+    sea = sorted(name for name in members.axes if name in WORDS and name != "seed")
     parting = _parting(study, members, others) if len(others) > 1 else []
     slowest_first = [*parting, *(name for name in others if name not in parting), *sea]
-    slowest_first += [SEED] if SEED in members.axes else []
+    slowest_first += ["seed"] if "seed" in members.axes else []
     ranks = [_ranks(members, name) for name in slowest_first]
     return np.lexsort(ranks[::-1]).tolist()  # type: ignore[no-any-return]
 

@@ -75,11 +75,6 @@ class Cells:
         return [place for place in self.places if self.domain[place] == "time"]
 
     @property
-    def has_linear(self) -> bool:
-        """Whether there is a linear model."""
-        return self.linear is not None
-
-    @property
     def allowable(self) -> Array:
         """Over all criteria, up to the largest Hs that was examined."""
         return np.asarray(np.minimum(self.by_criterion.min(axis=0), self.largest))

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -158,93 +159,72 @@ def first_unknown(hs: Sequence[float], levels: Sequence[float], allowance: float
     """Lowest Hs (m) whose level is not known, where none below it reaches the allowance; else NaN."""
     if allowance <= 0.0:
         return float("nan")
-    for height, level in zip(hs, levels, strict=True):
-        if not np.isfinite(level):
-            return height
-        if level >= allowance:
-            break
-    return float("nan")
+    beyond = ((height, level) for height, level in zip(hs, levels, strict=True) if not level < allowance)
+    height, level = next(beyond, (float("nan"), 0.0))
+    return float("nan") if np.isfinite(level) else height
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Probe:
-    """One run to be compared.
+def differences(
+    scene: Scene,
+    linear: LinearSeas,
+    criteria: Sequence[Criterion],
+    seas: Iterable[Mapping[str, Any]],
+    *,
+    start: float,
+    duration: float,
+    method: Method,
+    outputs: Outputs,
+    executor: Executor | None,
+) -> Iterator[Array | str]:
+    """For each sea and criterion what a run reached beyond the linear model, over the allowance, (m,).
 
-    Attributes
-    ----------
-    t_end : s.
-    method, outputs
-        Of the run.
-    """
+    A text where the run failed: why.
 
-    scene: Scene
-    start: _core.State
-    t_end: float
-    criteria: tuple[Criterion, ...]
-    method: Method
-    outputs: Outputs
-
-    def numbers(self) -> Array | str:
-        """`record_numbers` of each criterion's channel, (m, 4), or why the run failed."""
-        try:
-            run = Run(self.scene, self.t_end, start=self.start, method=self.method, outputs=self.outputs)
-            result = require_finite(stepped(run).result())
-            return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in self.criteria])
-        except (SeacraneError, ArithmeticError, ValueError) as error:
-            return f"{type(error).__name__}: {error}"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Prober:
-    """How probes are run.
-
-    Attributes
+    Parameters
     ----------
     scene : Its references held.
+    seas : By their words.
     start, duration : s.
     method, outputs
         Of the runs.
     """
+    steps = np.arange(round(duration / outputs.dt_out) + 1, dtype=float)
+    scenes, starts, told = [], [], []
+    for sea in seas:
+        one = with_sea(scene, sea)
+        assert one.waves is not None
+        state, values = linear.in_waves(one.waves, start, start + steps * outputs.dt_out)
+        scenes.append(without_databases(one))
+        starts.append(state)
+        told.append([record_numbers(column) for column in values.T])
+    run = partial(_numbers, t_end=start + duration, criteria=criteria, method=method, outputs=outputs)
+    runs = map(run, scenes, starts) if executor is None else executor.map(run, scenes, starts)
+    for found, numbers in zip(runs, told, strict=True):
+        if isinstance(found, str):
+            yield found
+            continue
+        each = zip(criteria, found, numbers, linear.channels.rest.tolist(), strict=True)
+        yield np.array([_apart(*one) for one in each])
 
-    scene: Scene
-    linear: LinearSeas
-    criteria: tuple[Criterion, ...]
-    start: float
-    duration: float
-    method: Method
-    outputs: Outputs
 
-    def differences(
-        self, seas: Sequence[Mapping[str, Any]], executor: Executor | None
-    ) -> Iterator[Array | str]:
-        """For each sea and criterion what the run reached beyond the linear model, over the allowance, (m,).
+def _apart(criterion: Criterion, run: Array, linear: Array, rest: float) -> float:
+    apart = reached(criterion, run, rest) - reached(criterion, linear, rest)
+    return abs(float(apart)) / criterion.allowance(rest)
 
-        Seas are told by their words. A text where the run failed: why.
-        """
-        made = [self._probe(sea) for sea in seas]
-        probes = [probe for probe, _ in made]
-        runs: Iterable[Array | str] = (
-            map(Probe.numbers, probes) if executor is None else executor.map(Probe.numbers, probes)
-        )
-        for (_, linear), found in zip(made, runs, strict=True):
-            yield found if isinstance(found, str) else self._difference(found, linear)
 
-    def _probe(self, sea: Mapping[str, Any]) -> tuple[Probe, Array]:
-        scene = with_sea(self.scene, sea)
-        assert scene.waves is not None
-        end = self.start + self.duration
-        steps = np.arange(round(self.duration / self.outputs.dt_out) + 1, dtype=float)
-        times: Array = self.start + steps * self.outputs.dt_out
-        state, linear = self.linear.in_waves(scene.waves, self.start, times)
-        probe = Probe(
-            scene=without_databases(scene), start=state, t_end=end, criteria=self.criteria,
-            method=self.method, outputs=self.outputs,
-        )  # fmt: skip
-        return probe, np.array([record_numbers(column) for column in linear.T])
-
-    def _difference(self, run: Array, linear: Array) -> Array:
-        found = []
-        for i, (criterion, rest) in enumerate(zip(self.criteria, self.linear.channels.rest, strict=True)):
-            apart = reached(criterion, run[i], float(rest)) - reached(criterion, linear[i], float(rest))
-            found.append(abs(float(apart)) / criterion.allowance(float(rest)))
-        return np.array(found)
+def _numbers(
+    scene: Scene,
+    start: _core.State,
+    *,
+    t_end: float,
+    criteria: Sequence[Criterion],
+    method: Method,
+    outputs: Outputs,
+) -> Array | str:
+    """`record_numbers` of each criterion's channel of a run, (m, 4), or why it failed."""
+    try:
+        run = stepped(Run(scene, t_end, start=start, method=method, outputs=outputs))
+        result = require_finite(run.result())
+        return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in criteria])
+    except (SeacraneError, ArithmeticError, ValueError) as error:
+        return f"{type(error).__name__}: {error}"
