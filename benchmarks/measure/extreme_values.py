@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane.statistics import record_extremes, seed_extremes
 from seacrane.statistics.estimate import Maximum
-from seacrane.statistics.gumbel import gumbel_fit
+from seacrane.statistics.seeds import gumbel_fit
 
 from .section import Section
 

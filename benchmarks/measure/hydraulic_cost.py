@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Scene, cases
+from seacrane.accuracy.case import Case, timed
 from seacrane.crane import load_crane
 from seacrane.run.method import Method
-from seacrane.trading.case import Case
-from seacrane.trading.measured_case import timed
 
 from .section import Section
 from .sources import CRANE
@@ -89,10 +88,8 @@ def _apart(path: Array, truth: Array) -> float:
 def _run(scene: Scene, method: Method, repeats: int) -> tuple[Array, tuple[int, float]]:
     case = Case(scene=scene, t_end=T_END, dt_out=DT_OUT)
     done = timed(case, method, ["position"], repeats=repeats)
-    if done.stopped is not None:
-        raise done.stopped
-    place = done.channels()["position"][:, list(scene.bodies).index("payload")]
-    return place, (int(done.counted["evaluations"]), float(done.cpu_s))
+    place = done.result()["position"][:, list(scene.bodies).index("payload")]
+    return place, (int(done.stats["evaluations"]), float(done.cpu_s))
 
 
 def _path(scene: Scene) -> Array:

@@ -2,28 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from seacrane import Method, cases
 from seacrane._core import Integrator
+from seacrane.accuracy.case import Case
+from seacrane.accuracy.measured import Reference, measured, tight_reference
+from seacrane.accuracy.methods import methods
 from seacrane.accuracy.quantities import quantities_of
+from seacrane.accuracy.row import Row
 from seacrane.inputs.atomic import atomic_write
-from seacrane.trading.case import Case
-from seacrane.trading.measured_case import channels_of, measured, timed
-from seacrane.trading.methods import methods
-from seacrane.trading.reference import Reference, reference
-from seacrane.trading.row import Row
-from seacrane.trading.row_file import RowFile, completed
 
 from .section import RESULTS, Section
 from .sources import CRANE
-
-Array = NDArray[np.float64]
 
 T_END, DT_OUT = 100.0, 1.0  # s; few outputs, so that the methods' own cost shows
 REPEATS = 2
@@ -45,26 +38,9 @@ def work_precision() -> tuple[list[Row], Reference]:
     case = Case(scene=cases.case2(), t_end=T_END, dt_out=DT_OUT)
     quantities = quantities_of(case.scene, case.model, [PAYLOAD, FORCE])
 
-    def values(method: Method) -> Mapping[str, Array] | str:
-        done = timed(case, method, channels_of(quantities))
-        if done.stopped is not None:
-            return str(done.stopped)
-        result = done.result()
-        return {name: quantity.values(result) for name, quantity in quantities.items()}
-
-    truth = reference(values, TIGHT)
-    tried = methods(_values, formulations=("auto",))
-    empty = {row.key: row for row in (Row(case={"scene": "case2"}, method=method) for method in tried)}
-    rows = completed(
-        empty,
-        RowFile(None, {}),
-        lambda keys: (
-            (key, measured(case, empty[key].method, quantities, truth, empty[key], repeats=REPEATS))
-            for key in keys
-        ),
-        title="work and precision",
-        progress=False,
-    )
+    truth = tight_reference(case, quantities, TIGHT)
+    empty = [Row(case={"scene": "case2"}, method=one) for one in methods(_values, formulations=("auto",))]
+    rows = [measured(case, row.method, quantities, truth, row, repeats=REPEATS) for row in empty]
     return rows, truth
 
 

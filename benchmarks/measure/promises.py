@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import Result, Scene, SeacraneError, simulate
-from seacrane.accuracy.matching import curve_apart, matched
+from seacrane.accuracy.asked import curve_apart, matched
 from seacrane.accuracy.quantities import Quantity, quantities_of
 from seacrane.description.loads import any_stiff, lines_of
 from seacrane.run.method import Method

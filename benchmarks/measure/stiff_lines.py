@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Scene, cases
+from seacrane.accuracy.case import Case, timed
 from seacrane.run.method import Method
-from seacrane.trading.case import Case
-from seacrane.trading.measured_case import timed
 
 from .section import Section
 from .sources import CRANE, LINE
@@ -90,13 +89,11 @@ def run_of(scene: Scene, method: Method, *, repeats: int) -> Ran:
     case = Case(scene=scene, t_end=T_END, dt_out=DT_OUT)
     has_line = "link" in scene.loads
     done = timed(case, method, ["position", "line_tension" if has_line else "tension"], repeats=repeats)
-    if done.stopped is not None:
-        raise done.stopped
-    channels = done.channels()
+    channels = done.result().channels
     return Ran(
         payload=channels["position"][:, list(scene.bodies).index("payload")],
         tension=channels["line_tension"][:, 0] if has_line else np.zeros(0),
-        evaluations=int(done.counted["evaluations"]),
+        evaluations=int(done.stats["evaluations"]),
         cpu_ms=1e3 * done.cpu_s,
     )
 

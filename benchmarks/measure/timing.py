@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Model, Scene
+from seacrane.accuracy.case import Case, timed
 from seacrane.analysis import Evaluator
 from seacrane.run.shorthand import settled
-from seacrane.trading.case import Case
-from seacrane.trading.measured_case import timed
 
 Array = NDArray[np.float64]
 
@@ -49,9 +48,8 @@ def timed_run(
     method, outputs = settled(None, None, settings)
     case = Case(scene=scene, t_end=t_end, dt_out=outputs.dt_out, compiled=model)
     done = timed(case, method, outputs.channels, repeats=repeats)
-    if done.stopped is not None:
-        raise done.stopped
-    return Timed(wall=done.wall_s, cpu=done.cpu_s, counters=done.counted, channels=done.channels())
+    channels = dict(done.result().channels)
+    return Timed(wall=done.wall_s, cpu=done.cpu_s, counters=dict(done.stats), channels=channels)
 
 
 def evaluation_ns(model: Model, *, repeats: int, count: int = 4_000, formulation: str = "redundant") -> float:

@@ -88,5 +88,5 @@ SECTION = Section(
     ),
     head=["changed", *COLUMNS],
     rows=physics,
-    sources=(*CRANE, "python/seacrane/trading"),
+    sources=(*CRANE, "python/seacrane/accuracy"),
 )

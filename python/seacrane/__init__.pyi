@@ -77,7 +77,7 @@ from seacrane.operability.windows import weather_windows as weather_windows
 from seacrane import operability as operability
 
 # What settings cost and what error they bring
-from seacrane.trading.trade_study import trade as trade
+from seacrane.accuracy.trade_study import trade as trade
 from seacrane.accuracy.step_error import step_error as step_error
 from seacrane.needs.required import required as required
 from seacrane import accuracy as accuracy

@@ -2860,7 +2860,7 @@ class Contact:
         """
 class Limit:
     """
-    What a joint does one way only; see Scene.add_line, add_end_stop and add_seat. Immutable.
+    What a joint does one way only; see Scene.add_line and add_stop. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
     OWN_PACE: typing.ClassVar[bool] = False

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, overload
 
-from seacrane.accuracy.case import case_of_run, case_of_stages
+from seacrane.accuracy.case import Case
 from seacrane.accuracy.choice import run_to_accuracy
 from seacrane.errors import SceneError
 from seacrane.inputs.keywords import named
@@ -186,13 +186,12 @@ def simulate(
     if accuracy is not None:
         if to is not None:
             require_free(Path(to), overwrite=overwrite)
+        case = Case(
+            scene=scene, t_end=end, start=start, stages=None if stages is None else tuple(stages), first=first
+        )  # fmt: skip
         result = run_to_accuracy(
-            lambda recorded: (
-                case_of_run(scene, end, accuracy, outputs=recorded, start=start, progress=progress)
-                if stages is None
-                else case_of_stages(scene, stages, accuracy, outputs=recorded, start=start, first=first)
-            ),
-            method=method, outputs=outputs, shorthand=shorthand, controllers=called,
+            case, accuracy, method=method, outputs=outputs, shorthand=shorthand, controllers=called,
+            progress=progress,
         )  # fmt: skip
         return result if to is None else StreamedResult.saved(result, Path(to))
     method, outputs = settled(method, outputs, shorthand)

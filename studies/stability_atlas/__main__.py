@@ -12,7 +12,7 @@ from pathlib import Path
 from seacrane.cli.output_folder import output_folder
 from seacrane.plotting.table import table_of
 from stability_atlas import Atlas, stability_atlas
-from stability_atlas.points import POINTS
+from stability_atlas.points import relative_error
 
 BROKEN = 1
 DOCUMENT = Path(__file__).with_name("README.md")
@@ -63,7 +63,7 @@ def summary(atlas: Atlas) -> str:
     for axis in dict.fromkeys(str(row.case["axis"]) for row in atlas.rows):
         own = [row for row in atlas.rows if row.case["axis"] == axis]
         counts = [str(sum(row.verdict == verdict for row in own)) for verdict in verdicts]
-        told = [row.relative_error(POINTS.name) for row in own]
+        told = [relative_error(row) for row in own]
         errors = [error for error in told if error == error]
         worst = f"{max(errors):.2g}" if errors else ""
         table.append([axis, *counts, worst])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from seacrane.trading.case import Case
+from seacrane.accuracy.case import Case
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,10 +9,10 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-from seacrane.trading import row as rows
-from seacrane.trading.row import Row
+from seacrane.accuracy import row as rows
+from seacrane.accuracy.row import Row
 from stability_atlas.methods import DEFAULT
-from stability_atlas.points import POINTS
+from stability_atlas.points import relative_error, relative_uncertainty
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,7 +87,7 @@ def _breaks(promise: Promise, row: Row) -> list[str]:
         out.append(f"constraint error {row.left:.3g}, promised {promise.left:g}")
     if row.energy > promise.energy:
         out.append(f"energy error {row.energy:.3g}, promised {promise.energy:g}")
-    error = row.relative_error(POINTS.name)
-    if error > promise.error and not row.relative_uncertainty(POINTS.name) > 0.1 * promise.error:
+    error = relative_error(row)
+    if error > promise.error and not relative_uncertainty(row) > 0.1 * promise.error:
         out.append(f"error {error:.3g} of the motion, promised {promise.error:g}")
     return out

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seacrane import Scene
-from seacrane.trading.case import Case
+from seacrane.accuracy.case import Case
 from stability_atlas.axis import Axis
 
 MASS, STIFFNESS, HEIGHT = 1e4, 1e7, 0.2  # kg, N/m of each foot, m

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane import Scene, _core, cases
+from seacrane.accuracy.case import Case
 from seacrane.analysis.weight_balance import balance
 from seacrane.crane import Payload
-from seacrane.trading.case import Case
 from stability_atlas.altered import change_actuator, change_body, scale_body
 from stability_atlas.axis import Axis
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane import Scene, cases
-from seacrane.trading.case import Case
+from seacrane.accuracy.case import Case
 from stability_atlas.axis import Axis
 from stability_atlas.crane_axes import WAVES
 

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from seacrane.accuracy import row as rows
+from seacrane.accuracy.row import Row
 from seacrane.inputs.atomic import atomic_write
-from seacrane.trading import row as rows
-from seacrane.trading.row import Row
 from stability_atlas.axes import AXES
-from stability_atlas.points import POINTS
+from stability_atlas.points import relative_error, relative_uncertainty
 from stability_atlas.step_limit import StepLimit, step_limit_figure
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def heat_map(axis: str, measured: Sequence[Row]) -> Figure:
     seen: set[str] = set()
     for row in measured:
         i, j = methods.index(row.method.name), values.index(float(row.case["value"]))
-        found = row.relative_error(POINTS.name)
+        found = relative_error(row)
         letter = LETTERS.get(row.verdict, "" if np.isfinite(found) else "c")
         if letter:
             colour = COLOURS.get(row.verdict, "white")
@@ -82,7 +82,7 @@ def heat_map(axis: str, measured: Sequence[Row]) -> Figure:
     axes.set_title(fill(AXES[axis].title, TITLE_WIDTH), fontsize=10)
     axes.set_xlim(-0.5, len(values) - 0.5)
     axes.set_ylim(len(methods) - 0.5, -0.5)
-    known = np.array([row.relative_uncertainty(POINTS.name) for row in measured])
+    known = np.array([relative_uncertainty(row) for row in measured])
     known = known[np.isfinite(known)]
     note = f"reference known within {known.max():.1g} of the motion" if known.size else "no second reference"
     if seen:

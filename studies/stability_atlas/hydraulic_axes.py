@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import Scene, _core
-from seacrane.trading.case import Case
+from seacrane.accuracy.case import Case
 from stability_atlas.axis import Axis
 
 MASS, RETRACTED, STROKE = 1000.0, 1.05, 0.6  # kg, m

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import Scene, _core
-from seacrane.trading.case import Case
+from seacrane.accuracy.case import Case
 from stability_atlas.axis import Axis
 
 MASS, LENGTH, STIFFNESS, GRAVITY = 2e4, 10.0, 1.5e8, 9.80665  # kg, m, N, m/s2

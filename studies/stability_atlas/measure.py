@@ -2,43 +2,65 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Mapping
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Method, SimulationError
-from seacrane.trading.case import Case
-from seacrane.trading.measured_case import measured, timed
-from seacrane.trading.reference import Reference, reference
-from seacrane.trading.row import UNNAMED, Row
+from seacrane.accuracy.case import Case, OutOfTime, timed
+from seacrane.accuracy.measured import Reference, measured
+from seacrane.accuracy.quantities import compare, motion_of
+from seacrane.accuracy.row import UNNAMED, Row
 from stability_atlas.methods import TIGHT
-from stability_atlas.points import POINTS, QUANTITIES
+from stability_atlas.points import POINTS, QUANTITIES, KnownCase
 
 Array = NDArray[np.float64]
+REST = 1e-300  # in place of no motion
 AGREED = 1e-4  # of the motion, within which two tight runs need no third
 SLOWER = 4.0  # a tight run may take that many times the time of others
 
 
 def reference_of(case: Case, limit_s: float) -> Reference:
     """From two tight runs that differ in equations and method; if they disagree, the two nearest of all."""
-    if case.truth is not None:
-        return Reference(values=case.truth)
+    if isinstance(case, KnownCase):
+        return Reference(values={POINTS.name: case.truth})
 
-    def run(method: Method) -> Mapping[str, Array] | str:
+    found: dict[str, Array] = {}
+    refused = {}
+    for method in TIGHT:
         try:
-            done = timed(case, method, POINTS.channels, limit_s=SLOWER * limit_s)
-            if done.stopped is None:
-                return {POINTS.name: POINTS.values(done.result())}
-            reason: Exception = done.stopped
-        except (ValueError, SimulationError) as error:  # a SceneError, or a result that is not finite
-            reason = error
-        return " ".join(str(reason).split())
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                done = timed(case, method, POINTS.channels, limit_s=SLOWER * limit_s)
+                found[method.name] = POINTS.values(done.result())
+        except (ValueError, SimulationError, OutOfTime) as error:  # a SceneError, or what is not finite
+            refused[method.name] = " ".join(str(error).split())
+        if len(found) > 1 and _nearest(found)[0] <= AGREED:
+            break
+    if len(found) < 2:
+        values = [(POINTS.name, one) for one in found.values()]
+        return Reference(values=dict(values), runs=tuple(found), refused=refused)
+    _, names = _nearest(found)
+    apart = compare(*(found[name] for name in names)).largest
+    return Reference(
+        values={POINTS.name: found[names[0]]}, uncertainty={POINTS.name: apart}, runs=names, refused=refused
+    )  # fmt: skip
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return reference(run, TIGHT, enough=AGREED)
+
+def _nearest(found: Mapping[str, Array]) -> tuple[float, tuple[str, str]]:
+    """The two runs that are nearest to each other, and their distance over the motion of the first run."""
+    motion = max(motion_of(next(iter(found.values()))), REST)
+
+    def distance(pair: tuple[str, str]) -> float:
+        apart = compare(found[pair[0]], found[pair[1]]).largest
+        return apart / motion if math.isfinite(apart) else math.inf
+
+    nearest = min(combinations(found, 2), key=distance)
+    return distance(nearest), nearest
 
 
 def measure(case: Case, method: Method, truth: Reference, limit_s: float, row: Row) -> Row:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane import Scene, _core
+from seacrane.accuracy.case import Case
 from seacrane.description.description import STANDARD_GRAVITY
-from seacrane.trading.case import Case
 from stability_atlas.axis import Axis
 
 LENGTH = 10.0  # m, of the pendulum whose support heaves

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from seacrane import Method
-from seacrane._core import Integrator
-from seacrane.trading.methods import methods
+from seacrane._core import Integrator, integrators
+from seacrane.accuracy.methods import methods
 
 STEPS = (0.02, 0.005)  # s
 TOLERANCES = (1e-3, 1e-6)
@@ -35,7 +35,10 @@ TIGHT = (
 def every() -> Iterator[Method]:
     """The default, then each formulation, integrator, and tolerance or step that exists."""
     yield DEFAULT
-    yield from methods(_values, only_possible=True)
+    redundant = {one.name for one in integrators() if one.residual_form}  # which solve no other equations
+    for method in methods(_values):
+        if method.formulation != "recursive" or method.integrator not in redundant:
+            yield method
 
 
 def _values(method: Integrator) -> tuple[float, ...]:

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.accuracy.case import Case
 from seacrane.accuracy.quantities import Quantity
+from seacrane.accuracy.row import UNKNOWN, Row
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
 
 Array = NDArray[np.float64]
+LEAST_MOTION = 1e-9  # m: what rests within it has no relative error
 
 
 def points_on_bodies(position: Array, quaternion: Array) -> Array:
@@ -25,3 +30,25 @@ def _points(result: Result) -> Array:
 
 POINTS = Quantity(name="points", unit="m", channels=("position", "quaternion"), values=_points)
 QUANTITIES = {POINTS.name: POINTS}
+
+
+def relative_error(row: Row) -> float:
+    """The error over the motion; NaN where it rests."""
+    return _over_motion(row, row.error(POINTS.name))
+
+
+def relative_uncertainty(row: Row) -> float:
+    """How far tight runs differ, over the motion; NaN where that is not known."""
+    return _over_motion(row, row.uncertainty.get(POINTS.name, UNKNOWN))
+
+
+def _over_motion(row: Row, value: float) -> float:
+    motion = row.motion.get(POINTS.name, UNKNOWN)
+    return value / motion if motion > LEAST_MOTION else UNKNOWN
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class KnownCase(Case):
+    """A case whose points are known otherwise than by tight runs of the same scene."""
+
+    truth: Array

@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from seacrane import Run, Scene, SceneError, SimulationError, _core, cases
 from seacrane._core import integrator as integrator_of
 from seacrane._core import integrators
+from seacrane.accuracy.methods import method_of
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import held
 from seacrane.plotting.panel import save_table
-from seacrane.trading.methods import method_of
 from stability_atlas.altered import change_actuator
 from stability_atlas.crane_axes import held_crane
 

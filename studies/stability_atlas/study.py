@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seacrane import SceneError, __version__
-from seacrane.trading.row import Row
-from seacrane.trading.row_file import RowFile, completed
+from seacrane.accuracy.row import Row, RowFile
 from stability_atlas import committed
 from stability_atlas.axes import AXES
 from stability_atlas.axis import Axis
@@ -128,15 +127,17 @@ def _groups(axis: Axis, *, quick: bool) -> Iterator[Group]:
 
 
 def _measure(wanted: list[Group], file: RowFile, jobs: int, progress: bool) -> list[Row]:
-    def run(keys: list[str]) -> Iterator[tuple[str, Row]]:
-        left = set(keys)
-        missing = [
-            replace(group, methods=methods)
-            for group in wanted
-            if (methods := tuple(m for m in group.methods if group.empty(m).key in left))
-        ]
-        for row in run_all(missing, jobs):
-            yield row.key, row
+    """All rows in their order; what the file holds is not measured again."""
+    from tqdm.auto import tqdm
 
-    keys = [group.empty(method).key for group in wanted for method in group.methods]
-    return completed(keys, file, run, title="extremes", progress=progress)
+    keys = list(dict.fromkeys(group.empty(method).key for group in wanted for method in group.methods))
+    missing = [
+        replace(group, methods=methods)
+        for group in wanted
+        if (methods := tuple(m for m in group.methods if group.empty(m).key not in file.rows))
+    ]
+    left = sum(key not in file.rows for key in keys)
+    found = run_all(missing, jobs) if missing else ()
+    for row in tqdm(found, total=left, desc="extremes", unit="row", disable=not progress):
+        file.add(row.key, row)
+    return [file.rows[key] for key in keys]

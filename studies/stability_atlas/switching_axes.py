@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane import Scene, _core
-from seacrane.trading.case import Case
+from seacrane.accuracy.case import Case
 from stability_atlas.axis import Axis
 
 MASS = 1e4  # kg

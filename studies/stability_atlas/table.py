@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from seacrane.accuracy.row import UNKNOWN, Row
 from seacrane.plotting.panel import save_table
-from seacrane.trading.row import UNKNOWN, Row
-from stability_atlas.points import POINTS
+from stability_atlas.points import POINTS, relative_error, relative_uncertainty
 
 COLUMNS = ("axis", "value", "formulation", "integrator", "setting", "verdict", "error", "uncertainty",
            "motion", "drift", "left", "energy", "steps", "rejected_steps", "evaluations", "dense_solves",
@@ -24,7 +24,7 @@ def _cells(row: Row) -> list[Any]:
     name, method = POINTS.name, row.method
     return [
         row.case["axis"], row.case["value"], method.formulation, method.integrator, method.setting,
-        row.verdict, row.relative_error(name), row.relative_uncertainty(name), row.motion.get(name, UNKNOWN),
+        row.verdict, relative_error(row), relative_uncertainty(row), row.motion.get(name, UNKNOWN),
         row.drift, row.left, row.energy, row.steps, row.rejected_steps, row.evaluations, row.dense_solves,
         row.simulated_s, row.cpu_s, row.message,
     ]  # fmt: skip

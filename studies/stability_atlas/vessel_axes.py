@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from seacrane import Method, _core, cases, simulate
+from seacrane.accuracy.case import Case
 from seacrane.description.description import STANDARD_GRAVITY
 from seacrane.sea import steepness_limit
-from seacrane.trading.case import Case
 from stability_atlas.altered import change_body, change_vessel, scaled_memory
 from stability_atlas.axis import Axis
 from stability_atlas.crane_axes import DT_OUT, WAVES
-from stability_atlas.points import POINTS
+from stability_atlas.points import POINTS, KnownCase
 
 T_END = 20.0  # s
 SHORTEST = 6.5  # s: peak period whose sea lies within the frequencies of the shipped database
@@ -96,8 +96,7 @@ def _time_origin(t0: float) -> Case:
     run = simulate(twin, t_end=60.0, method=tight, dt_out=0.5, channels=["position", "quaternion"])
     begin = _core.initial_state(scene.compile())
     start = _core.State(time=t0, values=begin.values, inputs=begin.inputs)
-    truth = {POINTS.name: POINTS.values(run)}
-    return Case(scene=scene, t_end=t0 + 60.0, dt_out=0.5, start=start, truth=truth)
+    return KnownCase(scene=scene, t_end=t0 + 60.0, dt_out=0.5, start=start, truth=POINTS.values(run))
 
 
 def _turn_of(numerator: int) -> float:

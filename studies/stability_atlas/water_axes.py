@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from seacrane import Scene, Stage, _core
+from seacrane.accuracy.case import Case
 from seacrane.hydro import two_barges
-from seacrane.trading.case import Case
 from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart
 from stability_atlas.axis import Axis
 

@@ -13,9 +13,9 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from seacrane import Method, SeacraneError
-from seacrane.trading import row as rows
-from seacrane.trading.reference import Reference
-from seacrane.trading.row import Row
+from seacrane.accuracy import row as rows
+from seacrane.accuracy.measured import Reference
+from seacrane.accuracy.row import Row
 from stability_atlas.methods import DEFAULT
 
 DEFAULT_LIMIT_S = 20.0  # the default setting must end, not be cut off, on a slow machine too

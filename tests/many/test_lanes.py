@@ -17,7 +17,7 @@ from random_scenes import KINDS, Shape, build
 
 from seacrane import Kept, Result, Run, Scene, _core, cases, ensemble, simulate
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.ensembles.paths import with_values
+from seacrane.ensembles.study import with_values
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of
 
 LANES = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]

@@ -15,7 +15,7 @@ from random_scenes import KINDS, Shape, build
 
 from seacrane import Result, Run, Scene, SceneError, SeacraneError, Stage, Until, cases
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.ensembles.paths import _paths, with_values
+from seacrane.ensembles.study import _paths, with_values
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import advance_side_by_side
 from seacrane.run.lifts_in_lanes import LiftsInLanes

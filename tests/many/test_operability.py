@@ -21,8 +21,8 @@ from seacrane.analysis.rest_state import held
 from seacrane.operability import AllowableHs, AlphaFactor
 from seacrane.operability.allowable import steady_start
 from seacrane.operability.allowable_table import breaking_height, over_circle
-from seacrane.operability.levels import gaussian_level, reached, record_numbers, seeds_level
-from seacrane.operability.linear_seas import LinearSeas
+from seacrane.operability.criterion import gaussian_level, reached, record_numbers, seeds_level
+from seacrane.operability.linear_channels import LinearSeas
 from seacrane.operability.time_domain import first_crossing
 from seacrane.sea import jonswap
 

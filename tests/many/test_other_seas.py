@@ -13,7 +13,7 @@ from ensemble_studies import drifting_hull
 from seacrane import FlowCoefficients, Kept, Run, Scene, SceneError, _core, cases, ensemble, simulate
 from seacrane.ensembles import job
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.ensembles.paths import with_values
+from seacrane.ensembles.study import with_values
 from seacrane.hydro.data import excitation
 from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, torsethaugen
 

@@ -10,7 +10,7 @@ from accuracy_scenes import hung
 from staged_accuracy import DT_OUT, lift_of, told, word
 
 import seacrane as sc
-from seacrane.accuracy.matching import Matching, curve_apart, extremes_apart, matched
+from seacrane.accuracy.asked import Matching, curve_apart, extremes_apart, matched
 from seacrane.cli import main
 from seacrane.warnings import AnotherCourseWarning
 

@@ -15,8 +15,8 @@ import seacrane as sc
 from seacrane import Result, SceneError
 from seacrane.result.checked_parts import ALWAYS_STATED
 from seacrane.statistics.extremes_figure import extremes_sheet
-from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
-from seacrane.statistics.judged import start_differs
+from seacrane.statistics.record import start_differs
+from seacrane.statistics.seeds import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.tail import Tail, extremal_index, peaks_over_threshold
 from seacrane.warnings import RepeatingSeaWarning
 

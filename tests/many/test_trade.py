@@ -17,16 +17,14 @@ from trade_scenes import a_run_each, pendulum
 import seacrane as sc
 from seacrane import Scene, SceneError, cases, simulate, trade
 from seacrane._core import Integrator, integrators
-from seacrane.accuracy import Trade
+from seacrane.accuracy import Trade, methods, simpler_scenes, trade_rows, trade_study
+from seacrane.accuracy.case import Case
+from seacrane.accuracy.measured import Reference
 from seacrane.accuracy.quantities import ErrorMeasures, compare, quantities_of
+from seacrane.accuracy.row import Row, RowFile
+from seacrane.accuracy.simpler_scenes import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
+from seacrane.accuracy.trade_study import Spending
 from seacrane.inputs.checked import curve_of
-from seacrane.trading import methods, simpler_scenes, trade_rows, trade_study
-from seacrane.trading.budget import Spending
-from seacrane.trading.case import Case
-from seacrane.trading.lines_on_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
-from seacrane.trading.reference import Reference
-from seacrane.trading.row import Row
-from seacrane.trading.row_file import RowFile
 
 T_END, BUDGET = 6.0, 40.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
@@ -131,7 +129,8 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
     case = Case(scene=scene, t_end=5.0, dt_out=0.1)
     bench = trade_rows.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
     method = sc.Method(integrator="dop853", rtol=1e-9)
-    done = trade_rows.measure(bench, Row(case={"rung": simpler_scenes.WEIGHT}, method=method))
+    row = Row(case={"memory": "none", "rung": simpler_scenes.WEIGHT}, method=method)
+    done = trade_rows.measure(bench, row, lambda: simpler_scenes.payload_as_weight(scene))
     assert done.stable, done.message
     assert done.error("payload_position") < 1e-6 and done.error("hook_load") < 1.0
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
@@ -146,10 +145,7 @@ def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
 def test_all_default_quantities_are_held_and_error_control_is_preferred_where_costs_are_alike() -> None:
     rows = (
         row_of(
-            sc.Method(integrator="semi-implicit-euler", dt=0.02),
-            1.0,
-            payload_position=0.005,
-            hook_load=3400.0,
+            sc.Method(integrator="semi-implicit-euler", dt=0.02), 1.0, payload_position=5e-3, hook_load=3e3
         ),
         row_of(sc.Method(integrator="rk4", dt=0.05), 1.0, payload_position=0.005, hook_load=500.0),
         row_of(sc.Method(integrator="tsit5", rtol=1e-2), 1.05, payload_position=0.008, hook_load=570.0),
@@ -168,7 +164,7 @@ def test_all_default_quantities_are_held_and_error_control_is_preferred_where_co
 
 
 def test_a_budget_ends_a_trade(monkeypatch: Any) -> None:
-    def counted(bench: object, row: Row, **given: object) -> Row:
+    def counted(bench: object, row: Row, *given: object) -> Row:
         return replace(row, verdict="completed", cpu_s=1.0, wall_s=1.0)
 
     monkeypatch.setattr(trade_study, "measure", counted)

@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 
 from seacrane import Method
+from seacrane.accuracy import row as rows
 from seacrane.accuracy.quantities import ErrorMeasures
-from seacrane.trading import row as rows
-from seacrane.trading.row import Row
+from seacrane.accuracy.row import Row
 from stability_atlas import committed, stability_atlas
 from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from seacrane import simulate
+from seacrane.accuracy.case import Case
 from seacrane.result import Result
-from seacrane.trading.case import Case
 from stability_atlas.axes import AXES
 from stability_atlas.points import POINTS
 

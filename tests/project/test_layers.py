@@ -16,7 +16,7 @@ FLOORS = """
     errors warnings version one_thread | lazy | inputs | plotting sea | hydro.data | hydro.memory
     | hydro.vessel | hydro.database | hydro.group | hydro.readers | hydro.hull | hydro | description
     | series water | validity | crane | analysis | scene | result | statistics | run | accuracy | simulation
-    | ensembles | operability | pictures | answers | trading | needs | lift | cases | cli | __main__
+    | ensembles | operability | pictures | answers | needs | lift | cases | cli | __main__
 """
 ROOMS = {name: floor for floor, names in enumerate(FLOORS.split("|")) for name in names.split()}
 HIDDEN = ("cli", "inputs.netcdf_limits")  # commands, and h5py once a file is opened: --help is quick

@@ -10,7 +10,7 @@ import pytest
 import seacrane as sc
 from seacrane import cases
 from seacrane.ensembles import Kept
-from seacrane.operability.levels import RecordNumbers
+from seacrane.operability.criterion import RecordNumbers
 
 MASS, GRAVITY, LENGTH = 2e3, 9.81, 10.0
 WEIGHT = MASS * GRAVITY

@@ -11,7 +11,7 @@ import named
 import numpy as np
 
 from seacrane import Curve, HydroDatabase, Kept, Result, Scene
-from seacrane.ensembles.paths import with_values
+from seacrane.ensembles.study import with_values
 from seacrane.hydro import DriftCoefficients, shipped_database
 
 

@@ -19,7 +19,7 @@ from random_staged_lifts import hanging, random_stages
 from stage_scenes import heaving, hoisting, lift_off, meeting, on_deck, swinging
 
 from seacrane import Result, Scene, SeacraneError, Stage, Until, simulate
-from seacrane.accuracy.matching import curve_apart, extremes_apart, matched
+from seacrane.accuracy.asked import curve_apart, extremes_apart, matched
 from seacrane.accuracy.quantities import quantities_of
 
 SEED = 2033

@@ -12,9 +12,9 @@ from ensemble_studies import pendulum as pendulum
 
 from seacrane import Scene, cases, simulate
 from seacrane.accuracy.quantities import Quantity, compare, quantities_of
+from seacrane.accuracy.row import Row
+from seacrane.accuracy.trade_study import Spending
 from seacrane.crane import Payload
-from seacrane.trading.budget import Spending
-from seacrane.trading.row import Row
 
 GRID: dict[str, list[dict[str, float]]] = {  # each from loose to tight
     "tsit5": [{"rtol": 10.0**-k} for k in range(1, 10)],

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from seacrane import FlowCoefficients, Result, Scene, SceneError, balance, linear_model, simulate
+from seacrane.accuracy import simpler_scenes
 from seacrane.analysis import response_summed
 from seacrane.crane import Payload
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.scene import HullLoads, Waves
-from seacrane.trading import simpler_scenes
 
 G = 9.80665
 STEPS: dict[str, Any] = {"integrator": "rk4", "dt": 0.1}  # the same for every scene, so that runs compare

@@ -1,188 +1,147 @@
-"""What an accuracy is asked of, and how to run it: one run, or a lift in stages."""
+"""What is run by one method after the other: a scene to a time, or a lift in stages; and what that costs."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
-from seacrane.accuracy.expected import SCALE, expected_error, unit_error
-from seacrane.accuracy.matching import curve_apart, extremes_apart, matched
-from seacrane.accuracy.quantities import Quantity, compare, limits_of, quantities_of
-from seacrane.analysis.linearise import fastest_mode
-from seacrane.description.loads import any_stiff
-from seacrane.errors import SceneError
-from seacrane.inputs.caller import silently
-from seacrane.run.advance import finished
+import numpy as np
+
+from seacrane import _core
+from seacrane.accuracy.quantities import offered_channels
+from seacrane.errors import SimulationError
+from seacrane.result.result import Result
+from seacrane.run.channel_names import missing_names
+from seacrane.run.method import Method
+from seacrane.run.outputs import DEFAULT_INTERVAL, Outputs
 from seacrane.run.run import Run
+from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
-from seacrane.run.start import start_state
-from seacrane.validity.after_run import require_finite
-
-if TYPE_CHECKING:
-    from seacrane.accuracy.matching import Matching
-    from seacrane.result import Result
-    from seacrane.run.method import Method
-    from seacrane.run.outputs import Outputs
-    from seacrane.run.stage import Stage
-    from seacrane.run.start import Start
-    from seacrane.scene.scene import Scene
-
-EVENT_TIMES = "event_times"  # a quantity: the largest shift of an event, s
-BESIDE = 1.5  # the error of one of two methods that are as good as each other, over their difference
-STABLE = 3.0  # steps of an explicit method times the fastest mode
+from seacrane.run.start import Start
+from seacrane.scene.scene import Scene
 
 
-@dataclass(frozen=True, kw_only=True)
-class Difference:
-    """Of two runs: by quantity, and what differs in their courses; nothing where they took one."""
-
-    by_name: Mapping[str, float]
-    course: str = ""
-
-
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Case:
-    """What is asked for, and how to run it.
+    """One scene, how long it is run, and when errors are taken.
 
     Attributes
     ----------
-    limits : By quantity; the times of events have one even where none is asked for, which is infinite.
-    run : A scene, as it is or with other waves, by a method.
-    explicit_steps : That the fastest mode asks of an explicit method.
-    warn : Tells what the last run left of its range, where that was not told as it ended.
-    staged : Whether it is a lift in stages, whose curves are compared at equal phase.
+    t_end, dt_out : float
+        End of a run, and between outputs where none are given, s.
+    start : State or "rest", optional
+        Where to begin; default: the assembled start.
+    stages : tuple of Stage, optional
+        Carried out in place of one run to `t_end`; `first` names the one to begin with.
+    compiled : Model, optional
+        The compiled scene, to save compiling it again.
     """
 
     scene: Scene
-    quantities: Mapping[str, Quantity]
-    limits: Mapping[str, float]
-    run: Callable[[Scene, Method], Result]
-    explicit_steps: float
-    warn: Callable[[], None]
-    staged: bool = False
+    t_end: float
+    dt_out: float = DEFAULT_INTERVAL
+    start: Start = None
+    stages: tuple[Stage, ...] | None = None
+    first: str | None = None
+    compiled: _core.Model | None = None
 
-    def difference(self, one: Result, other: Result) -> Difference:
-        """Of two runs, the first of which says where outputs are."""
-        if not self.staged and EVENT_TIMES not in self.limits:
-            named = self.quantities.items()
-            return Difference(by_name={n: compare(q.values(one), q.values(other)).largest for n, q in named})
-        matching = matched(one, other)
-        apart = {
-            name: self._apart(quantity, one, other, matching) for name, quantity in self.quantities.items()
-        }
-        return Difference(by_name=apart | {EVENT_TIMES: matching.shift}, course=matching.course)
+    @cached_property
+    def model(self) -> _core.Model:
+        """The compiled scene; one serves all runs."""
+        return self.scene.compile() if self.compiled is None else self.compiled
 
-    def _apart(self, quantity: Quantity, one: Result, other: Result, matching: Matching) -> float:
-        values, others = quantity.values(one), quantity.values(other)
-        if quantity.of_numbers is not None or not self.staged:
-            return compare(values, others).largest
-        if matching.course:
-            return extremes_apart(values, others)
-        return curve_apart(one.time, values, other.time, others, matching)
+    def outputs(self, channels: Iterable[str] | None) -> Outputs:
+        """At the times of the case, those of the channels that the scene has; None: its default ones."""
+        if channels is None:
+            return Outputs(dt_out=self.dt_out)
+        wanted = list(dict.fromkeys(channels))
+        known = set(offered_channels(self.model)) - missing_names(self.scene, wanted).keys()
+        return Outputs(dt_out=self.dt_out, channels=[name for name in wanted if name in known])
 
-    def motions(self, result: Result) -> dict[str, float]:
-        """Largest distance of each quantity from its start."""
-        found = {name: quantity.motion(result) for name, quantity in self.quantities.items()}
-        return found | {EVENT_TIMES: float(result.time[-1] - result.time[0])}
-
-    def excess(self, errors: Mapping[str, float]) -> float:
-        """Of the errors over their limits the largest."""
-        return max(errors[name] / limit for name, limit in self.limits.items())
-
-    def is_curve(self, name: str) -> bool:
-        """Whether a quantity is one; extremes and times are not."""
-        return name != EVENT_TIMES and self.quantities[name].of_numbers is None
-
-    def over_difference(self, name: str) -> float:
-        """The error of a quantity at most, over its difference from a looser run."""
-        return BESIDE if self.staged or not self.is_curve(name) else 1.0
-
-    def unit(self, name: str) -> str:
-        """Of a quantity."""
-        return "s" if name == EVENT_TIMES else self.quantities[name].unit
-
-    def scale(self, name: str) -> float:
-        """Of the errors of a quantity, in its unit."""
-        return SCALE["s"] if name == EVENT_TIMES else unit_error(self.scene, self.quantities[name])
+    def begun(self, method: Method | None, outputs: Outputs) -> Run | StagedRun:
+        """What remains to be carried out."""
+        if self.stages is not None:
+            return StagedRun(
+                self.scene, self.stages, start=self.start, first=self.first, method=method, outputs=outputs
+            )
+        return Run(self.scene, self.t_end, method=method, outputs=outputs, start=self.start, model=self.model)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Done:
-    """A finished run and its method."""
+class OutOfTime(Exception):
+    """The time granted to a run is over."""
 
-    method: Method
-    result: Result
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Timed:
+    """The quickest of equal runs: least wall time and processor time of the loop, s."""
+
+    run: Run | StagedRun
+    wall_s: float
+    cpu_s: float
+    stopped: OutOfTime | SimulationError | None = None
 
     @property
-    def expected(self) -> float:
-        """Its expected error over the scale of a quantity."""
-        return expected_error(self.method)
+    def stats(self) -> Mapping[str, Any]:
+        """Formulation, simulated time, steps, evaluations and so on."""
+        return self.run.stats() if isinstance(self.run, Run) else self.run.result().stats
 
-    @property
-    def tolerance(self) -> float:
-        return self.method.used_rtol
-
-
-def case_of_run(
-    scene: Scene, t_end: float, accuracy: Any, *, outputs: Outputs, start: Start, progress: bool
-) -> Case:
-    """Of one run; SceneError for an accuracy that is none."""
-    begin, model = start_state(scene, start), scene.compile()
-    measured, limits = _asked(scene, accuracy, model)
-    recorded = _recording(outputs, measured)
-
-    def run(changed: Scene, chosen: Method) -> Result:
-        compiled = model if changed is scene else None
-        one = Run(changed, t_end, method=chosen, outputs=recorded, start=begin, model=compiled)
-        return require_finite(finished(one, progress=progress))
-
-    steps = _explicit_steps(scene, model, t_end)
-    return Case(
-        scene=scene, quantities=measured, limits=limits, run=run, explicit_steps=steps, warn=lambda: None
-    )
+    def result(self) -> Result:
+        """What came of it; what stopped it is raised."""
+        if self.stopped is not None:
+            raise self.stopped
+        return self.run.result()
 
 
-def case_of_stages(
-    scene: Scene, stages: Sequence[Stage], accuracy: Any, *, outputs: Outputs, start: Start, first: str | None
-) -> Case:
-    """Of a lift in stages; SceneError for an accuracy that is none, or stages that do not fit."""
-    measured, limits = _asked(scene, accuracy, None)
-    recorded = _recording(outputs, measured)
-    given: dict[str, Any] = {"start": start, "first": first, "outputs": recorded}
-    lifts = [StagedRun(scene, stages, **given)]  # warns of the description
-    model = lifts[0].model
+def timed(
+    case: Case,
+    method: Method,
+    channels: Iterable[str] | None,
+    *,
+    repeats: int = 1,
+    long_s: float = np.inf,
+    limit_s: float | None = None,
+) -> Timed:
+    """Run a case; preparing it does not count.
 
-    def run(changed: Scene, chosen: Method) -> Result:
-        with silently():
-            lifts[:] = [StagedRun(changed, stages, method=chosen, **given)]
-            while lifts[0].advance():
-                pass
-            return require_finite(lifts[0].result())
-
-    longest = sum(one.duration or one.maximum_duration or 0.0 for one in stages)
-    return Case(
-        scene=scene, quantities=measured, limits={EVENT_TIMES: math.inf, **limits}, run=run,
-        explicit_steps=_explicit_steps(scene, model, longest), warn=lambda: lifts[0].warn(), staged=True,
-    )  # fmt: skip
-
-
-def _asked(scene: Scene, accuracy: Any, model: Any) -> tuple[dict[str, Quantity], dict[str, float]]:
-    """What is measured, and the limits."""
-    if not isinstance(accuracy, Mapping):
-        raise SceneError(f"accuracy is {accuracy!r}; give a mapping such as {{'payload_position': 0.01}}")
-    names = [name for name in accuracy if name != EVENT_TIMES]
-    measured = quantities_of(scene, model, names) if names else {}
-    return measured, limits_of([*measured, EVENT_TIMES], accuracy)
+    Parameters
+    ----------
+    channels : To record, where the scene has them; None: its default ones.
+    repeats : Equal runs; the quickest counts.
+    long_s : Wall time from which on one run tells the cost, s.
+    limit_s : Processor time granted to each, s, so that what else the machine does decides nothing. Of a lift
+        in stages it is looked at between them.
+    """
+    outputs = case.outputs(channels)
+    wall = cpu = np.inf
+    for _ in range(repeats):
+        run = case.begun(method, outputs)
+        clock, begun = time.perf_counter(), time.thread_time()
+        stopped = _carried_out(run, limit_s)
+        cpu, wall = min(cpu, time.thread_time() - begun), min(wall, time.perf_counter() - clock)
+        if stopped is not None or wall > long_s:
+            break
+    return Timed(run=run, wall_s=wall, cpu_s=cpu, stopped=stopped)
 
 
-def _recording(outputs: Outputs, measured: Mapping[str, Quantity]) -> Outputs:
-    """With the channels that errors are told of."""
-    needed = {channel for quantity in measured.values() for channel in quantity.channels}
-    asked = outputs.channels
-    return outputs if asked is None else replace(outputs, channels=sorted({*asked, *needed}))
+def _carried_out(run: Run | StagedRun, limit_s: float | None) -> OutOfTime | SimulationError | None:
+    """Step it to its end; what stopped it before."""
+    deadline = np.inf if limit_s is None else time.process_time() + limit_s
 
+    def ask(_: float = 0.0) -> None:
+        if time.process_time() > deadline:
+            raise OutOfTime(f"granted {limit_s:g} s of processor time")
 
-def _explicit_steps(scene: Scene, model: Any, span: float) -> float:
-    return (fastest_mode(model) or 0.0) * span / STABLE if any_stiff(scene.loads) else 0.0
+    try:
+        if isinstance(run, Run):
+            run.advance(run.t_end, ask)
+        else:
+            while run.advance():
+                ask()
+    except (OutOfTime, SimulationError) as stopped:
+        return stopped
+    if run.interrupted:
+        raise KeyboardInterrupt
+    return None

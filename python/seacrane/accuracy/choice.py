@@ -11,11 +11,12 @@ another method that is as good, and nothing is made of a ratio.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from seacrane.accuracy.case import BESIDE, Case, Done
+from seacrane.accuracy.asked import BESIDE, Asked, asked
+from seacrane.accuracy.case import Case
 from seacrane.accuracy.expected import MARGIN, STIFF, TIGHTEST, expected_error, method_for, probe_of
 from seacrane.accuracy.model_error import model_errors
 from seacrane.description.loads import any_stiff
@@ -28,10 +29,10 @@ from seacrane.validity.left_range import warn_of
 from seacrane.warnings import AnotherCourseWarning
 
 if TYPE_CHECKING:
+    from seacrane.description.waves import Waves
     from seacrane.result import Result
     from seacrane.run.outputs import Outputs
     from seacrane.run.sampled_controller import SampledController
-    from seacrane.scene.scene import Scene
 
 MOST_STEPS = 1e6  # that the fastest mode may ask of an explicit one of them
 OF_STAGES = 3.0  # times the margin, of lifts whose stages end where a condition is met, inside a step
@@ -42,27 +43,39 @@ COARSE = 0.1  # of the motion: a difference above it is no error that linearised
 ROUNDING = 1e-10  # tolerance below which rounding may set the error, and only runs of like tolerance tell
 MOST_COURSES = 3  # runs, from which on another course is taken for what the lift does
 OTHER_COURSE = "another course"
-OF_EXTREMES = "errors of curves are those of their extremes"
 CUT_SHORT = 0.1  # restarts over steps from which on the tolerance does not set the error of a run
 SINGULAR = "a singular position of the mechanism, where constraints depend on each other: keep away from it"
 AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
 
 
+@dataclass(frozen=True, kw_only=True)
+class Done:
+    """A finished run and its method."""
+
+    method: Method
+    result: Result
+
+    @property
+    def expected(self) -> float:
+        """Its expected error over the scale of a quantity."""
+        return expected_error(self.method)
+
+
 def run_to_accuracy(
-    make: Callable[[Outputs], Case],
+    case: Case,
+    accuracy: Any,
     *,
     method: Method | None,
     outputs: Outputs | None,
     shorthand: Mapping[str, Any],
     controllers: Sequence[SampledController] = (),
+    progress: bool = False,
 ) -> Result:
-    """The run whose estimated error meets all limits.
+    """The run of a case whose estimated error meets all limits.
 
     Parameters
     ----------
-    make : callable
-        From what is recorded to what is asked for, and of what.
-    method, outputs, shorthand, controllers
+    accuracy, method, outputs, shorthand, controllers, progress
         As `simulate`; the integrator and its tolerance are chosen here, and no controllers can be.
 
     Returns
@@ -76,18 +89,16 @@ def run_to_accuracy(
     """
     refuse_what_is_chosen(method, shorthand, controllers)
     kept, outputs = settled(method, outputs, shorthand)
-    case = make(outputs)
-    result = _converged(case, kept)
-    case.warn()
-    asked = outputs.channels
-    if asked is None:
+    wanted = asked(case, accuracy, outputs, progress=progress)
+    result = _converged(wanted, kept)
+    wanted.warn()
+    if outputs.channels is None:
         return result
-    return replace(
-        result, channels={name: result.channels[name] for name in asked if name in result.channels}
-    )
+    named = {name: result.channels[name] for name in outputs.channels if name in result.channels}
+    return replace(result, channels=named)
 
 
-def error_of(case: Case, method: Method) -> tuple[dict[str, float], int, int]:
+def error_of(case: Asked, method: Method) -> tuple[dict[str, float], int, int]:
     """Estimated errors of a run by a method that `run_to_accuracy` chose for another scene.
 
     Returns
@@ -111,7 +122,7 @@ def error_of(case: Case, method: Method) -> tuple[dict[str, float], int, int]:
     return _estimate(case, done).errors, run, other
 
 
-def _cheap(case: Case, method: Method) -> Method:
+def _cheap(case: Asked, method: Method) -> Method:
     """What tells the error of a method."""
     if method.used_rtol <= ROUNDING:
         return _looser(method)
@@ -144,7 +155,7 @@ def without_what_is_chosen(method: Method) -> Method:
     return replace(method, **{name: getattr(usual, name) for name in CHOSEN})
 
 
-def _converged(case: Case, kept: Method) -> Result:
+def _converged(case: Asked, kept: Method) -> Result:
     """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
     method = _with_setting(kept, first_method(case))
     done = [_beside(case, method)]
@@ -163,16 +174,16 @@ def _converged(case: Case, kept: Method) -> Result:
         method = _tighter(method, case.excess(told.errors) if told.known else STEP)
         if method.integrator == STIFF:
             done.append(_beside(case, method))
-        elif method.used_rtol < ROUNDING and done[-1].tolerance > STEP * 1.1 * method.used_rtol:
+        elif method.used_rtol < ROUNDING and done[-1].method.used_rtol > STEP * 1.1 * method.used_rtol:
             done.append(_run(case, _looser(method)))
     return done[-1].result
 
 
-def _run(case: Case, method: Method) -> Done:
-    return Done(method=method, result=case.run(case.scene, method))
+def _run(case: Asked, method: Method) -> Done:
+    return Done(method=method, result=case.run(method))
 
 
-def _beside(case: Case, method: Method) -> Done:
+def _beside(case: Asked, method: Method) -> Done:
     """The run that tells the error of a method; of a lift that it does not carry out one that is nearer."""
     try:
         return _run(case, _cheap(case, method))
@@ -199,10 +210,9 @@ def _tighter(method: Method, factor: float) -> Method:
     return replace(found, rtol=max(found.used_rtol, TIGHTEST))
 
 
-def first_method(case: Case) -> Method:
+def first_method(case: Asked) -> Method:
     """What met such limits in measured trades."""
-    asked = {name: limit for name, limit in case.limits.items() if math.isfinite(limit)}
-    smallest = min(limit / case.scale(name) for name, limit in asked.items())
+    smallest = min(limit / case.scale(name) for name, limit in case.limits.items())
     return method_for(smallest / (MARGIN * PESSIMISM), stiff=any_stiff(case.scene.loads))
 
 
@@ -215,7 +225,7 @@ class _Estimate:
     course: str
 
 
-def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
+def _estimate(case: Asked, done: Sequence[Done]) -> _Estimate:
     """Estimated errors of the last run.
 
     Every looser run has its say: two errors alone may be alike by chance where a motion amplifies them. But
@@ -229,7 +239,7 @@ def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
         linear_all = all(d <= COARSE * motions[name] for name, d in apart.by_name.items())
         return _Estimate(
             errors={name: BESIDE * d for name, d in apart.by_name.items()},
-            known=linear_all and not apart.course and tight.tolerance > ROUNDING, course=apart.course,
+            known=linear_all and not apart.course and tight.method.used_rtol > ROUNDING, course=apart.course,
         )  # fmt: skip
     looser = [one for one in done[:-1] if one.expected > tight.expected]
     pairs = [(one, case.difference(tight.result, one.result)) for one in looser]
@@ -249,7 +259,7 @@ def _estimate(case: Case, done: Sequence[Done]) -> _Estimate:
     by_tolerance = not (_cut_short(near.result) or _cut_short(tight.result))
     whole = {name: d for name, d in last.by_name.items() if not (linear[name] and by_tolerance)}
     errors |= {name: max(errors[name], case.over_difference(name) * d) for name, d in whole.items()}
-    known = all(linear.values()) and by_tolerance and tight.tolerance > ROUNDING
+    known = all(linear.values()) and by_tolerance and tight.method.used_rtol > ROUNDING
     return _Estimate(errors=errors, known=known, course=last.course)
 
 
@@ -258,7 +268,7 @@ def _cut_short(result: Result) -> bool:
     return int(result.stats["restarts"]) > CUT_SHORT * int(result.stats["steps"])
 
 
-def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
+def _with_estimate(case: Asked, done: Sequence[Done], told: _Estimate) -> Result:
     """The last run, with what differences of tolerance do not tell added to its errors."""
     last, errors = done[-1], told.errors
     runs = [one.result for one in done]
@@ -272,14 +282,16 @@ def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
         runs.append(other)
         if case.excess(errors) > 1.0:
             raise SceneError(_unreachable(case, errors, SINGULAR))
-    if _table_may_show(case, last.result):
-        exact = case.run(_with_exact_waves(case.scene), last.method)
+    waves = case.scene.waves
+    if waves is not None and _table_may_show(case, waves, last.result):
+        exact = case.run(last.method, case.scene.copy(waves=replace(waves, evaluation="exact")))
         if exact.interrupted:
             return exact
         errors = _added(errors, case.difference(last.result, exact).by_name, 1.0)
         runs.append(exact)
         if case.excess(errors) > 1.0:
-            raise SceneError(_unreachable(case, errors, _bound_of_table(case.scene)))
+            bound = f"the wave table, whose relative_bound is {waves.relative_bound:g}: tighten it"
+            raise SceneError(_unreachable(case, errors, bound))
     stats: dict[str, Any] = {**last.result.stats, "accuracy_runs": len(runs)}
     stats["accuracy_wall_s"] = sum(float(result.stats["wall_s"]) for result in runs)
     stats["accuracy_evaluations"] = sum(int(result.stats["evaluations"]) for result in runs)
@@ -294,7 +306,7 @@ def _with_estimate(case: Case, done: Sequence[Done], told: _Estimate) -> Result:
     return replace(last.result, stats=stats | _by_model(case, last.result))
 
 
-def _by_model(case: Case, result: Result) -> dict[str, float]:
+def _by_model(case: Asked, result: Result) -> dict[str, float]:
     """What the fit of the memory leaves, of a run whose scene stays what it is."""
     if case.staged:
         return {}
@@ -312,33 +324,22 @@ def _added(errors: Mapping[str, float], more: Mapping[str, float], factor: float
     return {name: error + factor * more[name] for name, error in errors.items()}
 
 
-def _other_formulation(case: Case, done: Done) -> Result:
+def _other_formulation(case: Asked, done: Done) -> Result:
     """The same run in the other coordinates: at a singular position both leave combinations of rows out, of
     rows of their own, and what that does to the motion no tolerance changes."""
     other = "redundant" if done.result.stats["formulation"] == "recursive" else "recursive"
-    return case.run(case.scene, replace(done.method, formulation=other))
+    return case.run(replace(done.method, formulation=other))
 
 
-def _table_may_show(case: Case, result: Result) -> bool:
+def _table_may_show(case: Asked, waves: Waves, result: Result) -> bool:
     """Whether the bound of the wave table, as a part of the motion, exceeds a limit."""
-    waves = case.scene.waves
-    if waves is None or waves.evaluation != "table" or not waves.has_tables():
+    if waves.evaluation != "table" or not waves.has_tables():
         return False
     motions = case.motions(result)
     return any(waves.relative_bound * motions[n] > limit for n, limit in case.limits.items())
 
 
-def _with_exact_waves(scene: Scene) -> Scene:
-    assert scene.waves is not None
-    return scene.copy(waves=replace(scene.waves, evaluation="exact"))
-
-
-def _bound_of_table(scene: Scene) -> str:
-    assert scene.waves is not None
-    return f"the wave table, whose relative_bound is {scene.waves.relative_bound:g}: tighten it"
-
-
-def _unreachable(case: Case, errors: Mapping[str, float], term: str = "") -> str:
+def _unreachable(case: Asked, errors: Mapping[str, float], term: str) -> str:
     name = max(case.limits, key=lambda quantity: errors[quantity] / case.limits[quantity])
     expected = expected_error(method_for(0.0)) * case.scale(name)
     if not term and errors[name] > AMPLIFIED * expected:

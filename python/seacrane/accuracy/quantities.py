@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -55,8 +55,7 @@ class Quantity:
         """Largest distance from its start, in its unit."""
         if self.of_numbers is not None:
             return self.of_numbers(result)
-        values = self.values(result)
-        return float(np.nanmax(np.linalg.norm(values - values[:1], axis=-1), initial=0.0))
+        return motion_of(self.values(result))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +72,11 @@ class ErrorMeasures:
     largest: float
     rms: float
     std: float
+
+
+def motion_of(values: Array) -> float:
+    """Largest distance of values (n, items, parts) from those at the first output."""
+    return float(np.nanmax(np.linalg.norm(values - values[:1], axis=-1), initial=0.0))
 
 
 def compare(reference: Array, values: Array) -> ErrorMeasures:
@@ -115,12 +119,35 @@ def _require_known(scene: Scene, model: _core.Model | None, found: Quantity, off
     if model is None:
         require_channels(scene, found.channels)
         return
-    known = model.channel_names(defaults_only=False)
-    channels = [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
+    channels = offered_channels(model)
     if not set(found.channels) <= set(channels):
         raise SceneError(
             f"quantity {found.name!r} is unknown to this scene; it offers {', '.join([*offered, *channels])}"
         )
+
+
+def offered_channels(model: _core.Model) -> list[str]:
+    """All that a result of this model may hold."""
+    known = model.channel_names(defaults_only=False)
+    return [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
+
+
+def channels_of(quantities: Mapping[str, Quantity]) -> list[str]:
+    """What the quantities are made of."""
+    return list(dict.fromkeys(channel for quantity in quantities.values() for channel in quantity.channels))
+
+
+def of_stages(quantity: Quantity) -> Quantity:
+    """The least and the largest of each part in each stage: an event that moves by a moment moves none."""
+
+    def values(result: Result) -> Array:
+        found = quantity.values(result)
+        spans = [found[result.stage(span.name)] for span in result.stages]
+        if not all(len(span) for span in spans):
+            raise SceneError(f"quantity {quantity.name!r}: a stage has no output; give a smaller dt_out")
+        return np.stack([extreme for span in spans for extreme in (span.min(axis=0), span.max(axis=0))])
+
+    return replace(quantity, values=values)
 
 
 def limits_of(quantities: Collection[str], accuracy: Mapping[str, Any]) -> dict[str, float]:
@@ -131,8 +158,7 @@ def limits_of(quantities: Collection[str], accuracy: Mapping[str, Any]) -> dict[
     for name, value in accuracy.items():
         if name not in quantities:
             raise SceneError(f"accuracy: {name!r} was not measured; choose from {', '.join(quantities)}")
-        limit = positive_of(f"accuracy: {name}", value)
-        out[name] = limit
+        out[name] = positive_of(f"accuracy: {name}", value)
     return out
 
 

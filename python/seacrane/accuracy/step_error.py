@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.accuracy.quantities import compare, quantities_of
+from seacrane.accuracy.case import Case
+from seacrane.accuracy.quantities import channels_of, compare, motion_of, quantities_of
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.keywords import named
 from seacrane.run.advance import finished
@@ -116,23 +117,18 @@ def step_error(
     method, outputs = settled(method, outputs, shorthand)
     if method.dt is None:
         raise SceneError("dt is None; give the positive step whose error is asked for")
-    model = scene.compile()
-    measured = quantities_of(scene, model, quantities)
-    channels = sorted({channel for quantity in measured.values() for channel in quantity.channels})
-    ladder = _Ladder(scene, model, t_end, method, replace(outputs, channels=channels), start, measured)
-    return ladder.told()
+    case = Case(scene=scene, t_end=t_end, start=start)
+    measured = quantities_of(scene, case.model, quantities)
+    return _Ladder(case, method, replace(outputs, channels=channels_of(measured)), measured).told()
 
 
 @dataclass
 class _Ladder:
     """Runs of one scene that differ in their step alone."""
 
-    scene: Scene
-    model: _core.Model
-    t_end: float
+    case: Case
     method: Method
     outputs: Outputs
-    start: _core.State | None
     measured: dict[str, Quantity]
     order: int = 0
 
@@ -158,9 +154,8 @@ class _Ladder:
     def values(self, factor: float) -> dict[str, Array]:
         """The quantities of a run with so many times the step; SimulationError where it cannot go on."""
         tried = replace(self.method, dt=factor * float(self.method.dt or 0.0))
-        run = Run(
-            self.scene, self.t_end, method=tried, outputs=self.outputs, start=self.start, model=self.model
-        )
+        run = self.case.begun(tried, self.outputs)
+        assert isinstance(run, Run)
         if run.core.adaptive:
             raise SceneError(
                 f"integrator {tried.integrator!r} chooses its own steps: give accuracy= to simulate()"
@@ -178,8 +173,7 @@ class _Ladder:
         except SimulationError:
             return None
         for name, right in asked.items():
-            motion = compare(right[:1].repeat(len(right), axis=0), right).largest
-            if not compare(right, found[name]).largest <= WILD * motion:
+            if not compare(right, found[name]).largest <= WILD * motion_of(right):
                 return None
         return found
 
@@ -201,12 +195,10 @@ def _told(
     error: float | None = None
     found = math.nan
     fine, coarse = values[1] - values[0], values[2] - values[1]
-    nothing = np.zeros_like(fine)
-    small, large = compare(nothing, fine).largest, compare(nothing, coarse).largest
-    motion = compare(values[0][:1].repeat(len(values[0]), axis=0), values[0]).largest
+    small, large = (float(np.linalg.norm(one, axis=-1).max()) for one in (fine, coarse))
     if small > 0.0 and large > 0.0:
         found = math.log2(large / small)
-    if max(small, large) <= ROUNDING * motion:
+    if max(small, large) <= ROUNDING * motion_of(values[0]):
         error = max(small, large)
     elif compare(2.0**order * fine, coarse).largest <= CONFIRMED * large:
         error = small / (2.0**order - 1.0) * 2.0 ** (order * asked)

@@ -14,10 +14,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Measure, save trade.csv and trade.png, and print the front and what the scene requires."""
     source = load_source(arguments.scene, arguments, scripts=False)
     folder = output_folder(arguments.out)
+    from seacrane.accuracy import trade
     from seacrane.needs import required
-    from seacrane.needs.asked import usual
+    from seacrane.needs.bench import usual
     from seacrane.run.outputs import Outputs
-    from seacrane.trading import trade
 
     outputs = Outputs(dt_out=(source.outputs or Outputs()).dt_out)
     span: dict[str, Any] = {"stages": source.stages, "start": source.start, "outputs": outputs}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
@@ -9,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.accuracy.case import Case, case_of_run, case_of_stages
+from seacrane.accuracy.asked import asked
+from seacrane.accuracy.case import Case
 from seacrane.accuracy.choice import error_of, run_to_accuracy
 from seacrane.accuracy.expected import expected_error
 from seacrane.ensembles.job import Prepared
@@ -18,7 +20,6 @@ from seacrane.ensembles.study import Study
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
 from seacrane.run.method import Method
-from seacrane.run.outputs import Outputs
 from seacrane.warnings import AccuracyNotHeldWarning
 
 A_PROBE_FOR, MOST_PROBES = 25, 3  # members; each probe takes about two runs
@@ -160,10 +161,8 @@ def _each(
 
 @one_thread
 def _probe(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Value]) -> Probe:
-    result = run_to_accuracy(
-        lambda recorded: _case(study, accuracy, values, recorded),
-        method=study.method, outputs=study.outputs, shorthand={},
-    )  # fmt: skip
+    case = _case(study, values)
+    result = run_to_accuracy(case, accuracy, method=study.method, outputs=study.outputs, shorthand={})
     if result.interrupted:
         raise KeyboardInterrupt
     stats = result.stats
@@ -179,16 +178,15 @@ def _probe(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Val
 
 @one_thread
 def _check(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Value]) -> Probe:
-    errors, run, other = error_of(_case(study, accuracy, values, study.outputs), study.method)
+    case = asked(_case(study, values), accuracy, study.outputs)
+    errors, run, other = error_of(case, study.method)
     return Probe(method=study.method, errors=errors, run=run, all=run + other)
 
 
-def _case(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Value], outputs: Outputs) -> Case:
+def _case(study: Study, values: Mapping[str, Value]) -> Case:
     """Of a member, which begins where it begins in the ensemble."""
     if not study.stages:
         scene = study.scene(values)
-        return case_of_run(
-            scene, study.t_end, accuracy, outputs=outputs, start=study.start_of(scene), progress=False
-        )
+        return Case(scene=scene, t_end=study.t_end, start=study.start_of(scene))
     scene, stages, start, _ = Prepared(study).lift(values)
-    return case_of_stages(scene, stages, accuracy, outputs=outputs, start=start, first=None)
+    return Case(scene=scene, t_end=math.nan, stages=tuple(stages), start=start)

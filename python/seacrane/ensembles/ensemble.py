@@ -15,25 +15,28 @@ from typing import TYPE_CHECKING, Any, Literal
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.analysis.rest_state import equilibrium
-from seacrane.ensembles.beside import SIDE_BY_SIDE, lanes_for, remark
-from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
-from seacrane.ensembles.dataset import table_of
-from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
-from seacrane.ensembles.grouping import order_of
+from seacrane.ensembles.dataset import NOT_RUN, RESERVED, table_of
+from seacrane.ensembles.filling import (
+    SIDE_BY_SIDE,
+    any_outcome,
+    fill,
+    lanes_for,
+    progress_bar,
+    remark,
+    require_success,
+)
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
-from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, Value, members_of
 from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.packs import Packs, pack_size
+from seacrane.ensembles.packs import Packs, order_of, pack_size
 from seacrane.ensembles.stage_values import START_TIME, Stages, checked_stages_of
 from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
-from seacrane.ensembles.study_folder import claimed, study_in
-from seacrane.ensembles.targets import targets_of, with_static_parts
-from seacrane.ensembles.variables import NOT_RUN, RESERVED
+from seacrane.ensembles.study_folder import claimed, identity_of, study_in
+from seacrane.ensembles.targets import Certainty, targets_of, with_static_parts
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import not_negative_of, number_of
@@ -301,12 +304,12 @@ def ensemble(
     if targets:
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)
-        with _growing_store(store, study, growth) as kept:
+        with _store(store, study, growth.members(1), growth.size, grows=True) as kept:
             grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
         dataset = table_of(grown.members, grown.outcomes).dataset()
         done = replace(_ensemble(grown.members, dataset, study.lanes), certainty=grown.certainty)
     else:
-        with _store(store, study, members, size) as kept:
+        with _store(store, study, members, size, grows=False) as kept:
             packs = Packs(order=order_of(study, members), size=size)
             _run(study, members, packs, kept, executor, raises=raises, progress=progress)
             done = _ensemble(members, kept.dataset(members), study.lanes)
@@ -388,25 +391,16 @@ def _end(t_end: float | None, stages: Stages) -> float:
 
 
 @contextlib.contextmanager
-def _store(path: str | os.PathLike[str] | None, study: Study, members: Members, size: int) -> Iterator[Store]:
+def _store(
+    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int, *, grows: bool
+) -> Iterator[Store]:
+    """Of an ensemble that grows half widths and the most seeds do not tell it from another."""
     if path is None:
         yield Memory()
         return
-    data = {"identity": identity_of(study, members, size), "grid": members.grid, "axes": dict(members.axes)}
-    with claimed(path, data) as folder:
-        yield Folder(folder)
-
-
-@contextlib.contextmanager
-def _growing_store(path: str | os.PathLike[str] | None, study: Study, growth: Growth) -> Iterator[Store]:
-    """Store of an ensemble with `until`; half widths and the most seeds do not tell it from another."""
-    if path is None:
-        yield Memory()
-        return
-    first = growth.members(1)
-    identity = {**identity_of(study, first, growth.size), "seeds in a batch": BATCH}
-    data = {"identity": identity, "grid": True, "axes": dict(first.axes), "seeds_in_pack": growth.size}
-    with claimed(path, data) as folder:
+    identity = identity_of(study, members, size) | ({"seeds in a batch": BATCH} if grows else {})
+    data = {"identity": identity, "grid": members.grid, "axes": dict(members.axes)}
+    with claimed(path, data | ({"seeds_in_pack": size} if grows else {})) as folder:
         yield Folder(folder)
 
 

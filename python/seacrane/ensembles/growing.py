@@ -11,13 +11,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
-from seacrane.ensembles.certainty import Certainty, certainty_of
 from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.members import Members, Value
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.store import Store, kept_packs
-from seacrane.ensembles.targets import Target
+from seacrane.ensembles.targets import Certainty, Target, certainty_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.run.interrupts import interrupts_kept

@@ -5,24 +5,28 @@ from __future__ import annotations
 import pickle
 from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property, lru_cache, partial
 from threading import Lock
 from typing import Any, TypeVar
 
 from seacrane import _core
 from seacrane.description.given import given_vessels
-from seacrane.ensembles.carried import Carried, stepped
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import WORDS
+from seacrane.ensembles.other_sea import WORDS, with_sea
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.stage_values import START_TIME
 from seacrane.ensembles.study import Study, Values
-from seacrane.errors import SeacraneError, WorkerVersionError
+from seacrane.errors import SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
+from seacrane.run.advance import ended
 from seacrane.run.alike_stages import AlikeStages
 from seacrane.run.interrupts import Interrupts, interrupts_kept
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.lifts_in_lanes import LiftsInLanes
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.plan import first_scene
 from seacrane.run.run import Run
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
@@ -36,6 +40,92 @@ Some = TypeVar("Some")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
 MOST_HELD = 32  # scenes that differ in more than their sea
 MOST_CARRIED = 32  # runs that wait for a lift
+
+
+def stepped(run: Run | StagedRun) -> Run | StagedRun:
+    """The run at its end. Raises KeyboardInterrupt where Ctrl-C stopped it."""
+    if isinstance(run, StagedRun):
+        while run.advance():
+            pass
+        if run.interrupted:
+            raise KeyboardInterrupt
+        return run
+    with Interrupts() as interrupts:
+        run = ended(run, (), interrupts)
+    interrupts.take()  # pressed as the run ended: the members after it are not to be run
+    if run.interrupted:
+        raise KeyboardInterrupt
+    return run
+
+
+class Carried:
+    """The states of a scene that waits for its lift, at the times at which one may begin.
+
+    It lands on each of them on its way to a later one, so that every state is the same to the bit whichever
+    were asked for before. Threads may share it.
+
+    Parameters
+    ----------
+    scene, stages
+        Of the lift: what waits is the scene before its first stage.
+    start : State, optional
+        Default: the assembled start.
+    times : sequence of float
+        s, ascending.
+    method, outputs
+        Of the lift; nothing is recorded.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        stages: Sequence[Stage],
+        *,
+        start: _core.State | None,
+        times: Sequence[float],
+        method: Method,
+        outputs: Outputs,
+    ) -> None:
+        self._scene = first_scene(scene, stages)
+        self._model = self._scene.compile()
+        self._state = _core.initial_state(self._model) if start is None else start
+        self._left = list(times)
+        if self._left[0] < self._state.time:
+            raise SceneError(
+                f"{START_TIME} is {self._left[0]:g} s, and the run that waits for it begins at "
+                f"{self._state.time:g} s; give later ones"
+            )
+        self._method, self._outputs = method, replace(outputs, channels=())
+        self._states: dict[float, _core.State] = {}
+        self._found: list[Finding] = []
+        self._found_by: dict[float, tuple[Finding, ...]] = {}
+        self._lock = Lock()
+
+    def at(self, time: float) -> _core.State:
+        """The state at one of the times."""
+        with self._lock:
+            while time not in self._states:
+                self._states[self._left[0]] = self._next(self._left[0])
+                self._state = self._states[self._left.pop(0)]
+                self._found_by[self._state.time] = tuple(self._found)
+            return self._states[time]
+
+    def found(self, time: float) -> tuple[Finding, ...]:
+        """What was out of range until one of the times that were asked for, such as a load through a deck."""
+        return self._found_by[time]
+
+    def _next(self, time: float) -> _core.State:
+        if time == self._state.time:
+            return self._state
+        run = Run(
+            self._scene, time, start=self._state, method=self._method, outputs=self._outputs,
+            model=self._model,
+        )  # fmt: skip
+        ended_run = stepped(run)
+        assert isinstance(ended_run, Run)
+        known = {kind for kind, _ in self._found}
+        self._found += [one for one in ended_run.judged_result()[1] if one[0] not in known]
+        return ended_run.state
 
 
 class Job:
@@ -170,7 +260,7 @@ class Prepared:
         if not sea or study.start is not None or not isinstance(source, Scene) or given_vessels(source):
             return self._begun(study.scene(values))
         first = self._first(others)
-        waves = study.in_sea(first.scene, sea).waves
+        waves = with_sea(first.scene, sea).waves
         assert waves is not None
         return first.in_sea(waves)
 

@@ -3,34 +3,130 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.analysis.drag_in_sea import drag_in_components
+from seacrane.analysis.frequency_domain import component_forces
+from seacrane.analysis.linear_system import LinearModel, Resolvent, linear_model
+from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.description.channels import CHANNELS, FIXED
 from seacrane.description.crane_parts import hooks
-from seacrane.description.pick import Pick
+from seacrane.description.pick import Pick, pick_of
 from seacrane.description.wet_parts import wet_bodies
-from seacrane.ensembles.linear_motions import LinearMotions, Motion, motion_of
 from seacrane.ensembles.members import Value
+from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.frames import heading_of, rotation_about_z
 from seacrane.inputs.shown import shown
+from seacrane.one_thread import one_thread
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 EXTREMES = {"maximum": np.max, "minimum": np.min}
+Complex = NDArray[np.complex128]
+ANGLES = ("heel", "trim", "yaw")
+ORDERS = {  # of the derivatives that channels are
+    **dict.fromkeys(("position", *ANGLES), 0),
+    **dict.fromkeys(("velocity", "angular_velocity"), 1),
+    **dict.fromkeys(("acceleration", "angular_acceleration"), 2),
+}
+MOST_TIMES = 10**6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion:
+    """One coordinate of a point of a body that rests upright, or its rate of a higher order.
+
+    Attributes
+    ----------
+    channel : One of `ORDERS`.
+    axis : x, y or z; nothing of an angle.
+    point : Body coordinates, m; None: the centre of mass.
+    """
+
+    channel: str
+    body: str
+    axis: str = ""
+    point: ArrayLike | None = None
+
+    def row(self, linear: LinearModel) -> Array:
+        """The weights of the states of a linear model."""
+        body = linear.scene.bodies.get(self.body)
+        place = self.point if self.point is not None or body is None else body.center_of_mass
+        rows = linear.output(body=self.body, point=(0.0, 0.0, 0.0) if place is None else place)
+        if self.channel in ANGLES:
+            assert body is not None
+            turned = rotation_about_z(heading_of(body.quaternion)).T @ rows[3:]
+            return np.asarray(turned[ANGLES.index(self.channel)])
+        first = 3 if self.channel.startswith("angular") else 0
+        return np.asarray(rows[first + FIXED["axis"].index(self.axis)])
+
+
+def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
+    """The motion that a text picks, at a point of its body.
+
+    Raises
+    ------
+    SceneError
+        For a channel that is no motion of a body, and one that is not a single curve.
+    """
+    pick = pick_of("control", channel)
+    if pick.channel not in ORDERS:
+        raise SceneError(f"control: {pick.channel} is no motion of a body; choose from {', '.join(ORDERS)}")
+    missing = [dim for dim in CHANNELS[pick.channel].dims_of_several[1:] if dim not in pick.names]
+    if missing or pick.parts:
+        wrong = f"name its {missing[0]}" if missing else f"give {pick.parts} beside it"
+        raise SceneError(f"control: {pick}: {wrong}, as in 'position[load, z]'")
+    return Motion(channel=pick.channel, **pick.names, point=point)
 
 
 class _Control(ABC):
-    """A series for each seed, and its extremes."""
+    """A series for each seed, made of linear motions at even `times` (s, shape (n,)), and its extremes.
 
-    _motions: LinearMotions
+    Waves load vessels, and parts and lines under water, with drag made linear in the sea as described.
+    """
 
-    @property
-    def times(self) -> Array:
-        """s, shape (n,)."""
-        return self._motions.times
+    def __init__(
+        self,
+        scene: Scene,
+        motions: Sequence[Motion],
+        *,
+        t_end: float,
+        after: float,
+        dt_out: float,
+        words: Mapping[str, Value] | None,
+        state: _core.State | None,
+    ) -> None:
+        self._words = dict(words or {})
+        for word in self._words:
+            if word not in WORDS or word == "seed":
+                raise SceneError(f"control: {word!r} is no word of the sea beside its seed")
+        require_same_sea(scene, ("seed", *self._words))
+        assert scene.waves is not None
+        self._scene = scene.copy()
+        linear = linear_model(scene, state=state, vessel=next(iter(scene.waves.hulls)))
+        if linear.memories:
+            raise SceneError(
+                "control: the memory of a vessel is a convolution, whose start from rest the linear model "
+                "does not know; take a fitted one, such as memory='by-motion'"
+            )
+        described = with_sea(scene, self._words).waves
+        assert described is not None
+        linear = drag_in_components(linear, described)
+        self._parts = PartsInWaves(linear)
+        self.times = _times(t_end, after, dt_out)
+        self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
+        self._resolvent = Resolvent(linear)
+        self._rows = np.array([motion.row(linear) for motion in motions])
+        self._orders = [ORDERS[motion.channel] for motion in motions]
+        self._decays = _decays(linear.a, self._rows, self._orders, self.times)
 
     @abstractmethod
     def series(self, seed: int) -> Array:
@@ -41,6 +137,62 @@ class _Control(ABC):
         if what not in EXTREMES:
             raise SceneError(f"control: what is {shown(what)}; choose 'maximum' or 'minimum'")
         return np.array([EXTREMES[what](self.series(seed)) for seed in seeds])
+
+    def _curves(self, seed: int) -> Array:
+        """All motions in the sea of a seed, shape (motions, times)."""
+        sea = with_sea(self._scene, {**self._words, "seed": int(seed)}).waves
+        assert sea is not None
+        omega, forces = component_forces(sea)
+        rates: Complex = np.zeros((omega.size, self._rows.shape[1]), dtype=complex)
+        for vessel, force in forces.items():
+            rates += force @ self._by_vessel[vessel].T
+        if self._parts:
+            rates += self._parts.rates(omega, self._parts.flow_of(sea))
+        x = self._resolvent.response(omega, rates)
+        orders = (1j * omega) ** np.array(self._orders)[:, None]
+        steady = _sums_of(omega, (self._rows @ x.T) * orders, self.times)
+        return np.asarray(steady - self._decays @ x.sum(axis=0).real)
+
+
+def _times(t_end: Any, after: Any, dt_out: Any) -> Array:
+    end, begin, step = (
+        number_of(f"control: {n}", v) for n, v in (("t_end", t_end), ("after", after), ("dt_out", dt_out))
+    )
+    if not (0.0 <= begin < end and 0.0 < step <= end - begin and end / step < MOST_TIMES):
+        raise SceneError(
+            f"control: t_end is {end:g} s, after {begin:g} s, dt_out {step:g} s; give outputs between after "
+            f"and t_end, at most {MOST_TIMES}"
+        )
+    times = step * np.arange(round(end / step) + 1)
+    return np.asarray(times[times >= begin - 1e-9 * step])
+
+
+def _decays(a: Array, rows: Array, orders: Sequence[int], times: Array) -> Array:
+    """What is left at each time of motions per state at the start, shape (motions, times, states)."""
+    from scipy.linalg import expm
+
+    with one_thread:
+        first, step = expm(a * times[0]), expm(a * (times[1] - times[0]))
+        now = (
+            np.array([row @ np.linalg.matrix_power(a, n) for row, n in zip(rows, orders, strict=True)])
+            @ first
+        )
+    out = np.empty((len(rows), times.size, len(a)))
+    for place in range(times.size):
+        out[:, place] = now
+        now = now @ step
+    return out
+
+
+def _sums_of(omega: Array, amplitudes: Complex, times: Array) -> Array:
+    """Sums of Re amplitude exp(i omega t) at even times: by blocks, which take few exponentials."""
+    inside = int(np.ceil(np.sqrt(times.size)))
+    step = times[1] - times[0]
+    blocks = times[0] + step * inside * np.arange(int(np.ceil(times.size / inside)))
+    first = amplitudes[:, None, :] * np.exp(1j * np.outer(blocks, omega))
+    then = np.exp(1j * np.outer(omega, step * np.arange(inside)))
+    sums = first.real @ then.real - first.imag @ then.imag
+    return np.asarray(sums.reshape(len(amplitudes), -1)[:, : times.size])
 
 
 class LinearControl(_Control):
@@ -83,14 +235,12 @@ class LinearControl(_Control):
         words: Mapping[str, Value] | None = None,
         state: _core.State | None = None,
     ) -> None:
-        self._motions = LinearMotions(
-            scene, [motion_of(channel, point)],
-            t_end=t_end, after=after, dt_out=dt_out, words=words, state=state,
-        )  # fmt: skip
+        motions = [motion_of(channel, point)]
+        super().__init__(scene, motions, t_end=t_end, after=after, dt_out=dt_out, words=words, state=state)
 
     def series(self, seed: int) -> Array:
         """The motion of a seed at `times`, shape (n,)."""
-        return np.asarray(self._motions.series(seed)[0])
+        return np.asarray(self._curves(seed)[0])
 
 
 class HookLoadControl(_Control):
@@ -142,14 +292,12 @@ class HookLoadControl(_Control):
             for channel in ("position", "velocity")
             for body, point in ((joint.second, None), (joint.first, head))
         ]
-        lift = Motion(channel="acceleration", body=joint.first, axis="z", point=head)
-        self._motions = LinearMotions(
-            scene, [*motions, lift], t_end=t_end, after=after, dt_out=dt_out, words=words, state=state
-        )
+        motions.append(Motion(channel="acceleration", body=joint.first, axis="z", point=head))
+        super().__init__(scene, motions, t_end=t_end, after=after, dt_out=dt_out, words=words, state=state)
 
     def series(self, seed: int) -> Array:
         """The load in the link of a seed at `times`, N, shape (n,)."""
-        *ends, lift = self._motions.series(seed)
+        *ends, lift = self._curves(seed)
         x, x_rate, y, y_rate = (
             (below - above) / self._length for below, above in zip(ends[::2], ends[1::2], strict=True)
         )

@@ -1,17 +1,22 @@
-"""Where outcomes are kept as they come: in memory, or a file for each pack in a folder."""
+"""Where outcomes are kept as they come: in memory, or in a folder with a NetCDF file for each pack."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from seacrane.ensembles.dataset import table_of
+import numpy as np
+
+from seacrane.ensembles.dataset import TEXTS, table_of
 from seacrane.ensembles.members import MOST_MEMBERS, Members
-from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.pack_file import read_pack, write_pack
+from seacrane.ensembles.outcome import Labelled, Outcome
 from seacrane.errors import FileFormatError
+from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.json_text import json_of
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.run.interrupts import interrupts_kept
 from seacrane.warnings import LostMembersWarning
 
@@ -19,6 +24,7 @@ if TYPE_CHECKING:
     import xarray
 
 DIGITS = 7  # of a pack's number in the name of its file
+LARGEST_FILE = 2**32  # bytes of arrays
 
 
 class Store(Protocol):
@@ -38,12 +44,15 @@ class Store(Protocol):
 
     def outcomes(self) -> Iterator[Outcome]:
         """The outcomes of all packs that are there, in order."""
+        for pack in sorted(self.done()):
+            yield from self.of(pack)
 
     def dataset(self, members: Members) -> xarray.Dataset:
         """All that is there, over these members."""
+        return table_of(members, self.outcomes()).dataset()
 
 
-class Memory:
+class Memory(Store):
     """A store for as long as the process lives."""
 
     def __init__(self) -> None:
@@ -61,15 +70,8 @@ class Memory:
     def of(self, pack: int) -> list[Outcome]:
         return self._packs[pack]
 
-    def outcomes(self) -> Iterator[Outcome]:
-        for pack in sorted(self._packs):
-            yield from self._packs[pack]
 
-    def dataset(self, members: Members) -> xarray.Dataset:
-        return table_of(members, self.outcomes()).dataset()
-
-
-class Folder:
+class Folder(Store):
     """A NetCDF file for each pack; one process writes."""
 
     def __init__(self, path: Path) -> None:
@@ -98,13 +100,6 @@ class Folder:
     @interrupts_kept()
     def of(self, pack: int) -> list[Outcome]:
         return read_pack(self._file(pack))
-
-    def outcomes(self) -> Iterator[Outcome]:
-        for pack in sorted(self.done()):
-            yield from read_pack(self._file(pack))
-
-    def dataset(self, members: Members) -> xarray.Dataset:
-        return table_of(members, self.outcomes()).dataset()
 
     def _file(self, pack: int) -> Path:
         return self.path / f"pack_{pack:0{DIGITS}d}.nc"
@@ -136,3 +131,105 @@ def _shown(indices: Sequence[int]) -> str:
     if list(indices) == list(range(first, last + 1)):
         return f"{first} to {last}"
     return ", ".join(map(str, indices))
+
+
+def write_pack(path: Path, outcomes: list[Outcome]) -> None:
+    """Write it: complete under its name, or not at all.
+
+    Members that lie alike share a group: as a rule there is one.
+
+    Raises OSError if it cannot be written; it names the file, the cause and the space left.
+    """
+    import netCDF4
+
+    with atomic_write(path, tidy=False) as draft:
+        try:
+            with netCDF4.Dataset(draft, "w") as file:
+                file.createDimension("member", len(outcomes))
+                file.createVariable("member", "i8", ("member",))[:] = [one.index for one in outcomes]
+                for name in TEXTS:
+                    texts = np.array([getattr(one, name) for one in outcomes], dtype=object)
+                    file.createVariable(name, str, ("member",))[:] = texts
+                for number, alike in enumerate(_alike(outcomes)):
+                    _write_group(file.createGroup(f"kept_{number}"), alike)
+        except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
+            raise OSError(f"the NetCDF library reports: {error}") from error
+
+
+def read_pack(path: Path) -> list[Outcome]:
+    """The outcomes of a pack. Raises FileFormatError where the file is damaged."""
+    try:
+        with open_netcdf(path, LARGEST_FILE, "give a smaller pack") as file:
+            kept: dict[int, dict[str, Labelled]] = {}
+            for group in file.groups.values():
+                kept.update(_read_group(group))
+            rows = zip(*(file[name][:].tolist() for name in ("member", *TEXTS)), strict=True)
+            outcomes = [
+                Outcome(index=index, kept=kept.get(index, {}), **dict(zip(TEXTS, texts, strict=True)))
+                for index, *texts in rows
+            ]
+            if any(not one.kept and not one.failure for one in outcomes):
+                raise ValueError("it lacks what a member kept")
+            return outcomes
+    except NETCDF_ERRORS as error:
+        raise FileFormatError(
+            f"{path}: is no pack of an ensemble, or damaged: {str(error)[:200]}; run the ensemble again, "
+            "which makes it anew"
+        ) from error
+
+
+def _alike(outcomes: Iterable[Outcome]) -> list[list[Outcome]]:
+    """The members that did not fail, grouped by the layout of their arrays."""
+    groups: list[list[Outcome]] = []
+    for one in outcomes:
+        if one.failure:
+            continue
+        for group in groups:
+            if lie_alike(group[0].kept, one.kept):
+                group.append(one)
+                break
+        else:
+            groups.append([one])
+    return groups
+
+
+def lie_alike(first: Mapping[str, Labelled], second: Mapping[str, Labelled]) -> bool:
+    """Whether two members kept arrays of the same dimensions and coordinates."""
+    return all(first[name].lies_like(second[name]) for name in first)
+
+
+def _write_group(group: Any, outcomes: list[Outcome]) -> None:
+    group.createDimension("member", len(outcomes))
+    group.createVariable("member", "i8", ("member",))[:] = [one.index for one in outcomes]
+    for name, first in outcomes[0].kept.items():
+        inside = group.createGroup(name)
+        for dim, length in zip(first.dims, first.values.shape, strict=True):
+            inside.createDimension(dim, length)
+        for dim, along in first.coords.items():
+            texts = along.dtype.kind == "U"
+            variable = inside.createVariable(f"along_{dim}", str if texts else "f8", (dim,))
+            variable[:] = along.astype(object) if texts else along
+        values = inside.createVariable("values", "f8", ("member", *first.dims))
+        values[:] = np.stack([one.kept[name].values for one in outcomes])
+        values.told = json.dumps(dict(first.attributes))
+
+
+def _read_group(group: Any) -> dict[int, dict[str, Labelled]]:
+    indices = group["member"][:].tolist()
+    kept: dict[int, dict[str, Labelled]] = {index: {} for index in indices}
+    for name, inside in group.groups.items():
+        variable = inside["values"]
+        dims = tuple(variable.dimensions[1:])
+        coords = {
+            dim: _texts_or_numbers(inside[f"along_{dim}"][:])
+            for dim in dims
+            if f"along_{dim}" in inside.variables
+        }
+        told = json_of(str(variable.told).encode(), name)
+        for index, values in zip(indices, np.asarray(variable[:], dtype=float), strict=True):
+            kept[index][name] = Labelled(values=values, dims=dims, coords=coords, attributes=told)
+    return kept
+
+
+def _texts_or_numbers(values: Any) -> Any:
+    return values.astype(str) if values.dtype == object else np.asarray(values)

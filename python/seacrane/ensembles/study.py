@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import difflib
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.description import ELEMENTS, KINDS
+from seacrane.ensembles.dataset import RESERVED
 from seacrane.ensembles.kept import Kept, StageTime, made_by
-from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
-from seacrane.ensembles.paths import require_paths, with_values
+from seacrane.ensembles.outcome import Labelled
 from seacrane.ensembles.stage_values import Stages, scene_values, stage_paths, with_stage_values
-from seacrane.ensembles.variables import RESERVED
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 from seacrane.run.method import Method
@@ -27,6 +29,7 @@ Start = _core.State | Callable[[Scene], _core.State] | None
 Keep = Mapping[str, Kept | Callable[[Result], Any]]
 Asked = Mapping[str, Kept | str | Callable[[Result], Any]]  # of which `checked_keep` makes the other
 Values = Mapping[str, Value]
+SETTINGS = ("gravity", "baumgarte", "length_scale")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +80,7 @@ class Study:
         if isinstance(self.source, Scene):
             sea, others = self.parts(scene_values(values))
             made = with_values(self.source, others)
-            return self.in_sea(made, sea) if sea else made
+            return with_sea(made, sea) if sea else made
         made = self.source(**scene_values(values))
         if not isinstance(made, Scene):
             raise SceneError(f"the function returned {shown(made)}; return a Scene")
@@ -91,10 +94,6 @@ class Study:
     def start_of(self, scene: Scene) -> _core.State | None:
         """Where the run of a scene begins; None: its assembled start."""
         return self.start(scene) if callable(self.start) else self.start
-
-    def in_sea(self, scene: Scene, words: Values) -> Scene:
-        """A copy of a scene in another sea."""
-        return with_sea(scene, words)
 
     def kept_of(self, result: Result) -> dict[str, Labelled]:
         """What is kept of a result."""
@@ -132,3 +131,42 @@ def outputs_for(keep: Keep, outputs: Outputs) -> Outputs:
         return outputs
     channels = dict.fromkeys(what.channel for what in keep.values() if isinstance(what, Kept))
     return Outputs(dt_out=outputs.dt_out, channels=tuple(channels))
+
+
+def require_paths(
+    scene: Scene, names: list[str], words: tuple[str, ...], others: Collection[str] = ()
+) -> None:
+    """Raise SceneError for a name that is no path into the scene, no word of its sea and none of others."""
+    known = [*words, *SETTINGS, *_paths(scene), *others]
+    for name in names:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1, cutoff=0.3)
+            raise SceneError(
+                f"over: scene {scene.name!r} has no parameter {name!r}"
+                + (f"; nearest: {near[0]!r}" if near else "")
+                + ". Give a path such as 'bodies.<name>.mass', or a word of the sea: "
+                + ", ".join(words)
+            )
+
+
+def with_values(scene: Scene, values: Mapping[str, Any]) -> Scene:
+    """A copy of the scene with values at paths."""
+    out = scene.copy()
+    for path, value in values.items():
+        if path in SETTINGS:
+            setattr(out, path, number_of(path, value))
+            continue
+        table, rest = path.split(".", 1)
+        name, attribute = rest.rsplit(".", 1)
+        out.replace(name, kind=KINDS[table], **{attribute: value})
+    return out
+
+
+def _paths(scene: Scene) -> list[str]:
+    return [
+        f"{table}.{name}.{attribute}"
+        for table in ELEMENTS
+        for name, element in getattr(scene, table).items()
+        for attribute in element.__getstate__()
+        if attribute not in ("name", "database")
+    ]

@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.ensembles.certainty import Certainty, known
+from seacrane.ensembles.dataset import NOT_RUN
 from seacrane.ensembles.ensemble import Ensemble
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.study_folder import study_in
-from seacrane.ensembles.targets import targets_of
-from seacrane.ensembles.variables import NOT_RUN
+from seacrane.ensembles.targets import Certainty, known, targets_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
 from seacrane.lift.study_file import StudyFile

@@ -10,13 +10,12 @@ from typing import Any, Literal, NoReturn
 
 import numpy as np
 
-from seacrane.accuracy.case import EVENT_TIMES
+from seacrane.accuracy.asked import EVENT_TIMES
 from seacrane.accuracy.choice import refuse_what_is_chosen, without_what_is_chosen
 from seacrane.accuracy.quantities import limits_of, quantities_of
 from seacrane.ensembles.growing import growth_of
 from seacrane.ensembles.kept import Kept, StageTime
-from seacrane.ensembles.latin_hypercube import LatinHypercube
-from seacrane.ensembles.members import MOST_MEMBERS, Members, members_of
+from seacrane.ensembles.members import MOST_MEMBERS, LatinHypercube, Members, members_of
 from seacrane.ensembles.study import checked_keep
 from seacrane.ensembles.targets import targets_of
 from seacrane.errors import SceneError

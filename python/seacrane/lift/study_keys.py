@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seacrane.ensembles.kept import Kept
-from seacrane.ensembles.latin_hypercube import LatinHypercube
+from seacrane.ensembles.members import LatinHypercube
 from seacrane.lift.document import FileKind
 from seacrane.lift.keys import Key, keys_of
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, with_sea
-from seacrane.ensembles.paths import with_values
+from seacrane.ensembles.study import with_values
 from seacrane.lift.keys import Key
 from seacrane.lift.lift import Lift
 from seacrane.lift.tables import TABLES

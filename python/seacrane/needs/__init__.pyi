@@ -9,6 +9,6 @@ from seacrane.needs.registry import missing_from as missing_from
 from seacrane.needs.water_parts import in_one_piece as in_one_piece
 from seacrane.needs.sea import uncoupled as uncoupled
 from seacrane.scene.line_segments import with_segments as with_segments
-from seacrane.trading.simpler_scenes import strongest as strongest
-from seacrane.trading.simpler_scenes import with_memory as with_memory
-from seacrane.trading.simpler_scenes import locked as locked
+from seacrane.accuracy.simpler_scenes import strongest as strongest
+from seacrane.accuracy.simpler_scenes import with_memory as with_memory
+from seacrane.accuracy.simpler_scenes import locked as locked

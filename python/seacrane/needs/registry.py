@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from seacrane.needs.choice import Choice
-from seacrane.needs.contacts import no_contact, welded_contact
-from seacrane.needs.drives import held_crane, held_oil
+from seacrane.needs.drives import (
+    held_crane,
+    held_oil,
+    more_pendulum_damping,
+    no_air_drag,
+    no_contact,
+    no_pendulum_damping,
+    no_wind,
+    welded_contact,
+)
 from seacrane.needs.lines import elastic, fewer_segments, quasi_static, rigid, stiff_slings
 from seacrane.needs.sea import (
     coarse_table,
@@ -17,7 +25,6 @@ from seacrane.needs.sea import (
     no_coupling,
     no_drift,
 )
-from seacrane.needs.small_damping import more_pendulum_damping, no_air_drag, no_pendulum_damping, no_wind
 from seacrane.needs.water_parts import no_strips, no_waves_on_parts, scatter, waves_on_parts
 from seacrane.scene.scene import Scene
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.accuracy.simpler_scenes import BOUND, SHARES, memory_name, strongest, with_memory
 from seacrane.description.databases import source_of
 from seacrane.description.given import given_vessels
 from seacrane.description.wet_parts import immersed_parts
@@ -16,10 +17,7 @@ from seacrane.hydro import HydroDatabase
 from seacrane.needs.choice import Choice
 from seacrane.scene.scene import Scene
 from seacrane.scene.sea import as_put
-from seacrane.trading.simpler_scenes import memory_name, strongest, with_memory
 
-SHARES = (0.5, 0.25)  # of the components, the strongest
-COARSE = 1e-4  # bound of a wave table
 LOOSER = 0.05  # limit of a memory by motion
 
 
@@ -48,12 +46,12 @@ def coarse_table(scene: Scene) -> Iterator[Choice]:
     waves = scene.waves
     if waves is None or not waves.has_tables() or waves.evaluation == "fft":
         return
-    if waves.evaluation == "exact" or waves.relative_bound < COARSE:
-        changes = {"evaluation": "table", "relative_bound": COARSE}
+    if waves.evaluation == "exact" or waves.relative_bound < BOUND:
+        changes = {"evaluation": "table", "relative_bound": BOUND}
         yield Choice(
-            name=f"wave table within {COARSE:g}",
+            name=f"wave table within {BOUND:g}",
             script=f'scene.waves = dataclasses.replace(scene.waves, evaluation="table", '
-            f"relative_bound={COARSE!r})",
+            f"relative_bound={BOUND!r})",
             made=partial(_with_waves, changes=changes),
             of="wave table",
         )

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import partial
@@ -30,11 +29,9 @@ from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.cells import Cells
-from seacrane.operability.criterion import Criterion
-from seacrane.operability.levels import FEWEST_SEEDS
-from seacrane.operability.linear_seas import LinearSeas
-from seacrane.operability.probe import Prober, Sea
-from seacrane.operability.time_domain import Cell, Storms
+from seacrane.operability.criterion import FEWEST_SEEDS, Criterion
+from seacrane.operability.linear_channels import LinearSeas
+from seacrane.operability.time_domain import Cell, Storms, differences
 from seacrane.result import Result
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
@@ -165,7 +162,7 @@ def allowable_hs(
         cells.refuse("a lift in stages")
     elif domain != "time":
         study.by_frequency(cells, strict=domain == "frequency", progress=progress)
-    if domain == "auto" and not asked.stages and cells.has_linear:
+    if domain == "auto" and not asked.stages and cells.linear is not None:
         study.test(cells, executor, progress)
     if cells.wanted:
         failures = study.by_time(cells, executor, store, progress)
@@ -199,7 +196,8 @@ class _Asked:
             raise SceneError(f"domain is {shown(domain)}; choose 'auto', 'frequency' or 'time'")
         in_stages, listed = checked_stages_of("allowable_hs", stages), _criteria(criteria)
         _require_fit(listed, in_stages, {"duration": duration, "start_up": start_up}, domain)
-        begin = not_negative_of("start_up", _usual(start_up, 0.0 if in_stages else START_UP), "s")
+        usual = 0.0 if in_stages else START_UP
+        begin = not_negative_of("start_up", usual if start_up is None else start_up, "s")
         within = _ascending("direction_deg", directions)
         if within[-1] - within[0] >= 360.0:
             raise SceneError(
@@ -207,7 +205,7 @@ class _Asked:
                 "once"
             )
         periods = _ascending("tp", tp, above_zero=True)
-        span = None if in_stages else positive_of("duration", _usual(duration, DURATION))
+        span = None if in_stages else positive_of("duration", DURATION if duration is None else duration)
         if span is not None and span < FEWEST_PERIODS * periods[-1]:
             raise SceneError(
                 f"duration is {span:g} s; give at least {FEWEST_PERIODS:g} of the longest peak period, "
@@ -273,6 +271,8 @@ class _Study:
 
     def by_frequency(self, cells: Cells, *, strict: bool, progress: bool) -> None:
         """Fill cells by the linear model; where there is none, note why."""
+        from tqdm import tqdm
+
         try:
             linear = LinearSeas(self.still.scene, self.still.state, self.asked.criteria)
         except SceneError as error:
@@ -282,36 +282,32 @@ class _Study:
             return
         cells.linear = linear
         cells.energy_share = np.array([linear.energy_share(tp) for tp in self.asked.tp])
-        with _bar("linear model", len(self.asked.directions), progress) as bar:
-            for j, direction in enumerate(self.asked.directions):
-                gains = linear.gains(direction)
-                for i, tp in enumerate(self.asked.tp):
-                    cells.take_linear(i, j, linear.allowable(gains, tp))
-                bar(1)
+        directions = tqdm(self.asked.directions, desc="linear model", delay=DELAY, disable=not progress)
+        for j, direction in enumerate(directions):
+            gains = linear.gains(direction)
+            for i, tp in enumerate(self.asked.tp):
+                cells.take_linear(i, j, linear.allowable(gains, tp))
 
     def test(self, cells: Cells, executor: Executor | None, progress: bool) -> None:
         """Compare the linear model with runs, and leave what it does not hold for to the time domain."""
+        from tqdm import tqdm
+
         assert cells.linear is not None and self.asked.duration is not None
-        prober = Prober(
-            scene=self.still.scene, linear=cells.linear,
-            criteria=self.asked.criteria, start=self.still.state.time, duration=self.asked.duration,
-            method=self.method, outputs=self.outputs,
-        )  # fmt: skip
         places = [place for place in cells.places if cells.allowable[place] > 0.0]
         seas = [
-            Sea(hs=float(cells.allowable[i, j]), tp=tp, direction_deg=direction, seed=seed)
+            {"hs": float(cells.allowable[i, j]), "tp": tp, "direction_deg": direction, "seed": seed}
             for i, j in places
             for tp, direction in [(self.asked.tp[i], self.asked.directions[j])]
             for seed in self.asked.seeds[:PROBES]
         ]
-        with _bar("test of the linear model", len(seas), progress) as bar:
-            for place, found in zip(
-                (place for place in places for _ in self.asked.seeds[:PROBES]),
-                prober.differences(seas, executor),
-                strict=True,
-            ):
-                cells.take_difference(place, found, self.asked.linear_within)
-                bar(1)
+        of_places = [place for place in places for _ in self.asked.seeds[:PROBES]]
+        found = differences(
+            self.still.scene, cells.linear, self.asked.criteria, seas, start=self.still.state.time,
+            duration=self.asked.duration, method=self.method, outputs=self.outputs, executor=executor,
+        )  # fmt: skip
+        tested = tqdm(found, "test of the linear model", len(seas), delay=DELAY, disable=not progress)
+        for place, apart in zip(of_places, tested, strict=True):
+            cells.take_difference(place, apart, self.asked.linear_within)
 
     def by_time(self, cells: Cells, executor: Executor | None, store: Any, progress: bool) -> dict[int, str]:
         """Fill the cells that are wanted by runs; why members failed, by number."""
@@ -389,10 +385,6 @@ def _require_fit(criteria: Sequence[Criterion], stages: Stages, spans: dict[str,
             raise SceneError(f"criterion {one.name!r}: {what}, which a lift in stages does not have")
 
 
-def _usual(given: Any, usual: float) -> Any:
-    return usual if given is None else given
-
-
 def _criteria(given: Any) -> tuple[Criterion, ...]:
     listed = [given] if isinstance(given, Criterion) else list(given) if isinstance(given, Sequence) else []
     if not listed or not all(isinstance(one, Criterion) for one in listed):
@@ -423,17 +415,6 @@ def _ascending(name: str, given: Any, *, above_zero: bool = False) -> tuple[floa
     if above_zero and values[0] <= 0.0:
         raise SceneError(f"{name} begins with {values[0]:g}; give numbers above zero")
     return tuple(values.tolist())
-
-
-@contextlib.contextmanager
-def _bar(what: str, total: int, wanted: bool) -> Iterator[Callable[[int], Any]]:
-    if not wanted:
-        yield lambda count: None
-        return
-    from tqdm.auto import tqdm
-
-    with tqdm(total=total, desc=what, delay=DELAY) as bar:
-        yield bar.update
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

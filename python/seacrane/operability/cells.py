@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.operability.criterion import Criterion
-from seacrane.operability.linear_seas import LinearSeas
+from seacrane.operability.linear_channels import LinearSeas
 from seacrane.operability.time_domain import ByTime
 
 Array = NDArray[np.float64]
@@ -73,11 +73,6 @@ class Cells:
     def wanted(self) -> list[Place]:
         """Cells of the time domain."""
         return [place for place in self.places if self.domain[place] == "time"]
-
-    @property
-    def has_linear(self) -> bool:
-        """Whether there is a linear model."""
-        return self.linear is not None
 
     @property
     def allowable(self) -> Array:

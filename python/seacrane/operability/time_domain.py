@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
+from seacrane.description.databases import without_databases
 from seacrane.ensembles.ensemble import Ensemble, ensemble
+from seacrane.ensembles.job import stepped
+from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.stage_values import Stages
 from seacrane.ensembles.study import Start
-from seacrane.operability.criterion import Criterion
-from seacrane.operability.levels import RecordNumbers, reached, seeds_level
+from seacrane.errors import SeacraneError
+from seacrane.operability.criterion import Criterion, RecordNumbers, reached, record_numbers, seeds_level
+from seacrane.operability.linear_channels import LinearSeas
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
+from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import require_finite
 
 Array = NDArray[np.float64]
 Cell = tuple[float, float]  # peak period, s, and direction, degrees
@@ -151,9 +159,72 @@ def first_unknown(hs: Sequence[float], levels: Sequence[float], allowance: float
     """Lowest Hs (m) whose level is not known, where none below it reaches the allowance; else NaN."""
     if allowance <= 0.0:
         return float("nan")
-    for height, level in zip(hs, levels, strict=True):
-        if not np.isfinite(level):
-            return height
-        if level >= allowance:
-            break
-    return float("nan")
+    beyond = ((height, level) for height, level in zip(hs, levels, strict=True) if not level < allowance)
+    height, level = next(beyond, (float("nan"), 0.0))
+    return float("nan") if np.isfinite(level) else height
+
+
+def differences(
+    scene: Scene,
+    linear: LinearSeas,
+    criteria: Sequence[Criterion],
+    seas: Iterable[Mapping[str, Any]],
+    *,
+    start: float,
+    duration: float,
+    method: Method,
+    outputs: Outputs,
+    executor: Executor | None,
+) -> Iterator[Array | str]:
+    """For each sea and criterion what a run reached beyond the linear model, over the allowance, (m,).
+
+    A text where the run failed: why.
+
+    Parameters
+    ----------
+    scene : Its references held.
+    seas : By their words.
+    start, duration : s.
+    method, outputs
+        Of the runs.
+    """
+    steps = np.arange(round(duration / outputs.dt_out) + 1, dtype=float)
+    scenes, starts, told = [], [], []
+    for sea in seas:
+        one = with_sea(scene, sea)
+        assert one.waves is not None
+        state, values = linear.in_waves(one.waves, start, start + steps * outputs.dt_out)
+        scenes.append(without_databases(one))
+        starts.append(state)
+        told.append([record_numbers(column) for column in values.T])
+    run = partial(_numbers, t_end=start + duration, criteria=criteria, method=method, outputs=outputs)
+    runs = map(run, scenes, starts) if executor is None else executor.map(run, scenes, starts)
+    for found, numbers in zip(runs, told, strict=True):
+        if isinstance(found, str):
+            yield found
+            continue
+        each = zip(criteria, found, numbers, linear.channels.rest.tolist(), strict=True)
+        yield np.array([_apart(*one) for one in each])
+
+
+def _apart(criterion: Criterion, run: Array, linear: Array, rest: float) -> float:
+    apart = reached(criterion, run, rest) - reached(criterion, linear, rest)
+    return abs(float(apart)) / criterion.allowance(rest)
+
+
+def _numbers(
+    scene: Scene,
+    start: _core.State,
+    *,
+    t_end: float,
+    criteria: Sequence[Criterion],
+    method: Method,
+    outputs: Outputs,
+) -> Array | str:
+    """`record_numbers` of each criterion's channel of a run, (m, 4), or why it failed."""
+    try:
+        run = stepped(Run(scene, t_end, start=start, method=method, outputs=outputs))
+        result = require_finite(run.result())
+        return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in criteria])
+    except (SeacraneError, ArithmeticError, ValueError) as error:
+        return f"{type(error).__name__}: {error}"

@@ -48,11 +48,6 @@ class ControlledMean:
         """Seeds without a control that tell as much as one with it: ratio of squared half widths."""
         return float((self.plain.half_width / self.estimate.half_width) ** 2)
 
-    @property
-    def largest_gain(self) -> float:
-        """1 / (1 - correlation^2): that of a control whose mean is known."""
-        return 1.0 / (1.0 - self.correlation**2)
-
     def __str__(self) -> str:
         words = f"{self.seeds} seeds, correlation {self.correlation:.2f}"
         if not self.used:

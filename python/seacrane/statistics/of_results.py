@@ -16,8 +16,7 @@ from seacrane.inputs.described import described
 from seacrane.inputs.keywords import named
 from seacrane.result import Result
 from seacrane.statistics.gaussian import THREE_HOURS
-from seacrane.statistics.judged import warn_of_repeat, warn_of_start
-from seacrane.statistics.record import FEWEST_VALUES, record_of, up_crossings
+from seacrane.statistics.record import FEWEST_VALUES, record_of, up_crossings, warn_of_repeat, warn_of_start
 from seacrane.statistics.record_extremes import RecordExtremes, record_extremes
 from seacrane.statistics.seeds import SeedExtremes, seed_extremes
 

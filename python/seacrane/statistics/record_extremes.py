@@ -14,8 +14,14 @@ from seacrane.inputs.checked import number_of
 from seacrane.plotting.table import Answer, Table
 from seacrane.statistics.estimate import CONFIDENCE, Estimate, Maximum, maxima_table
 from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
-from seacrane.statistics.judged import warn_of_repeat, warn_of_start
-from seacrane.statistics.record import crests, positive, record_of, up_crossings
+from seacrane.statistics.record import (
+    crests,
+    positive,
+    record_of,
+    up_crossings,
+    warn_of_repeat,
+    warn_of_start,
+)
 from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
 from seacrane.statistics.tail import FEWEST_PEAKS, Tail, peaks_over_threshold
 from seacrane.warnings import PoorFitWarning

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,6 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of
 from seacrane.plotting.table import Answer, Table
 from seacrane.statistics.estimate import CONFIDENCE, EULER, P90_REDUCED, Estimate, Maximum, maxima_table
-from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.record import positive
 from seacrane.warnings import FewSeedsWarning, PoorFitWarning
 
@@ -24,6 +24,69 @@ POOR = 0.05  # probability of a worse fit below which Gumbel's is not believed
 REDUCED = {"mpm": 0.0, "mean": EULER, "p90": P90_REDUCED}  # in one record
 ASKED = ("mpm", "mean", "p90")
 NORMAL = 1.959964  # half width of the 95 % interval in standard deviations
+DRAWS, FEWEST_DRAWS, VALUES = 4000, 500, 2_000_000  # samples that a bootstrap draws; values in all of them
+BLOCK = 200_000  # values held at a time
+SEED = 20250101
+STEPS = 60  # of Newton's iteration, which has converged long before
+
+
+def gumbel_fit(maxima: Array) -> tuple[Array, Array]:
+    """Location and scale of every row by maximum likelihood.
+
+    Parameters
+    ----------
+    maxima : (..., k) Rows whose values are not all equal.
+
+    Returns
+    -------
+    location, scale : ndarray, shape (...)
+    """
+    shifted = maxima - maxima.min(axis=-1, keepdims=True)
+    mean = shifted.mean(axis=-1)
+    scale = shifted.std(axis=-1) * np.sqrt(6.0) / np.pi
+    for _ in range(STEPS):
+        weight = np.exp(-shifted / scale[..., None])
+        total = weight.sum(axis=-1)
+        first = (shifted * weight).sum(axis=-1) / total
+        second = (shifted**2 * weight).sum(axis=-1) / total
+        step = (scale - mean + first) / (1.0 + (second - first**2) / scale**2)
+        scale = np.maximum(scale - step, 0.2 * scale)
+        if np.all(np.abs(step) <= 1e-12 * scale):
+            break
+    weight = np.exp(-shifted / scale[..., None])
+    return maxima.min(axis=-1) - scale * np.log(weight.mean(axis=-1)), scale
+
+
+def anderson_darling(maxima: Array, location: Array, scale: Array) -> Array:
+    """Anderson and Darling's distance of every row from the Gumbel distribution that was fitted to it."""
+    reduced = np.sort((maxima - location[..., None]) / scale[..., None], axis=-1)
+    log_below = -np.exp(-reduced)
+    log_above = np.log(-np.expm1(log_below))
+    odd = 2.0 * np.arange(1, maxima.shape[-1] + 1) - 1.0
+    return np.asarray(-maxima.shape[-1] - (odd * (log_below + log_above[..., ::-1])).mean(axis=-1))
+
+
+@lru_cache(maxsize=32)
+def standard_fits(count: int) -> tuple[Array, Array, Array]:
+    """Location, scale and Anderson-Darling distance fitted to samples of the standard distribution.
+
+    Of a family of location and scale they depend on the number of values alone: what they scatter by is the
+    parametric bootstrap of every fit to as many maxima.
+    """
+    random = np.random.Generator(np.random.Philox(SEED))
+    left = min(DRAWS, max(FEWEST_DRAWS, VALUES // count))
+    blocks = []
+    while left > 0:
+        rows = min(left, max(1, BLOCK // count))
+        draws = random.gumbel(size=(rows, count))
+        location, scale = gumbel_fit(draws)
+        blocks.append(np.array([location, scale, anderson_darling(draws, location, scale)]))
+        left -= rows
+    location, scale, distance = np.concatenate(blocks, axis=1)
+    fits = (location, scale, distance)
+    for one in fits:
+        one.setflags(write=False)
+    return fits
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -257,23 +320,19 @@ def _empirical_maximum(ascending: Array, duration: float, exposure: float) -> Ma
     mean = float(np.sum(ascending * np.diff(rank**records)))
     return Maximum(
         mpm=_ordered(ascending, float(np.exp(-1.0 / records))),
-        mean=Estimate(value=mean, **_mean_interval(ascending, records)),
+        mean=mean_of(ascending) if records == 1.0 else Estimate(value=mean),
         p90=_ordered(ascending, 0.9 ** (1.0 / records)),
         exposure=exposure,
     )
 
 
-def _mean_interval(ascending: Array, records: float) -> dict[str, float]:
-    """By Student's t, where one record is the exposure; nothing elsewhere."""
+def mean_of(values: Array) -> Estimate:
+    """The mean of independent values, with its interval by Student's t."""
     from scipy.stats import t
 
-    if records != 1.0:
-        return {}
-    half = (
-        float(t.ppf((1.0 + CONFIDENCE) / 2.0, ascending.size - 1) * ascending.std(ddof=1))
-        / ascending.size**0.5
-    )
-    return {"low": float(ascending.mean()) - half, "high": float(ascending.mean()) + half}
+    half = float(t.ppf((1.0 + CONFIDENCE) / 2.0, values.size - 1) * values.std(ddof=1)) / values.size**0.5
+    mean = float(values.mean())
+    return Estimate(value=mean, low=mean - half, high=mean + half)
 
 
 def _ordered(ascending: Array, share: float) -> Estimate:

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane._core import integrators
+from seacrane.accuracy import simpler_scenes
+from seacrane.accuracy.diagram import COSTS, Measured, work_precision
+from seacrane.accuracy.measured import Reference
 from seacrane.accuracy.quantities import Quantity, limits_of
+from seacrane.accuracy.row import Row, front
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.shown import shown
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.run.method import DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE, Method
-from seacrane.trading import simpler_scenes
-from seacrane.trading.diagram import COSTS, Measured, work_precision
-from seacrane.trading.reference import Reference
-from seacrane.trading.row import Row, front
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -1,4 +1,5 @@
-"""Scenes with less physics: another fluid memory, fewer waves, a locked crane, a prescribed vessel."""
+"""Scenes with less physics: another fluid memory, fewer waves, lines on another rung, a locked crane, a
+prescribed vessel."""
 
 from __future__ import annotations
 
@@ -15,21 +16,25 @@ from seacrane.analysis.inverse import SIX, driven, hold_vessel
 from seacrane.description.crane_parts import hooks
 from seacrane.description.curves import spline_curve
 from seacrane.description.given import given_vessels
-from seacrane.description.loads import bodies_of
+from seacrane.description.loads import bodies_of, lines_of, path_of
+from seacrane.description.places import place_of
 from seacrane.description.provenance import VesselProvenance
+from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, with_rungs
 from seacrane.description.waves import HullLoads, calm_water
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, fit_memory
 from seacrane.scene.scene import Scene
-from seacrane.trading.lines_on_rungs import line_variants
 
 if TYPE_CHECKING:
     from seacrane.hydro.data.memory_model import MemoryModel
 
 Array = NDArray[np.float64]
+Build = Callable[[], Scene]
 FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
     "full", "crane locked", "vessel prescribed", "payload as weight", "frequency domain",
 )  # fmt: skip
+RIGID_LINES = "lines rigid"
+LINE_RUNGS = (RIGID_LINES, f"lines {QUASI_STATIC}", f"lines {ELASTIC}")
 SHARES = (0.5, 0.25)  # of the wave components, the strongest
 BOUND = 1e-4  # of a coarse wave table
 
@@ -48,16 +53,6 @@ LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), usual=0.01)
 FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Variant:
-    """A scene that differs from the full one in one thing; made when it is measured."""
-
-    memory: str
-    waves: str
-    rung: str
-    build: Callable[[], Scene]
-
-
 def memory_name(scene: Scene) -> str:
     """Kind of fluid memory of a scene."""
     known = [scene.provenance.get(name, VesselProvenance()).memory for name in scene.vessels]
@@ -72,26 +67,36 @@ def waves_name(scene: Scene) -> str:
     return scene.waves.evaluation
 
 
-def variants(scene: Scene, *, quick: bool) -> Iterator[Variant]:
-    """Scenes with one thing changed: memory models, wave evaluations, rungs of lines and of coupling."""
-    memory, waves = memory_name(scene), waves_name(scene)
-    for name, build in _memory_variants(scene, quick=quick):
-        yield Variant(memory=name, waves=waves, rung=FULL, build=build)
-    for name, build in _wave_variants(scene, quick=quick):
-        yield Variant(memory=memory, waves=name, rung=FULL, build=build)
-    for name, build in line_variants(scene):
-        yield Variant(memory=memory, waves=waves, rung=name, build=build)
+def full_case(scene: Scene) -> dict[str, str]:
+    """What tells rows of the scene as it is from others."""
+    return {"memory": memory_name(scene), "waves": waves_name(scene), "rung": FULL}
+
+
+def variants(scene: Scene, *, quick: bool) -> Iterator[tuple[dict[str, str], Build]]:
+    """Scenes with one thing changed, by what tells their rows from others, each made when it is measured."""
+    for what, made in (
+        ("memory", _memory_variants(scene, quick=quick)),
+        ("waves", _wave_variants(scene, quick=quick)),
+        ("rung", line_variants(scene)),
+        ("rung", _coupling_variants(scene)),
+    ):
+        for name, build in made:
+            yield {**full_case(scene), what: name}, build
+
+
+def _coupling_variants(scene: Scene) -> Iterator[tuple[str, Build]]:
+    """Of crane, payload and vessel; motion and linear model of the full scene are found by a row itself."""
     if scene.actuators:
-        yield Variant(memory=memory, waves=waves, rung=LOCKED, build=lambda: locked(scene))
+        yield LOCKED, partial(locked, scene)
         if len(scene.vessels) == 1 and not given_vessels(scene):
-            yield Variant(memory=memory, waves=waves, rung=PRESCRIBED, build=lambda: scene)
+            yield PRESCRIBED, lambda: scene
     if hanging(scene):
-        yield Variant(memory=memory, waves=waves, rung=WEIGHT, build=lambda: scene)
+        yield WEIGHT, partial(payload_as_weight, scene)
     if scene.waves is not None and scene.vessels and not given_vessels(scene):
-        yield Variant(memory=memory, waves=waves, rung=LINEAR, build=lambda: scene)
+        yield LINEAR, lambda: scene
 
 
-def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
+def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Build]]:
     """None, convolution, and fits of each kind at several R2 or limits; `quick`: none alone."""
     memory = memory_name(scene)
     if len(scene.vessels) != 1 or given_vessels(scene):
@@ -160,7 +165,7 @@ def _fit(database: HydroDatabase, kind: str, level: float) -> MemoryModel:
     return fit_memory(database=database, kind=kind, r2=level)
 
 
-def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
+def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Build]]:
     waves = scene.waves
     if waves is None:
         return
@@ -203,6 +208,40 @@ def _of_components(hull: HullLoads, kept: NDArray[np.intp]) -> HullLoads:
     }
     drift = None if hull.drift is None else np.asarray(hull.drift)[kept]
     return replace(hull, transfer=np.asarray(hull.transfer)[kept], drift=drift, **tables)
+
+
+def line_variants(scene: Scene) -> Iterator[tuple[str, Build]]:
+    """The rungs that the lines of a scene do not have already, each with what makes the scene."""
+    lines = lines_of(scene.loads)
+    own = {ELASTIC if line.rung == AUTO else line.rung for line in lines.values()}
+    if not lines:
+        return
+    yield RIGID_LINES, partial(with_rigid_lines, scene)
+    for rung, title in ((QUASI_STATIC, LINE_RUNGS[1]), (ELASTIC, LINE_RUNGS[2])):
+        if own != {rung}:
+            yield title, partial(with_rungs, scene, dict.fromkeys(lines, rung))
+
+
+def with_rigid_lines(scene: Scene) -> Scene:
+    """Every line replaced by a link as long as its path is described, which also pushes.
+
+    Raises SceneError for a line over more than two points, or whose length changes.
+    """
+    out = scene.copy()
+    for name, line in lines_of(scene.loads).items():
+        if len(line.bodies) > 2:
+            raise SceneError(f"line {name!r}: runs over {len(line.bodies)} points, and a rigid link over two")
+        pieces = np.asarray(line.length.to_pieces()["coefficients"])
+        if line.winch or pieces.reshape(-1, 6)[:, 1:].any() or len(pieces) > 1:
+            raise SceneError(f"line {name!r}: its length changes, and that of a rigid link does not")
+        (first, start), (second, end) = path_of(line)
+        out.remove(name)
+        out.add_joint(
+            kind="distance", name=name, first=first, second=second,
+            point=place_of(scene, body=first, point=start),
+            second_point=place_of(scene, body=second, point=end),
+        )  # fmt: skip
+    return out
 
 
 def locked(scene: Scene) -> Scene:

@@ -7,11 +7,18 @@ import os
 import sys
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import partial
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seacrane.accuracy.quantities import Quantity, quantities_of
+from seacrane.accuracy import simpler_scenes
+from seacrane.accuracy.case import Case, timed
+from seacrane.accuracy.measured import CHECKS, tight_reference, values_by
+from seacrane.accuracy.methods import Ladders, measured_methods
+from seacrane.accuracy.quantities import Quantity, channels_of, of_stages, quantities_of
+from seacrane.accuracy.row import Row, RowFile
+from seacrane.accuracy.trade_answer import Trade
+from seacrane.accuracy.trade_rows import Bench, Task, measure, physics
 from seacrane.description.file import scene_digest
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of
@@ -21,28 +28,18 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
 from seacrane.run.stage import Stage
 from seacrane.run.start import Start
-from seacrane.trading import simpler_scenes
-from seacrane.trading.budget import Measure, Spending, with_bar, within_budget
-from seacrane.trading.case import Case
-from seacrane.trading.ladders import Ladders
-from seacrane.trading.lines_on_rungs import LINE_RUNGS
-from seacrane.trading.measured_case import CHECKS, channels_of, timed, values_by
-from seacrane.trading.methods import LINES, PHYSICS, measured_methods
-from seacrane.trading.row import Row
-from seacrane.trading.row_file import RowFile, completed
-from seacrane.trading.stage_extremes import of_stages
-from seacrane.trading.trade_answer import Trade
-from seacrane.trading.trade_rows import Bench, frequency_domain, measure, measure_variant, tight_reference
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
     from seacrane.scene.scene import Scene
 
-LINEAR = Method(integrator="none")  # the frequency domain has no integrator
 REPEATS = 3  # runs of each setting of the whole grid; the quickest counts
 BUDGET = 20.0  # runs of the default setting, beside the reference
 REFERENCE = 12.0  # of them, that the reference and its check are told to take
 BENEATH = 1e-6  # of its motion, an error of which none is looked for
+METHODS = 0.6  # of the budget, before physics is left out
+LEAST = 0.5  # runs, that any row may take
+LONGEST = 3.0  # runs, that no row of a method may take more than
 
 
 @named
@@ -105,10 +102,11 @@ def trade(
     _, taken = settled(None, outputs, {} if dt_out is None else {"dt_out": dt_out})
     runs = math.inf if budget is None else positive_of("budget", budget, "runs of the default setting")
     case = Case(
-        scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt_out, stages=tuple(stages), start=start
+        scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt_out, stages=tuple(stages) or None,
+        start=start,
     )  # fmt: skip
     measured = quantities_of(scene, case.model, quantities)
-    if case.stages:
+    if stages:
         measured = {name: of_stages(one) for name, one in measured.items()}
     begun = time.process_time()
     unit, whole = _price(case, measured)
@@ -118,7 +116,7 @@ def trade(
     metadata = {
         "scene": scene.name, "seacrane_version": __version__, "t_end": case.t_end, "dt_out": case.dt_out,
         "memory": simpler_scenes.memory_name(scene), "waves": simpler_scenes.waves_name(scene),
-        "stages": ", ".join(stage.name for stage in case.stages),
+        "stages": ", ".join(stage.name for stage in stages),
         "default quantities": int(quantities is None),
     }  # fmt: skip
     truth = tight_reference(case, measured)
@@ -127,11 +125,8 @@ def trade(
     file = _row_file(out, {**metadata, "quantities": list(measured)}, scene)
     bench = Bench(case=case, quantities=measured, truth=truth, repeats=REPEATS if budget is None else 1)
     spending = Spending(unit_s=whole, runs=runs)
-    if budget is None or methods is not None:
-        rows, left = _all(bench, metadata, methods, file, few=budget is not None, progress=progress), 0
-    else:
-        rows, left = _best(bench, metadata, spending, file, progress=progress)
-    if case.stages:
+    rows, left = _measured(bench, spending, methods, file, progress=progress)
+    if stages:
         metadata["t_end"] = max((row.simulated_s for row in rows if row.stable), default=math.nan)
     different = {row.key: row for row in reversed(rows)}  # two levels of a memory fit may give one model
     result = Trade(
@@ -148,8 +143,6 @@ def _price(case: Case, quantities: Mapping[str, Quantity]) -> tuple[float, float
     for _ in range(2):
         begun = time.process_time()
         done = timed(case, Method(), [*channels_of(quantities), *CHECKS])
-        if done.stopped is not None:
-            raise done.stopped
         values_by(quantities)(done.result())
         whole = time.process_time() - begun
     return done.cpu_s, whole
@@ -166,94 +159,6 @@ def _told(runs: float, unit: float, told: float) -> str:
     )
 
 
-def _all(
-    bench: Bench,
-    metadata: Mapping[str, Any],
-    methods: Iterable[Method] | None,
-    file: RowFile,
-    *,
-    few: bool,
-    progress: bool,
-) -> list[Row]:
-    """The whole grid, or all methods that are given, and all less physics."""
-    tried = measured_methods() if methods is None else methods
-    tasks = dict([*_methods(bench, metadata, tried), *_physics(bench, quick=few)])
-    return completed(
-        tasks, file, lambda keys: ((key, tasks[key](math.inf)) for key in keys), title="trade",
-        progress=progress,
-    )  # fmt: skip
-
-
-def _best(
-    bench: Bench, metadata: Mapping[str, Any], spending: Spending, file: RowFile, *, progress: bool
-) -> tuple[list[Row], int]:
-    """Within a budget; and how many settings that may change the front are left."""
-    grid = {next(_methods(bench, metadata, [one]))[0]: one for one in measured_methods()}
-    motion, known = bench.truth.motion, bench.truth.uncertainty
-    floor = {name: max(known[name], BENEATH * motion[name]) for name in known}
-    ladders = Ladders(grid.values(), list(bench.quantities), floor)
-
-    def method_row(method: Method) -> Task:
-        return next(_methods(bench, metadata, [method]))
-
-    physics = {} if bench.case.stages else dict(_physics(bench, quick=True))
-    rows = {key: row for key, row in file.rows.items() if key in grid or key in physics}
-    for key, row in rows.items():  # of an earlier call
-        spending.spend(row)
-        if key in grid:
-            ladders.add(grid[key], row)
-    missing = {key: measure for key, measure in physics.items() if key not in rows}
-    found = within_budget(spending, ladders, method_row, missing)
-    for key, row in with_bar(found, spending, progress=progress):
-        file.add(key, row)
-        rows[key] = row
-    order = {key: n for n, key in enumerate([*grid, *physics])}
-    return [rows[key] for key in sorted(rows, key=order.__getitem__)], ladders.open
-
-
-Task = tuple[str, Measure]  # the key of a row, and what measures it
-
-
-def _methods(bench: Bench, metadata: Mapping[str, Any], methods: Iterable[Method]) -> Iterator[Task]:
-    """One row for each method on the full scene."""
-    full = {"memory": metadata["memory"], "waves": metadata["waves"], "rung": simpler_scenes.FULL}
-    for method in methods:
-        row = Row(case=full, method=method)
-        yield row.key, partial(_of_method, bench, row)
-
-
-def _physics(bench: Bench, *, quick: bool) -> Iterator[Task]:
-    """One row for each scene with less physics, all by the same method; rungs of lines by several."""
-    scene = bench.case.scene
-    for variant in simpler_scenes.variants(scene, quick=quick):
-        case = {"memory": variant.memory, "waves": variant.waves, "rung": variant.rung}
-        if variant.rung == simpler_scenes.LINEAR:
-            row = Row(case=case, method=LINEAR)
-            yield row.key, partial(_of_linear, bench, row)
-            continue
-        for method in _of_rung(variant.rung, quick=quick):
-            row = Row(case=case, method=method)
-            yield row.key, partial(_of_variant, bench, variant, row)
-
-
-def _of_method(bench: Bench, row: Row, limit_s: float) -> Row:
-    return measure(bench, row, limit_s=limit_s)
-
-
-def _of_linear(bench: Bench, row: Row, limit_s: float) -> Row:
-    return frequency_domain(bench, row)
-
-
-def _of_variant(bench: Bench, variant: simpler_scenes.Variant, row: Row, limit_s: float) -> Row:
-    return measure_variant(bench, variant, row)
-
-
-def _of_rung(rung: str, *, quick: bool) -> Sequence[Method]:
-    if rung in LINE_RUNGS:
-        return LINES[1::2] if quick else LINES
-    return (Method(),) if quick else (PHYSICS,)
-
-
 def _row_file(out: str | os.PathLike[str] | None, experiment: Mapping[str, Any], scene: Scene) -> RowFile:
     if out is None:
         return RowFile(None, experiment)
@@ -261,3 +166,88 @@ def _row_file(out: str | os.PathLike[str] | None, experiment: Mapping[str, Any],
     if not folder.is_dir():
         raise SceneError(f"out {str(folder)!r} is no folder; create it first")
     return RowFile(folder / "trade_rows.jsonl", {**experiment, "described": scene_digest(scene)})
+
+
+@dataclass(kw_only=True)
+class Spending:
+    """Processor time that is left, s, in runs of the default setting.
+
+    Attributes
+    ----------
+    unit_s : Of one such run with all around it, s.
+    runs : Of them that may be spent; infinite: any.
+    spent_s : By now, s.
+    """
+
+    unit_s: float
+    runs: float
+    spent_s: float = 0.0
+
+    def has_room(self, share: float = 1.0) -> bool:
+        """Whether a share of the budget has room for another row."""
+        return share * self.runs * self.unit_s - self.spent_s > LEAST * self.unit_s
+
+    def spend(self, row: Row, around_s: float = 0.0) -> None:
+        """What a row took, with all around its run."""
+        self.spent_s += max(row.cpu_s if row.cpu_s > 0.0 else 0.0, around_s)
+
+
+def _measured(
+    bench: Bench, spending: Spending, methods: Iterable[Method] | None, file: RowFile, *, progress: bool
+) -> tuple[list[Row], int]:
+    """Rows of methods, then of less physics; and how many settings that may change the front are left.
+
+    The whole grid without a budget, and all methods that are given. What the file holds is not measured
+    again.
+    """
+    from tqdm import tqdm
+
+    few, every = math.isfinite(spending.runs), methods is not None or math.isinf(spending.runs)
+    tried = measured_methods() if methods is None else methods
+    full = simpler_scenes.full_case(bench.case.scene)
+    wanted: list[Task] = [(Row(case=full, method=one), None) for one in tried]
+    grid = {row.key: row.method for row, _ in wanted}
+    less = () if bench.case.stages else physics(bench, quick=few)
+    tasks = {task[0].key: task for task in (*wanted, *less)}
+    rows: dict[str, Row] = {}
+    ladders = Ladders(() if every else grid.values(), list(bench.quantities), _floor(bench))
+
+    def add(key: str, row: Row, around_s: float = 0.0) -> None:
+        rows[key] = row
+        spending.spend(row, around_s)
+        if key in grid and not every:
+            ladders.add(grid[key], row)
+
+    for key, row in file.rows.items():
+        if key in tasks:
+            add(key, row)
+    limit_s = None if every else LONGEST * spending.unit_s
+    total = len(tasks) if every else round(spending.runs)
+    order = iter(tasks) if every else _chosen(spending, ladders, tasks, grid)
+    with tqdm(total=total, desc="trade", unit="row" if every else "run", disable=not progress) as bar:
+        for key in order:
+            if key not in rows:
+                begun, (row, build) = time.process_time(), tasks[key]
+                row = measure(bench, row, build, limit_s)
+                file.add(key, row)
+                add(key, row, time.process_time() - begun)
+            done = len(rows) if every else round(spending.spent_s / spending.unit_s)
+            bar.update(min(done, total) - bar.n)
+    return [rows[key] for key in tasks if key in rows], ladders.open
+
+
+def _floor(bench: Bench) -> dict[str, float]:
+    """Errors by quantity below which none is looked for."""
+    motion, known = bench.truth.motion, bench.truth.uncertainty
+    return {name: max(known[name], BENEATH * motion[name]) for name in known}
+
+
+def _chosen(
+    spending: Spending, ladders: Ladders, tasks: Iterable[str], grid: Mapping[str, Method]
+) -> Iterator[str]:
+    """Keys of rows, the nearest to the front first, until the budget ends or nothing can change the front."""
+    keys = {method: key for key, method in grid.items()}
+    for share, less in ((METHODS, [key for key in tasks if key not in grid]), (1.0, [])):
+        while spending.has_room(share) and (method := ladders.next()) is not None:
+            yield keys[method]
+        yield from (key for key in less if spending.has_room())

@@ -1,15 +1,17 @@
-"""A row of an experiment: one case run with one method."""
+"""Rows of an experiment, each one case run with one method: on disk, from which it goes on, and as tables."""
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, replace
+from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from seacrane.accuracy.quantities import ErrorMeasures
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.whole_file import read_whole
 from seacrane.run.method import Method
 
 UNKNOWN = math.nan
@@ -22,7 +24,7 @@ UNNAMED = "unnamed"  # an exception that is none of seacrane's
 HUNG = "hung"  # did not even answer the interrupt
 CRASHED = "crashed"  # took the process with it
 FORBIDDEN = (NOT_FINITE, UNNAMED, HUNG, CRASHED)
-LEAST_MOTION = 1e-9  # what rests within it has no relative error
+LARGEST_FILE = 2**28  # bytes; a row takes some hundred
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,18 +92,6 @@ class Row:
         """Largest error of a quantity over time; NaN where the row has none."""
         return self.errors[quantity].largest if quantity in self.errors else UNKNOWN
 
-    def relative_error(self, quantity: str) -> float:
-        """The error over the motion; NaN where it rests."""
-        return self._over_motion(quantity, self.error(quantity))
-
-    def relative_uncertainty(self, quantity: str) -> float:
-        """How far tight runs differ, over the motion; NaN where that is not known."""
-        return self._over_motion(quantity, self.uncertainty.get(quantity, UNKNOWN))
-
-    def _over_motion(self, quantity: str, value: float) -> float:
-        motion = self.motion.get(quantity, UNKNOWN)
-        return value / motion if motion > LEAST_MOTION else UNKNOWN
-
     def ended(self, verdict: str, message: str | BaseException) -> Row:
         """The row with how its run ended, on one line."""
         return replace(self, verdict=verdict, message=" ".join(str(message).split()))
@@ -116,12 +106,56 @@ class Row:
 def front(rows: Sequence[Row], quantity: str, *, cost: str = "cpu_s") -> list[bool]:
     """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
     costs = [getattr(row, cost) for row in rows]
-    usable = [
-        i for i, row in enumerate(rows) if row.stable and np.isfinite([row.error(quantity), costs[i]]).all()
-    ]
+    errors = [row.error(quantity) for row in rows]
+    usable = [i for i, row in enumerate(rows) if row.stable and math.isfinite(errors[i] + costs[i])]
     on = [False] * len(rows)
     best = math.inf
-    for i in sorted(usable, key=lambda i: (costs[i], rows[i].error(quantity))):
-        if rows[i].error(quantity) < best:
-            best, on[i] = rows[i].error(quantity), True
+    for i in sorted(usable, key=lambda i: (costs[i], errors[i])):
+        if errors[i] < best:
+            best, on[i] = errors[i], True
     return on
+
+
+class RowFile:
+    """Rows on disk, one per line under a first line that says which experiment they belong to.
+
+    A file of another experiment (another scene, version or list of quantities) is begun anew.
+
+    Attributes
+    ----------
+    rows : dict of str to Row
+        By the key that each had before it was measured.
+    """
+
+    def __init__(self, path: Path | None, experiment: Mapping[str, Any]) -> None:
+        self.path = path
+        self.rows: dict[str, Row] = {}
+        if path is None:
+            return
+        head = json.dumps({**experiment, "columns": [part.name for part in fields(Row)]}, sort_keys=True)
+        lines = _lines(path) if path.is_file() else []
+        if lines and lines[0] == head:
+            for line in lines[1:]:
+                try:
+                    kept = json.loads(line)
+                    self.rows[kept["key"]] = Row.from_data(kept["row"])
+                except (ValueError, TypeError, KeyError, RecursionError):  # a line cut short by an interrupt
+                    continue
+        with atomic_write(path) as draft:
+            lines = [head, *(_line(key, row) for key, row in self.rows.items())]
+            draft.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    def add(self, key: str, row: Row) -> None:
+        """Keep a row under the key that it had before it was measured."""
+        self.rows[key] = row
+        if self.path is not None:
+            with self.path.open("a", encoding="utf-8") as file:
+                file.write(_line(key, row) + "\n")
+
+
+def _lines(path: Path) -> list[str]:
+    return read_whole(path, LARGEST_FILE, "remove it").decode("utf-8", "replace").splitlines()
+
+
+def _line(key: str, row: Row) -> str:
+    return json.dumps({"key": key, "row": asdict(row)})

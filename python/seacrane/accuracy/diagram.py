@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from seacrane.accuracy.row import Row, front
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import plain
-from seacrane.trading.row import Row, front
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

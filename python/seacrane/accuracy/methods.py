@@ -1,15 +1,34 @@
-"""Which setting of a method is measured next: what is expected nearest the front, while it can change it."""
+"""The methods that a trade measures, what is expected nearest the front first, while it can change it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from seacrane._core import integrators
+from seacrane._core import Integrator, integrators
+from seacrane.accuracy.row import NOT_FINITE, STOPPED, Row, front
 from seacrane.run.method import Method
-from seacrane.trading.row import NOT_FINITE, STOPPED, Row, front
 
+COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
+MIDDLE = (*COARSE, 1e-5, 1e-6)
+FINE = (*MIDDLE, 1e-7, 1e-8, 1e-9)
+STEPS_OF_ORDER_1 = (0.1, 0.05, 0.02, 0.01, 0.005)  # s
+STEPS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # s
+STEPS_IMPLICIT = (0.1, 0.05, 0.02)  # s
+TIGHT = (
+    Method(formulation="recursive", integrator="dop853", rtol=1e-12),
+    Method(formulation="redundant", integrator="verner76", rtol=1e-12),
+    Method(formulation="recursive", integrator="verner76", rtol=1e-12),
+    Method(formulation="redundant", integrator="dop853", rtol=1e-12),
+)
+"""The reference and its check, which differ in equations and in method, so that their difference is its
+error; the last two stand in for what does not run."""
+PHYSICS = Method(formulation="auto", integrator="dop853", rtol=1e-8)
+"""How the physics rungs are run: an error far below what leaving physics out brings."""
+LINES = tuple(Method(integrator="dopri5", rtol=tolerance) for tolerance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
+"""How the rungs of lines are run: they differ in cost more than in error, so that each is a line."""
+FORMULATIONS = ("recursive", "redundant")
 SCOUTS = (
     ("dopri5", 1e-6), ("tsit5", 1e-2), ("verner76", 1e-3), ("dopri5", 1e-3), ("verner65", 1e-5),
     ("bs32", 1e-2), ("dop853", 1e-4), ("rk4", 0.05), ("dopri5-stiff", 1e-3), ("semi-implicit-euler", 0.02),
@@ -18,6 +37,40 @@ SCOUTS = (
 """The default, then the first setting of each method that has ever been on a front, the likeliest first."""
 SPREAD = 3.0  # by which an error may be off the order of its method
 RISES = 1.5  # exponent of the tolerance that no error falls faster with
+
+
+def measured_methods() -> Iterator[Method]:
+    """All methods of the grid."""
+    return methods(_values)
+
+
+def _values(method: Integrator) -> tuple[float, ...]:
+    """Tolerances or steps to try: no tighter than a method of this order, at this cost of a step, pays."""
+    if method.setting == "dt":
+        explicit = STEPS_OF_ORDER_1 if method.order == 1 else STEPS
+        return STEPS_IMPLICIT if method.uses_jacobian else explicit
+    if method.lowest_order < method.order:
+        return MIDDLE
+    if method.uses_jacobian:
+        return COARSE
+    return MIDDLE if method.order < 4 else FINE
+
+
+def methods(
+    values: Callable[[Integrator], Sequence[float]], *, formulations: Sequence[str] = FORMULATIONS
+) -> Iterator[Method]:
+    """Every formulation, integrator, and what `values` gives of its tolerances or steps (s)."""
+    for formulation in formulations:
+        for one in integrators():
+            for value in values(one):
+                yield method_of(one, value, formulation)
+
+
+def method_of(integrator: Integrator, value: float, formulation: str) -> Method:
+    """The method with a tolerance or a step, whichever sets the integrator's accuracy."""
+    if integrator.setting == "dt":
+        return Method(formulation=formulation, integrator=integrator.name, dt=value)
+    return Method(formulation=formulation, integrator=integrator.name, rtol=value)
 
 
 @dataclass(frozen=True, kw_only=True)

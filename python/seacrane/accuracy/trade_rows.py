@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -12,26 +11,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.accuracy.quantities import Quantity, compare
+from seacrane.accuracy import simpler_scenes
+from seacrane.accuracy.case import Case, timed
+from seacrane.accuracy.measured import Reference, measured, values_by, with_errors
+from seacrane.accuracy.methods import LINES, PHYSICS
+from seacrane.accuracy.quantities import Quantity
+from seacrane.accuracy.row import REFUSED, Row
 from seacrane.analysis.drag_in_sea import drag_in_components
 from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.crane_parts import hooks, payloads
-from seacrane.errors import SceneError, SeacraneError
+from seacrane.errors import SeacraneError
 from seacrane.inputs.frames import heading_of, rotation_matrix
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.scene.scene import Scene
-from seacrane.trading import simpler_scenes
-from seacrane.trading.case import Case
-from seacrane.trading.measured_case import channels_of, measured, timed, values_by
-from seacrane.trading.methods import TIGHT
-from seacrane.trading.reference import Reference, reference
-from seacrane.trading.row import COMPLETED, REFUSED, Row
 from seacrane.validity.after_run import require_finite
 
 Array = NDArray[np.float64]
+Task = tuple[
+    Row, simpler_scenes.Build | None
+]  # a row to be filled in, and what makes its scene with less physics
 LONG = 0.3  # s of wall time from which on one run tells the cost
+LINEAR = Method(integrator="none")  # the frequency domain has no integrator
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -51,47 +53,45 @@ class Bench:
     repeats: int
 
 
-def tight_reference(case: Case, quantities: Mapping[str, Quantity]) -> Reference:
-    """A tight run and its check, in another formulation and by another method; the first is the reference.
+def physics(bench: Bench, *, quick: bool) -> Iterator[Task]:
+    """Each scene with less physics, all by the same method; rungs of lines by several."""
+    for case, build in simpler_scenes.variants(bench.case.scene, quick=quick):
+        for method in _of_rung(case["rung"], quick=quick):
+            yield Row(case=case, method=method), build
 
-    Raises SceneError if fewer than two of them work: a reference without a second opinion is none.
+
+def _of_rung(rung: str, *, quick: bool) -> Sequence[Method]:
+    if rung == simpler_scenes.LINEAR:
+        return (LINEAR,)
+    if rung in simpler_scenes.LINE_RUNGS:
+        return LINES[1::2] if quick else LINES
+    return (Method(),) if quick else (PHYSICS,)
+
+
+def measure(
+    bench: Bench, row: Row, build: simpler_scenes.Build | None = None, limit_s: float | None = None
+) -> Row:
+    """The row filled in; a fitted memory is named by its states.
+
+    Parameters
+    ----------
+    build : callable, optional
+        Makes a scene with less physics; default: the full one.
+    limit_s : Processor time that a run of the full scene may take, s.
     """
-
-    def run(method: Method) -> Mapping[str, Array] | str:
-        try:
-            done = timed(case, method, channels_of(quantities))
-            if done.stopped is not None:
-                return str(done.stopped)
-            return {
-                name: quantity.values(require_finite(done.result())) for name, quantity in quantities.items()
-            }
-        except SeacraneError as error:
-            return str(error)
-
-    found = reference(run, TIGHT, enough=math.inf)
-    if len(found.runs) < 2:
-        raise SceneError(
-            f"scene {case.scene.name!r}: only {len(found.runs)} of {len(TIGHT)} reference runs work, and one "
-            f"cannot be checked: {'; '.join(found.refused.values())}"
-        )
-    return found
-
-
-def measure(bench: Bench, row: Row, *, scene: Scene | None = None, limit_s: float | None = None) -> Row:
-    """The row of a method, on the full scene or on one with less physics, filled in.
-
-    `limit_s` is the processor time that it may take, s.
-    """
-    case = bench.case if scene is None else replace(bench.case, scene=scene)
-    before = (0.0, 0.0)
-    values = None
+    case, before, values = bench.case, (0.0, 0.0), None
     try:
+        if build is not None:
+            limit_s, case = None, replace(case, scene=build())
+            memory = simpler_scenes.full_memory_name(case.scene, str(row.case["memory"]))
+            row = replace(row, case={**row.case, "memory": memory})
+        if row.case["rung"] == simpler_scenes.LINEAR:
+            return _frequency_domain(bench, row)
         if row.case["rung"] == simpler_scenes.WEIGHT:
-            values = partial(_values_of_weight, bench.quantities, case.scene)
-            case = replace(case, scene=simpler_scenes.payload_as_weight(case.scene))
+            values = partial(_values_of_weight, bench.quantities, bench.case.scene)
         elif row.case["rung"] == simpler_scenes.PRESCRIBED:
             case, before = _prescribed(bench, case, row.method)
-    except SeacraneError as error:
+    except (SeacraneError, ValueError) as error:
         return row.ended(REFUSED, error)
     done = measured(
         case, row.method, bench.quantities, bench.truth, row, values=values,
@@ -100,22 +100,10 @@ def measure(bench: Bench, row: Row, *, scene: Scene | None = None, limit_s: floa
     return replace(done, wall_s=done.wall_s + before[0], cpu_s=done.cpu_s + before[1])
 
 
-def measure_variant(bench: Bench, variant: simpler_scenes.Variant, row: Row) -> Row:
-    """As `measure`, of a scene that has yet to be made; a fitted memory is named by its states."""
-    try:
-        scene = variant.build()
-    except (SeacraneError, ValueError) as error:
-        return row.ended(REFUSED, error)
-    memory = simpler_scenes.full_memory_name(scene, variant.memory)
-    return measure(bench, replace(row, case={**row.case, "memory": memory}), scene=scene)
-
-
 def _prescribed(bench: Bench, case: Case, method: Method) -> tuple[Case, tuple[float, float]]:
     """The case with the vessel's motion of a locked crane prescribed; wall and CPU time of finding it, s."""
     alone = replace(case, scene=simpler_scenes.locked(case.scene))
     done = timed(alone, method, ["vessel_motion"], repeats=bench.repeats, long_s=LONG)
-    if done.stopped is not None:
-        raise SceneError(str(done.stopped))
     result = require_finite(done.result())
     driven = simpler_scenes.with_prescribed_vessel(case.scene, result.time, result["vessel_motion"])
     return replace(case, scene=driven), (done.wall_s, done.cpu_s)
@@ -146,27 +134,15 @@ def _under_the_tip(scene: Scene, result: Result, link: _core.Joint) -> dict[str,
     }
 
 
-def frequency_domain(bench: Bench, row: Row) -> Row:
+def _frequency_domain(bench: Bench, row: Row) -> Row:
     """The row of the linear model about the described pose, in its steady state under the same waves."""
-    case, truth = bench.case, bench.truth.values
     begun, ticks = time.perf_counter(), time.thread_time()
-    try:
-        values = _linear_values(case, truth)
-    except (SeacraneError, ValueError) as error:
-        return row.ended(REFUSED, error)
-    errors = {name: compare(truth[name], value) for name, value in values.items()}
-    left_out = [name for name in bench.quantities if name not in errors]
+    values = _linear_values(bench.case, bench.truth.values)
     done = replace(
-        row,
-        stepped="linear",
-        wall_s=time.perf_counter() - begun,
-        cpu_s=time.thread_time() - ticks,
-        simulated_s=case.t_end,
-        errors=errors,
-        uncertainty=bench.truth.uncertainty,
-        motion=bench.truth.motion,
-    )
-    return done.ended(COMPLETED, f"has no {', '.join(left_out)}" if left_out else "")
+        row, stepped="linear", wall_s=time.perf_counter() - begun, cpu_s=time.thread_time() - ticks,
+        simulated_s=bench.case.t_end, uncertainty=bench.truth.uncertainty,
+    )  # fmt: skip
+    return with_errors(done, values, bench.truth, bench.quantities)
 
 
 def _linear_values(case: Case, truth: Mapping[str, Array]) -> dict[str, Array]:

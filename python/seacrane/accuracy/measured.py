@@ -1,0 +1,183 @@
+"""The reference of a case, and what a run of it by a method costs, how it ends and how wrong it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.accuracy.case import Case, OutOfTime, Timed, timed
+from seacrane.accuracy.methods import TIGHT
+from seacrane.accuracy.quantities import Quantity, channels_of, compare, motion_of
+from seacrane.accuracy.row import COMPLETED, NOT_FINITE, REFUSED, SLOW, STOPPED, UNKNOWN, Row
+from seacrane.errors import SceneError, SeacraneError, SimulationError
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.result.result import Result
+from seacrane.run.method import Method
+from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import require_finite
+
+Array = NDArray[np.float64]
+Values = Callable[[Result], Mapping[str, Array]]
+CHECKS = ("constraint_error", "constraint_error_before_projection", "energy_balance", "absolute_work",
+          "quaternion", "velocity", "angular_velocity")  # fmt: skip
+COUNTED = ("steps", "rejected_steps", "evaluations", "dense_solves")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Reference:
+    """Values by quantity, and how well they are known.
+
+    Attributes
+    ----------
+    values : mapping of str to ndarray, shape (n, items, parts)
+        Empty where there is no reference.
+    uncertainty : mapping of str to float
+        How far tight runs differ; empty where there is but one.
+    runs : The methods, the one that gave the values first.
+    refused : mapping of str to str
+        Methods that did not work, and why.
+    """
+
+    values: Mapping[str, Array] = field(default_factory=dict)
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
+    runs: tuple[str, ...] = ()
+    refused: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def motion(self) -> dict[str, float]:
+        """Largest distance of each quantity from its start."""
+        return {name: motion_of(values) for name, values in self.values.items()}
+
+
+def tight_reference(
+    case: Case, quantities: Mapping[str, Quantity], methods: Sequence[Method] = TIGHT
+) -> Reference:
+    """A tight run and its check, in another formulation and by another method; the first is the reference.
+
+    Raises SceneError if fewer than two of them work: a reference without a second opinion is none.
+    """
+    found: dict[str, Mapping[str, Array]] = {}
+    refused = {}
+    for method in methods:
+        try:
+            result = require_finite(timed(case, method, channels_of(quantities)).result())
+            found[method.name] = {name: quantity.values(result) for name, quantity in quantities.items()}
+        except SeacraneError as error:
+            refused[method.name] = str(error)
+        if len(found) == 2:
+            break
+    else:
+        raise SceneError(
+            f"scene {case.scene.name!r}: only {len(found)} of {len(methods)} reference runs work, and one "
+            f"cannot be checked: {'; '.join(refused.values())}"
+        )
+    truth, other = found.values()
+    apart = {name: compare(values, other[name]).largest for name, values in truth.items()}
+    return Reference(values=truth, uncertainty=apart, runs=tuple(found), refused=refused)
+
+
+def measured(
+    case: Case,
+    method: Method,
+    quantities: Mapping[str, Quantity],
+    truth: Reference,
+    row: Row,
+    *,
+    values: Values | None = None,
+    repeats: int = 1,
+    long_s: float = np.inf,
+    limit_s: float | None = None,
+) -> Row:
+    """The row filled in; what stops or refuses the run is its verdict.
+
+    Parameters
+    ----------
+    case, method, repeats, long_s, limit_s
+        As `timed`.
+    quantities : mapping of str to Quantity
+        What errors are measured in.
+    row : Row
+        What is known before.
+    values : callable, optional
+        Values of quantities from a result; default: what the quantities make of it, where they can.
+    """
+    row = replace(row, uncertainty=truth.uncertainty, motion=truth.motion)
+    channels = [*channels_of(quantities), *CHECKS]
+    try:
+        done = timed(case, method, channels, repeats=repeats, long_s=long_s, limit_s=limit_s)
+        row = _with_cost(row, done)
+        result = done.result()
+        for name, array in result.channels.items():
+            if not np.isfinite(array).all():
+                return row.ended(NOT_FINITE, f"{name} is not finite")
+        found = (values or values_by(quantities))(result)
+    except OutOfTime as stopped:
+        return row.ended(SLOW, stopped)
+    except SimulationError as stopped:
+        return row.ended(STOPPED, stopped)
+    except ValueError as refusal:  # a SceneError, or that of a function of arrays
+        return row.ended(REFUSED, refusal)
+    return with_errors(_with_checks(row, case.scene, result), found, truth, quantities)
+
+
+def values_by(quantities: Mapping[str, Quantity]) -> Values:
+    """Values of the quantities that a result has; one with less physics may lack some."""
+
+    def values(result: Result) -> dict[str, Array]:
+        found = {}
+        for name, quantity in quantities.items():
+            try:
+                found[name] = quantity.values(result)
+            except (KeyError, ValueError):
+                continue
+        return found
+
+    return values
+
+
+def _with_cost(row: Row, done: Timed) -> Row:
+    stats = done.stats
+    counted: dict[str, Any] = {name: int(stats[name]) for name in COUNTED}
+    return replace(
+        row, stepped=str(stats["formulation"]), simulated_s=float(stats["simulated_s"]), wall_s=done.wall_s,
+        cpu_s=done.cpu_s, **counted,
+    )  # fmt: skip
+
+
+def _with_checks(row: Row, scene: Scene, result: Result) -> Row:
+    def largest(channel: str) -> float:
+        return float(result.channels[channel].max()) if channel in result.channels else UNKNOWN
+
+    drift, left = largest("constraint_error_before_projection"), largest("constraint_error")
+    return replace(row, drift=drift, left=left, energy=energy_error(scene, result))
+
+
+def with_errors(
+    row: Row, values: Mapping[str, Array], truth: Reference, quantities: Mapping[str, Quantity]
+) -> Row:
+    """The row of a run that reached its end, with errors of the values that it gives."""
+    errors = {name: compare(truth.values[name], v) for name, v in values.items() if name in truth.values}
+    own = {name: motion_of(v) for name, v in values.items() if name not in truth.motion}
+    left_out = [name for name in quantities if name not in errors and name in truth.values]
+    message = f"has no {', '.join(left_out)}" if left_out else ""
+    return replace(row, errors=errors, motion={**truth.motion, **own}).ended(COMPLETED, message)
+
+
+def energy_error(scene: Scene, result: Result) -> float:
+    """Largest balance over the absolute work by the end, or the largest kinetic energy; NaN without them."""
+    if not {"energy_balance", "absolute_work"} <= result.channels.keys():
+        return UNKNOWN
+    bodies = scene.bodies.values()
+    mass = np.array([body.mass for body in bodies])
+    inertia = np.array([body.inertia for body in bodies])
+    velocity, rotation = result["velocity"], rotation_matrix(result["quaternion"])
+    spin = np.einsum("nkji,nkj->nki", rotation, result["angular_velocity"])
+    kinetic = 0.5 * (
+        np.einsum("k,nki,nki->n", mass, velocity, velocity) + np.einsum("kij,nki,nkj->n", inertia, spin, spin)
+    )
+    size = max(float(result["absolute_work"][-1]), float(kinetic.max()))
+    return float(np.abs(result["energy_balance"]).max()) / size if size > 0.0 else UNKNOWN
