@@ -11,7 +11,7 @@ from seacrane import simulate
 from seacrane.accuracy.case import Case
 from seacrane.result import Result
 from stability_atlas.axes import AXES
-from stability_atlas.points import POINTS
+from stability_atlas.points import KnownCase
 
 
 def ended(case: Case, integrator: str, **settings: Any) -> Result:
@@ -53,6 +53,6 @@ def test_methods_start_30_years_from_zero(integrator: str) -> None:
     case = AXES["time-origin"].case(1e9)
     run = simulate(case.scene, t_end=case.t_end, dt_out=case.dt_out, start=case.start, integrator=integrator,
                    channels=["position"])  # fmt: skip
-    assert case.truth is not None
-    points = case.truth[POINTS.name].reshape(run.time.size, -1, 4, 3)  # the first of each body is its centre
+    assert isinstance(case, KnownCase)
+    points = case.truth.reshape(run.time.size, -1, 4, 3)  # the first of each body is its centre
     np.testing.assert_allclose(run["position"], points[:, :, 0], atol=1e-4)

@@ -185,6 +185,7 @@ def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
     def raos(**changes: Any) -> MotionRaos:
         return MotionRaos(**{**LONG, "values": np.ones((3, 4, 1)) * np.eye(6)[2], **changes})
 
+    group = two_barges(lid_damping=None)
     for call, message in (
         (lambda: raos(values=np.full((3, 4, 6), 2.0)), "pitch"),  # degrees per metre
         (lambda: raos(heading=np.degrees(LONG["heading"])), "heading.*rad"),
@@ -195,12 +196,9 @@ def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
         (lambda: response_summed(beside_another(database), body="vessel"), "'barge': its motion"),
         (lambda: given("rest", memory="none"), r"add_vessel\(motion=\): there is no 'memory'"),
         (lambda: Scene().add_vessel(database, ramp=1.0), "of a HydroDatabase: there is no 'ramp'"),
-        (
-            lambda: Scene().add_vessel(two_barges(lid_damping=None), name="a"),
-            "HydroGroup: there is no 'name'",
-        ),
+        (lambda: Scene().add_vessel(group, name="a"), "of a HydroGroup: there is no 'name'"),
         (lambda: Scene().add_vessel(database, motion="rest"), "a motion and a hull"),
-        (lambda: Scene().add_vessel(raos()), "vessel: is MotionRaos.*motion="),
+        (lambda: Scene().add_vessel(raos()), "vessel: is <MotionRaos.*motion="),
     ):
         with pytest.raises(SceneError, match=message):
             call()
