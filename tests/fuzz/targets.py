@@ -254,7 +254,7 @@ def _netcdf_targets(name: str, file: str, read: Reader, *modules: str) -> list[T
 
 
 _VERES_FILES = "box.re7 box.re8 box.re1 box.re2 box.hyd"
-_WAMIT_FILES = "box.1 box.3 box.4 box.hst box.frc box.out box.cfg"
+_WAMIT_FILES = "box.1 box.3 box.4 box.9 box.hst box.frc box.out box.cfg"
 _RESULTS = f"{nemoh_files.RADIATION} {nemoh_files.EXCITATION} {nemoh_files.CONTROL} "
 _NEMOH_FILES = _RESULTS + f"{nemoh_files.STIFFNESS} {nemoh_files.HYDROSTATICS}"
 _NEMOH_PAIR = _RESULTS + "Kh_1.dat Hydrostatics_1.dat"
