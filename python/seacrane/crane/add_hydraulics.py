@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import Any
 
 from seacrane.crane.builder import CYLINDERS, KnuckleBoomCrane
@@ -21,7 +22,7 @@ Hydraulics = Mapping[str, Mapping[str, Any]]
 
 
 def hydraulics_of(crane: KnuckleBoomCrane | JointedCrane, given: Hydraulics | None) -> Hydraulics:
-    """Entries of the hydraulic cylinders by label: those given, else those of the data file."""
+    """Keywords of the hydraulic cylinders by label: those given, else those of the data file."""
     if given is None:
         return _of_file(crane)
     labels = CYLINDERS if isinstance(crane, KnuckleBoomCrane) else crane.data.cylinders
@@ -61,36 +62,34 @@ def add_hydraulics(
         "s1" and "s2" of a knuckle boom, coordinates of another crane.
     payload_mass : kg.
     """
-    if not hydraulics:
-        return
-    if isinstance(crane, JointedCrane):
-        for label, entries in hydraulics.items():
-            force = static_force(
-                crane, label, coordinates=pose, payload_mass=payload_mass, gravity=scene.gravity
-            )
-            first, second = crane.slide(label)
-            areas = _areas(
-                label, crane.data.areas.get(label), crane.member_of(first), crane.member_of(second), entries
-            )
-            name, ends = crane.data.cylinders[label], ends_of(crane, label)
-            names = {"name": prefix + name, "first": prefix + first, "second": prefix + second}
-            place_cylinder(scene, names | ends | areas | dict(entries), force)
-        return
-    forces = crane.static_cylinder_forces(
-        s1=pose["s1"], s2=pose["s2"], payload_mass=payload_mass, gravity=scene.gravity
-    )
-    by_label = dict(zip(CYLINDERS, forces.tolist(), strict=True))
     for label, entries in hydraulics.items():
-        data = _data(crane, label)
-        given: dict[str, Any] = {
-            "name": prefix + CYLINDERS[label],
-            "first": f"{prefix}{label}_barrel",
-            "second": f"{prefix}{label}_rod",
-            "retracted_length": data.retracted_length,
-            "stroke": data.stroke,
-        }
-        areas = _areas(label, data.areas, data.barrel, data.rod, entries)
-        place_cylinder(scene, given | areas | dict(entries), by_label[label])
+        if isinstance(crane, JointedCrane):
+            name, (first, second) = crane.data.cylinders[label], crane.slide(label)
+            ends, areas = ends_of(crane, label), crane.data.areas.get(label)
+            barrel, rod = crane.member_of(first), crane.member_of(second)
+        else:
+            data = _data(crane, label)
+            name, first, second = CYLINDERS[label], f"{label}_barrel", f"{label}_rod"
+            ends = {"retracted_length": data.retracted_length, "stroke": data.stroke}
+            areas, barrel, rod = data.areas, data.barrel, data.rod
+        given = {"name": prefix + name, "first": prefix + first, "second": prefix + second} | ends
+        given |= _areas(label, areas, barrel, rod, entries)
+        holding = partial(_force, crane, label, pose, payload_mass, scene.gravity)
+        place_cylinder(scene, given | dict(entries), holding)
+
+
+def _force(
+    crane: KnuckleBoomCrane | JointedCrane,
+    label: str,
+    pose: Mapping[str, float],
+    payload_mass: float,
+    gravity: float,
+) -> float:
+    """With which a cylinder holds the crane and a payload, N."""
+    if isinstance(crane, JointedCrane):
+        return static_force(crane, label, coordinates=pose, payload_mass=payload_mass, gravity=gravity)
+    forces = crane.static_cylinder_forces(**pose, payload_mass=payload_mass, gravity=gravity)
+    return float(forces[list(CYLINDERS).index(label)])
 
 
 def _data(crane: KnuckleBoomCrane, label: str) -> CylinderData:

@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
-from seacrane import _core
 from seacrane.crane.file_table import FileTable, number_at, read_text, root_of
 from seacrane.crane.mass_properties import Member, Point
 from seacrane.description.capacity import Capacity
 from seacrane.description.cylinder_areas import Areas
+from seacrane.description.hydraulic_values import VALUES
 from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import shown
 
 DEFAULT_PATH = Path(__file__).resolve().parent.parent / "data" / "knuckle_boom_250t.toml"
 KIND = "knuckle-boom"
-GEOMETRY = {"full_area", "rod_side_area", "retracted_length", "stroke"}
-HYDRAULIC_KEYS = {
-    field.name for field in _core.HydraulicCylinder.FIELDS if field.type in ("number", "flag")
-} - GEOMETRY
 APART = 1e-6  # m: pivots nearer than that are one
 
 
@@ -29,7 +26,7 @@ APART = 1e-6  # m: pivots nearer than that are one
 class CylinderData:
     """A hydraulic cylinder: length between its pivots at stroke 0 and largest stroke, m; its members.
 
-    Areas of the piston's full side and rod side, m2, and entries of `add_hydraulic_cylinder`, where the file
+    Areas of the piston's full side and rod side, m2, and keywords of `add_hydraulic_cylinder`, where the file
     has them.
     """
 
@@ -38,7 +35,7 @@ class CylinderData:
     barrel: tuple[Member, ...]
     rod: tuple[Member, ...]
     areas: Areas | None = None
-    hydraulics: Mapping[str, float] | None = None
+    hydraulics: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,16 +93,23 @@ class CraneData:
         }
 
 
-def hydraulics_of(table: FileTable) -> Mapping[str, float] | None:
-    """Entries of a hydraulic cylinder, SI units, in a table of its own."""
+def hydraulics_of(table: FileTable) -> Mapping[str, Any] | None:
+    """Keywords of a hydraulic cylinder, from a table of tables: one for each of its values, SI units."""
     if "hydraulics" not in table.values:
         return None
-    inner, found = table.table("hydraulics"), {}
-    for key in HYDRAULIC_KEYS & set(inner.values):
-        value = inner.take(key)
-        found[key] = value if isinstance(value, bool) else number_at(table.source, inner.label(key), value)
+    inner = table.table("hydraulics")
+    found = {word: _value(inner.table(word), kind) for word, kind in VALUES.items() if word in inner.values}
     inner.finish()
     return MappingProxyType(found)
+
+
+def _value(table: FileTable, kind: type[Any]) -> Any:
+    given = {}
+    for key in [one.name for one in fields(kind) if one.name in table.values]:
+        value = table.take(key)
+        given[key] = value if isinstance(value, bool) else number_at(table.source, table.label(key), value)
+    table.finish()
+    return kind(**given)
 
 
 def _cylinder(table: FileTable) -> CylinderData:

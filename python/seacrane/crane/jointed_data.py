@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -123,7 +124,7 @@ class JointedData:
     capacity, areas
         As of `CraneRoles`.
     hydraulics : mapping of str to mapping
-        Entries of `add_hydraulic_cylinder` by the labels of cylinders that the file says are hydraulic.
+        Keywords of `add_hydraulic_cylinder` by the labels of cylinders that the file says are hydraulic.
     """
 
     name: str
@@ -138,7 +139,7 @@ class JointedData:
     ropes: tuple[RopeData, ...] = ()
     capacity: Capacity = ()
     areas: Mapping[str, Areas] = field(default_factory=dict)
-    hydraulics: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    hydraulics: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     @property
     def coordinates(self) -> dict[str, str]:
