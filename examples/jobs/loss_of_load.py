@@ -29,10 +29,9 @@ result = simulate(scene, stages, start="rest", dt_out=0.02, integrator="rosenbro
 roll, lost = np.degrees(result.curve("roll")), result.stage("lost")
 peak = roll[lost].argmax()
 
-rest, modes = statics(bare), natural_modes(bare)
-mode = modes.find("vessel roll")
+mode = (modes := natural_modes(bare)).find("vessel roll")
 oil, arm = scene.loads["main_cylinder"], result.place_of("tip")[0, 1]  # m to port, at the heel
-back = np.degrees(MASS * arm / (rest["GM"].item() * bare.bodies["vessel"].mass))
+back = np.degrees(MASS * arm / (statics(bare)["GM"].item() * bare.bodies["vessel"].mass))
 swings = np.exp(-np.pi * modes.damping_ratio[mode])  # of what is left after half a period
 main, _ = KnuckleBoomCrane.load().static_cylinder_forces(**POSE, payload_mass=MASS)
 rod = 0.1 * PUMP.pressure * oil.rod_side_area  # what the side that carries nothing has

@@ -25,8 +25,8 @@ def test_calls_are_replaced_where_they_stand() -> None:
 
 
 def test_keywords_become_fields_of_values() -> None:
-    old = "s.add_gas_spring('a', area=A, pressure=p, exponent=1.3, maximum=9)\noil = {'pump_check': c, 'air': a}"
-    new, notes = PORT["ported"](old)
+    call = "s.add_gas_spring('a', area=A, pressure=p, exponent=1.3, maximum=9)"
+    new, notes = PORT["ported"](f"{call}\noil = {{'pump_check': c, 'air': a}}")
     assert new.splitlines() == [
         "s.add_gas_spring('a', area=A, gas=Gas(pressure=p, exponent=1.3), stops=Stops(maximum=9))",
         'oil = {"pump": Pump(check=c), "oil": Oil(air=a)}',
