@@ -4,202 +4,110 @@ from __future__ import annotations
 
 from typing import Any
 
+from seacrane import _core
 from seacrane.inputs.values import value
 
 NEVER = 1e7  # s
 
 
-@value()
+@value(_core.HydraulicCylinder)
 class Chamber:
     """The full side or the rod side of a cylinder.
 
-    Attributes
-    ----------
-    pressure : float, optional
-        Pa, at the start. Default: that which holds the scene at rest as described; the chamber that carries
-        nothing has a tenth of the pump's pressure.
-    hose_volume : float, optional
-        m3, of oil beside the swept volume. Default: 5 % of the swept volume.
+    Without a pressure it has that which holds the scene at rest as described, a tenth of the pump's where it
+    carries nothing. Without a hose volume it has 5 % of the swept volume.
     """
 
-    pressure: float | None = None
-    hose_volume: float | None = None
+    pressure: float | None = None  # Pa
+    hose_volume: float | None = None  # m3
 
 
-@value("oil", "modulus", "density")
+@value(_core.HydraulicCylinder, "oil", "modulus", "density")
 class Oil:
-    """Oil, and what gives with it.
+    """Oil, and what gives with it. Where it boils is an event, and a `BoilingOilWarning`."""
 
-    Attributes
-    ----------
-    modulus, hose_modulus, cylinder_modulus : float
-        Pa, of the oil, and of hoses and barrel by their volumes.
-    density : float
-        kg/m3, of what leaves through the hole of a hose that bursts.
-    air : float
-        Share of the volume that is free air at 1e5 Pa.
-    vapour_pressure : float
-        Pa, at which the oil boils and a void opens: an event, and a `BoilingOilWarning`.
-    refuse_void : bool
-        Whether a run ends with an error there.
-    """
-
-    modulus: float = 1.5e9
-    hose_modulus: float = 1.5e8
-    cylinder_modulus: float = 3.15e10
-    density: float = 870.0
+    modulus: float = 1.5e9  # Pa
+    hose_modulus: float = 1.5e8  # Pa
+    cylinder_modulus: float = 3.15e10  # Pa
+    density: float = 870.0  # kg/m3
     air: float = 0.0
-    vapour_pressure: float = 2e3
+    vapour_pressure: float = 2e3  # Pa
     refuse_void: bool = False
 
 
-@value()
+@value(_core.HydraulicCylinder)
 class Valve:
-    """The valve whose spool opens the way from the pump and to the tank.
+    """The valve whose spool opens the way from pump and to tank; without a rated flow there is none."""
 
-    Attributes
-    ----------
-    rated_flow, rated_flow_rod : float
-        m3/s, of its open edges to the full side and to the rod side at `rated_drop`; 0: no valve, and the
-        same.
-    rated_drop, laminar_drop : float
-        Pa, at which all flows of the cylinder are rated, and about which they turn from linear to a square
-        root.
-    overlap : float
-        Share of the spool's travel before an edge opens.
-    spool_lag : float
-        s, of the spool behind its command; 0: it follows at once, and is no state.
-    gain, rate_gain : float
-        1/m and s/m: spool over the stroke that is missing to the reference, and over the reference's rate.
-    """
-
-    rated_flow: float = 0.0
-    rated_flow_rod: float = 0.0
-    rated_drop: float = 3.5e6
-    laminar_drop: float = 2e5
+    rated_flow: float = 0.0  # m3/s
+    rated_flow_rod: float = 0.0  # m3/s
+    rated_drop: float = 3.5e6  # Pa
+    laminar_drop: float = 2e5  # Pa
     overlap: float = 0.0
-    spool_lag: float = 4.547e-3
-    gain: float = 0.0
-    rate_gain: float = 0.0
+    spool_lag: float = 4.547e-3  # s
+    gain: float = 0.0  # 1/m
+    rate_gain: float = 0.0  # s/m
 
 
-@value("pump", "pressure", "check")
+@value(_core.HydraulicCylinder, "pump", "pressure", "check")
 class Pump:
-    """Where oil comes from, and goes to.
+    """Where oil comes from, and goes to."""
 
-    Attributes
-    ----------
-    pressure, tank_pressure : float
-        Pa; a pressure of 0: no pump.
-    makeup_flow : float
-        m3/s at `rated_drop`, of check valves from the tank; 0: none.
-    check : bool
-        Whether a check valve keeps oil from the pump.
-    """
-
-    pressure: float = 0.0
-    tank_pressure: float = 1e5
-    makeup_flow: float = 0.0
+    pressure: float = 0.0  # Pa
+    tank_pressure: float = 1e5  # Pa
+    makeup_flow: float = 0.0  # m3/s
     check: bool = False
 
 
-@value("relief")
+@value(_core.HydraulicCylinder, "relief")
 class Relief:
-    """Relief valves.
+    """Relief valves."""
 
-    Attributes
-    ----------
-    pressure, pressure_rod : float
-        Pa, at which those of the full side and of the rod side open; 0: none.
-    flow, override : float
-        m3/s that one passes at that pressure (Pa) above its opening.
-    """
-
-    pressure: float = 0.0
-    pressure_rod: float = 0.0
-    flow: float = 0.0
-    override: float = 1e6
+    pressure: float = 0.0  # Pa
+    pressure_rod: float = 0.0  # Pa
+    flow: float = 0.0  # m3/s
+    override: float = 1e6  # Pa
 
 
-@value("counterbalance", "pressure", "pressure_rod", "flow", "range")
+@value(_core.HydraulicCylinder, "counterbalance", "pressure", "pressure_rod", "flow", "range")
 class Counterbalance:
-    """Load-holding valves.
+    """Load-holding valves."""
 
-    Attributes
-    ----------
-    pressure, pressure_rod : float
-        Pa, at which those of the full side and of the rod side open without pilot; 0: none.
-    flow, range : float
-        m3/s of an open one at `rated_drop`; Pa from its opening to open.
-    pilot_ratio : float
-        Of the other side's pressure in its opening.
-    """
-
-    pressure: float = 0.0
-    pressure_rod: float = 0.0
-    flow: float = 0.0
-    range: float = 5e6
+    pressure: float = 0.0  # Pa
+    pressure_rod: float = 0.0  # Pa
+    flow: float = 0.0  # m3/s
+    range: float = 5e6  # Pa
     pilot_ratio: float = 4.0
 
 
-@value("accumulator")
+@value(_core.HydraulicCylinder, "accumulator")
 class Accumulator:
-    """A gas accumulator on the full side.
+    """A gas accumulator on the full side."""
 
-    Attributes
-    ----------
-    volume, pressure : float
-        m3 and Pa, of its gas without oil.
-    flow : float
-        m3/s through its throttle at `rated_drop`.
-    exponent : float
-        Of the gas law.
-    """
-
-    volume: float = 0.0
-    pressure: float = 0.0
-    flow: float = 0.0
+    volume: float = 0.0  # m3
+    pressure: float = 0.0  # Pa
+    flow: float = 0.0  # m3/s
     exponent: float = 1.4
 
 
-@value()
+@value(_core.HydraulicCylinder)
 class Piston:
-    """What a piston and its seals do.
+    """What a piston and its seals do."""
 
-    Attributes
-    ----------
-    viscous_friction, friction, friction_speed : float
-        N s/m; N, dry, and m/s, about which that changes its sign.
-    internal_leakage, external_leakage : float
-        m3/s/Pa, past the piston; from each side to the tank.
-    stop_stiffness : float
-        N/m, of the ends of the stroke.
-    """
-
-    viscous_friction: float = 0.0
-    friction: float = 0.0
-    friction_speed: float = 0.01
-    internal_leakage: float = 0.0
-    external_leakage: float = 0.0
-    stop_stiffness: float = 1e9
+    viscous_friction: float = 0.0  # N s/m
+    friction: float = 0.0  # N
+    friction_speed: float = 0.01  # m/s
+    internal_leakage: float = 0.0  # m3/s/Pa
+    external_leakage: float = 0.0  # m3/s/Pa
+    stop_stiffness: float = 1e9  # N/m
 
 
-@value("rupture", "time", "area", rod_side="rod_side_ruptures")
+@value(_core.HydraulicCylinder, "rupture", "time", "area", rod_side="rod_side_ruptures")
 class Rupture:
-    """A hose that bursts.
+    """A hose that bursts."""
 
-    Attributes
-    ----------
-    time, area : float
-        s; m2, of the hole.
-    rod_side : bool
-        In place of the full side.
-    discharge_coefficient : float
-        Of the hole.
-    """
-
-    time: float = NEVER
-    area: float = 0.0
+    time: float = NEVER  # s
+    area: float = 0.0  # m2
     rod_side: bool = False
     discharge_coefficient: float = 0.6
 

@@ -15,11 +15,12 @@ _ENTRIES: dict[type, Mapping[str, str]] = {}
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
-def value(prefix: str = "", *keys: str, **entries: str) -> Callable[[type[T]], type[T]]:
-    """A class as a frozen value of keywords.
+def value(element: Any, prefix: str = "", *keys: str, **entries: str) -> Callable[[type[T]], type[T]]:
+    """A class as a frozen value of keywords; its docstring lists them, with the units and words of FIELDS.
 
     Parameters
     ----------
+    element : Of the core.
     prefix, *keys : Begins the names that the element has for these fields; for all without keys.
     **entries : Other names of the element, by field.
     """
@@ -29,6 +30,9 @@ def value(prefix: str = "", *keys: str, **entries: str) -> Callable[[type[T]], t
         own = [one.name for one in fields(kind)]  # type: ignore[arg-type]
         begun = {key: f"{prefix}_{key}" for key in (keys or own) if prefix}
         _ENTRIES[kind] = {key: key for key in own} | begun | entries
+        told = {field.name: f"{field.unit or 1}\n    {field.text}" for field in element.FIELDS}
+        rows = [f"{key} : {told[name]}" for key, name in _ENTRIES[kind].items() if name in told]
+        kind.__doc__ = "\n".join((kind.__doc__ or "", "", "Attributes", "----------", *rows))
         return kind
 
     return made

@@ -32,63 +32,35 @@ SIX = ("x", "y", "z", "roll", "pitch", "yaw")
 GAS = (("pressure", "volume"), ("force", "stiffness"))
 
 
-@value("actuator", "frequency", "damping")
+@value(_core.HeaveCompensator, "actuator", "frequency", "damping")
 class Drive:
-    """What moves a heave compensator's stroke.
+    """What moves a heave compensator's stroke; without a frequency it follows at once."""
 
-    Attributes
-    ----------
-    frequency, damping : float
-        Hz, its natural frequency, and of critical damping; of second order. 0 (default): it follows at once.
-    maximum_rate, maximum_stroke : float
-        m/s and m, bounds on the stroke in both directions; 1e7 (default): none.
-    settling : float
-        s, in which the stroke returns to the motion after a bound, and in which it brakes before its own.
-    """
-
-    frequency: float = 0.0
+    frequency: float = 0.0  # Hz
     damping: float = 0.7
-    maximum_rate: float = NO_BOUND
-    maximum_stroke: float = NO_BOUND
-    settling: float = 0.2
+    maximum_rate: float = NO_BOUND  # m/s
+    maximum_stroke: float = NO_BOUND  # m
+    settling: float = 0.2  # s
 
 
-@value()
+@value(_core.GasSpring)
 class Gas:
-    """The gas of a gas spring, at its length.
+    """The gas of a gas spring at its length, by pressure and volume, or by force and stiffness there."""
 
-    Attributes
-    ----------
-    pressure, volume : float, optional
-        Pa and m3.
-    force, stiffness : float, optional
-        In their place: N and N/m, of the spring there.
-    exponent : float
-        1 for slow motion, 1.4 for nitrogen that keeps its heat, up to 1.67.
-    """
-
-    pressure: float | None = None
-    volume: float | None = None
-    force: float | None = None
-    stiffness: float | None = None
+    pressure: float | None = None  # Pa
+    volume: float | None = None  # m3
+    force: float | None = None  # N
+    stiffness: float | None = None  # N/m
     exponent: float = 1.4
 
 
-@value("stop", "stiffness")
+@value(_core.GasSpring, "stop", "stiffness")
 class Stops:
-    """Stops at the ends of a gas spring's stroke.
+    """Stops at the ends of a gas spring's stroke."""
 
-    Attributes
-    ----------
-    minimum, maximum : float
-        m, lengths; 0 and 1e7 (default): none.
-    stiffness : float
-        N/m.
-    """
-
-    minimum: float = 0.0
-    maximum: float = NO_BOUND
-    stiffness: float = 1e8
+    minimum: float = 0.0  # m
+    maximum: float = NO_BOUND  # m
+    stiffness: float = 1e8  # N/m
 
 
 VALUES: dict[str, type[Any]] = {"drive": Drive, "gas": Gas, "stops": Stops}

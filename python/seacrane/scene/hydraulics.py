@@ -9,6 +9,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.inverse import at_rest, locked_at_rest
 from seacrane.analysis.rods import add_rod, ends_of, rod_forces, without_cylinders
+from seacrane.description import hydraulic_values as of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.drives import add_driver
@@ -19,17 +20,6 @@ from seacrane.description.hydraulic_cylinders import (
     hydraulic_cylinders,
     place_cylinder,
     what_of,
-)
-from seacrane.description.hydraulic_values import (
-    Accumulator,
-    Chamber,
-    Counterbalance,
-    Oil,
-    Piston,
-    Pump,
-    Relief,
-    Rupture,
-    Valve,
 )
 from seacrane.description.places import ORIGIN
 from seacrane.errors import SceneError
@@ -47,18 +37,18 @@ def add_hydraulic_cylinder(
     stroke: float,
     first_point: Any = ORIGIN,
     second_point: Any = ORIGIN,
-    chamber: Chamber | None = None,
-    rod_chamber: Chamber | None = None,
-    oil: Oil | None = None,
-    pump: Pump | None = None,
-    valve: Valve | None = None,
+    chamber: of.Chamber | None = None,
+    rod_chamber: of.Chamber | None = None,
+    oil: of.Oil | None = None,
+    pump: of.Pump | None = None,
+    valve: of.Valve | None = None,
     command: _core.Curve | float | None = None,
     reference: _core.Curve | float | None = None,
-    relief: Relief | None = None,
-    counterbalance: Counterbalance | None = None,
-    accumulator: Accumulator | None = None,
-    piston: Piston | None = None,
-    rupture: Rupture | None = None,
+    relief: of.Relief | None = None,
+    counterbalance: of.Counterbalance | None = None,
+    accumulator: of.Accumulator | None = None,
+    piston: of.Piston | None = None,
+    rupture: of.Rupture | None = None,
 ) -> _core.HydraulicCylinder:
     """Join two points by a hydraulic cylinder: pressures of both chambers, valves, pump, leakage, friction.
 
