@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
+from inspect import cleandoc
 from typing import Any, TypeVar, dataclass_transform
 
 from seacrane.errors import SceneError
@@ -32,7 +33,7 @@ def value(element: Any, prefix: str = "", *keys: str, **entries: str) -> Callabl
         _ENTRIES[kind] = {key: key for key in own} | begun | entries
         told = {field.name: f"{field.unit or 1}\n    {field.text}" for field in element.FIELDS}
         rows = [f"{key} : {told[name]}" for key, name in _ENTRIES[kind].items() if name in told]
-        kind.__doc__ = "\n".join((kind.__doc__ or "", "", "Attributes", "----------", *rows))
+        kind.__doc__ = "\n".join((cleandoc(kind.__doc__ or ""), "", "Attributes", "----------", *rows))
         return kind
 
     return made
