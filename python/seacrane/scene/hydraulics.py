@@ -84,7 +84,7 @@ def add_hydraulic_cylinder(
         does not fit is said by `Scene.compile`.
     """
     keywords = {key: value for key, value in locals().items() if key != "scene"}
-    return place_cylinder(scene, keywords, lambda: holding_force(scene, keywords))
+    return place_cylinder(scene, keywords, lambda: _forces(scene, what_of(keywords), [keywords])[name])
 
 
 def hold_pressures(scene: Description) -> dict[str, _core.HydraulicCylinder]:
@@ -109,28 +109,18 @@ def hold_pressures(scene: Description) -> dict[str, _core.HydraulicCylinder]:
         raise SceneError(
             f"scene {scene.name!r}: has no hydraulic cylinder whose pressures would hold it; add one first"
         )
-    for name, force in holding_forces(scene).items():
+    for name, force in _forces(scene, f"scene {scene.name!r}", []).items():
         full, rod = holding_pressures(cylinders[name], force)
         replace_element(scene, name, kind="load", pressure=full, pressure_rod=rod)
     return hydraulic_cylinders(scene)
 
 
-def holding_force(scene: Description, given: dict[str, Any]) -> float:
-    """Force (N, positive pushes) between two points that holds the scene at rest as described.
-
-    A rod of fixed length takes the cylinder's place, and that of each other cylinder; vessels, actuated
-    coordinates and the drives of cranes are held, and waves left out. `given`: keywords of the cylinder,
-    which the scene does not have. Raises SceneError if the scene is not at rest as described.
-    """
-    return _forces(scene, what_of(given), [given])[given["name"]]
-
-
-def holding_forces(scene: Description) -> dict[str, float]:
-    """The forces of the hydraulic cylinders that a scene has, by name."""
-    return _forces(scene, f"scene {scene.name!r}", [])
-
-
 def _forces(scene: Description, what: str, more: list[dict[str, Any]]) -> dict[str, float]:
+    """Forces (N, positive pushes) of cylinders, by name, that hold the scene at rest as described.
+
+    Rods of fixed length take their places; vessels, actuated coordinates and the drives of cranes are held, and
+    waves left out. `more`: keywords of cylinders that the scene does not have.
+    """
     cylinders = [*more, *map(ends_of, hydraulic_cylinders(scene).values())]
     held = locked_at_rest(without_cylinders(let_go(scene)))
     for one in cylinders:
