@@ -118,8 +118,8 @@ def hold_pressures(scene: Description) -> dict[str, _core.HydraulicCylinder]:
 def _forces(scene: Description, what: str, more: list[dict[str, Any]]) -> dict[str, float]:
     """Forces (N, positive pushes) of cylinders, by name, that hold the scene at rest as described.
 
-    Rods of fixed length take their places; vessels, actuated coordinates and the drives of cranes are held, and
-    waves left out. `more`: keywords of cylinders that the scene does not have.
+    Rods of fixed length take their places; vessels, actuated coordinates and the drives of cranes are held,
+    and waves left out. `more`: keywords of cylinders that the scene does not have.
     """
     cylinders = [*more, *map(ends_of, hydraulic_cylinders(scene).values())]
     held = locked_at_rest(without_cylinders(let_go(scene)))
