@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
+from seacrane.description.hydraulic_values import VALUES
 from seacrane.lift.tables import TABLES
-from seacrane.scene import gust_curve, spline_curve
+from seacrane.scene import gust_curve, heave, spline_curve
 from seacrane.water import BoxPart, Opening, SpherePart
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
@@ -174,7 +175,8 @@ areas = [{ cylinder = "luff", full_m2 = 0.5, rod_side_m2 = 0.25 }]
 
 
 UNIT = re.compile("(?:_(?:m2|m3|m|kg|N|Pa|s2|s|Hz|W|deg|rad|per))+$")
-KINDS = {"first_frame": Frame, "second_frame": Frame, "coefficients": FlowCoefficients, "openings": Opening}
+KINDS: dict[str, Any] = {"first_frame": Frame, "second_frame": Frame, "openings": Opening}
+KINDS |= VALUES | heave.VALUES | {"coefficients": FlowCoefficients}
 PARTS = {"sphere": SpherePart, "box": BoxPart}
 CURVES = {"spline": spline_curve, "gust": gust_curve}
 ORDINATES = {"value", "start", "end", "amplitude", "offset", "values"}
