@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from seacrane.errors import SceneError
 from seacrane.pictures.drawing import Drawing
@@ -192,6 +191,8 @@ def _from_z(direction: Array) -> Array:
 
     The shortest way to the first of them, and from there the shortest: no jump unless a wire turns round.
     """
+    from scipy.spatial.transform import Rotation
+
     first = Rotation.from_quat(_shortest(np.array([0.0, 0.0, 1.0]), direction[:1])[0])
     turn = (Rotation.from_quat(_shortest(direction[0], direction)) * first).as_quat()
     flips = np.where(np.sum(turn[1:] * turn[:-1], axis=1) < 0.0, -1.0, 1.0)

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
 
 from seacrane.errors import SceneError
 from seacrane.pictures.packing import rounded
@@ -137,6 +136,8 @@ def hermite(times: Array, knots: Array, values: Array, rates: Array) -> Array:
     """Values (n, ...) at times within the knots, from values and rates at the knots."""
     if len(knots) == 1:
         return np.repeat(values, len(times), axis=0)
+    from scipy.interpolate import CubicHermiteSpline
+
     return np.asarray(CubicHermiteSpline(knots, values, rates)(times))
 
 
