@@ -11,6 +11,7 @@ import numpy as np
 from seacrane import Curve, MotionRaos, Scene, simulate
 from seacrane.analysis import reflected_inertia
 from seacrane.crane import FOOT, load_crane
+from seacrane.scene import Gas, Stops
 
 LENGTH, DRAUGHT, BREADTH = 115.0, 6.0, 22.0  # m, a box
 MASS, EA, DURATION, START = 50e3, 1e8, 160.0, 60.0  # kg, N, s, s
@@ -52,8 +53,8 @@ def lift(*, controlled: bool = False, gas: bool = False) -> Scene:
         scene.add_body(name="hook", mass=HOOK, inertia=(500.0, 500.0, 500.0), position=hook)
         stiffness = MASS * (2.0 * np.pi / PERIOD) ** 2
         scene.add_gas_spring(
-            name="passive", first="hook", second="load", area=0.05, force=MASS * scene.gravity,
-            stiffness=stiffness, damping=2.0 * OIL * np.sqrt(stiffness * MASS), minimum=1.0, maximum=5.0,
+            "passive", first="hook", second="load", area=0.05, damping=2.0 * OIL * np.sqrt(stiffness * MASS),
+            gas=Gas(force=MASS * scene.gravity, stiffness=stiffness), stops=Stops(minimum=1.0, maximum=5.0),
         )  # fmt: skip
         end = "hook"
     scene.add_line(name="hoist", bodies=[jib, end], points=[head, point], EA=EA, length=rope)
@@ -101,11 +102,9 @@ rows.append(("passive", left(lift(gas=True)), by_hand(passive)))
 curves: dict[str, list[float]] = {"winch": [], "cylinder": [], "by hand": []}
 for lag in LAGS:
     on_winch, on_cylinder = lift(), lift(controlled=True)
-    settings = {"lag": lag, "high_pass": HIGH_PASS}
+    settings, ram = {"lag": lag, "high_pass": HIGH_PASS}, "knuckle_cylinder"
     on_winch.add_heave_compensation(name="active", body=jib, point=head, winch="hoist", **settings)
-    on_cylinder.add_heave_compensation(
-        name="active", body="vessel", point=TIP, actuator="knuckle_cylinder", **settings
-    )
+    on_cylinder.add_heave_compensation("active", body="vessel", point=TIP, actuator=ram, **settings)
     found = left(on_winch), left(on_cylinder), by_hand(active(lag))
     for values, value in zip(curves.values(), found, strict=True):
         values.append(value)

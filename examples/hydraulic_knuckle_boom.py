@@ -11,6 +11,7 @@ import numpy as np
 
 from seacrane import Curve, Scene, simulate
 from seacrane.crane import Payload
+from seacrane.scene import Counterbalance, Piston, Pump, Relief, Rupture, Valve
 from seacrane.warnings import BoilingOilWarning
 
 BURST, END = 20.0, 40.0  # s
@@ -19,17 +20,16 @@ OPEN = Curve.quintic(start_time=2.0, end_time=4.0, start=0.0, end=0.2)  # spool 
 SPOOL = OPEN.then(time=14.0, curve=Curve.quintic(start_time=14.0, end_time=16.0, start=0.2, end=0.0))
 LOAD = Payload(mass=50e3)
 OIL = {
-    "pump_pressure": 32e6, "rated_flow": 0.03, "rated_drop": 1e6, "spool_lag": 0.03, "makeup_flow": 0.05,
-    "relief_pressure": 35e6, "relief_flow": 0.05, "viscous_friction": 2e6,
+    "pump": Pump(pressure=32e6, makeup_flow=0.05), "relief": Relief(pressure=35e6, flow=0.05),
+    "valve": Valve(rated_flow=0.03, rated_drop=1e6, spool_lag=0.03), "piston": Piston(viscous_friction=2e6),
 }  # fmt: skip
-HOLDING = {"counterbalance_pressure": 30e6, "counterbalance_flow": 0.05}
+HOLDING = {"counterbalance": Counterbalance(pressure=30e6, flow=0.05)}
 
 
-def lift(**valves: float) -> Scene:
+def lift(**valves: Counterbalance) -> Scene:
     """50 t that the crane lifts by its main cylinder, whose hose bursts after that."""
     scene = Scene(name="hose burst")
-    main = OIL | {"command": SPOOL} | valves
-    main |= {"rupture_time": BURST, "rupture_area": HOLE, "discharge_coefficient": DISCHARGE}
+    main = OIL | {"command": SPOOL, "rupture": Rupture(time=BURST, area=HOLE)} | valves
     scene.add_crane(
         base="ground", s1=2.0, s2=3.0, payload=LOAD, held=True, hydraulics={"main": main, "knuckle": OIL}
     )
@@ -60,7 +60,7 @@ for name, result in runs.items():
 
 lifting = next(iter(runs.values()))
 flow = lifting["hydraulic_pump_flow"].sum(axis=1)
-power = (OIL["pump_pressure"] - 1e5) * flow
+power = (OIL["pump"].pressure - 1e5) * flow
 before = time < BURST
 print(
     f"pump over the lift: at most {6e4 * flow[before].max():.0f} l/min and "

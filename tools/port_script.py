@@ -11,7 +11,7 @@ import ast
 import difflib
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,7 +21,7 @@ class Call:
     """What takes the place of a method or a function.
 
     Its name; what its arguments by place are called now ("" for one that stays by place); keywords with their
-    values, and those that go.
+    values, and those that go; those that are fields of a value now, with its keyword and class.
     """
 
     name: str
@@ -29,6 +29,7 @@ class Call:
     words: Mapping[str, str] = field(default_factory=dict)
     dropped: tuple[str, ...] = ()
     renamed: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     note: str = ""
 
 
@@ -36,7 +37,47 @@ AGAIN = "add_sea puts the vessel into the sea anew: repeat its position, heading
 FUNCTION = "force is the C function itself, not its address"
 LOADED = "it returns what is on disk: .load() is the Result"
 BY_BODY = {"mass_matrices": "mass_matrix"}
+
+
+def _values(**values: str) -> Mapping[str, tuple[str, str]]:
+    """By old keyword, that of the value with its class, and the field: "Class field old=field ..."."""
+    found = {}
+    for word, (kind, *names) in ((word, text.split()) for word, text in values.items()):
+        for name in names:
+            old, _, new = name.partition("=")
+            found[old] = (f"{word}={kind}", new or old)
+    return found
+
+
+OIL = _values(
+    chamber="Chamber pressure hose_volume",
+    rod_chamber="Chamber pressure_rod=pressure hose_volume_rod=hose_volume",
+    oil="Oil oil_modulus=modulus hose_modulus cylinder_modulus oil_density=density air vapour_pressure"
+    " refuse_void",
+    valve="Valve rated_flow rated_flow_rod rated_drop laminar_drop overlap spool_lag gain rate_gain",
+    pump="Pump pump_pressure=pressure tank_pressure makeup_flow pump_check=check",
+    relief="Relief relief_pressure=pressure relief_pressure_rod=pressure_rod relief_flow=flow"
+    " relief_override=override",
+    counterbalance="Counterbalance counterbalance_pressure=pressure counterbalance_pressure_rod=pressure_rod"
+    " counterbalance_flow=flow counterbalance_range=range pilot_ratio",
+    accumulator="Accumulator accumulator_volume=volume accumulator_pressure=pressure accumulator_flow=flow"
+    " accumulator_exponent=exponent",
+    piston="Piston viscous_friction friction friction_speed internal_leakage external_leakage stop_stiffness",
+    rupture="Rupture rupture_time=time rupture_area=area rod_side_ruptures=rod_side discharge_coefficient",
+)
+GAS = _values(
+    gas="Gas pressure volume force stiffness exponent",
+    stops="Stops minimum maximum stop_stiffness=stiffness",
+)
+DRIVE = _values(
+    drive="Drive actuator_frequency=frequency actuator_damping=damping maximum_rate maximum_stroke settling"
+)
+OF_OTHERS = {"pressure", "gain", "friction", "air", "overlap"}  # keys of dicts that may be of anything
+IMPORTED = "import the values from seacrane.scene; in dicts of keywords one replaces another as a whole"
 CALLS = {
+    "add_hydraulic_cylinder": Call("add_hydraulic_cylinder", values=OIL, note=IMPORTED),
+    "add_gas_spring": Call("add_gas_spring", values=GAS, note=IMPORTED),
+    "add_heave_compensation": Call("add_heave_compensation", values=DRIVE, note=IMPORTED),
     "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),
     "use_actual_position": Call("add_sea", words={"phase": '"actual"'}, note=AGAIN),
     "use_slow_position": Call("add_sea", words={"phase": '"slow"'}, note=AGAIN),
@@ -75,7 +116,7 @@ GONE = {
 def ported(text: str) -> tuple[str, list[str]]:
     """The script with the calls of today, and notes with their lines."""
     notes = [
-        f"line {text.count(chr(10), 0, found.start()) + 1}: memory by motion takes a limit, and no r2"
+        (text.count("\n", 0, found.start()) + 1, "memory by motion takes a limit, and no r2")
         for found in PASSIVE.finditer(text)
     ]
     text = PASSIVE.sub(r"\1=\2by-motion\2", text)
@@ -90,8 +131,8 @@ def ported(text: str) -> tuple[str, list[str]]:
         if b"#" in data[begin:end]:
             note = f"{note}; comments inside it are lost" if note else "comments inside it are lost"
         data = data[:begin] + new_text.encode() + data[end:]
-        notes += [f"line {node.lineno}: {note}"] if note else []
-    return data.decode(), notes[::-1]
+        notes += [(node.lineno, note)] if note else []
+    return data.decode(), [f"line {line}: {note}" for line, note in sorted(notes)]
 
 
 Change = tuple[ast.expr | ast.stmt, str, str]
@@ -105,7 +146,12 @@ def _changes(tree: ast.AST) -> Iterator[Change]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and (old := _called(node.func)) in CALLS:
             new = CALLS[old]
+            if old == new.name and not {one.arg for one in node.keywords} & new.values.keys():
+                continue
             yield node, _written(node, new), f"{old} is {new.name}; {new.note}".rstrip("; ")
+        elif isinstance(node, ast.Dict) and (named := _oil_in(node)):
+            words = [f'"{key}": {text}' for key, text in _grouped(named, OIL)]
+            yield node, f"{{{', '.join(words)}}}", IMPORTED
         elif isinstance(node, ast.ImportFrom) and any(one.name in CALLS for one in node.names):
             names = [CALLS[one.name].name if one.name in CALLS else ast.unparse(one) for one in node.names]
             yield node, f"from {node.module} import {', '.join(dict.fromkeys(names))}", ""
@@ -119,14 +165,35 @@ def _called(function: ast.expr) -> str:
     return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
 
 
+def _oil_in(node: ast.Dict) -> list[tuple[str, ast.expr]]:
+    """Keys and values of a dict of keywords of hydraulic cylinders; none of another."""
+    keys = [one.value if isinstance(one, ast.Constant) else None for one in node.keys]
+    if not {*keys} & (OIL.keys() - OF_OTHERS) or not all(isinstance(key, str) for key in keys):
+        return []
+    return list(zip(map(str, keys), node.values, strict=True))
+
+
+def _grouped(
+    given: Iterable[tuple[str, ast.expr]], values: Mapping[str, tuple[str, str]]
+) -> Iterator[tuple[str, str]]:
+    """Keywords and their texts; those of one value together, in the place of the first."""
+    found: dict[str, list[str]] = {}
+    for key, one in given:
+        word, name = values.get(key, (key, ""))
+        found.setdefault(word, []).append(f"{name}={ast.unparse(one)}" if name else ast.unparse(one))
+    for word, texts in found.items():
+        key, _, kind = word.partition("=")
+        yield key, f"{kind}({', '.join(texts)})" if kind else texts[0]
+
+
 def _written(node: ast.Call, new: Call) -> str:
     places = [*new.places, *[""] * len(node.args)]
     by_place = [ast.unparse(one) for one, word in zip(node.args, places, strict=False) if not word]
     words = [f"{word}={ast.unparse(one)}" for one, word in zip(node.args, places, strict=False) if word]
-    for one in node.keywords:
-        if one.arg not in new.dropped:
-            key = new.renamed.get(one.arg or "", one.arg)
-            words.append(f"{key}={ast.unparse(one.value)}" if key else ast.unparse(one))
+    kept = [one for one in node.keywords if one.arg not in new.dropped]
+    named = [(new.renamed.get(one.arg, one.arg), one.value) for one in kept if one.arg]
+    words += [f"{key}={text}" for key, text in _grouped(named, new.values)]
+    words += [f"**{ast.unparse(one.value)}" for one in kept if not one.arg]
     words += [f"{key}={value}" for key, value in new.words.items()]
     owner = f"{ast.unparse(node.func.value)}." if isinstance(node.func, ast.Attribute) else ""
     return f"{owner}{new.name}({', '.join([*by_place, *words])})"

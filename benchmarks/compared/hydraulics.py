@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from peers import exudyn_hydraulics as peer
 
 from seacrane import Scene, natural_modes
+from seacrane.scene import Chamber, Oil, Piston, Pump, Valve
 
 from .row import Row
 
@@ -30,11 +31,13 @@ def hung() -> Scene:
     )
     scene.add_hydraulic_cylinder(
         name="ram", first="ground", second="load", full_area=peer.FULL, rod_side_area=peer.RING,
-        retracted_length=peer.OFFSET, stroke=peer.STROKE, pressure=peer.START[0], pressure_rod=peer.START[1],
-        hose_volume=peer.HOSES[0], hose_volume_rod=peer.HOSES[1], oil_modulus=peer.OIL,
-        cylinder_modulus=peer.CYLINDER, hose_modulus=peer.HOSE, pump_pressure=peer.SUPPLY,
-        tank_pressure=peer.TANK, rated_flow=peer.CONDUCTANCE, rated_drop=1.0, laminar_drop=1.0,
-        command=peer.OPENING, viscous_friction=peer.DAMPING,
+        retracted_length=peer.OFFSET, stroke=peer.STROKE, command=peer.OPENING,
+        chamber=Chamber(pressure=peer.START[0], hose_volume=peer.HOSES[0]),
+        rod_chamber=Chamber(pressure=peer.START[1], hose_volume=peer.HOSES[1]),
+        oil=Oil(modulus=peer.OIL, cylinder_modulus=peer.CYLINDER, hose_modulus=peer.HOSE),
+        valve=Valve(rated_flow=peer.CONDUCTANCE, rated_drop=1.0, laminar_drop=1.0),
+        piston=Piston(viscous_friction=peer.DAMPING),
+        pump=Pump(pressure=peer.SUPPLY, tank_pressure=peer.TANK),
     )  # fmt: skip
     return scene
 
@@ -100,7 +103,7 @@ def closed_forms() -> Iterator[Row]:
                 (RING, RING * (STROKE - stroke), SET["hose_volume_rod"]),
             )
         )
-        modes = natural_modes(raised(viscous_friction=0.0, retracted_length=1.35 - stroke))
+        modes = natural_modes(raised(piston=Piston(), retracted_length=1.35 - stroke))
         expected = 2.0 * np.pi / np.sqrt(stiffness / MASS)
         worst = max(worst, float(np.min(np.abs(modes.natural_period / expected - 1.0))))
     yield Row(

@@ -13,17 +13,15 @@ from seacrane import Scene, cases
 from seacrane.accuracy.case import Case, timed
 from seacrane.crane import load_crane
 from seacrane.run.method import Method
+from seacrane.scene import Accumulator, Piston, Pump, Valve
 
 from .section import Section
 from .sources import CRANE
 
 Array = NDArray[np.float64]
 T_END, DT_OUT = 100.0, 0.2  # s
-OIL: dict[str, Any] = {
-    "pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "gain": 0.8, "rate_gain": 2.0,
-    "viscous_friction": 2e6,
-}  # fmt: skip
-GAS = {"accumulator_volume": 0.05, "accumulator_pressure": 2e6, "accumulator_flow": 0.004}
+OIL: dict[str, Any] = {"pump": Pump(pressure=32e6), "piston": Piston(viscous_friction=2e6)}
+GAS = {"accumulator": Accumulator(volume=0.05, pressure=2e6, flow=0.004)}
 LAGS = (0.05, 1.0 / (2.0 * math.pi * 35.0), 0.0)  # s: a pilot-operated valve, a small servo valve, none
 TIGHT = Method(integrator="dopri5", rtol=1e-7)
 IDEAL = Method(integrator="dopri5", rtol=1e-2)
@@ -53,7 +51,8 @@ def hydraulic_case2(*, spool_lag: float, gas: bool) -> Scene:
             name=name, first=f"{name}_barrel", second=f"{name}_rod", full_area=full,
             rod_side_area=full - math.pi / 4.0 * rod.outer_diameter**2,
             retracted_length=LENGTHS[name], stroke=5.0, reference=reference,
-            spool_lag=spool_lag, **OIL | (GAS if gas else {}),
+            valve=Valve(rated_flow=0.05, rated_drop=1e6, gain=0.8, rate_gain=2.0, spool_lag=spool_lag),
+            **OIL | (GAS if gas else {}),
         )  # fmt: skip
     return scene
 

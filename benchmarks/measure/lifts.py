@@ -10,6 +10,7 @@ from typing import Any
 from seacrane import Curve, Run, Scene, Stage, cases, ensemble, shipped_database
 from seacrane.crane import Payload
 from seacrane.run.lanes import USUAL, advance_side_by_side, module_of
+from seacrane.scene import Piston, Pump, Relief, Valve
 
 from .section import Section
 from .sources import CRANE, LANES, LINE
@@ -20,8 +21,8 @@ RTOL = 1e-3
 MEMBERS, REPEATS = 8, 3
 HOOK = {"hook": "hook_load.max"}
 OIL = {
-    "pump_pressure": 32e6, "rated_flow": 0.03, "rated_drop": 1e6, "spool_lag": 0.03, "makeup_flow": 0.05,
-    "relief_pressure": 35e6, "relief_flow": 0.05, "viscous_friction": 2e6,
+    "pump": Pump(pressure=32e6, makeup_flow=0.05), "relief": Relief(pressure=35e6, flow=0.05),
+    "valve": Valve(rated_flow=0.03, rated_drop=1e6, spool_lag=0.03), "piston": Piston(viscous_friction=2e6),
 }  # fmt: skip
 
 

@@ -33,7 +33,7 @@ RUN = ("python/seacrane/run", "python/seacrane/scene", "python/seacrane/descript
 HULL = ("python/seacrane/hydro", "python/seacrane/data/*.nc")
 CRANE = (
     *STEPS, *WATER, *RUN, *HULL, "python/seacrane/crane", "python/seacrane/cases.py",
-    "python/seacrane/data/*.toml",
+    "python/seacrane/data/cranes/*.toml",
 )  # fmt: skip
 LINE = ("cpp/seacrane/elements/loads/*line*", "cpp/seacrane/elements/loads/*span*")
 LANES = ("cpp/seacrane/lanes", "cpp/lanes", "python/seacrane/ensembles")

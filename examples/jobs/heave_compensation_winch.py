@@ -3,12 +3,13 @@
 import numpy as np
 
 from seacrane import Curve, Scene, simulate
+from seacrane.scene import Drive
 
 MASS, ROPE, EA, TIP = 20e3, 20.0, 4e8, 30.0  # kg, m, N, m
 HEAVE, OMEGA, HIGH_PASS, RATE = 1.0, 2.0 * np.pi / 9.0, 0.03, 1.0  # m, rad/s, Hz, m/s
 
 
-def lift(**settings: float) -> Scene:
+def lift(drive: Drive, **signal: float) -> Scene:
     scene = Scene(name="heave compensation on a winch")
     scene.add_body(name="ship", mass=1e6, inertia=(1e7, 1e8, 1e8))
     scene.add_joint(kind="prismatic", name="sea", first="ground", second="ship", axis=(0, 0, 1))
@@ -16,21 +17,20 @@ def lift(**settings: float) -> Scene:
     scene.add_driver(joint="sea", curve=wave)
     stretched = ROPE * (1.0 + MASS * scene.gravity / EA)
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, TIP - stretched))
-    path = {"bodies": ["ship", "load"], "points": [(0, 0, TIP), (0, 0, 0)]}
-    scene.add_line(name="hoist", **path, EA=EA, length=ROPE)
+    scene.add_line("hoist", "ship", "load", first_point=(0, 0, TIP), EA=EA, length=ROPE)
     scene.add_winch(line="hoist")
-    scene.add_heave_compensation(name="ahc", body="ship", point=(0, 0, TIP), winch="hoist", **settings)
+    scene.add_heave_compensation("ahc", body="ship", point=(0, 0, TIP), winch="hoist", drive=drive, **signal)
     return scene
 
 
 for lag in (0.0, 0.1, 0.2, 0.4, 0.6):
-    result = simulate(lift(lag=lag, high_pass=HIGH_PASS, maximum_rate=RATE), t_end=81.0, dt_out=0.1)
+    result = simulate(lift(Drive(maximum_rate=RATE), lag=lag, high_pass=HIGH_PASS), t_end=81.0, dt_out=0.1)
     height = result.select("position", body="load", axis="z")[result.time >= 45.0]
     p = 1j * OMEGA
     by_hand = HEAVE * abs(1.0 - p / (p + 2.0 * np.pi * HIGH_PASS) / (1.0 + lag * p))
     print(f"lag {lag:.1f} s: load heaves by {np.std(height) * np.sqrt(2.0):.4f} m, by hand {by_hand:.4f} m")
 
-result = simulate(lift(high_pass=0.0, maximum_rate=0.5), t_end=81.0, dt_out=0.1)
+result = simulate(lift(Drive(maximum_rate=0.5), high_pass=0.0), t_end=81.0, dt_out=0.1)
 first = next(event for event in result.events if event.kind == "limit")
 by_hand = np.arcsin(0.5 / (HEAVE * OMEGA)) / OMEGA
 print(f"winch of 0.5 m/s: {first.name} reached at {first.time:.4f} s, by hand {by_hand:.4f} s")

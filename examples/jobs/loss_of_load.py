@@ -4,9 +4,11 @@ import numpy as np
 
 from seacrane import Scene, Stage, natural_modes, shipped_database, simulate, statics
 from seacrane.crane import load_crane
+from seacrane.scene import Oil, Piston, Pump, Valve
 
 MASS, HEEL, POSE = 100e3, -3.0, {"s1": 1.5, "s2": 3.0}  # kg, deg, m
-OIL = {"pump_pressure": 32e6, "rated_flow": 0.03, "rated_drop": 1e6, "air": 0.002, "viscous_friction": 2e6}
+PUMP, SEALS = Pump(pressure=32e6), Piston(viscous_friction=2e6)
+OIL = {"pump": PUMP, "valve": Valve(rated_flow=0.03, rated_drop=1e6), "oil": Oil(air=0.002), "piston": SEALS}
 
 
 def ship(load: float) -> Scene:
@@ -27,14 +29,12 @@ result = simulate(scene, stages, start="rest", dt_out=0.02, integrator="rosenbro
 roll, lost = np.degrees(result.curve("roll")), result.stage("lost")
 peak = roll[lost].argmax()
 
-rest, modes = statics(bare), natural_modes(bare)
-mode = modes.find("vessel roll")
-arm = result.place_of("tip")[0, 1]  # m to port, at the heel
-back = np.degrees(MASS * arm / (rest["GM"].item() * bare.bodies["vessel"].mass))
+mode = (modes := natural_modes(bare)).find("vessel roll")
+oil, arm = scene.loads["main_cylinder"], result.place_of("tip")[0, 1]  # m to port, at the heel
+back = np.degrees(MASS * arm / (statics(bare)["GM"].item() * bare.bodies["vessel"].mass))
 swings = np.exp(-np.pi * modes.damping_ratio[mode])  # of what is left after half a period
 main, _ = load_crane().static_cylinder_forces(**POSE, payload_mass=MASS)
-oil = scene.loads["main_cylinder"]
-rod = 0.1 * OIL["pump_pressure"] * oil.rod_side_area  # what the side that carries nothing has
+rod = 0.1 * PUMP.pressure * oil.rod_side_area  # what the side that carries nothing has
 pressure = result.select("hydraulic_pressure", hydraulic_cylinder="main_cylinder", chamber="full")[0]
 for name, run, by_hand in (
     ("first peak of roll, deg", roll[lost][peak], HEEL + back * (1 + swings)),

@@ -205,7 +205,15 @@ NOT_IN_SCHEMA = [
     ("[sea]\nhs_m = nan", 4, "finite"), ("[sea]\n\nx = [1,", 5, "truncated or malformed"),
     ("a" + " . a" * 20 + " = 1", 3, "parts"),
 ]  # fmt: skip
+RAM = (
+    HEAD
+    + """[body]; name = "load"; mass_kg = 1; inertia_kg_m2 = [1, 1, 1]; position_m = [0, 0, 1.5]
+[hydraulic_cylinder]; name = "ram"; first = "ground"; second = "load"; full_area_m2 = 0.01; stroke_m = 1
+rod_side_area_m2 = 0.005; retracted_length_m = 1; [hydraulic_cylinder.valve]; rated_flow_m3_per_s = 24
+""".replace("; ", "\n")
+)
 BUILT = [
+    (RAM, "rated_flow_m3_per_s", "ram': rated_flow is 24 m3/s"),
     (
         ARM + '\n[[actuator]]\njoint = "pin"\nstiffness_N_per_m = 3\n', "stiffness_N_per_m",
         "joint 'pin' .*stiffness_N_m_per_rad",

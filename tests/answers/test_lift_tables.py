@@ -111,7 +111,7 @@ def test_pressures_hold_a_crane_with_its_load(tmp_path: Path) -> None:
     text = f"""
 [crane]
 base = "ground"; foot_m = [0, 0, 0]; slew_rad = -1.0; s1_m = 2.0; s2_m = 3.0; held = true
-hydraulics = {{ main = {{ pump_pressure_Pa = 32e6, rated_flow_m3_per_s = 0.05 }} }}
+hydraulics = {{ main = {{ pump = {{ pressure_Pa = 32e6 }}, valve = {{ rated_flow_m3_per_s = 0.05 }} }} }}
 [[body]]
 name = "load"; mass_kg = {LOAD}; inertia_kg_m2 = [4e4, 4e4, 4e4]; position_m = [{x!r}, {y!r}, {z - 12.0!r}]
 [[line]]

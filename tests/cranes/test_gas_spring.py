@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,32 +13,34 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from seacrane import Scene, SceneError, natural_modes, simulate
+from seacrane.scene import Gas, Stops
 
 G = 9.80665
 MASS, AREA, LENGTH = 20e3, 0.02, 8.0  # kg, m2, m
 VOLUME = 0.15  # m3
+GAS = Gas(pressure=MASS * G / AREA, volume=VOLUME)
 
 
 def hung(*, height: float = -LENGTH, velocity: float = 0.0, **settings: Any) -> Scene:
     """A load below a gas spring that carries its weight."""
     scene, state = Scene(name="passive"), {"position": (0, 0, height), "velocity": (0, 0, velocity)}
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), **state)
-    gas = {"pressure": MASS * G / AREA, "volume": VOLUME} | settings
-    scene.add_gas_spring(name="phc", first="ground", second="load", area=AREA, **gas)
+    settings = {"area": AREA, "gas": GAS} | settings
+    scene.add_gas_spring("phc", first="ground", second="load", **settings)
     return scene
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.67])
 def test_the_natural_period_is_that_of_kappa_p_a2_over_v(exponent: float) -> None:
     stiffness = exponent * MASS * G / AREA * AREA**2 / VOLUME
-    modes = natural_modes(hung(exponent=exponent))
+    modes = natural_modes(hung(gas=replace(GAS, exponent=exponent)))
     expected = 2.0 * np.pi * np.sqrt(MASS / stiffness)
     assert np.min(np.abs(modes.natural_period / expected - 1.0)) < 1e-6
 
 
 def test_force_and_stiffness_give_the_same_gas() -> None:
     k = 1.4 * MASS * G * AREA / VOLUME
-    by_force = hung(pressure=None, volume=None, force=MASS * G, stiffness=k).loads["phc"]
+    by_force = hung(gas=Gas(force=MASS * G, stiffness=k)).loads["phc"]
     by_gas = hung().loads["phc"]
     assert by_force.pressure == pytest.approx(by_gas.pressure, rel=1e-14)
     assert by_force.volume == pytest.approx(by_gas.volume, rel=1e-14)
@@ -47,10 +50,10 @@ def test_force_and_stiffness_give_the_same_gas() -> None:
 @pytest.mark.parametrize(("exponent", "pushes"), [(1.0, True), (1.4, False)])
 def test_large_strokes_follow_the_gas_law(exponent: float, pushes: bool) -> None:
     damping, quadratic = 2e3, 3e3
-    oil = {"exponent": exponent, "damping": damping, "quadratic_damping": quadratic}
+    oil = {"gas": replace(GAS, exponent=exponent), "damping": damping, "quadratic_damping": quadratic}
     scene = hung(velocity=-2.0, **oil)
     if pushes:
-        scene = hung(height=LENGTH, velocity=-2.0, pushes=True, minimum=1.0, **oil)
+        scene = hung(height=LENGTH, velocity=-2.0, pushes=True, stops=Stops(minimum=1.0), **oil)
         scene.add_joint(kind="prismatic", name="guide", first="ground", second="load", axis=(0, 0, 1))
     out = record(scene, 8.0, rtol=1e-10)
     length = out["gas_spring_length"][:, 0]
@@ -76,7 +79,7 @@ def test_large_strokes_follow_the_gas_law(exponent: float, pushes: bool) -> None
 
 def test_end_stops_are_located_told_and_give_back_what_they_take() -> None:
     """With gas alone and stops alone energy is kept; a stop adds its stiffness beyond the length."""
-    scene = hung(velocity=-3.0, maximum=9.0, minimum=7.2, stop_stiffness=5e6)
+    scene = hung(velocity=-3.0, stops=Stops(maximum=9.0, minimum=7.2, stiffness=5e6))
     result = simulate(scene, 6.0, dt_out=0.01, rtol=1e-9)
     length = result["gas_spring_length"][:, 0]
     beyond = np.clip(length - 9.0, 0.0, None) + np.clip(length - 7.2, None, 0.0)
@@ -93,7 +96,7 @@ def test_end_stops_are_located_told_and_give_back_what_they_take() -> None:
 
 
 def test_both_formulations_agree_and_energy_closes() -> None:
-    scene = hung(damping=5e3, quadratic_damping=1e3, maximum=8.5)
+    scene = hung(damping=5e3, quadratic_damping=1e3, stops=Stops(maximum=8.5))
     scene.add_body(name="hook", mass=2e3, inertia=(100, 100, 100), position=(1.0, 0.2, -LENGTH - 3.0))
     scene.add_joint("eye", kind="spherical", first="load", second="hook", point=(0.0, 0.0, -LENGTH - 1.0))
     scene.add_spring(name="side", first="ground", second="hook", first_point=(9, 0, -9), stiffness=8e4)
@@ -103,9 +106,9 @@ def test_both_formulations_agree_and_energy_closes() -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"force": 1e5, "stiffness": 1e4}, "give pressure and volume, or force and stiffness"),
-        ({"maximum": 7.0}, "length is 8 m, and its stops are at 0 and 7 m"),
-        ({"maximum": 16.0}, "would have -0.01 m3 at the end of its stroke"),
+        ({"gas": Gas(pressure=1e5, force=1e5)}, "give pressure and volume, or force and stiffness"),
+        ({"stops": Stops(maximum=7.0)}, "length is 8 m, and its stops are at 0 and 7 m"),
+        ({"stops": Stops(maximum=16.0)}, "would have -0.01 m3 at the end of its stroke"),
     ],
 )
 def test_gas_springs_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:

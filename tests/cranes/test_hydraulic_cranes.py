@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import hydraulic_scenes as made
 import numpy as np
 import pytest
 from element_runs import both_forms, goes_on
-from hydraulic_scenes import RETRACTED, SET, START, lifted, raised
+from hydraulic_scenes import OIL, PARTS, RETRACTED, START, lifted, raised
 from line_scenes import add_led
 from multibody_runs import record
 
@@ -16,11 +18,8 @@ from seacrane import Curve, Move, Scene, Stage, Until, natural_modes, simulate, 
 from seacrane.crane import Payload, load_crane
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
+from seacrane.scene import Counterbalance, Oil, Piston, Pump, Relief, Rupture, Valve
 
-OIL: dict[str, Any] = {
-    "pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "spool_lag": 0.03, "gain": 0.8,
-    "viscous_friction": 2e6,
-}  # fmt: skip
 BOTH = {"main": OIL, "knuckle": OIL}
 POSE = {"slew": -1.0, "s1": 2.0, "s2": 3.0}
 
@@ -64,7 +63,7 @@ def on_a_ship(*, compensated: bool, **more: Any) -> Scene:
     place = (0.0, 0.0, RETRACTED + START)
     scene.add_body(name="load", mass=1000.0, inertia=(10.0, 10.0, 10.0), position=place)
     scene.add_joint(kind="prismatic", name="rail", first="ship", second="load", axis=(0, 0, 1))
-    oil = SET | {"gain": 20.0, "rate_gain": 12.0} | more
+    oil = PARTS | {"valve": replace(made.VALVE, gain=20.0, rate_gain=12.0)} | more
     scene.add_hydraulic_cylinder(name="ram", first="ship", second="load", **oil)
     if compensated:
         scene.add_heave_compensation(name="ahc", body="ship", actuator="ram", ratio=-1.0, high_pass=0.0)
@@ -80,26 +79,27 @@ def test_heave_is_compensated_by_oil_within_its_pressure_limits() -> None:
     assert none == pytest.approx(0.06, rel=0.05)
     assert active < 0.1 * none
     ram = on_a_ship(compensated=True).loads["ram"]
-    limit = {"relief_pressure": 1.2 * ram.pressure, "relief_flow": 3e-4, "relief_override": 6e5}
-    limited = simulate(on_a_ship(compensated=True, **limit), 8.0, dt_out=0.1, rtol=1e-6)
+    limit = Relief(pressure=1.2 * ram.pressure, flow=3e-4, override=6e5)
+    limited = simulate(on_a_ship(compensated=True, relief=limit), 8.0, dt_out=0.1, rtol=1e-6)
     assert "ram.relief" in [event.name for event in limited.events]
     assert np.max(limited["hydraulic_pressure"][:, 0, 0]) < 1.2 * ram.pressure + 6e5
 
 
 def test_both_formulations_move_a_hydraulic_crane_alike() -> None:
     opens = {"command": Curve.quintic(start_time=0, end_time=1, start=0, end=0.2)}
-    within = {"hydraulic_stroke": 1e-8, "hydraulic_pressure": 1e-6 * OIL["pump_pressure"]}
+    within = {"hydraulic_stroke": 1e-8, "hydraulic_pressure": 1e-6 * OIL["pump"].pressure}
     out = both_forms(crane(BOTH | {"main": OIL | opens}), 2.0, within, rtol=1e-9)
     assert np.ptp(out["hydraulic_stroke"]) > 0.01
 
 
 def test_ideal_cylinders_are_the_rung_below() -> None:
     """Stiff oil has the slow modes of a crane with locked cylinders, its statics and its ratio to the tip."""
-    stiff = OIL | {"oil_modulus": 1e13, "hose_modulus": 1e13, "cylinder_modulus": 1e13, "gain": 0.0}
+    hard = Oil(modulus=1e13, hose_modulus=1e13, cylinder_modulus=1e13)
+    stiff = OIL | {"oil": hard, "valve": replace(made.OF_CRANE, gain=0.0)}
     locked = Scene(name="locked")
     locked.add_crane(base="ground", payload=Payload(), held=True, **POSE)
-    hard = crane({"main": stiff, "knuckle": stiff})
-    soft, ideal = (natural_modes(scene).natural_period[:2] for scene in (hard, locked))
+    on_stiff_oil = crane({"main": stiff, "knuckle": stiff})
+    soft, ideal = (natural_modes(scene).natural_period[:2] for scene in (on_stiff_oil, locked))
     assert soft == pytest.approx(ideal, rel=1e-4)
     assert set(with_ideal_cylinders(crane()).actuators) == {"main_cylinder", "knuckle_cylinder"}
     drawn = statics(crane())
@@ -116,8 +116,8 @@ def test_ideal_cylinders_are_the_rung_below() -> None:
 
 
 FRAME_OIL: dict[str, Any] = {
-    "pump_pressure": 25e6, "rated_flow": 0.01, "rated_drop": 1e6, "gain": 0.4, "spool_lag": 0.03,
-    "viscous_friction": 5e5,
+    "pump": Pump(pressure=25e6), "piston": Piston(viscous_friction=5e5),
+    "valve": Valve(rated_flow=0.01, rated_drop=1e6, gain=0.4, spool_lag=0.03),
 }  # fmt: skip
 
 
@@ -147,7 +147,7 @@ KNUCKLE_FILE = (SHIPPED / "knuckle_boom_250t.toml").read_text(encoding="utf-8")
 FRAME_FILE = (SHIPPED / "a_frame_40t.toml").read_text(encoding="utf-8")
 PISTON = '\n[[pistons]]\ncylinder = "tilt"\n[pistons.hydraulics]\n'
 MAIN = "[main_cylinder.hydraulics]\n"
-KEYS = "pump_pressure = 32e6\nrated_flow = 0.05\nrated_drop = 1e6\n"
+KEYS = "pump.pressure = 32e6\nvalve.rated_flow = 0.05\nvalve.rated_drop = 1e6\n"
 
 
 @pytest.mark.parametrize(
@@ -169,19 +169,19 @@ def test_a_data_file_may_say_that_a_crane_is_hydraulic(
     assert scene.loads[ram].rated_flow == 0.05 and set(scene.drivers) == driven
 
 
-FOLLOWS: dict[str, Any] = {"gain": 60.0, "rate_gain": 12.0, "spool_lag": 0.02}
+FOLLOWS = replace(made.VALVE, gain=60.0, rate_gain=12.0, spool_lag=0.02)
 HOLE = 4e-6  # m2
 
 
 def test_a_stage_moves_the_reference_and_the_cylinder_follows() -> None:
     up = Stage(name="up", duration=3.0, commands={"ram.reference": Move(by=0.1, over=2.0)})
     down = Stage(name="down", duration=3.0, commands={"ram.reference": Move(to=START, over=2.0)})
-    result = simulate(raised(**FOLLOWS), [up, down], dt_out=0.1)
+    result = simulate(raised(valve=FOLLOWS), [up, down], dt_out=0.1)
     stroke = result["hydraulic_stroke"][:, 0]
     assert stroke[result.time <= 3.0][-1] == pytest.approx(START + 0.1, abs=2e-4)
     assert stroke[-1] == pytest.approx(START, abs=2e-4)
     curve = Curve.quintic(start_time=0.0, end_time=2.0, start=START, end=START + 0.1)
-    whole = simulate(raised(reference=curve, **FOLLOWS), 3.0, dt_out=0.1)
+    whole = simulate(raised(reference=curve, valve=FOLLOWS), 3.0, dt_out=0.1)
     np.testing.assert_allclose(stroke[: len(whole.time)], whole["hydraulic_stroke"][:, 0], atol=2e-6)
 
 
@@ -190,7 +190,8 @@ def test_a_hose_bursts_where_its_pressure_passes_a_bound() -> None:
     """The instant is located; from there it is the run whose hose bursts at that time."""
     shut = Curve.quintic(start_time=0.5, end_time=0.51, start=0.6, end=0.0)
     curve = Curve.constant(value=0.6).then(time=0.5, curve=shut)
-    scene = raised(command=curve, viscous_friction=2e4, makeup_flow=4e-4)
+    pump = replace(made.PUMP, makeup_flow=4e-4)
+    scene = raised(command=curve, piston=Piston(viscous_friction=2e4), pump=pump)
     bound = 1.02 * simulate(scene, 0.5)["hydraulic_pressure"][-1, 0, 1]
     high = Until.channel("hydraulic_pressure", minimum=bound, hydraulic_cylinder="ram", chamber="rod")
     stages = [
@@ -215,12 +216,10 @@ def test_a_hose_bursts_where_its_pressure_passes_a_bound() -> None:
 
 @pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 def test_a_run_goes_on_bit_for_bit_across_a_burst(formulation: str) -> None:
-    burst = {"rupture_time": 1.5, "rupture_area": HOLE}
-    valve = {"counterbalance_pressure": 6e6, "counterbalance_flow": 8e-4}
+    burst, valve = Rupture(time=1.5, area=HOLE), Counterbalance(pressure=6e6, flow=8e-4)
+    how: dict[str, Any] = {"dt_out": 0.1, "rtol": 1e-6, "formulation": formulation}
     for stopped in (1.43, 1.5, 1.503):
-        goes_on(
-            lambda: lifted(**burst, **valve), 1.7, stopped, dt_out=0.1, rtol=1e-6, formulation=formulation
-        )
+        goes_on(lambda: lifted(rupture=burst, counterbalance=valve), 1.7, stopped, **how)
 
 
 def test_a_stage_opens_the_spool_and_one_alone_starts_on_oil_that_holds_its_load() -> None:
@@ -229,6 +228,6 @@ def test_a_stage_opens_the_spool_and_one_alone_starts_on_oil_that_holds_its_load
     spool = opened["hydraulic_spool"][:, 0]
     assert np.max(spool) == pytest.approx(0.3, rel=1e-3) and spool[-1] == pytest.approx(0.0, abs=1e-6)
     up = Stage(name="up", duration=3.0, commands={"ram.reference": Move(by=0.1, over=2.0)})
-    alone = simulate(raised(**FOLLOWS), [up, Stage(name="wait", duration=1.0)], first="wait")
+    alone = simulate(raised(valve=FOLLOWS), [up, Stage(name="wait", duration=1.0)], first="wait")
     np.testing.assert_allclose(alone["hydraulic_stroke"][:, 0], START + 0.1, atol=1e-6)
     np.testing.assert_allclose(alone["hydraulic_force"][:, 0], 1000.0 * 9.80665, rtol=1e-6)

@@ -15,13 +15,17 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import Scene, SimulationError, simulate
+from seacrane.scene import Chamber, Oil, Piston, Pump, Rupture, Valve
 from seacrane.warnings import BoilingOilWarning
 
 Array = NDArray[np.float64]
 VAPOUR, ATMOSPHERE, BURST = 2e3, 1e5, 0.2  # Pa, Pa, s
 HOLE = 2e-5  # m2: the load comes down at about a metre a second
-CLOSED = {"viscous_friction": 2e3, "pump_pressure": 0.0, "rated_flow": 0.0, "pressure_rod": 1e6}
-DROPPED: dict[str, Any] = CLOSED | {"rupture_time": BURST, "rupture_area": HOLE}
+CLOSED: dict[str, Any] = {
+    "piston": Piston(viscous_friction=2e3), "pump": Pump(), "valve": Valve(),
+    "rod_chamber": Chamber(pressure=1e6, hose_volume=78.5e-6),
+}  # fmt: skip
+DROPPED = CLOSED | {"rupture": Rupture(time=BURST, area=HOLE)}
 
 
 def dropped(**settings: Any) -> Scene:
@@ -67,7 +71,7 @@ def own_solution(times: Array, start: tuple[float, float], air: float) -> Array:
                 k = compressibility(p, air)
                 pressure_rates[side] = (-out - moves[side]) / (swept[side] * k + hoses[side] * (k + soft))
         p0, p1 = (VAPOUR if boils[side] else x[2 + side] for side in (0, 1))
-        force = p0 * areas[0] - p1 * areas[1] - CLOSED["viscous_friction"] * v
+        force = p0 * areas[0] - p1 * areas[1] - CLOSED["piston"].viscous_friction * v
         force -= 1e9 * (min(s, 0.0) + max(s - STROKE, 0.0))
         return [v, force / MASS - G, *pressure_rates, *void_rates]
 
@@ -102,7 +106,7 @@ def own_solution(times: Array, start: tuple[float, float], air: float) -> Array:
 
 @pytest.mark.parametrize(("air", "formulation"), [(0.0, "redundant"), (0.01, "recursive")])
 def test_a_void_opens_and_closes_as_an_independent_solver_says(air: float, formulation: str) -> None:
-    scene = dropped(air=air)
+    scene = dropped(oil=Oil(air=air))
     ram, times = scene.loads["ram"], np.linspace(0.0, 0.6, 61)
     s, v, p0, p1, _, empty = own_solution(times, (ram.pressure, ram.pressure_rod), air)
     assert empty.max() > 1e-5, "the scene opens no void"
@@ -119,7 +123,7 @@ def test_a_void_opens_and_closes_as_an_independent_solver_says(air: float, formu
     ("integrator", "air"), [("dopri5", 0.005), ("dopri5-stiff", 0.0), ("rosenbrock", 0.005)]
 )
 def test_no_pressure_falls_below_the_vapours_and_the_energy_closes(integrator: str, air: float) -> None:
-    out = quietly(dropped(air=air), 1.0, dt_out=5e-3, rtol=1e-7, integrator=integrator)
+    out = quietly(dropped(oil=Oil(air=air)), 1.0, dt_out=5e-3, rtol=1e-7, integrator=integrator)
     assert np.min(out["hydraulic_pressure"]) >= VAPOUR
     assert out["hydraulic_void"].max() > 1e-4
     assert np.max(np.abs(out["energy_balance"])) < 2e-6 * out["absolute_work"][-1]
@@ -152,8 +156,8 @@ def test_a_void_is_told_or_ends_the_run_and_runs_go_on_bit_for_bit_within_it() -
     assert f"'ram': the oil of its rod side boils at t = {at:.6g} s" in text
     assert f"of up to {1e3 * result['hydraulic_void'][:, 0, 1].max():.3g} l" in text
     with pytest.raises(SimulationError, match=r"'ram': .* rod side, and refuse_void is set"):
-        simulate(dropped(refuse_void=True), 0.5)
+        simulate(dropped(oil=Oil(refuse_void=True)), 0.5)
     for integrator in ("dopri5", "dopri5-stiff"):
         how: dict[str, Any] = {"dt_out": 0.1, "rtol": 1e-6, "integrator": integrator}
-        half = goes_on(lambda: dropped(air=0.002), 0.6, 0.3, **how)
+        half = goes_on(lambda: dropped(oil=Oil(air=0.002)), 0.6, 0.3, **how)
         assert min(half.load_states[f"ram.{name}"] for name in ("pressure", "pressure_rod")) < VAPOUR

@@ -2,21 +2,36 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import hydraulic_scenes as made
 import numpy as np
 import pytest
 from element_runs import both_forms, goes_on
-from hydraulic_scenes import FULL, HOLDING, MASS, RETRACTED, RING, SET, START, STROKE, G
+from hydraulic_scenes import FULL, HOLDING, MASS, PUMP, RETRACTED, RING, SET, START, STROKE, VALVE, G
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from scipy.integrate import simpson
 from scipy.optimize import brentq
 
-from seacrane import Curve, SceneError, natural_modes, simulate
+from seacrane import Curve, SceneError, _core, natural_modes, simulate
+from seacrane.description.hydraulic_values import VALUES
+from seacrane.inputs.values import entries_of
+from seacrane.scene import Accumulator, Chamber, Counterbalance, Oil, Piston, Relief, Rupture, Valve
 
-LEAKS = {"internal_leakage": 2e-13, "external_leakage": 1e-13, "overlap": 0.05}
+LEAKS: dict[str, Any] = {
+    "piston": Piston(viscous_friction=1e5, internal_leakage=2e-13, external_leakage=1e-13),
+    "valve": replace(VALVE, overlap=0.05),
+}
+SMALL, LARGE = Accumulator(volume=1e-3, pressure=1.5e6, flow=2e-4), Chamber(hose_volume=2.0)
+
+
+def test_values_have_the_defaults_of_the_entries_for_which_they_stand() -> None:
+    entries = {entry.name: entry for entry in _core.HydraulicCylinder.FIELDS}
+    for word, kind in VALUES.items():
+        for key, entry in entries_of(word, kind).items():
+            assert entries[entry].required or getattr(kind(), key) == entries[entry].default
 
 
 def test_pressures_at_the_start_hold_the_load() -> None:
@@ -31,7 +46,7 @@ def test_pressures_at_the_start_hold_the_load() -> None:
 
 @pytest.mark.parametrize("stroke", [0.1, 0.5])
 def test_the_hydraulic_frequency_is_that_of_both_closed_chambers(stroke: float) -> None:
-    scene = made.raised(viscous_friction=0.0, retracted_length=1.35 - stroke)
+    scene = made.raised(piston=Piston(), retracted_length=1.35 - stroke)
     modes = natural_modes(scene)
     expected = 2.0 * np.pi / np.sqrt(made.closed_stiffness(stroke) / MASS)
     assert np.min(np.abs(modes.natural_period / expected - 1.0)) < 1e-6
@@ -55,10 +70,11 @@ def test_the_complete_parameter_set_follows_an_independent_stiff_solver(more: di
 
 
 EVERYTHING: dict[str, Any] = LEAKS | {
-    "air": 0.005, "friction": 300.0, "relief_pressure": 3.1e6, "relief_pressure_rod": 4e6,
-    "relief_flow": 5e-4, "counterbalance_pressure": 6e6, "counterbalance_flow": 8e-4, "makeup_flow": 4e-4,
-    "pump_check": True, "accumulator_volume": 1e-3, "accumulator_pressure": 1.5e6, "accumulator_flow": 2e-4,
-    "rupture_time": 1.5, "rupture_area": 3e-6,
+    "oil": Oil(air=0.005), "piston": replace(LEAKS["piston"], friction=300.0),
+    "relief": Relief(pressure=3.1e6, pressure_rod=4e6, flow=5e-4),
+    "counterbalance": Counterbalance(pressure=6e6, flow=8e-4),
+    "pump": replace(PUMP, makeup_flow=4e-4, check=True), "accumulator": SMALL,
+    "rupture": Rupture(time=1.5, area=3e-6),
 }  # fmt: skip
 
 
@@ -82,7 +98,7 @@ def test_oil_is_neither_lost_nor_made() -> None:
 
 def test_a_steady_cylinder_moves_by_the_flows_over_its_areas() -> None:
     """s' = C u sqrt(...) of both edges in series."""
-    speed = record(made.lifted(viscous_friction=0.0), 0.8, rtol=1e-8, dt_out=0.4)["velocity"][-1, 0, 2]
+    speed = record(made.lifted(piston=Piston()), 0.8, rtol=1e-8, dt_out=0.4)["velocity"][-1, 0, 2]
     c = 0.6 * SET["rated_flow"] / np.sqrt(SET["rated_drop"])
     # p0 FULL - p1 RING = weight; c sqrt(pump - p0) = FULL v; c sqrt(p1 - tank) = RING v
     supply = SET["pump_pressure"] * FULL - SET["tank_pressure"] * RING - HOLDING
@@ -91,10 +107,10 @@ def test_a_steady_cylinder_moves_by_the_flows_over_its_areas() -> None:
 
 
 def test_a_spool_without_lag_is_the_limit_of_a_quick_one() -> None:
-    gas = {"accumulator_volume": 1e-3, "accumulator_pressure": 1.5e6, "accumulator_flow": 2e-4}
     strokes = []
     for lag in (2e-3, 1e-3, 0.0):
-        out = record(made.lifted(spool_lag=lag, **gas), 1.0, rtol=1e-9, dt_out=0.05)
+        valve = replace(VALVE, spool_lag=lag)
+        out = record(made.lifted(valve=valve, accumulator=SMALL), 1.0, rtol=1e-9, dt_out=0.05)
         strokes.append(out["hydraulic_stroke"][:, 0])
         assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
         assert out["load_state"].shape[1] == (4 if lag else 3)
@@ -116,11 +132,13 @@ def test_energy_closes_with_every_part_and_runs_go_on_bit_for_bit() -> None:
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"full_area": 50.3, "rod_side_area": 40.6, "hose_volume": 2.0, "hose_volume_rod": 2.0}, "m wide"),
-        ({"relief_pressure": 1e6, "relief_flow": 1e-3}, "below the holding pressure"),
+        ({"full_area": 50.3, "rod_side_area": 40.6, "chamber": LARGE, "rod_chamber": LARGE}, "m wide"),
+        ({"relief": Relief(pressure=1e6, flow=1e-3)}, "below the holding pressure"),
         ({"stroke": 0.2}, "1.35 m apart as described, and it is 1.05 to 1.25 m long"),
-        ({"rupture_area": 1e-4}, "rupture_time is .*; give both"),
-        ({"rated_flow": 24.0}, "24 l/min are 0.0004"), ({"pressure": 1e6}, "cannot hold the 9807 N"),
+        ({"rupture": Rupture(area=1e-4)}, "rupture_time is .*; give both"),
+        ({"valve": Valve(rated_flow=24.0)}, "24 l/min are 0.0004"),
+        ({"chamber": Chamber(pressure=1e6)}, "cannot hold the 9807 N"),
+        ({"valve": {"rated_flow": 1e-4}}, r"valve is .*; give valve=Valve\(...\)"),
     ],
 )  # fmt: skip
 def test_bad_input_is_named(wrong: dict[str, Any], message: str) -> None:
@@ -128,10 +146,10 @@ def test_bad_input_is_named(wrong: dict[str, Any], message: str) -> None:
         made.raised(**wrong).compile()
 
 
-CLOSED = {"viscous_friction": 0.0}
-BURST = {"rupture_time": 0.2, "rupture_area": 4e-6}  # m2, 2.3 mm wide
-HOLE = 0.6 * BURST["rupture_area"] * np.sqrt(2.0 / 870.0)  # m3/s/sqrt(Pa)
-HOLDING_VALVE = {"counterbalance_pressure": 5e6, "counterbalance_flow": 8e-4}
+CLOSED = {"piston": Piston()}
+BURST = Rupture(time=0.2, area=4e-6)  # m2, 2.3 mm wide
+HOLE = 0.6 * BURST.area * np.sqrt(2.0 / 870.0)  # m3/s/sqrt(Pa)
+HOLDING_VALVE = Counterbalance(pressure=5e6, flow=8e-4)
 AIR = 1e5  # Pa
 
 
@@ -144,7 +162,7 @@ def through(drop: float) -> float:
 
 
 def test_a_burst_hose_lowers_the_load_as_fast_as_the_orifice_lets_oil_out() -> None:
-    out = record(made.raised(makeup_flow=1e-2, **CLOSED, **BURST), 2.0, rtol=1e-8)
+    out = record(made.raised(pump=replace(PUMP, makeup_flow=1e-2), **CLOSED, rupture=BURST), 2.0, rtol=1e-8)
     makeup = conductance(1e-2)
 
     def left(v: float) -> float:
@@ -160,7 +178,7 @@ def test_a_burst_hose_lowers_the_load_as_fast_as_the_orifice_lets_oil_out() -> N
 
 def test_a_load_holding_valve_holds_when_the_hose_bursts() -> None:
     up = Curve.quintic(start_time=0.5, end_time=0.6, start=0.0, end=0.5)
-    out = record(made.raised(command=up, **HOLDING_VALVE, **BURST), 1.5, rtol=1e-8)
+    out = record(made.raised(command=up, counterbalance=HOLDING_VALVE, rupture=BURST), 1.5, rtol=1e-8)
     assert np.ptp(out["hydraulic_stroke"]) < 3e-4  # as the rod side lets its pressure go
     assert out["hydraulic_spill"][-1, 0] == pytest.approx(out["hydraulic_pump_flow"][-1, 0], rel=1e-6)
     assert out["hydraulic_pump_flow"][-1, 0] == pytest.approx(
@@ -172,9 +190,8 @@ def test_a_load_holding_valve_holds_when_the_hose_bursts() -> None:
 def test_a_load_holding_valve_lowers_by_its_pilot() -> None:
     """At rest it is closed; the pump on the rod side opens it, and the load goes down steadily."""
     down = Curve.quintic(start_time=0.1, end_time=0.3, start=0.0, end=-0.5)
-    out = record(
-        made.raised(command=down, pilot_ratio=3.0, counterbalance_range=4e7, **HOLDING_VALVE), 3.0, rtol=1e-8
-    )
+    valve = replace(HOLDING_VALVE, pilot_ratio=3.0, range=4e7)
+    out = record(made.raised(command=down, counterbalance=valve), 3.0, rtol=1e-8)
     v, (p, rod) = -out["velocity"][-1, 0, 2], out["hydraulic_pressure"][-1, 0]
     y = min(max((p + 3.0 * rod - 5e6) / 4e7, 0.0), 1.0)
     edge, valve = 0.5 * conductance(SET["rated_flow"]), conductance(8e-4) * y * y * (3.0 - 2.0 * y)
@@ -187,8 +204,9 @@ def test_a_load_holding_valve_lowers_by_its_pilot() -> None:
 
 def test_a_relief_valve_opens_at_its_pressure_and_passes_its_flow() -> None:
     """The pump drives the piston against the end of its stroke: what comes in leaves by the relief valve."""
-    relief = {"relief_pressure": 5e6, "relief_flow": 1e-3, "relief_override": 1e6}
-    scene = made.raised(retracted_length=RETRACTED - 0.29, stop_stiffness=1e8, command=0.5, **relief)
+    parts = {"relief": Relief(pressure=5e6, flow=1e-3), "piston": Piston(viscous_friction=1e5)}
+    scene = made.raised(retracted_length=RETRACTED - 0.29, command=0.5, **parts)
+    scene.replace("ram", stop_stiffness=1e8)
     result = simulate(scene, 1.5, dt_out=0.05, rtol=1e-8)
     told = [event.name for event in result.events if event.kind == "limit"]
     assert "ram.extended" in told and "ram.relief" in told
@@ -201,13 +219,10 @@ def test_a_relief_valve_opens_at_its_pressure_and_passes_its_flow() -> None:
 
 
 def test_an_accumulator_makes_the_cylinder_soft() -> None:
-    gas: dict[str, Any] = {
-        "accumulator_volume": 4e-3, "accumulator_pressure": 1e6, "accumulator_flow": 1.0,
-        "accumulator_exponent": 1.3,
-    }  # fmt: skip
-    scene = made.raised(**CLOSED, **gas)
+    gas = Accumulator(volume=4e-3, pressure=1e6, flow=1.0, exponent=1.3)
+    scene = made.raised(**CLOSED, accumulator=gas)
     ram = scene.loads["ram"]
-    volume = gas["accumulator_volume"] * (gas["accumulator_pressure"] / ram.pressure) ** (1.0 / 1.3)
+    volume = gas.volume * (gas.pressure / ram.pressure) ** (1.0 / 1.3)
     sides = ((FULL * START, SET["hose_volume"]), (RING * (STROKE - START), SET["hose_volume_rod"]))
     full, ring = (
         (swept + hose) / SET["oil_modulus"] + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"]
@@ -220,7 +235,7 @@ def test_an_accumulator_makes_the_cylinder_soft() -> None:
 
 @pytest.mark.parametrize("air", [0.001, 0.02])
 def test_air_softens_the_oil_as_its_formula_says(air: float) -> None:
-    scene = made.raised(air=air, **CLOSED)
+    scene = made.raised(oil=Oil(air=air), **CLOSED)
     ram = scene.loads["ram"]
     stiffness = 0.0
     for p, area, swept, hose in (
@@ -242,9 +257,8 @@ def test_a_valve_that_shuts_in_a_millisecond_leaves_the_load_swinging_on_its_oil
     shut = Curve.constant(value=0.6).then(
         time=0.5, curve=Curve.quintic(start_time=0.5, end_time=0.501, start=0.6, end=0.0)
     )
-    out = record(
-        made.raised(command=shut, spool_lag=1e-4, viscous_friction=2e3), 0.56, dt_out=5e-4, rtol=1e-3
-    )
+    parts = {"valve": replace(VALVE, spool_lag=1e-4), "piston": Piston(viscous_friction=2e3)}
+    out = record(made.raised(command=shut, **parts), 0.56, dt_out=5e-4, rtol=1e-3)
     before = out["time"] < 0.5
     v, s = out["velocity"][before, 0, 2][-1], out["hydraulic_stroke"][before, 0][-1]
     push = out["hydraulic_force"][~before, 0]

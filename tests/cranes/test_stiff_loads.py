@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
-from hydraulic_scenes import raised
+from hydraulic_scenes import VALVE, raised
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
@@ -19,10 +20,10 @@ STIFF = "dopri5-stiff"
 FORMULATIONS = ("redundant", "recursive")
 
 
-def moved(**settings: Any) -> Scene:
+def moved(lag: float = VALVE.spool_lag) -> Scene:
     """The spool is open from the start, and opens further."""
     opens = Curve.quintic(start_time=-0.5, end_time=1.5, start=0.2, end=0.6)
-    return raised(command=opens, velocity=0.02, **settings)
+    return raised(command=opens, velocity=0.02, valve=replace(VALVE, spool_lag=lag))
 
 
 def end_of(scene: Scene, **settings: Any) -> np.ndarray:
@@ -33,7 +34,7 @@ def end_of(scene: Scene, **settings: Any) -> np.ndarray:
 @pytest.mark.warns("AssemblyWarning")
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_its_order_is_four_in_stiff_directions(formulation: str) -> None:
-    scene = moved(spool_lag=0.02)
+    scene = moved(lag=0.02)
     truth = end_of(scene, rtol=1e-11, formulation=formulation)
     how: dict[str, Any] = {"rtol": 0.1, "integrator": STIFF, "formulation": formulation}
     errors = [np.linalg.norm(end_of(scene, maximum_step=h, **how) - truth) for h in (1e-3, 5e-4)]
@@ -43,8 +44,8 @@ def test_its_order_is_four_in_stiff_directions(formulation: str) -> None:
 @pytest.mark.warns("AssemblyWarning", sometimes=["UnitWarning"])
 @pytest.mark.parametrize("lag", [1e-3, 1e-5])
 def test_a_quick_spool_costs_no_steps(lag: float) -> None:
-    truth = record(moved(spool_lag=0.0), 0.5, rtol=1e-9)
-    out = record(moved(spool_lag=lag), 0.5, rtol=1e-3, integrator=STIFF)
+    truth = record(moved(lag=0.0), 0.5, rtol=1e-9)
+    out = record(moved(lag), 0.5, rtol=1e-3, integrator=STIFF)
     assert_allclose(out["hydraulic_stroke"], truth["hydraulic_stroke"], atol=2.0 * lag * 0.1 + 1e-4)
     assert out["stats"]["steps"] < 150  # an explicit pair takes 0.25 * 0.5 / lag or more
 

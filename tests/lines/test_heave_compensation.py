@@ -13,12 +13,13 @@ from scipy.integrate import solve_ivp
 
 from seacrane import SampledController, Scene, SceneError, linear_model, simulate
 from seacrane.crane import load_crane
+from seacrane.scene import Drive
 
 OMEGA = 0.7
 
 
 @pytest.mark.parametrize(
-    "settings", [{"lag": 0.3}, {"lag": 0.3, "lag_order": 2, "actuator_frequency": 1.2, "gain": 0.95}]
+    "settings", [{"lag": 0.3}, {"lag": 0.3, "lag_order": 2, "drive": Drive(frequency=1.2), "gain": 0.95}]
 )
 def test_the_residual_is_one_minus_h(settings: dict[str, Any]) -> None:
     """In the time domain, once the filter's start has died out."""
@@ -57,7 +58,7 @@ def test_the_linear_model_of_a_coupled_scene_has_the_closed_form() -> None:
 
     A metre of rope that is paid out takes 1 + strain metres of the stretched wire.
     """
-    settings: dict[str, Any] = {"lag": 0.3, "high_pass": 0.03, "actuator_frequency": 1.0}
+    settings: dict[str, Any] = {"lag": 0.3, "high_pass": 0.03, "drive": Drive(frequency=1.0)}
     scene = hung()
     scene.remove("wave")
     weight = (1e6 + MASS) * G
@@ -83,8 +84,7 @@ def test_the_linear_model_of_a_coupled_scene_has_the_closed_form() -> None:
 
 def test_bounds_on_rate_and_stroke_are_kept_located_and_told() -> None:
     """Against SciPy on the compensator's own equations."""
-    settings = {"lag": 0.2, "maximum_rate": 0.5, "maximum_stroke": 0.6, "settling": 0.3}
-    scene = compensated(**settings)
+    scene = compensated(lag=0.2, drive=Drive(maximum_rate=0.5, maximum_stroke=0.6, settling=0.3))
     result = simulate(scene, 20.0, dt_out=0.05, rtol=1e-9)
     rate, stroke = result["heave_stroke_rate"][:, 0], result["heave_stroke"][:, 0]
     assert np.max(np.abs(rate)) <= 0.5 + 1e-9

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hydraulic_scenes import OIL
 from line_scenes import below
 from numpy.testing import assert_allclose
 
@@ -202,10 +203,6 @@ def test_a_drum_on_deck_does_not_count_as_the_hook() -> None:
 
 
 HELD = 40e3  # kg
-OIL: dict[str, Any] = {
-    "pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "spool_lag": 0.03, "gain": 0.8,
-    "viscous_friction": 2e6,
-}  # fmt: skip
 
 
 def hang(scene: Scene, tip: tuple[str, Any], *, drum: tuple[str, Any] | None = None) -> None:

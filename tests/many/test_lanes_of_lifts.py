@@ -13,6 +13,7 @@ from stage_scenes import on_deck
 from test_lanes import beside_and_alone, differences
 
 from seacrane import Curve, Kept, Move, Run, Scene, Stage, Until, _core, ensemble, shipped_database
+from seacrane.scene import Gas, Stops
 
 pytestmark = [needs_lanes, pytest.mark.filterwarnings("ignore::UserWarning")]
 FINE = {"rtol": 1e-8, "dt_out": 0.1}
@@ -44,10 +45,10 @@ def many_loads() -> Scene:
     scene.add_pendulum_damping(name="damping", first="bob", second="weight", ratio=0.2)
     rows = [(1.0, 0, 0, 0, 0, 0), (0, 4.0, 1.0, 0.5, 0, 0.2)]
     scene.add_force("weight", name="gust", times=[0.0, 5.0], force=rows)
+    gas, stops = Gas(pressure=4e4, volume=0.1, exponent=1.3), Stops(minimum=0.2, maximum=5.0)
     scene.add_gas_spring(
-        "gas", first="ground", second="weight", area=1e-3, pressure=4e4, volume=0.1, length=3.0, exponent=1.3,
-        damping=2.0, minimum=0.2, maximum=5.0,
-    )  # fmt: skip
+        "gas", first="ground", second="weight", area=1e-3, gas=gas, length=3.0, damping=2.0, stops=stops
+    )
     scene.add_friction("pin", load=0.4, speed=0.02)
     scene.add_stop(joint="pin", minimum=-2.0, maximum=2.0, stiffness=50.0)
     scene.add_air_drag("weight", frontal_area=0.3, lateral_area=0.5)

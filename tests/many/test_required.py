@@ -16,6 +16,7 @@ from seacrane.description.file import scene_digest
 from seacrane.hydro import two_barges
 from seacrane.needs import Choice, Loss, choices_of, in_one_piece, missing_from
 from seacrane.needs.required import least_of
+from seacrane.scene import Pump, Valve
 from seacrane.water import BoxPart
 
 LENGTH, RATIO, G = 5.0, 0.02, 9.80665
@@ -73,7 +74,7 @@ def on_deck() -> sc.Scene:
 
 def on_oil() -> sc.Scene:
     """A crane that stands on the oil of two cylinders."""
-    oil = {"pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "gain": 0.8}
+    oil = {"pump": Pump(pressure=32e6), "valve": Valve(rated_flow=0.05, rated_drop=1e6, gain=0.8)}
     scene = held(hydraulics={"main": oil, "knuckle": oil})
     scene.add_hoist(mass=35e3, size=(6, 4, 4), length=5.0, EA=6e7)
     return scene

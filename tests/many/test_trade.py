@@ -102,7 +102,8 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
-    names = [v.memory for v in simpler_scenes.variants(case2, quick=False) if v.memory.startswith("by-m")]
+    names = [case["memory"] for case, _ in simpler_scenes.variants(case2, quick=False)]
+    names = [name for name in names if name.startswith("by-m")]
     assert names == [f"by-motion limit={limit:g}" for limit in simpler_scenes.LIMIT_LEVELS.all]
     scenes = [simpler_scenes.with_memory(case2, "by-motion", level=limit) for limit in (0.05, 0.01)]
     few, more = (scene.compile().memory_states for scene in scenes)

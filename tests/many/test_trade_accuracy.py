@@ -16,6 +16,7 @@ from seacrane import SampledController, Scene, SceneError, cases, simulate
 from seacrane.accuracy.expected import STIFF, method_for, probe_of, scale_of
 from seacrane.accuracy.quantities import quantities_of
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.scene import Oil, Piston, Pump, Rupture, Valve
 
 
 @pytest.mark.warns("CompassDirectionWarning", "ModelErrorWarning")
@@ -162,9 +163,9 @@ def test_a_burst_to_the_pistons_end_is_as_accurate_as_told(time: float, area: fl
     scene.add_joint("guide", kind="prismatic", first="ground", second="load", axis=(0, 0, 1), point=(0, 0, 0))
     scene.add_hydraulic_cylinder(
         name="ram", first="ground", second="load", full_area=bore, rod_side_area=0.6 * bore,
-        retracted_length=1.0, stroke=1.0, pump_pressure=20e6, rated_flow=2e-3, rated_drop=1e6,
-        viscous_friction=friction, spool_lag=0.05, air=0.01, makeup_flow=0.01, rupture_time=time,
-        rupture_area=area,
+        retracted_length=1.0, stroke=1.0, pump=Pump(pressure=20e6, makeup_flow=0.01), oil=Oil(air=0.01),
+        valve=Valve(rated_flow=2e-3, rated_drop=1e6, spool_lag=0.05), rupture=Rupture(time=time, area=area),
+        piston=Piston(viscous_friction=friction),
     )  # fmt: skip
     span = {"t_end": 5.0, "dt_out": 0.1, "channels": ["position"]}
     with warnings.catch_warnings():

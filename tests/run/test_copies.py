@@ -19,7 +19,7 @@ from test_scene_file import every_kind
 
 from seacrane import Curve, Result, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.hydro import two_barges
-from seacrane.scene import FlowForce
+from seacrane.scene import Chamber, Drive, FlowForce, Gas, Pump, Valve
 
 
 def all_kinds() -> Scene:
@@ -29,15 +29,14 @@ def all_kinds() -> Scene:
     scene.add_range(joint="pin", minimum=-2.0, maximum=2.0)
     scene.add_limit_state(channel="position", maximum=9.0, names={"body": "hull"})
     scene.add_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
-    scene.add_gas_spring(
-        name="passive", first="hull", second="arm", area=0.1, pressure=1e5, volume=3.0, length=0.7
-    )
+    gas = Gas(pressure=1e5, volume=3.0)
+    scene.add_gas_spring(name="passive", first="hull", second="arm", area=0.1, gas=gas, length=0.7)
     scene.add_hydraulic_cylinder(
         name="ram", first="hull", second="arm", full_area=0.1, rod_side_area=0.07, retracted_length=0.5,
-        stroke=9.0, pressure=1e6 / 3.0, pressure_rod=1e5, pump_pressure=1e7, rated_flow=0.1,
-        command=0.1, gain=1.0 / 3.0,
+        stroke=9.0, chamber=Chamber(pressure=1e6 / 3.0), rod_chamber=Chamber(pressure=1e5), command=0.1,
+        pump=Pump(pressure=1e7), valve=Valve(rated_flow=0.1, gain=1.0 / 3.0),
     )  # fmt: skip
-    scene.add_heave_compensation(name="active", body="hull", lag=1.0 / 3.0, maximum_rate=0.7)
+    scene.add_heave_compensation(name="active", body="hull", lag=1.0 / 3.0, drive=Drive(maximum_rate=0.7))
     scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 1.0 / 3.0))
     scene.add_clearance(name="gap", points="corner", center=(1.0, 2.0, 1.0 / 3.0), size=(3.0, 0.0, 1.0))
     scene.add_relative(name="itself", point="corner", to="corner", axes="hull")

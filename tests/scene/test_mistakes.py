@@ -15,7 +15,7 @@ import named
 import numpy as np
 import pytest
 import stage_scenes
-from hydraulic_scenes import raised
+from hydraulic_scenes import VALVE, raised
 from line_scenes import add_led, below
 from mistaken_units import raos, record
 from named import on_joint, on_wire
@@ -28,6 +28,7 @@ from seacrane.analysis import balance, driven, equilibrium, reflected_inertia
 from seacrane.crane import Payload
 from seacrane.hydro import HydroGroup, ikeda_roll_damping, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
+from seacrane.scene import Chamber, Gas, Piston, Pump, Rupture, Valve
 from seacrane.scene.wind_current import FlowCoefficients
 from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.water import BoxPart, PlatePart, TablePart
@@ -98,8 +99,8 @@ def hung(line: dict[str, Any] | None = None, **winch: Any) -> None:
 
 
 def on_gas(pressure: float, volume: float) -> None:
-    scene, gas = with_load((0, 0, -10)), {"area": 0.05, "pressure": pressure, "volume": volume}
-    scene.add_gas_spring("gas", first="ground", second="load", **gas)
+    scene, gas = with_load((0, 0, -10)), Gas(pressure=pressure, volume=volume)
+    scene.add_gas_spring("gas", first="ground", second="load", area=0.05, gas=gas)
     simulate(scene, t_end=0.2)
 
 
@@ -261,7 +262,7 @@ def drag_of_the_world() -> None:
 STEP = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=2.0))
 RAMP = Curve.pieces(starts=[1.0, 2.0], coefficients=[[0, 0.2, 0, 0, 0, 0], [0.2, 0, 0, 0, 0, 0]])
 IN_DEGREES = np.where(np.arange(6) < 3, 1.0, 180.0 / np.pi)
-SHUT = {"pump_pressure": 0.0, "rated_flow": 0.0, "pressure_rod": 1e6}
+SHUT = {"pump": Pump(), "valve": Valve(), "rod_chamber": Chamber(pressure=1e6, hose_volume=78.5e-6)}
 SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "degrees where radians are meant": [lambda: follow("slew", move(-90.0)),
         lambda: lift(slew=-90.0, ballast=False)],
@@ -293,9 +294,10 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
     "a crane that nothing holds": [lambda: let_go(0.1, payload=Payload(mass=MASS))],
     "a loose tolerance for hours": [hours_at_a_loose_tolerance],
     "a hydraulic cylinder that swings by itself": [
-        lambda: simulate(raised(gain=80.0, viscous_friction=2e3, spool_lag=1e-3), 0.1)],
+        lambda: simulate(raised(
+            valve=replace(VALVE, gain=80.0, spool_lag=1e-3), piston=Piston(viscous_friction=2e3)), 0.1)],
     "a hose that bursts, and nothing that lets oil in": [
-        lambda: simulate(raised(rupture_time=0.1, rupture_area=2e-5, **SHUT), 0.5)],
+        lambda: simulate(raised(rupture=Rupture(time=0.1, area=2e-5), **SHUT), 0.5)],
     "a roll amplitude in radians": [lambda: ikeda(np.radians(8.0))],
     "bilge keels in millimetres": [lambda: ikeda(8.0, bilge_keel_length=35.0, bilge_keel_breadth=400.0)],
     "a mooring counted twice": [lambda: moored(mooring=MOORING), moored],

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,6 +17,7 @@ from kink_scenes import random_kinked
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SeacraneError, simulate
+from seacrane import scene as of
 from seacrane.accuracy.quantities import compare
 
 Array = NDArray[np.float64]
@@ -138,7 +140,8 @@ def compensated(rng: np.random.Generator) -> Scene:
         bounds["maximum_rate"] = amplitude * omega * float(rng.uniform(0.3, 1.1))
     if rng.random() < 0.5:
         bounds["maximum_stroke"] = amplitude * float(rng.uniform(0.4, 1.1))
-    scene.add_heave_compensation("ahc", body="ship", point=(0, 0, 20), winch="hoist", high_pass=0.0, **bounds)
+    scene.add_heave_compensation("ahc", body="ship", point=(0, 0, 20), winch="hoist", high_pass=0.0,
+                                 drive=of.Drive(**bounds))  # fmt: skip
     return scene
 
 
@@ -150,28 +153,28 @@ def on_oil(rng: np.random.Generator) -> Scene:
     scene.add_body("load", mass=mass, inertia=(mass,) * 3, position=(0.0, 0.0, 1.0 + standing))
     scene.add_joint("guide", kind="prismatic", first="ground", second="load", axis=(0, 0, 1), point=(0, 0, 0))
     speed = float(rng.uniform(0.05, 0.3))
-    oil = {"pump_pressure": 25e6, "rated_flow": area * speed, "rated_drop": 1e6,
-           "viscous_friction": mass * float(10.0 ** rng.uniform(-0.3, 1.0)),
-           "spool_lag": float(rng.choice([0.0, 5e-3, 0.05])),
-           "air": float(rng.choice([0.0, 0.002, 0.01]))}  # fmt: skip
-    if rng.random() < 0.6:
-        oil["makeup_flow"] = area * float(rng.uniform(0.1, 1.0))
+    piston = of.Piston(viscous_friction=mass * float(10.0 ** rng.uniform(-0.3, 1.0)))
+    lag, air = float(rng.choice([0.0, 5e-3, 0.05])), float(rng.choice([0.0, 0.002, 0.01]))
+    makeup = area * float(rng.uniform(0.1, 1.0)) if rng.random() < 0.6 else 0.0
+    valve = of.Valve(rated_flow=area * speed, rated_drop=1e6, spool_lag=lag)
+    oil: dict[str, Any] = {"piston": piston, "oil": of.Oil(air=air), "valve": valve,
+                           "pump": of.Pump(pressure=25e6, makeup_flow=makeup)}  # fmt: skip
     if rng.random() < 0.3:
-        oil |= {"relief_pressure": 1.3 * mass * G / area + 4e6, "relief_flow": area * speed}
+        oil["relief"] = of.Relief(pressure=1.3 * mass * G / area + 4e6, flow=area * speed)
     if rng.random() < 0.3:
-        oil |= {"accumulator_volume": area * stroke * 0.3, "accumulator_pressure": 0.5 * mass * G / area,
-                "accumulator_flow": area * speed}  # fmt: skip
+        gas = {"volume": area * stroke * 0.3, "pressure": 0.5 * mass * G / area}
+        oil["accumulator"] = of.Accumulator(**gas, flow=area * speed)
     if rng.random() < 0.65:
         hole = area * float(10.0 ** rng.uniform(-2.7, -1.2))
-        oil |= {"rupture_time": float(rng.uniform(0.5, 3.0)), "rupture_area": hole}
+        oil["rupture"] = of.Rupture(time=float(rng.uniform(0.5, 3.0)), area=hole)
         if rng.random() < 0.3:
-            oil |= {"counterbalance_pressure": 1.5 * mass * G / area + 5e6,
-                    "counterbalance_flow": area * speed}  # fmt: skip
+            oil["counterbalance"] = of.Counterbalance(pressure=1.5 * mass * G / area + 5e6, flow=area * speed)
     if rng.random() < 0.5:
         oil["command"] = move(rng, end=float(rng.uniform(-1.0, 1.0)))
     else:
         goal = float(rng.uniform(0.2, 0.8)) * stroke
-        oil |= {"gain": float(rng.uniform(1.0, 5.0)), "reference": move(rng, start=standing, end=goal)}
+        oil |= {"valve": replace(valve, gain=float(rng.uniform(1.0, 5.0))),
+                "reference": move(rng, start=standing, end=goal)}  # fmt: skip
     scene.add_hydraulic_cylinder("ram", first="ground", second="load", full_area=area,
                                  rod_side_area=area * rng.uniform(0.5, 0.9), retracted_length=1.0,
                                  stroke=stroke, **oil)  # fmt: skip

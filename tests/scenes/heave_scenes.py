@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
+from seacrane.scene import Drive
 
 Array = NDArray[np.float64]
 G = 9.80665
 TIP, ROPE = 20.0, 15.0  # m
 MASS, STIFFNESS = 2e3, 5e7  # kg, N
+NO_DRIVE = Drive()
 
 
 def heaving(*, amplitude: float = 1.0, omega: float = 0.7) -> Scene:
@@ -49,15 +51,15 @@ def compensated(**settings: Any) -> Scene:
 
 def transfer(
     omega: Any, *, high_pass: float = 0.0, lag: float = 0.0, lag_order: int = 1, gain: float = 1.0,
-    actuator_frequency: float = 0.0, actuator_damping: float = 0.7, winch_lag: float = 0.0,
+    drive: Drive = NO_DRIVE, winch_lag: float = 0.0,
 ) -> Any:  # fmt: skip
     """H(i omega), of the stroke to the motion."""
     p = 1j * np.asarray(omega)
     out = gain / (1.0 + winch_lag * p) * (p / (p + 2.0 * np.pi * high_pass) if high_pass else 1.0)
     out = out / (1.0 + lag * p + ((lag * p) ** 2 / 3.0 if lag_order == 2 else 0.0))
-    if actuator_frequency:
-        w = 2.0 * np.pi * actuator_frequency
-        out = out * w**2 / (p**2 + 2.0 * actuator_damping * w * p + w**2)
+    if drive.frequency:
+        w = 2.0 * np.pi * drive.frequency
+        out = out * w**2 / (p**2 + 2.0 * drive.damping * w * p + w**2)
     return out
 
 
@@ -91,9 +93,9 @@ def moving_crane() -> Scene:
                    length=20.0)  # fmt: skip
     scene.add_winch(line="hoist", lag=0.1)
     scene.add_heave_compensation(name="by winch", body="boom", point=(10, 0, 0), winch="hoist", lag=0.2,
-                                 high_pass=0.05, gain=0.4, maximum_rate=0.15)  # fmt: skip
+                                 high_pass=0.05, gain=0.4, drive=Drive(maximum_rate=0.15))  # fmt: skip
     scene.add_heave_compensation(
         name="by luffing", body="ship", point=(20.0, 0.0, 12.0), actuator="luff", ratio=0.05, gain=0.5,
-        lag=0.1, lag_order=2, high_pass=0.05, actuator_frequency=1.0, maximum_stroke=0.2,
+        lag=0.1, lag_order=2, high_pass=0.05, drive=Drive(frequency=1.0, maximum_stroke=0.2),
     )  # fmt: skip
     return scene

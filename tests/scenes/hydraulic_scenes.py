@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import Curve, Scene
+from seacrane.description.hydraulic_values import VALUES
+from seacrane.inputs.values import flat
+from seacrane.scene import Chamber, Oil, Piston, Pump, Valve
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -19,12 +22,18 @@ FULL, RING = np.pi / 4.0 * BORE**2, np.pi / 4.0 * (BORE**2 - ROD**2)
 RETRACTED, STROKE, START = 1.05, 0.6, 0.3  # m
 HOLDING = MASS * G
 # Rahikainen et al., Multibody Syst. Dyn. 2020, as Chrono's hydraulic crane has them.
-SET: dict[str, Any] = {"full_area": FULL, "rod_side_area": RING, "retracted_length": RETRACTED,
-                       "stroke": STROKE, "hose_volume": 31.4e-6, "hose_volume_rod": 78.5e-6,
-                       "oil_modulus": 1.5e9, "hose_modulus": 1.5e8, "cylinder_modulus": 3.15e10,
-                       "pump_pressure": 7.6e6, "tank_pressure": 0.1e6, "rated_flow": 24e-3 / 60.0,
-                       "rated_drop": 3.5e6, "laminar_drop": 2e5, "spool_lag": 1.0 / (2.0 * np.pi * 35.0),
-                       "viscous_friction": 1e5}  # fmt: skip
+VALVE = Valve(
+    rated_flow=24e-3 / 60.0, rated_drop=3.5e6, laminar_drop=2e5, spool_lag=1.0 / (2.0 * np.pi * 35.0)
+)
+PUMP = Pump(pressure=7.6e6)
+PARTS: dict[str, Any] = {
+    "full_area": FULL, "rod_side_area": RING, "retracted_length": RETRACTED, "stroke": STROKE, "valve": VALVE,
+    "chamber": Chamber(hose_volume=31.4e-6), "rod_chamber": Chamber(hose_volume=78.5e-6), "oil": Oil(),
+    "pump": PUMP, "piston": Piston(viscous_friction=1e5),
+}  # fmt: skip
+SET = flat("ram", PARTS, VALUES)
+OF_CRANE = Valve(rated_flow=0.05, rated_drop=1e6, spool_lag=0.03, gain=0.8)
+OIL: dict[str, Any] = {"pump": Pump(pressure=32e6), "valve": OF_CRANE, "piston": Piston(viscous_friction=2e6)}
 
 
 def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **settings: Any) -> Scene:
@@ -34,7 +43,7 @@ def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **s
     place = (0.0, 0.0, sign * (RETRACTED + START))
     scene.add_body("load", mass=mass, inertia=(10.0,) * 3, position=place, velocity=(0, 0, velocity))
     scene.add_joint("guide", kind="prismatic", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1))
-    scene.add_hydraulic_cylinder("ram", first="ground", second="load", **SET | settings)
+    scene.add_hydraulic_cylinder("ram", first="ground", second="load", **PARTS | settings)
     return scene
 
 
@@ -68,7 +77,7 @@ def command(t: float) -> float:
 
 def own_solution(times: Array, pressures: tuple[float, float], **more: Any) -> Array:
     """Stroke, speed, both pressures and the spool of `lifted`, shape (5, n), by Radau."""
-    given = SET | {"internal_leakage": 0.0, "external_leakage": 0.0, "overlap": 0.0} | more
+    given = flat("ram", PARTS | more, VALUES)
     conductance = given["rated_flow"] / np.sqrt(given["rated_drop"])
 
     def through(drop: float) -> float:

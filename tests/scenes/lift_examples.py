@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
+from seacrane.description.hydraulic_values import VALUES
 from seacrane.lift.tables import TABLES
-from seacrane.scene import gust_curve, spline_curve
+from seacrane.scene import gust_curve, heave, spline_curve
 from seacrane.water import BoxPart, Opening, SpherePart
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
@@ -97,16 +98,16 @@ brake = {kind = "quintic", start_time_s = 5, end_time_s = 5.1, start = 0, end = 
 brake_give_m = 2e-3
 [[heave_compensation]]
 name = "ahc"; body = "hull"; point_m = [1, 2, 3]; winch = "hoist"; ratio = 1.5; high_pass_Hz = 0.02
-lag_s = 0.3; lag_order = 2; actuator_frequency_Hz = 1.5; maximum_rate_m_per_s = 2; maximum_stroke_m = 3
+lag_s = 0.3; lag_order = 2; drive = { frequency_Hz = 1.5, maximum_rate_m_per_s = 2, maximum_stroke_m = 3 }
 [[gas_spring]]
-name = "phc"; first = "box"; second = "bob"; area_m2 = 0.05; force_N = 2e4; stiffness_N_per_m = 3e3
-length_m = 4; exponent = 1.3; damping_N_s_per_m = 100; minimum_m = 1; maximum_m = 7
+name = "phc"; first = "box"; second = "bob"; area_m2 = 0.05; length_m = 4; damping_N_s_per_m = 100
+gas = { force_N = 2e4, stiffness_N_per_m = 3e3, exponent = 1.3 }; stops = { minimum_m = 1, maximum_m = 7 }
 [[hydraulic_cylinder]]
 name = "ram"; first = "box"; second = "bob"; full_area_m2 = 0.05; rod_side_area_m2 = 0.03
-retracted_length_m = 0.1; stroke_m = 20; pressure_Pa = 2e6; pressure_rod_Pa = 1e6; pump_pressure_Pa = 2e7
-rated_flow_m3_per_s = 0.01; pump_check = true
-reference_m = { kind = "quintic", start_time_s = 0, end_time_s = 5, start = 3, end = 4 }; gain_per_m = 2
-rupture_time_s = 9; rupture_area_m2 = 1e-5
+retracted_length_m = 0.1; stroke_m = 20; chamber.pressure_Pa = 2e6; rod_chamber.pressure_Pa = 1e6
+pump = { pressure_Pa = 2e7, check = true }; valve = { rated_flow_m3_per_s = 0.01, gain_per_m = 2 }
+reference_m = { kind = "quintic", start_time_s = 0, end_time_s = 5, start = 3, end = 4 }
+rupture = { time_s = 9, area_m2 = 1e-5 }
 [[force]]
 name = "gust"; body = "box"; times_s = [0, 1]; force_N = [[0, 1, 2, 3, 4, 5], [6, 7, 8, 9, 10, 11]]
 [[line]]
@@ -174,7 +175,8 @@ areas = [{ cylinder = "luff", full_m2 = 0.5, rod_side_m2 = 0.25 }]
 
 
 UNIT = re.compile("(?:_(?:m2|m3|m|kg|N|Pa|s2|s|Hz|W|deg|rad|per))+$")
-KINDS = {"first_frame": Frame, "second_frame": Frame, "coefficients": FlowCoefficients, "openings": Opening}
+KINDS: dict[str, Any] = {"first_frame": Frame, "second_frame": Frame, "openings": Opening}
+KINDS |= VALUES | heave.VALUES | {"coefficients": FlowCoefficients}
 PARTS = {"sphere": SpherePart, "box": BoxPart}
 CURVES = {"spline": spline_curve, "gust": gust_curve}
 ORDINATES = {"value", "start", "end", "amplitude", "offset", "values"}

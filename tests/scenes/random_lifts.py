@@ -18,13 +18,14 @@ from numpy.typing import NDArray
 
 from seacrane import Result, Run, Scene, SeacraneError, Stage, State, Until, shipped_database, simulate
 from seacrane.hydro import HydroGroup, two_barges
+from seacrane.scene import Oil, Piston
 from seacrane.sea.dispersion import wavenumber
 from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart, SpherePart
 
 Array = NDArray[np.float64]
 G = 9.80665
 HALF = 0.5
-OIL = {"oil_modulus": 1.2e9, "viscous_friction": 2e4, "friction": 0.0}
+OIL = {"oil": Oil(modulus=1.2e9), "piston": Piston(viscous_friction=2e4, friction=0.0)}
 SIDE = np.array([12.0, 4.0, 0.0])  # m, from the load to the post of its tugger
 
 

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from hydraulic_scenes import SET
+from hydraulic_scenes import OF_CRANE, OIL, PARTS
 from numpy.typing import NDArray
 
 from seacrane import Scene
-from seacrane.scene import Tank
+from seacrane.scene import Chamber, Counterbalance, Piston, Tank
 
 Array = NDArray[np.float64]
 G = 9.80665
-OIL: dict[str, Any] = {"pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "spool_lag": 0.03,
-                       "gain": 0.8, "viscous_friction": 2e6}  # fmt: skip
 SHIP = "vessel"
 AHEAD = np.array([1.0, 0.0, 0.0])
 
@@ -82,13 +81,14 @@ class Builder:
         return roles.tip[0], np.asarray(roles.tip[1])
 
     def oil(self) -> dict[str, Any]:
-        out = OIL | {"viscous_friction": self.magnitude(2e5, 5e6)}
+        piston = Piston(viscous_friction=self.magnitude(2e5, 5e6))
+        out = OIL | {"piston": piston}
         if self.chance(0.2):
-            out |= {"overlap": 0.02}
+            out |= {"valve": replace(OF_CRANE, overlap=0.02)}
         if self.chance(0.1):
-            out |= {"internal_leakage": 1e-13}
+            out |= {"piston": replace(piston, internal_leakage=1e-13)}
         if self.chance(0.2):
-            out |= {"counterbalance_pressure": 35e6, "counterbalance_flow": 0.02}
+            out |= {"counterbalance": Counterbalance(pressure=35e6, flow=0.02)}
         return out
 
     def arm(self) -> tuple[str, Array]:
@@ -101,9 +101,10 @@ class Builder:
                              axis=(0, 1, 0))  # fmt: skip
         low, high = foot + np.array([1.0, 0.0, -4.0]), foot + 0.4 * reach * AHEAD
         apart = float(np.linalg.norm(high - low))
-        size = {"full_area": 0.3, "rod_side_area": 0.15, "stroke": 3.0, "hose_volume": 0.05,
-                "hose_volume_rod": 0.05, "pressure": 2e7, "pressure_rod": 1e6}  # fmt: skip
-        oil = SET | self.oil() | size | {"retracted_length": apart - self.between(0.5, 2.5)}
+        size = {"full_area": 0.3, "rod_side_area": 0.15, "stroke": 3.0,
+                "chamber": Chamber(hose_volume=0.05, pressure=2e7),
+                "rod_chamber": Chamber(hose_volume=0.05, pressure=1e6)}  # fmt: skip
+        oil = PARTS | self.oil() | size | {"retracted_length": apart - self.between(0.5, 2.5)}
         self.scene.add_hydraulic_cylinder("ram", first=self.base, second="arm", first_point=low,
                                           second_point=[-0.1 * reach, 0.0, 0.0], **oil)  # fmt: skip
         return "arm", np.array([0.5 * reach, 0.0, 0.0])

@@ -14,8 +14,7 @@ from seacrane.description.holding import decided
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
-from seacrane.inputs.checked import number_of
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.description.places import ORIGIN, apart, placed
 
 Array = NDArray[np.float64]
 ENDS = ("first", "second", "first_point", "second_point")
@@ -36,18 +35,13 @@ def without_cylinders(scene: Some) -> Some:
 
 def add_rod(scene: Description, given: Mapping[str, Any], length: float | None = None) -> None:
     """Add a rod between the ends of a cylinder; its length (m) is that of the described pose by default."""
-    places = {}
-    for end in ("first", "second"):
-        point = np.asarray(given.get(f"{end}_point", (0.0, 0.0, 0.0)), dtype=float)
-        body = scene.bodies.get(given[end])
-        turn = np.eye(3) if body is None else rotation_matrix(body.quaternion)
-        places[end] = turn @ point + (0.0 if body is None else np.asarray(body.position))
-    apart = number_of(
-        f"hydraulic cylinder {given['name']!r}", np.linalg.norm(places["second"] - places["first"])
-    )
+    ends = [(given[end], given.get(f"{end}_point", ORIGIN)) for end in ("first", "second")]
+    first, second = (placed(scene, *end) for end in ends)
+    if length is None:
+        length = apart(scene, f"hydraulic cylinder {given['name']!r}", *ends)
     add_joint(
         scene, kind="distance", name=_rod(given["name"]), first=given["first"], second=given["second"],
-        point=places["first"], second_point=places["second"], length=apart if length is None else length,
+        point=first, second_point=second, length=length,
     )  # fmt: skip
 
 

@@ -88,7 +88,7 @@ def add_crane(
         from now on, named ``"<joint>.<coordinate>"``, which stages and `Scene.replace` may change. Hydraulic
         cylinders hold their strokes themselves.
     hydraulics : mapping of str to mapping, optional
-        By the labels of cylinders, "main" and "knuckle" of a knuckle boom, the entries of
+        By the labels of cylinders, "main" and "knuckle" of a knuckle boom, the keywords of
         `add_hydraulic_cylinder` beside its geometry: that cylinder is hydraulic, named as its joint, and
         holds the crane and its payload at the start. Areas default to the data file's, or to those of its
         barrel and rod. Default: what the data file says; it may say nothing.

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -175,7 +176,7 @@ class CraneData:
     capacity, areas
         As of `CraneRoles`.
     hydraulics : mapping of str to mapping
-        Entries of `add_hydraulic_cylinder` by the labels of cylinders that the file says are hydraulic.
+        Keywords of `add_hydraulic_cylinder` by the labels of cylinders that the file says are hydraulic.
     short_names : mapping of str to str
         Other names of coordinates, with their labels.
     """
@@ -191,7 +192,7 @@ class CraneData:
     ropes: tuple[RopeData, ...] = ()
     capacity: Capacity = ()
     areas: Mapping[str, Areas] = field(default_factory=dict)
-    hydraulics: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    hydraulics: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     short_names: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
+from dataclasses import fields
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -12,20 +13,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.description.capacity import Capacity, capacity_of
 from seacrane.description.cylinder_areas import Areas, areas_of
+from seacrane.description.hydraulic_values import VALUES
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole
 
 Array = NDArray[np.float64]
 SCHEMA = 1
-GEOMETRY = {"full_area", "rod_side_area", "retracted_length", "stroke"}
-HYDRAULIC_KEYS = {
-    field.name for field in _core.HydraulicCylinder.FIELDS if field.type in ("number", "flag")
-} - GEOMETRY
 LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with
 LARGEST_FILE = 2**20  # bytes
 LONGEST_TEXT = 200
@@ -150,16 +147,23 @@ class FileTable:
         except SceneError as error:
             raise FileFormatError(f"{error}.") from error
 
-    def hydraulics(self) -> Mapping[str, float] | None:
-        """Entries of a hydraulic cylinder, SI units, in a table of its own; None for none."""
+    def hydraulics(self) -> Mapping[str, Any] | None:
+        """Keywords of a hydraulic cylinder: each of its values a table, SI units; None for none."""
         if "hydraulics" not in self.values:
             return None
-        inner, found = self.table("hydraulics"), {}
-        for key in HYDRAULIC_KEYS & set(inner.values):
-            value = inner.take(key)
-            found[key] = value if isinstance(value, bool) else number_at(self.source, inner.label(key), value)
+        inner = self.table("hydraulics")
+        found = {word: inner.table(word).value(kind) for word, kind in VALUES.items() if word in inner.values}
         inner.finish()
         return MappingProxyType(found)
+
+    def value(self, kind: type[Any]) -> Any:
+        """The whole table as a value, whose fields are numbers and flags."""
+        given: dict[str, Any] = {}
+        for key in [one.name for one in fields(kind) if one.name in self.values]:
+            value = self.take(key)
+            given[key] = value if isinstance(value, bool) else number_at(self.source, self.label(key), value)
+        self.finish()
+        return kind(**given)
 
     def members(self, key: str, plane: Array | None = None) -> tuple[Member, ...]:
         """Uniform bodies, their ends three numbers, or two along the axes (3, 2) of a plane."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,7 @@ ON_AXIS = 1e-6  # of the crane's extent: a pin so near to the axis is on it
 
 
 def hydraulics_of(crane: Crane, given: Hydraulics | None) -> Hydraulics:
-    """Entries of the hydraulic cylinders by label: those given, else those of the data file."""
+    """Keywords of the hydraulic cylinders by label: those given, else those of the data file."""
     if given is None:
         return crane.data.hydraulics
     labels = crane.data.cylinders
@@ -59,7 +60,7 @@ def add_hydraulics(
         names = {"name": slide.name, "first": slide.first, "second": slide.second}
         given = {key: prefix + name for key, name in names.items()} | _ends(crane, label, slide)
         given |= _areas(crane, label, slide, entries)
-        place_cylinder(scene, given | dict(entries), by_label[label])
+        place_cylinder(scene, given | dict(entries), partial(by_label.__getitem__, label))
 
 
 def _ends(crane: Crane, label: str, slide: JointData) -> dict[str, Any]:

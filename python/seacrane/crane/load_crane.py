@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -286,10 +287,10 @@ def _rope(table: FileTable, frames: Frames) -> RopeData:
 
 def _pistons(
     root: FileTable, cylinders: Mapping[str, str]
-) -> tuple[dict[str, Areas], dict[str, Mapping[str, float]]]:
-    """Areas of the pistons and entries of their oil, by the labels of cylinders."""
+) -> tuple[dict[str, Areas], dict[str, Mapping[str, Any]]]:
+    """Areas of the pistons and keywords of their oil, by the labels of cylinders."""
     areas: dict[str, Areas] = {}
-    oil: dict[str, Mapping[str, float]] = {}
+    oil: dict[str, Mapping[str, Any]] = {}
     for table in root.tables("pistons"):
         label = table.text("cylinder")
         if label not in cylinders:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
-
 from seacrane import _core
-from seacrane.description.description import GROUND, Description, Some
+from seacrane.description.description import Description, Some
 from seacrane.description.drives import add_actuator
 from seacrane.description.forces import add_load
 from seacrane.description.holding import decided
-from seacrane.description.places import placed
+from seacrane.description.hydraulic_values import VALUES
+from seacrane.description.places import ORIGIN, apart
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, text_of
+from seacrane.inputs.values import flat
 
 HOSE = 0.05  # of the swept volume, where no hose volume is given
 BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
@@ -47,36 +48,34 @@ def with_ideal_cylinders(scene: Some) -> Some:
     return out
 
 
-def what_of(given: dict[str, Any]) -> str:
+def what_of(given: Mapping[str, Any]) -> str:
     """How messages name a cylinder."""
     return f"hydraulic cylinder {text_of('hydraulic cylinder: name', given['name'])!r}"
 
 
 def place_cylinder(
-    scene: Description, given: dict[str, Any], force: float | None = None
+    scene: Description, keywords: Mapping[str, Any], holding: Callable[[], float]
 ) -> _core.HydraulicCylinder:
     """Add a cylinder; volumes, reference and pressures that are None or absent are filled in.
 
     Parameters
     ----------
-    given : Entries of the cylinder.
-    force : N, that it holds; with it the pressures may be left out.
+    keywords : Of `add_hydraulic_cylinder`.
+    holding : Tells the force that it holds, N, where a pressure is left out.
 
-    Raises SceneError if the points are not within the stroke, or pressures are missing.
+    Raises SceneError if the points are not within the stroke.
     """
-    settings = {key: value for key, value in given.items() if value is not None}
-    what = what_of(given)
-    standing = _stroke(scene, what, settings)
-    settings.setdefault("reference", standing)
+    what = what_of(keywords)
+    settings = flat(what, keywords, VALUES)
+    settings.setdefault("reference", _stroke(scene, what, settings))
     for volume, area in (("hose_volume", "full_area"), ("hose_volume_rod", "rod_side_area")):
         swept = number_of(f"{what}: {area}", settings[area]) * number_of(
             f"{what}: stroke", settings["stroke"]
         )
         settings.setdefault(volume, HOSE * swept)
     _check_units(what, settings)
-    if force is not None:
-        for side, value in _pressures(what, force, settings).items():
-            settings.setdefault(side, value)
+    if not {"pressure", "pressure_rod"} <= settings.keys():
+        settings |= _pressures(what, holding(), settings)
     added: _core.HydraulicCylinder = add_load(scene, _core.HydraulicCylinder(**settings))
     return added
 
@@ -102,13 +101,8 @@ def _check_units(what: str, settings: dict[str, Any]) -> None:
 
 def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
     """At which the cylinder stands as described, m."""
-    places = []
-    for end in ("first", "second"):
-        body = settings[end]
-        if body != GROUND and body not in scene.bodies:
-            raise SceneError(f"{what}: there is no body {body!r}; add it first")
-        places.append(placed(scene, body, settings.get(f"{end}_point", (0.0, 0.0, 0.0))))
-    length = float(np.linalg.norm(places[1] - places[0]))
+    ends = ((settings[end], settings.get(f"{end}_point", ORIGIN)) for end in ("first", "second"))
+    length = apart(scene, what, *ends)
     shortest = number_of(f"{what}: retracted_length", settings["retracted_length"])
     longest = shortest + number_of(f"{what}: stroke", settings["stroke"])
     if not shortest - NEAR <= length <= longest + NEAR:

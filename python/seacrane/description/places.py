@@ -12,6 +12,17 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of, text_of
 from seacrane.inputs.frames import rotation_matrix
 
+ORIGIN = (0.0, 0.0, 0.0)
+
+
+def apart(scene: Description, what: str, *ends: tuple[str, Any]) -> float:
+    """Distance of two points of bodies as described, m; SceneError for a body that is not there."""
+    for body, _ in ends:
+        if body != GROUND and body not in scene.bodies:
+            raise SceneError(f"{what}: there is no body {body!r}; add it first")
+    first, second = (placed(scene, *end) for end in ends)
+    return float(np.linalg.norm(second - first))
+
 
 def place_of(scene: Description, body: str, point: Any = (0.0, 0.0, 0.0)) -> NDArray[np.float64]:
     """Where a point is in the pose described, in the inertial frame, m.

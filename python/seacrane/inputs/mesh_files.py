@@ -142,7 +142,7 @@ def _refusing(source: Path) -> Iterator[None]:
         ) from None
     except Exception as error:
         raise FileFormatError(
-            f"{source}: is damaged or truncated ({type(error).__name__} {str(error)[:80]}); export it again"
+            f"{source}: is damaged or truncated: {shown(error)}; export it again"
         ) from error
 
 

@@ -171,12 +171,12 @@ def _about(path: Place, keys: Iterable[Key], values: Mapping[str, Any], message:
     """The path of the key that a message is about; None where it names none."""
     for key in keys:
         for spelling in key.spellings:
-            words = f"(?:{re.escape(key.name)}|{re.escape(spelling)})"
+            words = key.entry or f"(?:{re.escape(key.name)}|{re.escape(spelling)})"
             if spelling not in values:
                 continue
             if re.search(rf"\b{words}(?:\[\d+\])? {ABOUT}\b", message):
                 return (*path, spelling)
-            if key.type == "table" and f"{key.name}: " in message:
+            if key.type == "table" and (f"{key.name}: " in message or any(one.entry for one in key.keys)):
                 inside = _about((*path, spelling), key.keys, values[spelling], message)
                 if inside is not None:
                     return inside

@@ -10,6 +10,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
 from seacrane.crane import Crane, Payload, load_crane
+from seacrane.description import hydraulic_values
 from seacrane.description.channels import CHANNELS, OWN, unit_of
 from seacrane.description.databases import source_of
 from seacrane.description.description import coordinate_of
@@ -21,6 +22,7 @@ from seacrane.lift.check_keys import SHIPPED
 from seacrane.lift.curve_text import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import LEFT, Table
+from seacrane.scene import heave
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import spectrum_named
@@ -43,6 +45,8 @@ _MADE: Mapping[str, Callable[..., Any]] = {
     "tip": lambda body, point: (body, point),
     "history": MotionHistory,
     "raos": lambda **table: _raos(**table),
+    **hydraulic_values.VALUES,
+    **heave.VALUES,
 }
 
 

@@ -40,6 +40,7 @@ class Key:
     choices : The texts that it may be; of a number, those that stand for one.
     bounds : What its numbers must be, in the words of JSON Schema and in `unit`.
     keys : Of a table, or of each table in a list.
+    entry : What messages call it, where they call it otherwise.
     """
 
     name: str
@@ -51,6 +52,7 @@ class Key:
     choices: tuple[str, ...] = ()
     bounds: Mapping[str, float] = field(default_factory=dict)
     keys: tuple[Key, ...] = ()
+    entry: str = ""
 
     @property
     def units(self) -> tuple[str, ...]:
@@ -90,6 +92,7 @@ def keys_of(
     without: Collection[str] = (),
     only: Collection[str] | None = None,
     described: Any = None,
+    entries: Mapping[str, str] | None = None,
 ) -> tuple[Key, ...]:
     """The keywords of a call as keys.
 
@@ -103,8 +106,10 @@ def keys_of(
     without, only : collection of str
         Keywords that a file does not hold, or those that it holds.
     described : Whose docstring says what the keywords are; default: `call`.
+    entries : Names that FIELDS have for keywords, where they differ.
     """
     fields = {field.name: field for kind in classes for field in kind.FIELDS}  # type: ignore[attr-defined]
+    other = entries or {}
     texts = parameter_texts(call if described is None else described)
     found = []
     for parameter in inspect.signature(call).parameters.values():
@@ -112,10 +117,11 @@ def keys_of(
         left_out = name == "scene" or name in without or (only is not None and name not in only)
         if left_out or parameter.kind is parameter.VAR_KEYWORD:
             continue
-        known = _annotated(call, parameter.annotation) | _of_field(fields.get(name))
+        known = _annotated(call, parameter.annotation) | _of_field(fields.get(other.get(name, name)))
         known["text"] = texts.get(name) or known.get("text", "")
         known |= (more or {}).get(name, {})
-        found.append(Key(name=name, required=parameter.default is parameter.empty, **known))
+        required = parameter.default is parameter.empty
+        found.append(Key(name=name, required=required, entry=other.get(name, ""), **known))
     return tuple(found)
 
 

@@ -29,6 +29,8 @@ from seacrane.description import (
     relatives,
 )
 from seacrane.description.curves import spline_curve
+from seacrane.description.hydraulic_values import VALUES
+from seacrane.inputs.values import entries_of
 from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
@@ -90,6 +92,14 @@ def _call(name: str, add: Callable[..., Any], *classes: type, **more: Mapping[st
     """A table that is one call of a method of `Scene`."""
     keys = keys_of(add, *classes, more=CHOSEN | more)
     return Table(name=name, text=_summary(add), keys=keys, add=add)
+
+
+def _values(element: type, kinds: Mapping[str, type], **more: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Keywords that are values of entries of an element, as tables within its own."""
+    return {
+        word: {"type": "table", "keys": keys_of(kind, element, entries=entries_of(word, kind), more=more)}
+        for word, kind in kinds.items()
+    }
 
 
 def _summary(call: Any) -> str:
@@ -167,13 +177,12 @@ POSE: dict[str, dict[str, Any]] = {
     "slew": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH,
     "coordinates": {"type": "tables", "keys": COORDINATE},
 }  # fmt: skip
-OIL = tuple(
-    replace(key, required=False)
-    for key in fields_of(
-        _core.HydraulicCylinder,
-        without=("name", "first", "second", "first_point", "second_point", "retracted_length", "stroke"),
-    )
-)
+RAM = _call(
+    "hydraulic_cylinder", hydraulics.add_hydraulic_cylinder, _core.HydraulicCylinder,
+    **_values(_core.HydraulicCylinder, VALUES),
+)  # fmt: skip
+PLACED = ("name", "first", "second", "first_point", "second_point", "retracted_length", "stroke")
+OIL = tuple(replace(key, required=False) for key in RAM.keys if key.name not in PLACED)
 HYDRAULICS = tuple(Key(name=label, type="table", keys=OIL) for label in CYLINDERS)
 CRANE = keys_of(
     add_crane,
@@ -330,9 +339,10 @@ _ALL = (
         keys=(*keys_of(luffing.add_luffing_rope), *keys_of(lines.add_winch, _core.Line, without=("line",))),
     ),
     _call(
-        "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
+        "gas_spring", heave.add_gas_spring, _core.GasSpring,
+        **_values(_core.GasSpring, heave.VALUES, force={"unit": "N"}, stiffness={"unit": "N/m"}),
     ),
-    _call("hydraulic_cylinder", hydraulics.add_hydraulic_cylinder, _core.HydraulicCylinder),
+    RAM,
     Table(
         name="hold_pressures", several=False, text=_summary(hydraulics.hold_pressures), keys=(),
         add=hydraulics.hold_pressures,
@@ -404,6 +414,7 @@ _ALL = (
     ),
     _call(
         "heave_compensation", heave.add_heave_compensation, _core.HeaveCompensator, direction=DIRECTION,
+        **_values(_core.HeaveCompensator, heave.VALUES),
     ),
     Table(name="stage", text=_summary(Stage), keys=STAGE),
     Table(

@@ -16,19 +16,54 @@ from seacrane.description.forces import add_load
 from seacrane.description.given import given_vessels
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
 from seacrane.description.loads import path_of, winches_of
-from seacrane.description.places import placed
+from seacrane.description.places import ORIGIN, apart, placed
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, text_of
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.values import flat, value
 
 NO_BOUND = 1e7  # m, m/s: a bound here or beyond is none
 UP = (0.0, 0.0, 1.0)
 LEAST_RATIO = 1e-3  # below it what follows does not move the load
-STOP_STIFFNESS = 1e8  # N/m
 Array = NDArray[np.float64]
 SHORT = 1e-12  # m
 SIX = ("x", "y", "z", "roll", "pitch", "yaw")
+GAS = (("pressure", "volume"), ("force", "stiffness"))
+
+
+@value(_core.HeaveCompensator, "actuator", "frequency", "damping")
+class Drive:
+    """What moves a heave compensator's stroke; without a frequency it follows at once."""
+
+    frequency: float = 0.0  # Hz
+    damping: float = 0.7
+    maximum_rate: float = NO_BOUND  # m/s
+    maximum_stroke: float = NO_BOUND  # m
+    settling: float = 0.2  # s
+
+
+@value(_core.GasSpring)
+class Gas:
+    """The gas of a gas spring at its length, by pressure and volume, or by force and stiffness there."""
+
+    pressure: float | None = None  # Pa
+    volume: float | None = None  # m3
+    force: float | None = None  # N
+    stiffness: float | None = None  # N/m
+    exponent: float = 1.4
+
+
+@value(_core.GasSpring, "stop", "stiffness")
+class Stops:
+    """Stops at the ends of a gas spring's stroke."""
+
+    minimum: float = 0.0  # m
+    maximum: float = NO_BOUND  # m
+    stiffness: float = 1e8  # N/m
+
+
+VALUES: dict[str, type[Any]] = {"drive": Drive, "gas": Gas, "stops": Stops}
 
 
 def add_heave_compensation(
@@ -36,7 +71,7 @@ def add_heave_compensation(
     name: str,
     *,
     body: str,
-    point: Any = (0.0, 0.0, 0.0),
+    point: Any = ORIGIN,
     winch: str | None = None,
     actuator: str | None = None,
     ratio: float | None = None,
@@ -45,11 +80,7 @@ def add_heave_compensation(
     high_pass: float = 0.03,
     lag: float = 0.0,
     lag_order: float = 1,
-    actuator_frequency: float = 0.0,
-    actuator_damping: float = 0.7,
-    maximum_rate: float = NO_BOUND,
-    maximum_stroke: float = NO_BOUND,
-    settling: float = 0.2,
+    drive: Drive | None = None,
 ) -> _core.HeaveCompensator:
     """Let a winch or an actuator take the motion of a point away: active heave compensation.
 
@@ -81,14 +112,8 @@ def add_heave_compensation(
         s, of the measured motion.
     lag_order : {1, 2}
         Of the lag: 1 / (1 + T p), or 1 / (1 + T p + T^2 p^2 / 3), nearer to a pure delay.
-    actuator_frequency : float
-        Hz, natural frequency of the drive, of second order; 0 (default): none.
-    actuator_damping : float
-        Of critical damping of the drive.
-    maximum_rate, maximum_stroke : float
-        m/s and m, bounds on the stroke in both directions; 1e7 (default): none.
-    settling : float
-        s, in which the stroke returns to the motion after a bound, and in which it brakes before its own.
+    drive : Drive, optional
+        What moves: its frequency and its bounds. Default: it follows at once, without bounds.
 
     Raises
     ------
@@ -96,19 +121,15 @@ def add_heave_compensation(
         For a winch or an actuator that is not there, or whose ratio cannot be computed; what else does not
         fit is said by `Scene.compile`.
     """
+    given = {key: one for key, one in locals().items() if key != "scene"}
     what = f"heave compensator {text_of('heave compensation: name', name)!r}"
     if winch is not None and actuator is not None:
         raise SceneError(
             f"{what}: moves winch {winch!r} and actuator {actuator!r}; give each its own compensator"
         )
-    compensator = _core.HeaveCompensator(
-        name=name, body=body, point=point, direction=direction,
-        winch=winch or "", actuator=actuator or "",
-        ratio=_ratio(scene, what, winch, actuator, direction) if ratio is None else ratio,
-        gain=gain, high_pass=high_pass, lag=lag, lag_order=lag_order,
-        actuator_frequency=actuator_frequency, actuator_damping=actuator_damping,
-        maximum_rate=maximum_rate, maximum_stroke=maximum_stroke, settling=settling,
-    )  # fmt: skip
+    if ratio is None:
+        given["ratio"] = _ratio(scene, what, winch, actuator, direction)
+    compensator = _core.HeaveCompensator(**flat(what, given, VALUES))
     added: _core.HeaveCompensator = add_load(scene, compensator)
     return added
 
@@ -147,20 +168,14 @@ def add_gas_spring(
     first: str,
     second: str,
     area: float,
-    first_point: Any = (0.0, 0.0, 0.0),
-    second_point: Any = (0.0, 0.0, 0.0),
-    pressure: float | None = None,
-    volume: float | None = None,
-    force: float | None = None,
-    stiffness: float | None = None,
+    gas: Gas,
+    first_point: Any = ORIGIN,
+    second_point: Any = ORIGIN,
     length: float | None = None,
-    exponent: float = 1.4,
     pushes: bool = False,
     damping: float = 0.0,
     quadratic_damping: float = 0.0,
-    minimum: float = 0.0,
-    maximum: float = NO_BOUND,
-    stop_stiffness: float | None = None,
+    stops: Stops | None = None,
 ) -> _core.GasSpring:
     """Join two points by a cylinder on a gas accumulator: passive heave compensation.
 
@@ -174,26 +189,20 @@ def add_gas_spring(
         Bodies; "ground" is one too.
     area : float
         Of the piston, m2.
+    gas : Gas
+        Its pressure and volume at the length, or the force and the stiffness that it has there.
     first_point, second_point : array_like, shape (3,)
         m, in coordinates of the bodies.
-    pressure, volume : float, optional
-        Of the gas at the length, Pa and m3.
-    force, stiffness : float, optional
-        In their place: the force (N) and the stiffness (N/m) at the length.
     length : float, optional
-        m; default: the distance of the points as described.
-    exponent : float
-        1 for slow motion, 1.4 for nitrogen that keeps its heat, up to 1.67.
+        m, at which the gas is told; default: the distance of the points as described.
     pushes : bool
         Whether it pushes: shortening compresses the gas.
     damping : float
         N s/m, of the oil.
     quadratic_damping : float
         N s2/m2, likewise.
-    minimum, maximum : float
-        m, lengths of the end stops; 0 and 1e7 (default): none.
-    stop_stiffness : float, optional
-        N/m; default: 1e8 where there is a stop.
+    stops : Stops, optional
+        Lengths at which it is stopped. Default: none.
 
     Raises
     ------
@@ -201,48 +210,29 @@ def add_gas_spring(
         For pressure and volume beside force and stiffness, or one without the other; what else does not fit
         is said by `Scene.compile`.
     """
+    given = {key: one for key, one in locals().items() if key != "scene"}
     what = f"gas spring {text_of('gas spring: name', name)!r}"
-    gas = _gas(what, area, exponent, {"pressure": pressure, "volume": volume},
-               {"force": force, "stiffness": stiffness})  # fmt: skip
-    stops = minimum > 0.0 or maximum < NO_BOUND
-    if stop_stiffness is None:
-        stop_stiffness = STOP_STIFFNESS if stops else 0.0
+    entries = _of_gas(what, flat(what, given, VALUES))
     if length is None:
-        length = _distance(scene, what, (first, first_point), (second, second_point))
-    spring = _core.GasSpring(
-        name=name, first=first, second=second, first_point=first_point, second_point=second_point,
-        area=area, pressure=gas[0], volume=gas[1], length=length, exponent=exponent, pushes=pushes,
-        damping=damping, quadratic_damping=quadratic_damping, minimum=minimum, maximum=maximum,
-        stop_stiffness=stop_stiffness,
-    )  # fmt: skip
-    added: _core.GasSpring = add_load(scene, spring)
+        entries["length"] = apart(scene, what, (first, first_point), (second, second_point))
+    added: _core.GasSpring = add_load(scene, _core.GasSpring(**entries))
     return added
 
 
-def _gas(
-    what: str, area: Any, exponent: Any, state: dict[str, Any], mechanics: dict[str, Any]
-) -> tuple[float, float]:
-    """Pressure and volume, from themselves or from force and stiffness."""
-    given = [{key: value for key, value in pair.items() if value is not None} for pair in (state, mechanics)]
+def _of_gas(what: str, entries: dict[str, Any]) -> dict[str, Any]:
+    """The entries with pressure and volume, which are there or follow from force and stiffness."""
+    given = [{key: entries.pop(key) for key in pair if key in entries} for pair in GAS]
     if sorted(map(len, given)) != [0, 2]:
-        has = ", ".join(f"{key}={value}" for pair in given for key, value in pair.items()) or "none"
+        has = ", ".join(f"{key}={one}" for pair in given for key, one in pair.items()) or "none"
         raise SceneError(
             f"{what}: give pressure and volume, or force and stiffness, both of one pair; it has {has}"
         )
-    values = {key: positive_of(f"{what}: {key}", value) for pair in given for key, value in pair.items()}
-    if "pressure" in values:
-        return values["pressure"], values["volume"]
-    piston, kappa = positive_of(f"{what}: area", area, "m2"), number_of(f"{what}: exponent", exponent)
-    return values["force"] / piston, kappa * values["force"] * piston / values["stiffness"]
-
-
-def _distance(scene: Description, what: str, *ends: tuple[str, Any]) -> float:
-    places = []
-    for name, point in ends:
-        if name != "ground" and name not in scene.bodies:
-            raise SceneError(f"{what}: there is no body {name!r}; add it first")
-        places.append(placed(scene, name, point))
-    return float(np.linalg.norm(places[1] - places[0]))
+    told = {key: positive_of(f"{what}: {key}", one) for pair in given for key, one in pair.items()}
+    if "force" in told:
+        area = positive_of(f"{what}: area", entries["area"], "m2")
+        kappa, force = number_of(f"{what}: exponent", entries["exponent"]), told["force"]
+        told = {"pressure": force / area, "volume": kappa * force * area / told["stiffness"]}
+    return entries | told
 
 
 def _unit(direction: Any) -> Array:

@@ -8,9 +8,13 @@ from bits.case import by, case
 from bits.scenes.parts import G, ramp, waving
 from seacrane import Payload, Scene, cases, shipped_database
 from seacrane.crane import load_crane
+from seacrane.scene import Piston, Pump, Rupture, Valve
 
 OUT = -np.pi / 2.0
-OIL = {"pump_pressure": 32e6, "rated_flow": 0.03, "rated_drop": 1e6, "viscous_friction": 2e6}
+OIL = {
+    "pump": Pump(pressure=32e6), "valve": Valve(rated_flow=0.03, rated_drop=1e6),
+    "piston": Piston(viscous_friction=2e6),
+}  # fmt: skip
 
 for name, second in (
     ("case1", by("rk4", "redundant", dt=0.02)),
@@ -60,7 +64,10 @@ def luffing_rope() -> Scene:
 @case(by("dopri5-stiff", rtol=1e-5), by("rosenbrock", rtol=1e-4), t_end=2.0, start="rest")
 def on_oil_in_waves() -> Scene:
     """Cylinders of oil that hold a load over the side; a hose bursts."""
-    burst = {"rupture_time": 1.0, "rupture_area": 3e-4, "discharge_coefficient": 0.6, "makeup_flow": 0.05}
+    burst = {
+        "rupture": Rupture(time=1.0, area=3e-4, discharge_coefficient=0.6),
+        "pump": Pump(pressure=32e6, makeup_flow=0.05),
+    }
     scene = Scene(name="oil", gravity=G)
     scene.add_vessel(shipped_database(), memory="none")
     scene.add_crane(slew=OUT, s1=2.0, s2=2.5, hydraulics={"main": OIL | burst, "knuckle": OIL})

@@ -9,13 +9,17 @@ import numpy as np
 from bits.case import by, case
 from bits.scenes.parts import HULL_IN_FLOW, G, guided, heaving, ramp, thrown, with_load
 from seacrane import Curve, Scene
+from seacrane import scene as of
 from seacrane.scene import gust_curve
 
 ADAMS, BDF, IDA = by("cvode-adams", "redundant"), by("cvode-bdf", "redundant"), by("ida", "redundant")
 POINTERS = [ctypes.POINTER(ctypes.c_double)] * 3
 FOUR_LITRES_OF_OIL = {
-    "full_area": 5e-3, "rod_side_area": 4e-3, "retracted_length": 1.05, "stroke": 0.6, "hose_volume": 3e-5,
-    "hose_volume_rod": 8e-5, "pump_pressure": 7.6e6, "rated_flow": 4e-4, "viscous_friction": 1e5,
+    "full_area": 5e-3, "rod_side_area": 4e-3, "retracted_length": 1.05, "stroke": 0.6,
+    "chamber": of.Chamber(hose_volume=3e-5), "rod_chamber": of.Chamber(hose_volume=8e-5),
+    "pump": of.Pump(pressure=7.6e6), "valve": of.Valve(rated_flow=4e-4, overlap=0.02),
+    "piston": of.Piston(viscous_friction=1e5, internal_leakage=1e-13),
+    "counterbalance": of.Counterbalance(pressure=4e6, flow=2e-4),
 }  # fmt: skip
 
 
@@ -102,8 +106,8 @@ def soft_stop() -> Scene:
 def gas_spring() -> Scene:
     scene = guided(axis=(0, 0, 1), position=(0, 0, -4.2))
     scene.add_gas_spring(
-        name="phc", first="ground", second="load", area=0.01, force=2e4, stiffness=6e3, length=4.0,
-        exponent=1.3, damping=500.0, minimum=1.0, maximum=7.0,
+        name="phc", first="ground", second="load", area=0.01, length=4.0, damping=500.0,
+        gas=of.Gas(force=2e4, stiffness=6e3, exponent=1.3), stops=of.Stops(minimum=1.0, maximum=7.0),
     )  # fmt: skip
     return scene
 
@@ -122,14 +126,8 @@ def hydraulic_cylinder() -> Scene:
     up = ramp(0.6, begin=0.1, last=0.3)
     spool = up.then(time=0.8, curve=Curve.quintic(start_time=0.8, end_time=0.9, start=0.6, end=0.0))
     scene = guided(axis=(0, 0, 1), position=(0.0, 0.0, 1.35), mass=1e3)
-    valves = {
-        "internal_leakage": 1e-13,
-        "overlap": 0.02,
-        "counterbalance_pressure": 4e6,
-        "counterbalance_flow": 2e-4,
-    }
     ends = {"first": "ground", "second": "load"}
-    scene.add_hydraulic_cylinder(name="ram", **ends, **FOUR_LITRES_OF_OIL, **valves, command=spool)
+    scene.add_hydraulic_cylinder(name="ram", **ends, **FOUR_LITRES_OF_OIL, command=spool)
     return scene
 
 
@@ -142,6 +140,7 @@ def heave_compensator() -> Scene:
     path = {"bodies": ["ship", "load"], "points": [(0, 0, 20.0), (0, 0, 0)]}
     scene.add_line(name="hoist", **path, EA=5e7, length=15.0, damping_ratio=0.05)
     scene.add_winch(line="hoist", lag=0.1)
-    steered = {"high_pass": 0.03, "lag": 0.2, "lag_order": 2, "actuator_frequency": 1.5, "maximum_rate": 0.3}
+    steered = {"high_pass": 0.03, "lag": 0.2, "lag_order": 2}
+    steered["drive"] = of.Drive(frequency=1.5, maximum_rate=0.3)
     scene.add_heave_compensation(name="ahc", body="ship", point=(0, 0, 20.0), winch="hoist", **steered)
     return scene

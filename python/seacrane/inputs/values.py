@@ -1,0 +1,59 @@
+"""Values that stand for several entries of an element of the core, which checks their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from inspect import cleandoc
+from typing import Any, TypeVar, dataclass_transform
+
+from seacrane.errors import SceneError
+from seacrane.inputs.keywords import named
+from seacrane.inputs.shown import shown
+
+T = TypeVar("T")
+_ENTRIES: dict[type, Mapping[str, str]] = {}
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True)
+def value(element: Any, prefix: str = "", *keys: str, **entries: str) -> Callable[[type[T]], type[T]]:
+    """A class as a frozen value of keywords; its docstring lists them, with the units and words of FIELDS.
+
+    Parameters
+    ----------
+    element : Of the core.
+    prefix, *keys : Begins the names that the element has for these fields; for all without keys.
+    **entries : Other names of the element, by field.
+    """
+
+    def made(kind: type[T]) -> type[T]:
+        named(dataclass(frozen=True, kw_only=True)(kind))
+        own = [one.name for one in fields(kind)]  # type: ignore[arg-type]
+        begun = {key: f"{prefix}_{key}" for key in (keys or own) if prefix}
+        _ENTRIES[kind] = {key: key for key in own} | begun | entries
+        told = {field.name: f"{field.unit or 1}\n    {field.text}" for field in element.FIELDS}
+        rows = [f"{key} : {told[name]}" for key, name in _ENTRIES[kind].items() if name in told]
+        kind.__doc__ = "\n".join((cleandoc(kind.__doc__ or ""), "", "Attributes", "----------", *rows))
+        return kind
+
+    return made
+
+
+def entries_of(word: str, kind: type) -> dict[str, str]:
+    """Entries of the element by the fields of a value, for a keyword; those of a rod side end so."""
+    end = "_rod" if word.startswith("rod_") else ""
+    return {key: entry + end for key, entry in _ENTRIES[kind].items()}
+
+
+def flat(what: str, given: Mapping[str, Any], kinds: Mapping[str, type]) -> dict[str, Any]:
+    """Keywords as entries, without those that are None. SceneError for what is no value of its kind."""
+    found = {}
+    for word, one in given.items():
+        kind = kinds.get(word)
+        if kind is None or one is None:
+            found[word] = one
+        elif isinstance(one, kind):
+            found |= {entry: getattr(one, key) for key, entry in entries_of(word, kind).items()}
+        else:
+            raise SceneError(f"{what}: {word} is {shown(one)}; give {word}={kind.__name__}(...)")
+    return {entry: one for entry, one in found.items() if one is not None}
