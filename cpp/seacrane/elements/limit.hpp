@@ -21,7 +21,7 @@ struct LimitDescription {
 
   static constexpr const char* type = "Limit";
   static constexpr const char* text =
-      "What a joint does one way only; see Scene.add_line, add_end_stop and add_seat.";
+      "What a joint does one way only; see Scene.add_line and add_stop.";
   static constexpr auto fields() {
     using D = LimitDescription;
     return std::tuple_cat(

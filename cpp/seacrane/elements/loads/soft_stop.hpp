@@ -18,7 +18,7 @@ struct SoftStopDescription {
   static constexpr const char* text =
       "Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by "
       "p, "
-      "never a pull; see Scene.add_soft_stop.";
+      "never a pull; see Scene.add_stop.";
   static constexpr auto fields() {
     using D = SoftStopDescription;
     return std::tuple_cat(
