@@ -1452,7 +1452,7 @@ class Friction:
         """
 class SoftStop:
     """
-    Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_soft_stop. Immutable.
+    Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_stop. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
     OWN_PACE: typing.ClassVar[bool] = True
