@@ -20,8 +20,7 @@ struct LimitDescription {
   double sticking_speed = 1e-3;  // m/s or rad/s: approaches below it don't rebound
 
   static constexpr const char* type = "Limit";
-  static constexpr const char* text =
-      "What a joint does one way only; see Scene.add_line and add_stop.";
+  static constexpr const char* text = "What a joint does one way only; see Scene.add_line and add_stop.";
   static constexpr auto fields() {
     using D = LimitDescription;
     return std::tuple_cat(
