@@ -114,6 +114,20 @@ def test_on_feet_it_is_what_is_built_by_hand() -> None:
     assert runs[0]["contact_press"][-1].sum() == pytest.approx(BOX["mass"] * G, rel=0.05)
 
 
+def test_a_ship_beside_a_load_on_rough_feet_is_ballasted() -> None:
+    """A load that only touches its deck does not press on it yet: the search for rest sets it down."""
+    weights = []
+    for feet in ({"friction": 0.4}, True):
+        scene = Scene()
+        scene.add_vessel(shipped_database())
+        scene.add_crane(slew=-np.pi / 2, s1=1.0, s2=2.0)
+        x, y, _ = scene.place_of("tip")
+        scene.add_vessel(motion="rest", name="barge", position=(x, y, 0.0))
+        scene.add_hoist(**BOX, EA=6e7, on="barge", height=3.0, slack=1.5, feet=feet)
+        weights.append(scene.add_ballast(vessel="vessel").weight)
+    assert weights[0] == pytest.approx(weights[1], rel=1e-6)
+
+
 def test_slack_is_what_the_winch_takes_in_before_the_line_pulls() -> None:
     """By hand: slack and stretch of all falls at a rate that takes a ramp of 1 s to be reached."""
     scene, falls = Scene(), 4

@@ -25,7 +25,7 @@ def test_calls_are_replaced_where_they_stand() -> None:
         'a = "\u00e9"; s.add_sea(vessel=v, drift=True)  # kept', 'f(s.add_sea(cutoff=w, phase="slow"))',
         "s.add_vessel(motion=x, ramp=0)", "fit_memory(database=d, kind='by-motion')",
     ]  # fmt: skip
-    assert [note.partition(":")[0] for note in notes] == [f"line {i}" for i in (1, 2, 4, 6, 5)]
+    assert [note.partition(":")[0] for note in notes] == [f"line {i}" for i in (1, 2, 4, 5, 6)]
 
 
 def test_keywords_become_fields_of_values() -> None:

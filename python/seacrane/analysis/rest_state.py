@@ -36,6 +36,7 @@ CREEP = 1e-8  # likewise, in which a minute is 0.02 mm; and 1/s, of the states o
 DIGITS = 1e-15  # of the largest position
 ROUGHEST = 1e3  # times that, where a step has not brought the scene nearer to rest
 SMALLEST_MOVE = 1e-8  # m and rad, likewise where what acts is the rounding of a stiff line
+SET_DOWN = 1e-3  # m
 LARGEST_MOVE = 0.5  # m and rad in one step
 LEAST_LED = 0.01  # m: by less, what hangs is moved by Newton's method alone
 MOST_STEPS = 100
@@ -215,7 +216,10 @@ def _searched(scene: Description, model: _core.Model, time: float, values: Array
     level = leveled(scene, model, time=time)
     found = _search(model, time, values, led, level)
     if found.state is None or found.tips:
-        near = relaxed(model, time, values, capsized=partial(most_turned, scene, model), level=level)
+        damped = partial(relaxed, model, time, capsized=partial(most_turned, scene, model), level=level)
+        near = damped(values)
+        if near is None and (standing := _set_down(scene, model, values)) is not None:
+            near = damped(standing)
         other = found if near is None else _search(model, time, near, led, level)
         if found.state is None or (other.state is not None and not other.tips):
             found = other
@@ -223,6 +227,16 @@ def _searched(scene: Description, model: _core.Model, time: float, values: Array
         why = why_none(scene, model, time, found.values)
         raise SceneError(f"scene {model.name!r}: no rest state found; {why}")
     return found.state
+
+
+def _set_down(scene: Description, model: _core.Model, values: Array) -> Array | None:
+    """Bodies with points on surfaces, a little lower: what only touches does not press yet, nor stick."""
+    bodies = list(model.bodies)
+    standing = {load.body for load in scene.loads.values() if isinstance(load, _core.Contact)}
+    out = values.copy()
+    for body in standing.intersection(bodies):
+        out[model.pose_index(bodies.index(body)) + 2] -= SET_DOWN
+    return out if standing else None
 
 
 @dataclass(frozen=True, kw_only=True)
