@@ -23,7 +23,7 @@ from seacrane.result.about import About
 def read_csv(path: Path) -> tuple[list[str], np.ndarray]:
     with path.open(newline="", encoding="utf-8") as file:
         names, *rows = csv.reader(file)
-    return names, np.array(rows, float)
+    return names, np.array([[float(cell or "nan") for cell in row] for row in rows])
 
 
 @pytest.fixture(scope="module")

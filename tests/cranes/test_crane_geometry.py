@@ -84,6 +84,13 @@ def test_directions_of_motion() -> None:
     assert CRANE.tip(s2=1.0)[0] < stowed[0] and CRANE.tip(s2=5.0)[2] > CRANE.tip(s2=4.0)[2]
 
 
+def test_a_coordinate_that_is_not_given_stays_where_it_is_drawn() -> None:
+    crane = load_crane()
+    for s in np.linspace(0.0, 5.0, 6):
+        np.testing.assert_allclose(crane.tip(s2=s), crane.tip(s1=0.0, s2=s), atol=1e-12)
+        np.testing.assert_allclose(crane.tip(s1=s), crane.tip(s1=s, s2=0.0), atol=1e-12)
+
+
 def test_poses_out_of_reach_name_the_item() -> None:
     for name, value in (("s1", -0.1), ("s2", 5.5)):
         with pytest.raises(SceneError, match=f"{name} is {value:g} m, outside its range of 0 to 5"):

@@ -121,17 +121,19 @@ def twists(joint: JointData, moved: Mapping[str, Placed]) -> list[Twist]:
 
 
 def gap_rates(data: CraneData, joints: Iterable[JointData], moved: Mapping[str, Placed]) -> Array:
-    """Rates of the gaps of all closing joints (rows) with the coordinates of joints of the tree."""
+    """Rates of the gaps of all closing joints (rows) with the coordinates of joints of the tree.
+
+    A joint that carries both sides of a gap turns it as a whole: that closes nothing, and counts as none.
+    """
     columns = []
     for joint in joints:
         beyond = data.beyond(joint.name)
         for twist in twists(joint, moved):
-            rows = [
-                _gap_rate(
-                    one, moved, *(twist if body in beyond else STILL for body in (one.first, one.second))
-                )
-                for one in data.closing_joints
-            ]
+            rows = []
+            for one in data.closing_joints:
+                sides = [body in beyond for body in (one.first, one.second)]
+                before, after = (twist if own and not all(sides) else STILL for own in sides)
+                rows.append(_gap_rate(one, moved, before, after))
             columns.append(np.concatenate(rows))
     return np.array(columns).T
 
