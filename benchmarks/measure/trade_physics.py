@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-import tempfile
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -38,16 +35,13 @@ COLUMNS = {
 
 def physics() -> Iterator[list[str]]:
     """A row for each scene with less physics."""
-    with tempfile.TemporaryDirectory() as folder:
-        measured = trade(cases.case2(), budget=BUDGET, out=folder, progress=False)
-        measured.plot(over="cpu_s").savefig(FIGURE, dpi=110)
-        with (Path(folder) / "trade.csv").open(newline="", encoding="utf-8") as file:
-            rows = {(row["memory"], row["waves"], row["rung"]): row for row in csv.DictReader(file)}
+    measured = trade(cases.case2(), budget=BUDGET, progress=False)
+    measured.plot(over="cpu_s").savefig(FIGURE, dpi=110)
+    rows = {tuple(row.case.values()): row for row in measured.rows}
     for key, row in rows.items():
         if key != FULL:
-            errors = (row[f"error_{quantity}"] for quantity, _ in COLUMNS.values())
-            scales = (scale for _, scale in COLUMNS.values())
-            yield [_words(*key), *(_told(*one) for one in zip(errors, scales, strict=True))]
+            errors = ((row.error(quantity), scale) for quantity, scale in COLUMNS.values())
+            yield [_words(*key), *(_told(*one) for one in errors)]
     yield from _memories()
 
 
@@ -63,11 +57,11 @@ def _memories() -> Iterator[list[str]]:
             compare(quantities[q].values(truth), quantities[q].values(found)) for q, _ in COLUMNS.values()
         )
         scaled = zip(apart, COLUMNS.values(), strict=True)
-        yield [f"memory {kind}", *(_told(str(one.largest), scale) for one, (_, scale) in scaled)]
+        yield [f"memory {kind}", *(_told(one.largest, scale) for one, (_, scale) in scaled)]
 
 
-def _told(error: str, scale: float) -> str:
-    return significant(float(error) * scale, 2) if error and error != "nan" else ""
+def _told(error: float, scale: float) -> str:
+    return "" if np.isnan(error) else significant(error * scale, 2)
 
 
 def _words(memory: str, waves: str, rung: str) -> str:
