@@ -6,14 +6,12 @@ A document marks a table by the file that it shows, relative to the repository:
     <!-- end of table -->
 
 Without `columns` and `rows` it shows all of them. Cells are shown as the file holds them, and below them
-what measured them. A mark `warnings` with a class of `seacrane.warnings` gets the docstrings of those
-below it, and `sources measured` where the measured sets are from.
+what measured them. A mark `sources measured` gets where the measured sets are from.
 """
 
 from __future__ import annotations
 
 import argparse
-import inspect
 import re
 import sys
 from pathlib import Path
@@ -21,14 +19,12 @@ from pathlib import Path
 from measure.sources import words
 from measure.table import markdown, read
 
-import seacrane
-
 ROOT = Path(__file__).resolve().parents[1]
 PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "notebooks/*.md")
 PLACES += ("examples/*/*.md", "studies/*/*.md", "tests/*/*.md")  # beside what they describe
 DOCUMENTS = [path for place in PLACES for path in sorted(ROOT.glob(place))]
 BLOCK = re.compile(
-    r"^<!-- (?P<word>table|warnings|sources) (?P<file>[^;\s]+)(?P<options>(;[^>]*?)?) -->\n"
+    r"^<!-- (?P<word>table|sources) (?P<file>[^;\s]+)(?P<options>(;[^>]*?)?) -->\n"
     r".*?<!-- end of (?P=word) -->",
     re.DOTALL | re.MULTILINE,
 )
@@ -36,7 +32,7 @@ BLOCK = re.compile(
 
 def filled(text: str) -> str:
     """The document with every marked table as its file has it."""
-    makers = {"table": _table, "warnings": _entries, "sources": _sources}
+    makers = {"table": _table, "sources": _sources}
     return BLOCK.sub(lambda match: makers[match["word"]](match), text)
 
 
@@ -55,19 +51,6 @@ def _table(match: re.Match[str]) -> str:
     table = markdown([head[k] for k in shown], [[row[k] for k in shown] for row in rows])
     told = f"<p><sub>{words(ROOT / match['file'])}</sub></p>"
     return f"<!-- table {match['file']}{match['options']} -->\n{table}\n{told}<!-- end of table -->"
-
-
-def _entries(match: re.Match[str]) -> str:
-    """The docstrings of a class of warnings: when each comes, and what it means and what to do."""
-    section = getattr(seacrane.warnings, match["file"])
-    rows = []
-    for entry in section.__subclasses__():
-        told = inspect.getdoc(entry).replace("``", "`").replace("|", r"\|").split("\n\n")
-        when, then = (" ".join(part.split()) for part in (told[0], " ".join(told[1:])))
-        rows.append([f"`{entry.__name__}`", when, then])
-    about = " ".join(inspect.getdoc(section).split())
-    table = markdown(["warning", "when", "what it means, what to do"], rows)
-    return f"<!-- warnings {match['file']} -->\n{about}\n\n{table}\n<!-- end of warnings -->"
 
 
 def _sources(match: re.Match[str]) -> str:

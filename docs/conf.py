@@ -40,6 +40,7 @@ include_patterns = [
     "studies/**.md",
     "tests/reference_problems/README.md",
     "notebooks/*.md",
+    "python/seacrane/data/warnings.md",
 ]
 exclude_patterns = [".*", "build", "out", "dist", "**/node_modules"]
 

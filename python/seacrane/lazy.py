@@ -88,5 +88,6 @@ def _offered(place: Path) -> Collection[str]:
     """Names of a public module, read from its file: a stub, or the module itself where it is one file."""
     if place.is_dir():
         return _homes(str(place / "__init__.pyi"))
-    text = place.with_suffix(".py").read_text(encoding="utf-8")
+    stub = place.with_suffix(".pyi")
+    text = (stub if stub.exists() else place.with_suffix(".py")).read_text(encoding="utf-8")
     return re.findall(r"^(?:class|def) (\w+)", text, re.MULTILINE)

@@ -14,7 +14,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PLACES = ("*.md", "docs/*.md", "benchmarks/**/*.md", "notebooks/*.md")
-PLACES += ("examples/*/*.md", "studies/*/*.md", "tests/*/*.md")  # beside what they describe
+PLACES += ("examples/*/*.md", "studies/*/*.md", "tests/*/*.md", "python/**/*.md")  # beside what they describe
 DOCUMENTS = [path for place in PLACES for path in sorted(ROOT.glob(place))]
 NAMES = [str(path.relative_to(ROOT)) for path in DOCUMENTS]
 FENCED = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
