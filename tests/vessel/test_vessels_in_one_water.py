@@ -27,7 +27,7 @@ from seacrane.hydro.data.memory_model import MemoryBlock
 from seacrane.hydro.group.parts import joined_memory
 from seacrane.hydro.memory.independent_states import independent_blocks
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.validity.relative_place import gap_between, relative_findings
+from seacrane.validity.hull_range import gap_between, relative_findings
 from seacrane.warnings import RelativePlaceWarning
 
 Array = NDArray[np.float64]
@@ -229,7 +229,7 @@ def test_leaving_the_place_beside_each_other_is_named() -> None:
     together[:, :, 1] = 20.0  # both drift alike
     swing[:, 1, 1] = 0.3 * gap * np.sin(2.0 * np.pi * time / 10.0)  # with the waves, not on the average
     for moved in (together, swing):
-        assert relative_findings(scene, time, {"vessel_motion": moved}) == []
+        assert not list(relative_findings(scene, time, {"vessel_motion": moved}))
     for motion_of, size, told in ((1, 0.11 * gap, "a tenth of the gap"), (5, np.radians(2.1), "2.1 deg")):
         away = swing.copy()
         away[:, 1, motion_of] += size

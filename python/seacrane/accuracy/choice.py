@@ -24,8 +24,7 @@ from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.caller import warn_caller
 from seacrane.run.method import Method
 from seacrane.run.shorthand import settled
-from seacrane.validity.after_run import Finding, tried
-from seacrane.validity.left_range import warn_of
+from seacrane.validity.after_run import Finding, tried, warn_of
 from seacrane.warnings import AnotherCourseWarning
 
 if TYPE_CHECKING:

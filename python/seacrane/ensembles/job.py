@@ -31,8 +31,7 @@ from seacrane.run.run import Run
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import require_finite
-from seacrane.validity.left_range import Finding
+from seacrane.validity.after_run import Finding, require_finite
 from seacrane.version import __version__
 
 TOGETHER = 4  # members of a pack whose runs are in memory at a time

@@ -1,4 +1,4 @@
-"""required(): each choice of modelling left out or made simpler, one at a time."""
+"""required(): each choice of modelling left out or made simpler, one at a time; a new one is in its lists."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from seacrane._core import State
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
+from seacrane.needs import in_air, in_water
 from seacrane.needs.answer import FAILED, Loss, Requirements
 from seacrane.needs.bench import Bench, Told, asked, asked_of, reason
 from seacrane.needs.choice import Choice
-from seacrane.needs.registry import choices_of, missing_from
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
@@ -31,6 +31,46 @@ TIGHTER = 1e-2  # times the tolerance, of the run that tells how well the number
 SHORTER = 0.5  # times the step, likewise
 TWICE = 2.0  # both of two runs err
 SAVES = 0.03  # share of the cost that is worth a choice
+
+Tried = Callable[[Scene], Iterator[Choice]]
+SIMPLER: tuple[Tried, ...] = (
+    in_air.stiff_slings,
+    in_air.quasi_static,
+    in_air.rigid,
+    in_air.fewer_segments,
+    in_water.fewer_waves,
+    in_water.coarse_table,
+    in_water.less_memory,
+    in_water.no_coupling,
+    in_water.no_drift,
+    in_air.no_air_drag,
+    in_air.no_wind,
+    in_air.no_pendulum_damping,
+    in_water.no_strips,
+    in_water.no_waves_on_parts,
+    in_air.held_oil,
+    in_air.held_crane,
+    in_air.welded_contact,
+    in_air.no_contact,
+)
+MISSING: tuple[Tried, ...] = (
+    in_water.more_memory,
+    in_water.more_drift,
+    in_air.elastic,
+    in_air.more_pendulum_damping,
+    in_water.waves_on_parts,
+    in_water.scatter,
+)
+
+
+def choices_of(scene: Scene) -> list[Choice]:
+    """What may be made simpler in a scene."""
+    return [choice for tried in SIMPLER for choice in tried(scene)]
+
+
+def missing_from(scene: Scene) -> list[Choice]:
+    """What a scene leaves out, or knows badly."""
+    return [choice for tried in MISSING for choice in tried(scene)]
 
 
 @named

@@ -19,8 +19,7 @@ from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController
 from seacrane.run.stiffness import stiffness
 from seacrane.run.unsteady_oil import unsteady_oil
-from seacrane.validity.after_run import tried
-from seacrane.validity.left_range import Finding, warn_of
+from seacrane.validity.after_run import Finding, tried, warn_of
 
 if TYPE_CHECKING:
     from seacrane.run.run import Run

@@ -11,7 +11,7 @@ from seacrane import _core
 from seacrane.analysis.linearise import LARGEST
 from seacrane.run.modes import Modes, Oscillations
 from seacrane.run.stiffness import fewest_steps
-from seacrane.validity.left_range import Finding
+from seacrane.validity.after_run import Finding
 from seacrane.warnings import GrowingModeWarning
 
 HOUR = 3600.0  # s

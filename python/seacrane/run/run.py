@@ -70,9 +70,9 @@ from seacrane.run.stats import (
 )
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
+from seacrane.validity.after_run import NOT_FINITE, Finding, as_text, not_finite, tried
 from seacrane.validity.implausible import warn_of_description
-from seacrane.validity.left_range import Finding, as_text, findings
+from seacrane.validity.left_range import findings
 from seacrane.validity.line_checks import bound_findings
 from seacrane.warnings import LineRungWarning
 

@@ -42,9 +42,9 @@ from seacrane.run.start import REST, Start, start_state
 from seacrane.run.unreachable import check_lengths, check_limits
 from seacrane.run.until import Level, names_along
 from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import Finding, as_text, warn_of
 from seacrane.validity.contact_starts import check_contact_connected
 from seacrane.validity.implausible import warn_of_description
-from seacrane.validity.left_range import Finding, as_text, warn_of
 from seacrane.validity.line_checks import warn_of_connected
 
 if TYPE_CHECKING:

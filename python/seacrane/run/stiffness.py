@@ -9,7 +9,7 @@ from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import LARGEST
 from seacrane.description.loads import any_stiff, lines_of, whole_of
 from seacrane.run.modes import Modes
-from seacrane.validity.left_range import Finding
+from seacrane.validity.after_run import Finding
 from seacrane.warnings import StiffWarning
 
 MANY_STEPS = 10_000  # fewer are no matter

@@ -29,7 +29,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController
 from seacrane.run.start import REST
-from seacrane.validity.left_range import Finding, as_text, warn_of
+from seacrane.validity.after_run import Finding, as_text, warn_of
 
 if TYPE_CHECKING:
     from seacrane.scene.scene import Scene

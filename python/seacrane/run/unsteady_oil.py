@@ -12,7 +12,7 @@ from seacrane.analysis.linearise import LARGEST, jacobian
 from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.one_thread import one_thread
-from seacrane.validity.left_range import Finding
+from seacrane.validity.after_run import Finding
 from seacrane.warnings import UnsteadyOilWarning
 
 Array = NDArray[np.float64]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
 from seacrane.errors import SimulationError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.finite import is_finite
 from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
@@ -25,6 +26,17 @@ class Counted(Protocol):
 
 Judged = TypeVar("Judged", bound=Counted)
 NOT_FINITE = "not_finite"  # stat of a result: such channels
+
+
+def as_text(found: Iterable[Finding]) -> str:
+    """One message a line."""
+    return "\n".join(message for _, message in found)
+
+
+def warn_of(found: Iterable[Finding]) -> None:
+    """Warn of findings, at the user's line."""
+    for category, message in found:
+        warn_caller(message, category)
 
 
 def tried(what: str, work: Callable[[], Some], otherwise: Some, found: list[Finding]) -> Some:

@@ -1,44 +1,52 @@
-"""Where hulls left what their wave loads and moorings hold for: each a warning, once, after the run."""
+"""Where hulls left what their wave loads, moorings and groups hold for: each a warning, after the run."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.description.given import given_vessels
 from seacrane.description.once import once
+from seacrane.hydro import HydroDatabase
 from seacrane.inputs.frames import heading_of, rotation_about_z
+from seacrane.validity.after_run import Finding
 from seacrane.warnings import (
+    CurrentInWavesWarning,
     ForwardSpeedWarning,
     MeanHeadingWarning,
     MeanPositionWarning,
     MooringTurnWarning,
     NoWaveLoadsWarning,
+    RelativePlaceWarning,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from seacrane import _core
     from seacrane.description.description import Description
     from seacrane.description.waves import HullLoads, Waves
 
 Array = NDArray[np.float64]
-Finding = tuple[type[Warning], str]
 
-LARGEST_PHASE = (
-    0.3  # rad, of the slow drift over the wavelength of the peak: 30 % of the load is out of phase
-)
+LARGEST_PHASE = 0.3  # rad of waves at the peak, of the slow drift: 30 % of the load is out of phase
 LARGEST_TURN = np.radians(10.0)
 LARGEST_SHIFT = 0.1  # of the encounter frequency from the wave's, as a share
 SLOW = 2.0  # peak periods: what two running means over so many leave of a motion is slow
 TINY = float(np.finfo(float).tiny)
 BINS = 32  # of the band, in which the peak is looked for
+LIGHTEST_WATER = 500.0  # kg/m3: a denser medium is water
+LARGEST_GAP_SHARE = 0.1  # that vessels of a group may leave their place beside each other by
+LARGEST_RELATIVE_TURN = np.radians(2.0)
+WAY_OUT = (
+    "take them where the vessel slowly goes by phase='slow' in add_sea, where it is on the average by "
+    "position and heading_deg there, or moor it stiffer"
+)
+CORNERS = 0.5 * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])  # of a rectangle, over length and breadth
 
 
 def motions(
@@ -51,28 +59,33 @@ def motions(
             yield vessel, recorded if recorded.ndim == 2 else recorded[:, i]
 
 
-def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
+def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> Iterator[Finding]:
     """What is out of range of wave loads and moorings, vessel by vessel."""
-    found: list[Finding] = []
-    waves = scene.waves
-    peak: Peak | None = None
-    given = given_vessels(scene)
+    waves, given = scene.waves, given_vessels(scene)
     for vessel, motion in motions(scene, channels):
-        if vessel.body in given:
-            found += _unmoved(vessel.name, given[vessel.body], waves, vessel.body)
+        name, body = vessel.name, vessel.body
+        unloaded = waves is not None and body not in waves.hulls
+        others = ", ".join(map(repr, waves.hulls)) if waves is not None else ""
+        if body in given:
+            if unloaded and given[body] == "raos":
+                yield (
+                    NoWaveLoadsWarning,
+                    f"vessel {name!r}: rests in the sea that {others} meets, and would follow its RAOs "
+                    f"there; call scene.add_sea(vessel={body!r})",
+                )
             continue
-        found += _moored(vessel, time, motion)
-        if waves is None:
-            continue
-        if vessel.body not in waves.hulls:
-            found.append((NoWaveLoadsWarning, _unloaded(vessel.name, waves)))
-            continue
-        hull = waves.hulls[vessel.body]
-        peak = peak or peak_of(scene)
-        if hull.force_by_heading is None:
-            found += _posed(scene.bodies[vessel.body], vessel.name, hull, peak, time, motion)
-        found += _under_way(peak, vessel.name, time, motion)
-    return found
+        yield from _moored(vessel, time, motion)
+        if unloaded:
+            yield (
+                NoWaveLoadsWarning,
+                f"vessel {name!r}: floats in the sea that loads {others}, and has no wave loads itself; call "
+                f"scene.add_sea(vessel={name!r})",
+            )
+        elif waves is not None:
+            hull, peak = waves.hulls[body], peak_of(scene)
+            if hull.force_by_heading is None:
+                yield from _posed(scene.bodies[body], name, hull, peak, time, motion)
+            yield from _under_way(peak, name, time, motion)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,7 +151,7 @@ def slowly(time: Array, values: Array, period: float) -> Array:
 
 def _posed(
     start: _core.Body, name: str, hull: HullLoads, peak: Peak, time: Array, motion: Array
-) -> list[Finding]:
+) -> Iterator[Finding]:
     """How far the hull is, slowly, from the place and heading of its loads."""
     heading = heading_of(start.quaternion)
     place = motion[:, :2] @ rotation_about_z(heading)[:2, :2].T + (start.position[:2] - hull.position)
@@ -146,89 +159,167 @@ def _posed(
     # A mean is never farther than what it is taken of.
     near = peak.phase(place).max() <= LARGEST_PHASE
     if near and np.abs(motion[:, 5]).max() + abs(turn) <= LARGEST_TURN:
-        return []
+        return
     slow = slowly(time, np.column_stack([place, np.unwrap(motion[:, 5]) + turn]), peak.period)
-    found: list[Finding] = []
     far, turned = peak.phase(slow[:, :2]), np.abs(slow[:, 2])
-    way_out = (
-        "take them where the vessel slowly goes by phase='slow' in add_sea, "
-        "where it is on the average by position and heading_deg there, or moor it stiffer"
-    )
     if far.max() > LARGEST_PHASE:
         at = int(far.argmax())
-        found.append(
-            (
-                MeanPositionWarning,
-                f"vessel {name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are "
-                f"taken at t = {time[at]:.6g} s, {far[at]:.2g} rad of the phase of waves at the peak "
-                f"(limit {LARGEST_PHASE}): {way_out}",
-            )
+        yield (
+            MeanPositionWarning,
+            f"vessel {name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are taken at t = "
+            f"{time[at]:.6g} s, {far[at]:.2g} rad of the phase of waves at the peak (limit {LARGEST_PHASE}): "
+            f"{WAY_OUT}",
         )
     if turned.max() > LARGEST_TURN:
         at = int(turned.argmax())
-        found.append(
-            (
-                MeanHeadingWarning,
-                f"vessel {name!r}: yaw reaches {np.degrees(turned[at]):.3g} deg from the heading at "
-                f"which its wave loads are taken, at t = {time[at]:.6g} s (limit "
-                f"{np.degrees(LARGEST_TURN):.0f}): the hull has left their direction; {way_out}",
-            )
+        yield (
+            MeanHeadingWarning,
+            f"vessel {name!r}: yaw reaches {np.degrees(turned[at]):.3g} deg from the heading at which its "
+            f"wave loads are taken, at t = {time[at]:.6g} s (limit {np.degrees(LARGEST_TURN):.0f}): the hull "
+            f"has left their direction; {WAY_OUT}",
         )
-    return found
 
 
-def _under_way(peak: Peak, name: str, time: Array, motion: Array) -> list[Finding]:
+def _under_way(peak: Peak, name: str, time: Array, motion: Array) -> Iterator[Finding]:
     if time.size < 2:
-        return []
+        return
     rate = np.diff(motion[:, :2], axis=0) / np.diff(time)[:, None]
     if peak.wavenumber * np.hypot(*rate.T).max() <= LARGEST_SHIFT * peak.omega:
-        return []
+        return
     speed = np.hypot(*slowly(time[1:], rate, peak.period).T)
     at = int(speed.argmax())
     shift = peak.wavenumber * speed[at] / peak.omega
-    if shift <= LARGEST_SHIFT:
-        return []
-    return [
-        (
+    if shift > LARGEST_SHIFT:
+        yield (
             ForwardSpeedWarning,
             f"vessel {name!r}: makes {speed[at]:.3g} m/s at t = {time[at + 1]:.6g} s, and its hydrodynamics "
             f"are those of zero speed: waves are met up to {shift:.0%} faster or slower, and added mass, "
             "damping and wave loads change with it, which the time domain does not know. Slow it down, or "
             "moor it",
         )
-    ]
 
 
-def _moored(vessel: _core.VesselHydrodynamics, time: Array, motion: Array) -> list[Finding]:
+def _moored(vessel: _core.VesselHydrodynamics, time: Array, motion: Array) -> Iterator[Finding]:
     passed = np.abs(np.diff(motion[:, 5])) > np.pi
-    if vessel.mooring_stiffness[2] == 0.0 or not passed.any():
-        return []
-    at = int(np.argmax(passed)) + 1
-    return [
-        (
+    if vessel.mooring_stiffness[2] != 0.0 and passed.any():
+        yield (
             MooringTurnWarning,
-            f"vessel {vessel.name!r}: passes half a turn from its rest at t = {time[at]:.6g} s, where its "
-            "mooring in yaw, a spring of the angle to the nearest whole turn, pulls the other way: it does "
-            "not stop a turning vessel. Give it a stiffer mooring, or look for what turns it",
+            f"vessel {vessel.name!r}: passes half a turn from its rest at t = "
+            f"{time[int(np.argmax(passed)) + 1]:.6g} s, where its mooring in yaw, a spring of the angle to "
+            "the nearest whole turn, pulls the other way: it does not stop a turning vessel. Give it a "
+            "stiffer mooring, or look for what turns it",
         )
-    ]
 
 
-def _unmoved(name: str, motion: str, waves: Waves | None, body: str) -> list[Finding]:
-    """A ship that would move by RAOs in a sea that it was not put into."""
-    if motion != "raos" or waves is None or body in waves.hulls:
-        return []
-    return [
-        (
-            NoWaveLoadsWarning,
-            f"vessel {name!r}: rests in the sea that {', '.join(map(repr, waves.hulls))} meets, and would "
-            f"follow its RAOs there; call scene.add_sea(vessel={body!r})",
-        )
-    ]
-
-
-def _unloaded(name: str, waves: Waves) -> str:
-    return (
-        f"vessel {name!r}: floats in the sea that loads {', '.join(map(repr, waves.hulls))}, and has no wave "
-        f"loads itself; call scene.add_sea(vessel={name!r})"
+def current_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> Iterator[Finding]:
+    """Currents on vessels in waves, where k U along the waves is a tenth of the frequency or more."""
+    waves = scene.waves
+    if waves is None or not time.size:
+        return
+    lengths = (
+        "with the wave lengths of still water, which are off by about twice that share; wave loads"
+        if waves.current is None
+        else "with its wave lengths on the current; wave loads"
     )
+    for name, load in scene.loads.items():
+        in_water = isinstance(load, _core.FlowForce) and load.density > LIGHTEST_WATER
+        if not in_water or load.body not in waves.hulls:
+            continue
+        speed = float(np.abs(load.speed.evaluate(time)[:, 0]).max())
+        flow = speed * np.array([[np.cos(load.direction), np.sin(load.direction)]])
+        shift = float(peak_of(scene).phase(flow)[0]) / peak_of(scene).omega
+        if shift > LARGEST_SHIFT:
+            yield (
+                CurrentInWavesWarning,
+                f"current {name!r}: {speed:.3g} m/s on vessel {load.body!r} shift the frequency of waves at "
+                f"the peak by {shift:.0%} between the water and a fixed place. The sea is taken as a fixed "
+                f"observer sees it, {lengths}, added mass and damping are those without flow. Give the "
+                "spectrum as measured at a fixed place, and take motions in this current as an estimate",
+            )
+
+
+def relative_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> Iterator[Finding]:
+    """Pairs of a group whose mean relative place or heading is out of range."""
+    moved = {vessel.name: motion for vessel, motion in motions(scene, channels)}
+    for name, group in scene.groups.items():
+        for one, other in combinations(group.vessels, 2):
+            if {one, other} <= moved.keys():
+                yield from _of_pair(scene, name, (one, other), time, (moved[one], moved[other]))
+
+
+def _of_pair(
+    scene: Description, group: str, pair: tuple[str, str], time: Array, moved: tuple[Array, Array]
+) -> Iterator[Finding]:
+    if scene.waves is not None and time[-1] - time[0] < peak_of(scene).period:
+        return  # within one wave there is no mean
+    fast = _relative(scene, pair, moved)
+    if scene.waves is None:
+        slow = np.broadcast_to(fast.mean(axis=0), fast.shape)
+    else:
+        slow = slowly(time, fast, peak_of(scene).period)
+    gap = gap_between(scene, *pair)
+    far, turned = np.hypot(*slow[:, :2].T), np.abs(slow[:, 2])
+    if far.max() <= LARGEST_GAP_SHARE * gap and turned.max() <= LARGEST_RELATIVE_TURN:
+        return
+    at, turn = int(far.argmax()), int(turned.argmax())
+    place, swing = np.hypot(*(fast - slow)[:, :2].T).max(), np.degrees(np.abs(fast - slow)[:, 2].max())
+    yield (
+        RelativePlaceWarning,
+        f"group {group!r}: {pair[1]!r} leaves its place beside {pair[0]!r} by {far[at]:.3g} m on the average "
+        f"at t = {time[at]:.6g} s and its heading by {np.degrees(turned[turn]):.3g} deg (limits: "
+        f"{LARGEST_GAP_SHARE * gap:.3g} m, a tenth of the gap of {gap:.3g} m, and "
+        f"{np.degrees(LARGEST_RELATIVE_TURN):.0f} deg), about which they move by {place:.3g} m and "
+        f"{swing:.3g} deg with the waves: what they do to each other is that of the places in the group's "
+        "data. Moor them closer to these, or compute the group where they go",
+    )
+
+
+def _relative(scene: Description, pair: tuple[str, str], moved: tuple[Array, Array]) -> Array:
+    """The second from its place beside the first: m in axes that follow the first, and rad, shape (n, 3)."""
+    bodies = [scene.bodies[scene.vessels[name].body] for name in pair]
+    starts = [np.asarray(body.position)[:2] for body in bodies]
+    places = [
+        start + motion[:, :2] @ rotation_about_z(heading_of(body.quaternion))[:2, :2].T
+        for start, body, motion in zip(starts, bodies, moved, strict=True)
+    ]
+    apart, yaw = places[1] - places[0], moved[0][:, 5]
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    followed = np.column_stack(
+        [cosine * apart[:, 0] + sine * apart[:, 1], cosine * apart[:, 1] - sine * apart[:, 0]]
+    )
+    turn = np.unwrap(moved[1][:, 5]) - np.unwrap(yaw)
+    return np.column_stack([followed - (starts[1] - starts[0]), turn])
+
+
+def gap_between(scene: Description, one: str, other: str) -> float:
+    """Least distance (m) of the rectangles of length and breadth of two vessels at the start.
+
+    Of hulls whose rectangles overlap, as a float about a spar, the smaller breadth.
+    """
+    corners, breadths = [], []
+    for name in (one, other):
+        vessel = scene.vessels[name]
+        hull, body = vessel.database, scene.bodies[vessel.body]
+        if not isinstance(hull, HydroDatabase):
+            return float("inf")
+        half = CORNERS * [hull.length, hull.breadth]
+        turn = rotation_about_z(heading_of(body.quaternion))[:2, :2]
+        corners.append(half @ turn.T + np.asarray(body.position)[:2])
+        breadths.append(hull.breadth)
+    gap = max(_apart(*corners), _apart(*reversed(corners)))
+    return min(_distance(*corners), _distance(*reversed(corners))) if gap > 0.0 else float(min(breadths))
+
+
+def _apart(one: Array, other: Array) -> float:
+    """The largest distance that an edge of one keeps from all of the other; negative where they overlap."""
+    edges = np.roll(one, -1, axis=0) - one
+    outwards = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.hypot(*edges.T)[:, None]
+    return float(max(np.min((other - corner) @ out) for corner, out in zip(one, outwards, strict=True)))
+
+
+def _distance(one: Array, other: Array) -> float:
+    """Of the corners of one from the edges of the other, at least."""
+    edges = np.roll(other, -1, axis=0) - other
+    from_start = one[:, None] - other
+    share = np.clip(np.sum(from_start * edges, axis=2) / np.sum(edges**2, axis=1), 0.0, 1.0)
+    return float(np.linalg.norm(from_start - share[..., None] * edges, axis=2).min())

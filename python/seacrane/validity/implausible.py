@@ -14,19 +14,28 @@ from seacrane.description.holding import free_drives
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.loads import bodies_of, kind_of
 from seacrane.description.once import once, once_in_any_sea
+from seacrane.description.outline import size_of_ship
+from seacrane.description.places import placed
 from seacrane.description.references import references
 from seacrane.description.suspension import bodies_below
+from seacrane.description.wet_parts import immersed_parts
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import angle_of
 from seacrane.validity.contact_starts import warn_of_contact_starts
-from seacrane.validity.drag_axes import warn_of_drag_axes
+from seacrane.validity.hull_range import peak_of
 from seacrane.validity.lifting import warn_of_loads_in_hulls
-from seacrane.validity.line_starts import warn_of_line_starts
+from seacrane.validity.line_checks import warn_of_line_starts
 from seacrane.validity.magnitudes import warn_of_units
-from seacrane.validity.near_hulls import warn_of_parts_near_hulls
 from seacrane.validity.unstable import carried_by, warn_of_capsize
-from seacrane.warnings import BallastWarning, CompassDirectionWarning, FreeCraneWarning, MassUnitWarning
+from seacrane.warnings import (
+    BallastWarning,
+    CompassDirectionWarning,
+    DragAxesWarning,
+    FreeCraneWarning,
+    MassUnitWarning,
+    ScatteredWavesWarning,
+)
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -40,6 +49,9 @@ LARGEST_RADIUS = 200.0  # m, of gyration
 HUNG_SHARE = 1e-5  # of the vessel's mass
 LARGEST_HEEL = np.radians(2.0)
 LARGEST_SINKAGE = 2.0  # m
+DEEP = np.pi  # of wavenumber times depth: 4 % of the wave are left
+STEEP = np.radians(45.0)  # of a part's z axis from the vertical
+UNLIKE = 1.5  # drag along z over that across it, or the other way round
 WITHOUT_WEIGHT = ("flow force", "span drag")  # nothing of them acts at rest, or the next wave turns it
 
 
@@ -180,4 +192,56 @@ def warn_of_free_cranes(scene: Description) -> None:
                 "held=False of add_crane, or give each joint a driver (Scene.add_driver) or an actuator "
                 "(Scene.add_actuator)",
                 FreeCraneWarning,
+            )
+
+
+@once
+def warn_of_parts_near_hulls(scene: Description) -> None:
+    """Warn, once for each ship, of the part that starts nearest to its side, within its breadth."""
+    if scene.waves is None or not np.any(scene.waves.amplitude):
+        return
+    ships = floating_bodies(scene)
+    parts = [
+        one for one in scene.loads.values() if isinstance(one, _core.ImmersedPart) and one.wave_factor == 1.0
+    ]
+    places = {one.name: placed(scene, one.body, one.point) for one in parts if one.body not in ships}
+    deepest = -DEEP / peak_of(scene).wavenumber if places else 0.0
+    places = {name: place for name, place in places.items() if place[2] > deepest}
+    for ship in sorted(ships) if places else ():
+        length, breadth = size_of_ship(scene, ship)
+        away = {name: _beside(scene.bodies[ship], place, length, breadth) for name, place in places.items()}
+        nearest = min(away, key=lambda name: away[name])
+        if away[nearest] < breadth:
+            warn_caller(
+                f"immersed part {nearest!r}: starts {away[nearest]:.3g} m from the side of {ship!r}, within "
+                f"its breadth of {breadth:.3g} m, in a sea. The water that it feels has neither the waves "
+                "that the hull scatters nor those that it makes: before a wall waves are twice as high, in a "
+                "lee lower. Give wave_factor what this hull makes of them",
+                ScatteredWavesWarning,
+            )
+
+
+def _beside(hull: _core.Body, place: Array, length: float, breadth: float) -> float:
+    """Horizontal distance of a place from the box of a hull, m; 0 within it."""
+    x, y, _ = rotation_matrix(hull.quaternion).T @ (place - np.asarray(hull.position))
+    return float(np.hypot(max(abs(x) - 0.5 * length, 0.0), max(abs(y) - 0.5 * breadth, 0.0)))
+
+
+@once_in_any_sea
+def warn_of_drag_axes(scene: Description) -> None:
+    """Warn of tables of parts whose z axis is far from the vertical as described, and whose drag knows it."""
+    for part in immersed_parts(scene).values():
+        if part.shape != "table" or part.body not in scene.bodies:
+            continue
+        turn = rotation_matrix(scene.bodies[part.body].quaternion) @ np.asarray(part.axes)
+        tilt = float(np.arccos(np.clip(abs(turn[2, 2]), 0.0, 1.0)))
+        areas = np.asarray(part.drag) / (0.5 * part.density)
+        ratio = areas[2] / max(float(areas[:2].mean()), 1e-300)
+        if tilt > STEEP and not 1.0 / UNLIKE <= ratio <= UNLIKE:
+            warn_caller(
+                f"immersed part {part.name!r}: its z axis is {np.degrees(tilt):.3g} deg from the vertical as "
+                f"described, and its drag_area of {areas[2]:.4g} m2 acts along it, not upwards. drag_area is "
+                "along the axes of the part, which turn with the body: give it in their order, or turn the "
+                "part by axes, if it enters the water as described",
+                DragAxesWarning,
             )

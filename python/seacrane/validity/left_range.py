@@ -2,43 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.frames import MOTIONS
-from seacrane.validity.after_run import tried
-from seacrane.validity.current_in_waves import current_findings
-from seacrane.validity.energy import energy_findings
-from seacrane.validity.following import following
-from seacrane.validity.hull_range import hull_findings, motions
+from seacrane.description.joint_coordinates import ANGLES, Pose, coordinate_at, wrapped
+from seacrane.inputs.frames import MOTIONS, rotation_matrix
+from seacrane.validity.after_run import Finding, tried
+from seacrane.validity.hull_range import current_findings, hull_findings, motions, relative_findings
 from seacrane.validity.lifting import lifting
 from seacrane.validity.line_checks import line_findings
-from seacrane.validity.relative_place import relative_findings
 from seacrane.warnings import (
+    EnergyErrorWarning,
     FullTurnWarning,
     LargeHeelWarning,
     NearSingularWarning,
     OutsideDatabaseWarning,
+    OutsideRangeWarning,
     PushingLinkWarning,
+    SoftGainsWarning,
 )
 
 if TYPE_CHECKING:
+    from seacrane import _core
     from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
-Finding = tuple[type[Warning], str]
+Look = Callable[["Description", Array, Channels], Iterable[Finding]]
 
 LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off, a righting arm 10 % and more
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
 LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
 FEWEST_OUTPUTS = 32
 FEWEST_PERIODS = 3.0  # of a database's highest frequency, in a record that tells what is above it
+LARGEST_SHARE = 0.1  # of the work, or of the kinetic energy, that the balance of energy may miss
+LEAST_RISE = 1e-3  # m times the length scale, by which all bodies are lifted: what does not matter
+BEYOND = 0.01  # m times the length scale, or rad: what a control may overshoot a range
+SHORT = {True: np.radians(5.0), False: 0.25}  # of a reference: of angles, and m times the length scale
+STEADY = 3.0  # standard deviations: an error of the mean, not of a motion about it
+LAST = 0.4  # of the outputs, which are judged
+FEWEST_FOLLOWED = 16  # outputs
 
 
 def findings(
@@ -56,35 +63,27 @@ def findings(
     `described` says whether the run began in the pose that the scene describes.
     """
     found: list[Finding] = []
-    looks = (
-        _heel,
-        hull_findings,
-        relative_findings,
-        current_findings,
-        _frequencies,
-        _links,
-        lifting,
-        _turns,
-        energy_findings,
-    )
-    for look in looks:
-        what = f"looking at {look.__name__.strip('_')}"
-        found += tried(what, partial(look, scene, time, channels), [], found)
-    lines = partial(line_findings, scene, time, channels, described=described)
-    found += tried("looking at lines", lines, [], found)
-    found += tried("following", partial(following, scene, time, channels, steered), [], found)
-    return found + _singular(scene, stats)
+    looks: Mapping[str, Look] = {
+        "heel": _heel,
+        "hulls": hull_findings,
+        "places in a group": relative_findings,
+        "currents": current_findings,
+        "frequencies": _frequencies,
+        "links": _links,
+        "lifting": lifting,
+        "turns": _turns,
+        "energy": _energy,
+        "lines": partial(line_findings, described=described),
+        "ranges": _ranges,
+        "following": partial(_following, steered=steered),
+    }
+    for what, look in looks.items():
+        found += tried(f"looking at {what}", partial(_listed, look, scene, time, channels), [], found)
+    return [*found, *_singular(stats)]
 
 
-def as_text(found: Iterable[Finding]) -> str:
-    """One message a line."""
-    return "\n".join(message for _, message in found)
-
-
-def warn_of(found: Iterable[Finding]) -> None:
-    """Warn, at the user's line, of what `findings` names."""
-    for category, message in found:
-        warn_caller(message, category)
+def _listed(look: Look, scene: Description, time: Array, channels: Channels) -> list[Finding]:
+    return list(look(scene, time, channels))
 
 
 def _worst(time: Array, values: Array) -> tuple[float, float]:
@@ -93,26 +92,22 @@ def _worst(time: Array, values: Array) -> tuple[float, float]:
     return float(np.abs(values[at])), float(time[at])
 
 
-def _heel(scene: Description, time: Array, channels: Channels) -> list[Finding]:
-    return [
-        (
-            LargeHeelWarning,
-            f"vessel {vessel.name!r}: {name} reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, beyond "
-            f"{np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear and wave loads are those of "
-            "the upright hull, so that righting moments and capsize are not told. Lower the sea or "
-            "the load, add roll damping, or take motions beyond as an alarm only",
-        )
-        for vessel, motion in motions(scene, channels)
-        if vessel.floats
-        for name in ("roll", "pitch")
-        for angle, at in [_worst(time, motion[:, MOTIONS.index(name)])]
-        if angle > LARGEST_HEEL
-    ]
+def _heel(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
+    for vessel, motion in motions(scene, channels):
+        for name in ("roll", "pitch") if vessel.floats else ():
+            angle, at = _worst(time, motion[:, MOTIONS.index(name)])
+            if angle > LARGEST_HEEL:
+                yield (
+                    LargeHeelWarning,
+                    f"vessel {vessel.name!r}: {name} reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, "
+                    f"beyond {np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear and wave loads are "
+                    "those of the upright hull, so that righting moments and capsize are not told. Lower the "
+                    "sea or the load, add roll damping, or take motions beyond as an alarm only",
+                )
 
 
-def _frequencies(scene: Description, time: Array, channels: Channels) -> list[Finding]:
+def _frequencies(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
     """Energy of a vessel's velocities above its database's highest frequency, motion by motion."""
-    found: list[Finding] = []
     for vessel, motion in motions(scene, channels):
         known = scene.provenance.get(vessel.name)
         if known is None or known.omega is None or time.size < FEWEST_OUTPUTS:
@@ -122,16 +117,13 @@ def _frequencies(scene: Description, time: Array, channels: Channels) -> list[Fi
             continue
         worst, share = _foreign(time, motion, highest)
         if share > FOREIGN_SHARE:
-            found.append(
-                (
-                    OutsideDatabaseWarning,
-                    f"vessel {vessel.name!r}: {share:.0%} of the energy of {MOTIONS[worst]} is above "
-                    f"{highest:.4g} rad/s, where database {known.database!r} ends: "
-                    "added mass and damping are guessed there. Compute the database to higher frequencies, "
-                    "or look for what shakes the vessel that fast",
-                )
+            yield (
+                OutsideDatabaseWarning,
+                f"vessel {vessel.name!r}: {share:.0%} of the energy of {MOTIONS[worst]} is above "
+                f"{highest:.4g} rad/s, where database {known.database!r} ends: added mass and damping are "
+                "guessed there. Compute the database to higher frequencies, or look for what shakes the "
+                "vessel that fast",
             )
-    return found
 
 
 def _foreign(time: Array, motion: Array, highest: float) -> tuple[int, float]:
@@ -155,55 +147,154 @@ def _hangs(scene: Description, link: str) -> bool:
     return any(all(end not in (joint.first, joint.second) for joint in others) for end in ends)
 
 
-def _links(scene: Description, time: Array, channels: Channels) -> list[Finding]:
+def _links(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
     links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
-    found: list[Finding] = []
     for i, name in enumerate(links if "tension" in channels else []):
         tension = channels["tension"][:, i]
         if _hangs(scene, name) and tension.min() < -1e-9 * np.abs(tension).max():
             at = int(tension.argmin())
-            found.append(
-                (
-                    PushingLinkWarning,
-                    f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
-                    "cannot: it would be slack, and its load when it tightens again is not in this result. "
-                    f"scene.add_line(joint={name!r}, rung='rigid') makes it a wire",
-                )
+            yield (
+                PushingLinkWarning,
+                f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
+                "cannot: it would be slack, and its load when it tightens again is not in this result. "
+                f"scene.add_line(joint={name!r}, rung='rigid') makes it a wire",
             )
-    return found
 
 
-def _turns(scene: Description, time: Array, channels: Channels) -> list[Finding]:
-    values = channels.get("coordinate")
-    found: list[Finding] = []
-    for i, (name, (_, kind)) in enumerate(scene.recorded.items()):
-        if values is None or kind != "angle":
-            continue
-        jumps = np.flatnonzero(np.abs(np.diff(values[:, i])) > np.pi)
-        if jumps.size:
-            found.append(
-                (
-                    FullTurnWarning,
-                    f"coordinate {name!r}: passes 180 deg {jumps.size} time(s), first at t = "
-                    f"{time[jumps[0] + 1]:.6g} s: it is recorded between -180 and 180 deg and jumps there, "
-                    "and an actuator more than half a turn behind its reference pulls the other way. Unwrap "
-                    "it by numpy.unwrap; keep references within half a turn of the motion",
-                )
+def _jumps(time: Array, angle: Array) -> tuple[int, float]:
+    """How often an angle (n,) passes half a turn, and when first, s."""
+    jumps = np.flatnonzero(np.abs(np.diff(angle)) > np.pi)
+    return jumps.size, float(time[jumps[0] + 1]) if jumps.size else np.nan
+
+
+def _turns(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
+    for i, (name, (_, kind)) in enumerate(scene.recorded.items() if "coordinate" in channels else ()):
+        count, first = _jumps(time, channels["coordinate"][:, i]) if kind == "angle" else (0, 0.0)
+        if count:
+            yield (
+                FullTurnWarning,
+                f"coordinate {name!r}: passes 180 deg {count} time(s), first at t = {first:.6g} s: it is "
+                "recorded between -180 and 180 deg and jumps there, and an actuator more than half a turn "
+                "behind its reference pulls the other way. Unwrap it by numpy.unwrap; keep references within "
+                "half a turn of the motion",
             )
-    return found
 
 
-def _singular(scene: Description, stats: Mapping[str, Any]) -> list[Finding]:
-    if not stats.get("rank_changed"):
-        return []
-    value = stats["smallest_singular_value"]
-    return [
-        (
+def _energy(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
+    """Runs whose balance does not close by far: what was computed is no motion of the scene."""
+    if not {"energy_balance", "absolute_work", "velocity"} <= channels.keys() or not time.size:
+        return
+    mass = np.array([body.mass for body in scene.bodies.values()])
+    with np.errstate(over="ignore", invalid="ignore"):
+        kinetic = 0.5 * np.einsum("k,nki,nki->n", mass, channels["velocity"], channels["velocity"])
+        work = np.asarray(channels["absolute_work"])
+        error = np.abs(np.asarray(channels["energy_balance"]))
+        least = LEAST_RISE * scene.length_scale * scene.gravity * float(mass.sum())
+        size = max(float(work.max()), float(kinetic.max()), least)
+        off = np.flatnonzero(error > LARGEST_SHARE * size)
+    if off.size and size != 0.0:
+        worst = float(error.max())
+        yield (
+            EnergyErrorWarning,
+            f"run: energy_balance reaches {worst:.3g} J, {worst / size:.2g} of work and kinetic energy, "
+            f"from t = {time[off[0]]:.6g} s on: this is not the scene's motion. Give a shorter dt, a tighter "
+            "rtol or an adaptive integrator; where it stays, a load tells a power that is not its force's",
+        )
+
+
+def _singular(stats: Mapping[str, Any]) -> Iterator[Finding]:
+    if stats.get("rank_changed"):
+        yield (
             NearSingularWarning,
             f"joint {stats['smallest_pivot_joint']!r}: its constraints came to depend on the others at t = "
-            f"{stats['smallest_pivot_at_s']:.6g} s (relative singular value {value:.2g}): the mechanism "
-            "can branch there, as at a dead centre; it went on by inertia, and reactions there are not "
-            "unique. Look at energy_balance, which tells what was lost there; keep away from the position, "
-            "or give the joint more freedom",
+            f"{stats['smallest_pivot_at_s']:.6g} s (relative singular value "
+            f"{stats['smallest_singular_value']:.2g}): the mechanism can branch there, as at a dead centre; "
+            "it went on by inertia, and reactions there are not unique. Look at energy_balance, which tells "
+            "what was lost there; keep away from the position, or give the joint more freedom",
         )
-    ]
+
+
+def _values(scene: Description, joint: str, coordinate: str, channels: Channels) -> Array | None:
+    """A coordinate at the outputs (n,), or None where nothing recorded tells it."""
+    places = list(scene.recorded.values())
+    if "coordinate" in channels and (joint, coordinate) in places:
+        return channels["coordinate"][:, places.index((joint, coordinate))]
+    if "position" not in channels or "quaternion" not in channels:
+        return None
+    index = {name: i for i, name in enumerate(scene.bodies)}
+
+    def pose(body: str) -> Pose:
+        at = index[body]
+        return channels["position"][:, at], rotation_matrix(channels["quaternion"][:, at])
+
+    return coordinate_at(scene, joint, coordinate, pose)
+
+
+def _ranges(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
+    """Coordinates that left their ranges."""
+    for name, limit in scene.ranges.items():
+        values = _values(scene, limit.joint, limit.coordinate, channels)
+        if values is None:
+            continue
+        angular = limit.coordinate in ANGLES
+        beyond = np.maximum(limit.minimum - values, values - limit.maximum)
+        at = int(beyond.argmax())
+        if beyond[at] > BEYOND * (1.0 if angular else scene.length_scale):
+            yield (
+                OutsideRangeWarning,
+                f"range {name!r}: {limit.joint}.{limit.coordinate} reaches {values[at]:.4g} "
+                f"{'rad' if angular else 'm'} at t = {time[at]:.6g} s, outside {limit.minimum:.4g} to "
+                f"{limit.maximum:.4g} from the described pose: the real one ends there. Correct reference or "
+                "gains, or add its end stops (Scene.add_stop)",
+            )
+
+
+def _following(
+    scene: Description, time: Array, channels: Channels, steered: Collection[str]
+) -> Iterator[Finding]:
+    """Actuators that did not go where their references led them."""
+    for name, actuator in scene.actuators.items():
+        if name in steered or not _holds(actuator):
+            continue
+        values = _values(scene, actuator.joint, actuator.coordinate, channels)
+        if values is None:
+            continue
+        error = actuator.reference.evaluate(time)[:, 0] - values
+        if actuator.coordinate in ANGLES:
+            error = wrapped(error)
+            count, first = _jumps(time, error)
+            if count:
+                yield (
+                    FullTurnWarning,
+                    f"actuator {name!r}: came to be half a turn from its reference {count} time(s), first at "
+                    f"t = {first:.6g} s: an angle is known to whole turns only, and from there it was driven "
+                    "the other way round. Lead it by a slower reference, or give it stronger gains",
+                )
+        if actuator.stiffness == 0.0 or actuator.damping > 0.0:  # else a spring
+            yield from _short(scene, name, error)
+
+
+def _holds(actuator: _core.Actuator) -> bool:
+    """Whether an actuator has a reference to follow: a controller's gains, or a curve that says so."""
+    if actuator.stiffness > 0.0:
+        return actuator.damping > 0.0 or actuator.coordinate in ANGLES
+    data = actuator.reference.to_pieces()
+    return bool(np.any(np.asarray(data["coefficients"]) != 0.0))
+
+
+def _short(scene: Description, name: str, error: Array) -> Iterator[Finding]:
+    actuator = scene.actuators[name]
+    last = error[-max(int(LAST * error.size), 1) :]
+    angular = actuator.coordinate in ANGLES
+    limit = SHORT[angular] * (1.0 if angular else scene.length_scale)
+    mean = float(last.mean())
+    if error.size < FEWEST_FOLLOWED or abs(mean) <= limit or abs(mean) <= STEADY * float(last.std()):
+        return
+    away = f"{np.degrees(mean):.4g} deg" if angular else f"{mean:.4g} m"
+    yield (
+        SoftGainsWarning,
+        f"actuator {name!r}: ends {away} from its reference: stiffness {actuator.stiffness:.4g} and damping "
+        f"{actuator.damping:.4g} {'N m/rad, N m s/rad' if angular else 'N/m, N s/m'} are too soft for what "
+        "it carries. Give stiffness = inertia * omega**2 with omega well above the motion "
+        "(seacrane.analysis.reflected_inertia), or its load as feed_forward (seacrane.balance)",
+    )

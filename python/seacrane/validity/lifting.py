@@ -19,6 +19,7 @@ from seacrane.description.suspension import bodies_below, hung_loads, suspension
 from seacrane.description.wet_parts import carried_by_water
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.validity.after_run import Finding
 from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, LoadOffDeckWarning, OverloadWarning
 
 if TYPE_CHECKING:
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
-Finding = tuple[type[Warning], str]
 _Place = tuple[str, Any]  # a body and a point in its coordinates, m
 LARGEST_SWING = np.radians(20.0)
 CLEAR = 0.01  # m of a load below a deck on which it stands

@@ -1,4 +1,4 @@
-"""Elastic lines whose length contradicts their path, and winches that met their limits."""
+"""Lines whose length contradicts their path or lifts what they hold, and winches that met their limits."""
 
 from __future__ import annotations
 
@@ -9,12 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.loads import lines_of, whole_of, winch_of, winches_of
+from seacrane.description.once import once_in_any_sea
 from seacrane.description.rungs import QUASI_STATIC
-from seacrane.description.suspension import line_weights
+from seacrane.description.suspension import bodies_below, line_weights
+from seacrane.description.wet_parts import carried_by_water, immersed_parts
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.validity.after_run import Finding
 from seacrane.warnings import (
     FleetAngleWarning,
+    LiftedStartWarning,
     LineLengthWarning,
     LineTableWarning,
     PushingLineWarning,
@@ -25,11 +31,12 @@ if TYPE_CHECKING:
     from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
-Finding = tuple[type[Warning], str]
 LARGEST_CONTRADICTION = 0.01  # of the line's length, at the start
 AT_END = 1e-6  # m
 STRONGEST = 1e12  # N or W: a bound here or beyond is none
 LARGEST_FLEET_ANGLE = 4.0  # degrees, the usual bound for ropes of cranes
+LARGEST_LIFT = 1.5  # of a body's weight, by its lines
+DRY = 1.25  # times what a body weighs under water, likewise
 
 
 class _Bound(NamedTuple):
@@ -84,32 +91,33 @@ def warn_of_connected(
 
 def line_findings(
     scene: Description, time: Array, channels: Mapping[str, Array], *, described: bool = True
-) -> list[Finding]:
+) -> Iterator[Finding]:
     """All of these in a run; channels left out are not judged, nor lengths where it is not `described`."""
     lines = lines_of(scene.loads)
-    found: list[Finding] = []
+    given = {
+        key: np.asarray(channels[key]).reshape(time.size, len(lines)).T
+        for key in ("line_unstretched_length", "line_tension", "line_stretch") if lines and key in channels
+    }  # fmt: skip
     if "sheave_fleet_angle" in channels:
         sheaves = [f"{name} {i}" for name, line in lines.items() for i in turned_at(line)]
         angles = np.degrees(np.asarray(channels["sheave_fleet_angle"])).reshape(time.size, len(sheaves))
-        found += _leaning(sheaves, time, angles)
-    if not lines or "line_unstretched_length" not in channels:
-        return found
-    lengths = np.asarray(channels["line_unstretched_length"]).reshape(time.size, len(lines))
-    for line, length in zip(lines.values(), lengths.T, strict=True):
+        yield from _leaning(sheaves, time, angles)
+    if "line_unstretched_length" not in given:
+        return
+    lengths = given["line_unstretched_length"]
+    for line, length in zip(lines.values(), lengths, strict=True):
         if line.winch:
-            found += _met(winch_of(line), line, time, length / line.share)
-    if "line_tension" in channels:
-        tensions = np.asarray(channels["line_tension"]).reshape(time.size, len(lines))
-        found += [one for item in zip(lines.items(), tensions.T, strict=True) for one in _pushed(*item, time)]
-    if "line_stretch" not in channels:
-        return found
-    stretches = np.asarray(channels["line_stretch"]).reshape(time.size, len(lines))
+            yield from _met(winch_of(line), line, time, length / line.share)
+    for (name, line), tension in zip(lines.items(), given.get("line_tension", ()), strict=False):
+        yield from _pushed(name, line, time, tension)
+    if "line_stretch" not in given:
+        return
+    stretches = given["line_stretch"]
     if described and time[0] == 0.0:
-        found += _contradicted(lines, strains_at_rest(scene), lengths[0], stretches[0])
-    for (name, line), strain in zip(lines.items(), (stretches / lengths).T, strict=True):
+        yield from _contradicted(lines, strains_at_rest(scene), lengths[:, 0], stretches[:, 0])
+    for (name, line), strain in zip(lines.items(), stretches / lengths, strict=True):
         if len(line.strains):
-            found += _beyond(name, line, time, strain)
-    return found
+            yield from _beyond(name, line, time, strain)
 
 
 def turned_at(line: _core.Line) -> list[int]:
@@ -180,16 +188,14 @@ def _contradicted(
         )
 
 
-def _pushed(named: tuple[str, _core.Line], tension: Array, time: Array) -> Iterator[Finding]:
-    name, line = named
+def _pushed(name: str, line: _core.Line, time: Array, tension: Array) -> Iterator[Finding]:
     worst = int(np.argmin(tension))
-    if line.rung != QUASI_STATIC or tension[worst] >= 0.0:
-        return
-    yield (
-        PushingLineWarning,
-        f"line {name!r}: pushes with {-tension[worst]:.4g} N at t = {time[worst]:.6g} s: its stretch is "
-        "quasi-static, and follows the tension too late to go slack. Give it rung 'elastic'",
-    )
+    if line.rung == QUASI_STATIC and tension[worst] < 0.0:
+        yield (
+            PushingLineWarning,
+            f"line {name!r}: pushes with {-tension[worst]:.4g} N at t = {time[worst]:.6g} s: its stretch is "
+            "quasi-static, and follows the tension too late to go slack. Give it rung 'elastic'",
+        )
 
 
 def _met(name: str, line: _core.Line, time: Array, length: Array) -> Iterator[Finding]:
@@ -209,3 +215,141 @@ def _met(name: str, line: _core.Line, time: Array, length: Array) -> Iterator[Fi
             f"beyond its maximum_rate of {line.maximum_rate:.4g} m/s, which it keeps. Command less, or give "
             "it more",
         )
+
+
+@once_in_any_sea
+def warn_of_line_starts(scene: Description) -> None:
+    """Warn of the lines of a scene that starts as it is described."""
+    lines = lines_of(scene.loads)
+    if not lines:
+        return
+    paths = {name: laid(line, described_poses(scene)) for name, line in lines.items()}
+    tensions = {name: start_tension(line, paths[name].length) for name, line in lines.items()}
+    if all(np.isfinite(tension) for tension in tensions.values()):
+        for body in _hung(scene, lines):
+            _warn_of_lift(scene, body, lines, paths, tensions)
+        _warn_of_dry_weights(scene, lines, tensions)
+    weights = line_weights(scene)
+    for name, line in lines.items():
+        weight, falls = weights.get(name, (0.0, 1))
+        _warn_of_weak_winch(line, weight / max(falls, 1))
+
+
+def start_tension(line: _core.Line, path: float) -> float:
+    """N, of a path as long (m), without damping."""
+    length = float(line.length.evaluate([0.0])[0, 0])
+    strain = path / length - 1.0
+    if not len(line.strains):
+        return max(0.0, float(line.EA) * strain)
+    return float(np.interp(strain, line.strains, line.tensions))
+
+
+def _hung(scene: Description, lines: dict[str, _core.Line]) -> list[str]:
+    """Bodies that lines alone carry; a seat or a free joint does not."""
+    seats = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "seat"}
+    joints = [one for name, one in scene.joints.items() if name not in seats and one.kind != "free"]
+    carried = {body for one in joints for body in (one.first, one.second)}
+    carried |= {vessel.body for vessel in scene.vessels.values()}
+    for load in (one for one in scene.all_loads() if not isinstance(one, _core.Line)):
+        carried |= {getattr(load, "first", ""), getattr(load, "second", "")}
+    on_lines = dict.fromkeys(body for line in lines.values() for body in line.bodies)
+    known = [body for body in on_lines if body in scene.bodies and body not in carried]
+    return [body for body in known if scene.bodies[body].gravity]
+
+
+def _warn_of_lift(
+    scene: Description,
+    body: str,
+    lines: dict[str, _core.Line],
+    paths: dict[str, Laid],
+    tensions: dict[str, float],
+) -> None:
+    pulls = {name: tensions[name] * _upwards(line, paths[name], body) for name, line in lines.items()}
+    one = scene.bodies[body]
+    weight, lift = one.mass * scene.gravity, sum(pulls.values())
+    turned = one.mass * float(np.square(one.velocity).sum()) / _longest(body, lines, paths)
+    if weight > 0.0 and lift > LARGEST_LIFT * (weight + turned):
+        worst = max(pulls, key=lambda name: pulls[name])
+        warn_caller(
+            f"body {body!r}: its lines start by lifting it with {lift:.4g} N, {lift / weight:.3g} times its "
+            f"weight of {weight:.4g} N, most of it line {worst!r}, whose path is {paths[worst].length:.6g} m "
+            f"long, and its length {float(lines[worst].length.evaluate([0.0])[0, 0]):.6g} m: the load jumps. "
+            "Correct its length, or give tension_at_start",
+            LiftedStartWarning,
+        )
+
+
+def _warn_of_dry_weights(
+    scene: Description, lines: dict[str, _core.Line], tensions: dict[str, float]
+) -> None:
+    """Warn of the uppermost lines that start with the weight in air of what hangs on them under water."""
+    told: set[str] = set()
+    for one, bodies in bodies_below(scene):
+        if told & set(bodies) or one.top not in lines:
+            continue
+        told |= set(bodies)
+        weight = sum(scene.bodies[body].mass for body in bodies if scene.bodies[body].gravity) * scene.gravity
+        carried = float(carried_by_water(scene, _described(scene), bodies)[0])
+        pull = tensions[one.top] * one.falls
+        if carried > 0.0 and weight > carried and pull > DRY * (weight - carried):
+            wet = next(part.body for part in immersed_parts(scene).values() if part.body in bodies)
+            warn_caller(
+                f"body {wet!r}: starts under water on line {one.name!r}, which is stretched by {pull:.4g} N; "
+                f"water carries {carried:.4g} N of the weight of {weight:.4g} N, so that the load leaps and "
+                'the line may go slack. Give start="rest", or a length or tension_at_start for the '
+                f"{weight - carried:.4g} N that are left",
+                LiftedStartWarning,
+            )
+
+
+def _described(scene: Description) -> dict[str, Array]:
+    """Poses as channels have them, at one output."""
+    turns = {name: rotation_matrix(body.quaternion) for name, body in scene.bodies.items()}
+    centres = [body.position + turns[name] @ body.center_of_mass for name, body in scene.bodies.items()]
+    turned = [body.quaternion for body in scene.bodies.values()]
+    return {"position": np.array([centres]), "quaternion": np.array([turned])}
+
+
+def _longest(body: str, lines: dict[str, _core.Line], paths: dict[str, Laid]) -> float:
+    """Span (m) of the lines at a body, on which it swings."""
+    spans = [
+        np.linalg.norm(paths[name].ends - paths[name].starts, axis=1).max()
+        for name, line in lines.items()
+        if body in line.bodies
+    ]
+    return max(float(max(spans)), 1e-300)
+
+
+def _upwards(line: _core.Line, path: Laid, body: str) -> float:
+    """Upward pull on a body by 1 N of tension."""
+    apart = path.ends - path.starts
+    up = apart[:, 2] / np.maximum(np.linalg.norm(apart, axis=1), 1e-300)
+    on = np.array([one == body for one in line.bodies])
+    return float(up[on[:-1]].sum() - up[on[1:]].sum())
+
+
+def _warn_of_weak_winch(line: _core.Line, tension: float) -> None:
+    """Warn of a winch with a drum that would hold less, N at the rope, at the start or by its brake alone."""
+    if not line.winch or line.drum_inertia == 0.0 or tension == 0.0:
+        return
+    motor, brake = line.maximum_tension, line.brake_capacity
+    share = float(np.clip(line.brake.evaluate([0.0])[0, 0], 0.0, 1.0)) if brake else 0.0
+    held = (1.0 - share) * motor + share * brake
+    both = held if held < STRONGEST else np.inf
+    for what, force, then, give in (
+        (
+            "motor and brake hold {} at the start",
+            both,
+            "the load falls",
+            "maximum_tension and brake_capacity",
+        ),
+        ("brake holds {}", brake, "it slips when it closes", "brake_capacity"),
+        ("motor holds {}", motor, "the load falls when the brake opens", "maximum_tension"),
+    ):
+        if 0.0 < force < tension:
+            warn_caller(
+                f"line {line.name!r}: its {what.format(f'{force:.4g} N')}, less than the {tension:.4g} N "
+                f"that hang on the rope: {then}. Give {give} in N, enough for it",
+                WinchLimitWarning,
+            )
+            return

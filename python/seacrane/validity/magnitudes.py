@@ -7,7 +7,6 @@ Usual magnitudes stand with the fields of the elements; what only other values o
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +18,7 @@ from seacrane.description.description import ELEMENTS, KINDS, LOADS
 from seacrane.description.loads import BEYOND, kind_of, named
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.plausible import TURN
-from seacrane.validity.proportions import disproportions
+from seacrane.validity.proportions import Around, disproportions
 from seacrane.warnings import UnitWarning
 
 if TYPE_CHECKING:
@@ -40,55 +39,37 @@ def warn_of_units(scene: Description, start: float, end: float, *, described: bo
     `described`: in the pose that is described, where lines are as long as they begin.
     """
     times = np.linspace(start, max(end, start), LOOKS)
+    around = Around(scene, times, described=described)
     for table in ELEMENTS:
         for name, element in getattr(scene, table).items():
-            if _stands_for_a_direction(element):
-                continue
-            for text in (*_unusual(element, times), *_far_points(element)):
+            by_itself = () if _is_far(element) else (*_unusual(element, times), *_far_points(element))
+            for text in (*by_itself, *disproportions(around, element)):
                 what = kind_of(element) if table in LOADS else KINDS[table]
                 warn_caller(f"{what} {name!r}: {text}", UnitWarning)
-    for text in disproportions(scene, times, described=described):
-        warn_caller(text, UnitWarning)
-
-
-@dataclass(frozen=True)
-class _Looks:
-    """What is looked at in elements of a class: fields with their usual bounds and defaults, and points."""
-
-    fields: tuple[tuple[Any, float, float, Any], ...]
-    points: tuple[str, ...]
-    frames: tuple[str, ...]
-
-
-def _looks_at(element: Any) -> _Looks:
-    kind: Any = type(element)
-    return _looks_at_kind(kind)
 
 
 @cache
-def _looks_at_kind(kind: Any) -> _Looks:
-    fields = []
-    for field in kind.FIELDS:
-        most = TURN if field.unit == "rad" and field.type == "number" else field.most
-        if field.least != 0.0 or most != 0.0:
-            fields.append((field, field.least, most, field.default))
-    points, frames = (tuple(key for key in keys if hasattr(kind, key)) for keys in (POINTS, FRAMES))
-    return _Looks(tuple(fields), points, frames)
+def _bounded(kind: Any) -> tuple[tuple[Any, float, float], ...]:
+    """Fields of elements of a kind with usual bounds, and these."""
+    turns = {field.name: TURN for field in kind.FIELDS if (field.unit, field.type) == ("rad", "number")}
+    bounds = ((field, field.least, turns.get(field.name, field.most)) for field in kind.FIELDS)
+    return tuple(one for one in bounds if any(one[1:]))
 
 
-def _stands_for_a_direction(element: Any) -> bool:
-    """Springs of moorings have ends beyond the horizon."""
-    points = [getattr(element, key) for key in _looks_at(element).points if key in POINTS[1:3]]
+def _is_far(element: Any) -> bool:
+    """Springs of moorings have ends beyond the horizon, which stand for a direction."""
+    points = [getattr(element, key, 0.0) for key in POINTS[1:3]]
     return any(np.abs(np.asarray(point)).max() >= BEYOND for point in points)
 
 
 def _unusual(element: Any, times: Array) -> Iterator[str]:
     """Values beyond the usual magnitudes of their fields."""
-    for field, least, most, default in _looks_at(element).fields:
+    kind: Any = type(element)
+    for field, least, most in _bounded(kind):
         value = getattr(element, field.name)
-        if isinstance(value, float) and (value == default or _is_usual(abs(value), least, most)):
+        if isinstance(value, float) and (value == field.default or _is_usual(abs(value), least, most)):
             continue
-        size = magnitudes(value, times)
+        size = _magnitudes(value, times)
         largest = float(size.max(initial=0.0))
         if not largest > 0.0 or (least == 0.0 and largest <= most * SLACK):
             continue
@@ -110,7 +91,7 @@ def _is_usual(size: float, least: float, most: float) -> bool:
     return not (size > 0.0 and size * SLACK < least) and not size > most * SLACK > 0.0
 
 
-def magnitudes(value: Any, times: Array) -> Array:
+def _magnitudes(value: Any, times: Array) -> Array:
     """The magnitude of a number, of those of an array, or the largest of a curve at some times."""
     if isinstance(value, _core.Curve):
         return np.asarray(np.abs(value.evaluate(times)[:, 0]).max(keepdims=True))
@@ -119,9 +100,8 @@ def magnitudes(value: Any, times: Array) -> Array:
 
 def _far_points(element: Any) -> Iterator[str]:
     """Points of bodies that no body reaches."""
-    looks = _looks_at(element)
-    given = {key: getattr(element, key) for key in looks.points}
-    given |= {key: getattr(element, key).point for key in looks.frames}
+    given = {key: getattr(element, key) for key in POINTS if hasattr(element, key)}
+    given |= {key: getattr(element, key).point for key in FRAMES if hasattr(element, key)}
     for key, value in given.items():
         points = np.atleast_2d(np.asarray(value, dtype=float))
         if np.abs(points).max(initial=0.0) < NEAR:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from seacrane.description.loads import whole_of
 from seacrane.description.places import placed
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import line_weights, suspensions, weights_on
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.description.welded import borne_mass, welded_mass, with_mass
 from seacrane.description.wet_parts import displaced_volume, immersed_parts
 
@@ -25,8 +25,9 @@ if TYPE_CHECKING:
     from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
+Made = tuple[str, str, float, float, float]  # a field, what it makes with others, and usual bounds of that
 FAST_WATER = 5.0  # m/s
-FASTEST_SLIDE, FASTEST_TURN = 50.0, 30.0  # m/s, rad/s: of what a driver moves
+FASTEST = {True: ("{} rad/s", 30.0), False: ("{} m/s", 50.0)}  # what a driver moves: of angles, of strokes
 LEAST_ADDED_MASS = 5e-3  # over the mass of what floats
 WATER = 500.0  # kg/m3: fluids that are heavier
 LIGHT = 8.0  # times a body's mass: water that its parts displace; of foam 10
@@ -34,56 +35,33 @@ WIRES = 100.0, 4e4  # kg/m3 over the section by the diameter: fibre ropes 600, s
 SOUND = 60.0, 3e4  # m/s along a line: nylon 1,000, chain 2,000, steel 4,000; models are often softer
 HEAVIEST_LINE = 50.0  # times what hangs on it
 LARGEST_STRAIN = 0.3  # at rest, of lines of one EA: nylon
+FLOWS = ("rated_flow", "rated_flow_rod", "makeup_flow", "relief_flow", "counterbalance_flow",
+         "accumulator_flow")  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Proportion:
-    """What a value makes with others: its usual range, and how to say it."""
-
-    field: str
-    makes: str  # "a strain of {:.3g}"
-    value: float
-    least: float
-    most: float
-    unit: str
-
-    @property
-    def beyond(self) -> bool:
-        return self.value != 0.0 and not self.least <= abs(self.value) <= self.most
-
-    def text(self, given: Any) -> str:
-        usual = f"{self.least:.3g} to {self.most:.3g}" if self.least else f"at most {self.most:.3g}"
-        shown = f" of {given:.6g} {self.unit}" if isinstance(given, float) else ""
-        return (
-            f"{self.field}{shown} makes {self.makes.format(self.value)}, and usual is {usual}: a slip in the "
-            f"unit, of it or of what it is compared with? It is in {self.unit}"
+def disproportions(around: Around, element: Any) -> Iterator[str]:
+    """One message for each value of an element that does not fit; none of a kind that is not known here."""
+    look = _MADE_BY.get(type(element))
+    units = {field.name: field.unit for field in type(element).FIELDS} if look else {}
+    for field, makes, value, least, most in look(around, element) if look else ():
+        if value == 0.0 or least <= abs(value) <= most:
+            continue
+        usual = f"{least:.3g} to {most:.3g}" if least else f"at most {most:.3g}"
+        given = getattr(element, field)
+        shown = f" of {given:.6g} {units[field]}" if isinstance(given, float) else ""
+        yield (
+            f"{field}{shown} makes {makes.format(f'{value:.3g}')}, and usual is {usual}: a slip in the unit, "
+            f"of it or of what it is compared with? It is in {units[field]}"
         )
 
 
-def disproportions(scene: Description, times: Array, *, described: bool) -> Iterator[str]:
-    """One message for each value that does not fit; `times` (n,) s of the run, `described`: as it starts."""
-    around = _Around(scene, times, described)
-    for kind, element, look in _looks(scene):
-        for one in look(around, element):
-            if one.beyond:
-                yield f"{kind} {element.name!r}: {one.text(getattr(element, one.field, None))}"
+class Around:
+    """What elements are compared with: the scene as described, at `times` (n,) s of its run.
 
+    `described`: it starts so, with lines as long as they begin.
+    """
 
-def _looks(scene: Description) -> Iterator[tuple[str, Any, Callable[..., Iterator[Proportion]]]]:
-    for vessel in scene.vessels.values():
-        yield "vessel", vessel, _vessel
-    for driver in scene.drivers.values():
-        yield "driver", driver, _driver
-    for element in scene.all_loads():
-        if type(element) in _OF_LOADS:
-            kind, look = _OF_LOADS[type(element)]
-            yield kind, element, look
-
-
-class _Around:
-    """What elements are compared with: the scene as described."""
-
-    def __init__(self, scene: Description, times: Array, described: bool) -> None:
+    def __init__(self, scene: Description, times: Array, *, described: bool) -> None:
         self.described = described
         self.scene, self.times, self.hung = scene, times, line_weights(scene)
         weights = weights_on(scene)
@@ -107,6 +85,7 @@ class _Around:
         return min((self.scene.bodies[body].mass for body in there), default=math.inf)
 
     def weight(self, *bodies: str) -> float:
+        """Of the lightest of these bodies, N."""
         return self.mass(*bodies) * abs(self.scene.gravity)
 
     def afloat(self, contact: _core.Contact) -> bool:
@@ -114,66 +93,19 @@ class _Around:
         ships = floating_bodies(self.scene) | self.led
         return contact.body in ships and contact.on in {*ships, GROUND}
 
-    def as_weight(self, field: str, force: float, unit: str, on: str = "") -> Proportion:
+    def as_weight(self, field: str, force: float, on: str = "") -> Made:
         """A force over the weight of all bodies; one on a ship whose motion is given has none to compare."""
         bodies = self.scene.bodies.values() if on not in self.led else ()
         heaviest = sum(body.mass for body in bodies) * abs(self.scene.gravity)
-        makes = "{:.3g} times the weight of all bodies"
-        return Proportion(field, makes, _over(force, heaviest), 0.0, 100.0, unit)
+        return field, "{} times the weight of all bodies", _over(force, heaviest), 0.0, 100.0
 
     def largest(self, curve: _core.Curve) -> float:
+        """The largest magnitude of a curve in the run."""
         return float(np.abs(curve.evaluate(self.times)[:, 0]).max())
 
-
-def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
-    """What it carries counts where nothing else does: a tugger's ship says nothing of the tugger."""
-    weight, falls = around.hung.get(line.name, (0.0, 1))
-    mass = _over(weight, abs(around.scene.gravity))
-    places = np.array([placed(around.scene, *end) for end in zip(line.bodies, line.points, strict=True)])
-    path = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
-    start = float(line.length.evaluate(around.times[:1])[0, 0])
-    if len(line.tensions):
-        share = _over(line.tensions[-1] * falls, weight)
-        yield Proportion("tensions", "{:.3g} times the weight on it", share, 1e-2, 500.0, "N")
-    else:
-        stretched = _over(path, start) - 1.0 if around.described else 0.0
-        strain = max(stretched, _over(weight, falls * line.EA), 0.0)
-        yield Proportion("EA", "a strain of {:.3g} at rest", strain, 0.0, LARGEST_STRAIN, "N")
-    if line.name == f"{whole_of(line.name, line)}.1":  # of all segments of one with mass
-        speed = math.sqrt(max(_over(line.EA * start, line.mass), 0.0))
-        yield Proportion("EA", "{:.3g} m/s of sound along it", speed, *SOUND, "N")
-        whole, below = around.on_chains.get(line.name, (0.0, 0.0))
-        yield Proportion("EA", "a strain of {:.3g} at rest", _over(whole, line.EA), 0.0, LARGEST_STRAIN, "N")
-        share = _over(whole - below, below)
-        yield Proportion("mass", "all of it {:.3g} times the mass on it", share, 0.0, HEAVIEST_LINE, "kg")
-    share = _over(line.mass, mass)
-    yield Proportion("mass", "{:.3g} times the mass on the line", share, 1.0 / 300.0, 300.0, "kg")
-    if not line.winch:
-        return
-    held = around.largest(line.tension)
-    yield Proportion("tension", "a strain of {:.3g}", _over(held, line.EA), 1e-5, 0.5, "N")
-    speed = line.tension_gain * held
-    yield Proportion("tension_gain", "{:.3g} m/s by the tension held", speed, 1e-2, 100.0, "m/s/N")
-    share = _over(line.dead_band, held)
-    yield Proportion("dead_band", "{:.3g} of the tension held", share, 1e-4, 2.0, "N")
-    share = _over(line.drum_inertia, line.drum_radius**2 * mass)
-    yield Proportion("drum_inertia", "{:.3g} times the mass on the line", share, 1e-3, 100.0, "kg m2")
-
-
-def _gas_spring(around: _Around, gas: _core.GasSpring) -> Iterator[Proportion]:
-    distance, weight = around.distance(gas), around.weight(gas.first, gas.second)
-    yield Proportion("volume", "{:.3g} m of stroke", _over(gas.volume, gas.area), 0.02, 1000.0, "m3")
-    yield Proportion("length", "{:.3g} times the distance", _over(gas.length, distance), 0.05, 20.0, "m")
-    for key in ("minimum", "maximum"):
-        bound = getattr(gas, key)
-        if bound < 1e7:
-            yield Proportion(key, "{:.3g} times the length", _over(bound, gas.length), 0.02, 50.0, "m")
-    given = _over(weight, gas.stop_stiffness * gas.length)
-    yield Proportion("stop_stiffness", "it give by {:.3g} of the length", given, 0.0, 1.0, "N/m")
-    mass = around.mass(gas.first, gas.second)
-    stiffness = _over(gas.exponent * gas.pressure * gas.area**2, gas.volume)
-    yield _damped("damping", gas.damping, stiffness, mass, "N s/m")
-    yield _damped("quadratic_damping", gas.quadratic_damping, stiffness, mass, "N s2/m2")
+    def at_start(self, curve: _core.Curve) -> float:
+        """A curve where the run starts."""
+        return float(curve.evaluate(self.times[:1])[0, 0])
 
 
 def _over(value: float, other: float) -> float:
@@ -181,96 +113,130 @@ def _over(value: float, other: float) -> float:
     return value / other if other != 0.0 and math.isfinite(other) and math.isfinite(value) else 0.0
 
 
-def _damped(field: str, damping: float, stiffness: float, mass: float, unit: str) -> Proportion:
+def _damped(field: str, damping: float, stiffness: float, mass: float, least: float = 0.0) -> Made:
     """Over critical; quadratic damping at 1 m/s."""
     critical = 2.0 * math.sqrt(max(stiffness, 0.0) * mass)
-    ratio = _over(damping, critical)
-    return Proportion(field, "{:.3g} of critical damping", ratio, 0.0, 30.0, unit)
+    return field, "{} of critical damping", _over(damping, critical), least, 30.0
 
 
-def _hydraulic(around: _Around, oil: _core.HydraulicCylinder) -> Iterator[Proportion]:
+def _period(inertia: float, stiffness: float) -> float:
+    return 2.0 * math.pi * math.sqrt(inertia / stiffness) if stiffness > 0.0 < inertia else 0.0
+
+
+def _half_box(body: _core.Body) -> float:
+    """Half the diagonal of a box with a body's mass and inertia, m."""
+    return math.sqrt(1.5 * float(np.trace(np.asarray(body.inertia))) / body.mass)
+
+
+def _line(around: Around, line: _core.Line) -> Iterator[Made]:
+    """What it carries counts where nothing else does: a tugger's ship says nothing of the tugger."""
+    weight, falls = around.hung.get(line.name, (0.0, 1))
+    mass = _over(weight, abs(around.scene.gravity))
+    places = np.array([placed(around.scene, *end) for end in zip(line.bodies, line.points, strict=True)])
+    path = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
+    start = around.at_start(line.length)
+    if len(line.tensions):
+        yield "tensions", "{} times the weight on it", _over(line.tensions[-1] * falls, weight), 1e-2, 500.0
+    else:
+        stretched = _over(path, start) - 1.0 if around.described else 0.0
+        strain = max(stretched, _over(weight, falls * line.EA), 0.0)
+        yield "EA", "a strain of {} at rest", strain, 0.0, LARGEST_STRAIN
+    if line.name == f"{whole_of(line.name, line)}.1":  # of all segments of one with mass
+        whole, below = around.on_chains.get(line.name, (0.0, 0.0))
+        yield "EA", "{} m/s of sound along it", math.sqrt(max(_over(line.EA * start, line.mass), 0.0)), *SOUND
+        yield "EA", "a strain of {} at rest", _over(whole, line.EA), 0.0, LARGEST_STRAIN
+        yield "mass", "all of it {} times the mass on it", _over(whole - below, below), 0.0, HEAVIEST_LINE
+    yield "mass", "{} times the mass on the line", _over(line.mass, mass), 1.0 / 300.0, 300.0
+    if not line.winch:
+        return
+    held, drum = around.largest(line.tension), line.drum_radius**2 * mass
+    yield "tension", "a strain of {}", _over(held, line.EA), 1e-5, 0.5
+    yield "tension_gain", "{} m/s by the tension held", line.tension_gain * held, 1e-2, 100.0
+    yield "dead_band", "{} of the tension held", _over(line.dead_band, held), 1e-4, 2.0
+    yield "drum_inertia", "{} times the mass on the line", _over(line.drum_inertia, drum), 1e-3, 100.0
+
+
+def _gas_spring(around: Around, gas: _core.GasSpring) -> Iterator[Made]:
+    distance, weight = around.distance(gas), around.weight(gas.first, gas.second)
+    yield "volume", "{} m of stroke", _over(gas.volume, gas.area), 0.02, 1000.0
+    yield "length", "{} times the distance", _over(gas.length, distance), 0.05, 20.0
+    for key in ("minimum", "maximum"):
+        bound = getattr(gas, key)
+        if bound < 1e7:
+            yield key, "{} times the length", _over(bound, gas.length), 0.02, 50.0
+    given = _over(weight, gas.stop_stiffness * gas.length)
+    yield "stop_stiffness", "it give by {} of the length", given, 0.0, 1.0
+    mass = around.mass(gas.first, gas.second)
+    stiffness = _over(gas.exponent * gas.pressure * gas.area**2, gas.volume)
+    for key in ("damping", "quadratic_damping"):
+        yield _damped(key, getattr(gas, key), stiffness, mass)
+
+
+def _hydraulic(around: Around, oil: _core.HydraulicCylinder) -> Iterator[Made]:
     areas = {"": oil.full_area, "_rod": oil.rod_side_area}
-    yield Proportion(
-        "rod_side_area", "{:.3g} of the full area", _over(areas["_rod"], areas[""]), 0.02, 1.0, "m2"
-    )
+    swept = oil.full_area * oil.stroke
+    yield "rod_side_area", "{} of the full area", _over(oil.rod_side_area, oil.full_area), 0.02, 1.0
     for side, area in areas.items():
         hose = _over(getattr(oil, f"hose_volume{side}"), area * oil.stroke)
-        yield Proportion(f"hose_volume{side}", "{:.3g} times the swept volume", hose, 1e-3, 30.0, "m3")
-        pressure = getattr(oil, f"pressure{side}")
-        yield Proportion(f"pressure{side}", "{:.3g} Pa, absolute", pressure, 5e4, 2e8, "Pa")
-    for key in ("rated_flow", "rated_flow_rod", "makeup_flow", "relief_flow", "counterbalance_flow",
-                "accumulator_flow"):  # fmt: skip
-        speed = _over(getattr(oil, key), areas[""])
-        yield Proportion(key, "{:.3g} m/s of the piston", speed, 1e-3, 30.0, "m3/s")
-    gas = _over(oil.accumulator_volume, areas[""] * oil.stroke)
-    yield Proportion("accumulator_volume", "{:.3g} times the swept volume", gas, 5e-3, 100.0, "m3")
-    hole = _over(oil.rupture_area, areas[""])
-    yield Proportion("rupture_area", "{:.3g} times the piston's area", hole, 1e-4, 1.0, "m2")
+        yield f"hose_volume{side}", "{} times the swept volume", hose, 1e-3, 30.0
+        yield f"pressure{side}", "{} Pa, absolute", getattr(oil, f"pressure{side}"), 5e4, 2e8
+    for key in FLOWS:
+        yield key, "{} m/s of the piston", _over(getattr(oil, key), oil.full_area), 1e-3, 30.0
+    yield "accumulator_volume", "{} times the swept volume", _over(oil.accumulator_volume, swept), 5e-3, 100.0
+    yield "rupture_area", "{} times the piston's area", _over(oil.rupture_area, oil.full_area), 1e-4, 1.0
     highest = max(oil.pump_pressure, oil.pressure, oil.pressure_rod)
-    force = highest * areas[""]
+    force = highest * oil.full_area
     for key in ("internal_leakage", "external_leakage"):
-        speed = _over(getattr(oil, key) * highest, areas[""])
-        yield Proportion(key, "{:.3g} m/s of the piston", speed, 0.0, 0.1, "m3/s/Pa")
-    yield Proportion("friction", "{:.3g} of the cylinder's force", _over(oil.friction, force), 0.0, 1.0, "N")
-    drag = _over(oil.viscous_friction, force)
-    yield Proportion("viscous_friction", "{:.3g} of its force at 1 m/s", drag, 0.0, 3.0, "N s/m")
+        yield key, "{} m/s of the piston", _over(getattr(oil, key) * highest, oil.full_area), 0.0, 0.1
+    yield "friction", "{} of the cylinder's force", _over(oil.friction, force), 0.0, 1.0
+    yield "viscous_friction", "{} of its force at 1 m/s", _over(oil.viscous_friction, force), 0.0, 3.0
     given = _over(force, oil.stop_stiffness * oil.stroke)
-    yield Proportion("stop_stiffness", "the ends give by {:.3g} of the stroke", given, 0.0, 0.1, "N/m")
+    yield "stop_stiffness", "the ends give by {} of the stroke", given, 0.0, 0.1
     if oil.gain > 0.0:
-        share = _over(around.largest(oil.reference), oil.stroke)
-        yield Proportion("reference", "{:.3g} of the stroke", share, 0.0, 1.5, "m")
+        yield "reference", "{} of the stroke", _over(around.largest(oil.reference), oil.stroke), 0.0, 1.5
 
 
-def _flow(around: _Around, flow: _core.FlowForce) -> Iterator[Proportion]:
-    height = _over(flow.lateral_area, flow.length)
-    yield Proportion("lateral_area", "a height of {:.3g} m", height, 0.05, 200.0, "m2")
+def _flow(around: Around, flow: _core.FlowForce) -> Iterator[Made]:
+    yield "lateral_area", "a height of {} m", _over(flow.lateral_area, flow.length), 0.05, 200.0
     share = _over(flow.frontal_area, flow.lateral_area)
-    yield Proportion("frontal_area", "{:.3g} of the lateral area", share, 5e-3, 50.0, "m2")
-    yield from _fluid(flow.density, around.largest(flow.speed), "speed")
+    yield "frontal_area", "{} of the lateral area", share, 5e-3, 50.0
+    if flow.density > WATER:
+        yield "speed", "water at {} m/s", around.largest(flow.speed), 0.0, FAST_WATER
 
 
-def _fluid(density: float, speed: float, field: str) -> Iterator[Proportion]:
-    if density > WATER:
-        yield Proportion(field, "water at {:.3g} m/s", speed, 0.0, FAST_WATER, "m/s")
+def _span(around: Around, span: _core.SpanDrag) -> Iterator[Made]:
+    yield "length", "{} times the span", _over(span.length, around.distance(span)), 0.05, 20.0
+    if span.density > WATER:
+        yield "flow", "water at {} m/s", float(np.linalg.norm(span.flow)), 0.0, FAST_WATER
 
 
-def _wet_span(around: _Around, span: _core.ImmersedSpan | _core.WoundSpan) -> Iterator[Proportion]:
-    start = float(span.length.evaluate(around.times[:1])[0, 0])
-    share = _over(start, around.distance(span))
-    yield Proportion("length", "{:.3g} times the span", share, 0.05, 20.0, "m")
+def _wet_span(around: Around, span: _core.ImmersedSpan | _core.WoundSpan) -> Iterator[Made]:
+    share = _over(around.at_start(span.length), around.distance(span))
+    yield "length", "{} times the span", share, 0.05, 20.0
 
 
-def _span(around: _Around, span: _core.SpanDrag) -> Iterator[Proportion]:
-    distance = around.distance(span)
-    yield Proportion("length", "{:.3g} times the span", _over(span.length, distance), 0.05, 20.0, "m")
-    yield from _fluid(span.density, float(np.linalg.norm(span.flow)), "flow")
-
-
-def _seabed(around: _Around, bed: _core.SeabedNode) -> Iterator[Proportion]:
-    """A seabed gives by millimetres to metres under what lies on it."""
-    weight = around.weight(bed.body)
-    yield Proportion("stiffness", "{:.3g} m by the weight", _over(weight, bed.stiffness), 1e-4, 2.0, "N/m")
-    if bed.friction > 0.0:
-        away = np.asarray(bed.anchor) - placed(around.scene, bed.body, bed.point)
-        aside = float(np.linalg.norm(away[:2]))
-        yield Proportion("anchor", "{:.3g} m from its point", aside, 0.0, 100.0, "m")
-        share = _over(bed.load, weight)
-        yield Proportion("load", "{:.3g} times the weight on it", share, 1e-2, 100.0, "N")
-
-
-def _immersed_span(around: _Around, span: _core.ImmersedSpan) -> Iterator[Proportion]:
+def _immersed_span(around: Around, span: _core.ImmersedSpan) -> Iterator[Made]:
     """Beside the segment of a line with mass that it is the water of: what its section is made of."""
     yield from _wet_span(around, span)
     line = around.scene.loads.get(span.name.removesuffix(" water"))
     section = math.pi / 4.0 * span.diameter**2
     if not isinstance(line, _core.Line) or not section or line.name != f"{whole_of(line.name, line)}.1":
         return
-    start = float(span.length.evaluate(around.times[:1])[0, 0])
-    density = _over(line.mass, section * start)
-    yield Proportion("diameter", "{:.3g} kg/m3 of its mass per length", density, *WIRES, "m")
+    density = _over(line.mass, section * around.at_start(span.length))
+    yield "diameter", "{} kg/m3 of its mass per length", density, *WIRES
 
 
-def _part(around: _Around, part: _core.ImmersedPart) -> Iterator[Proportion]:
+def _seabed(around: Around, bed: _core.SeabedNode) -> Iterator[Made]:
+    """A seabed gives by millimetres to metres under what lies on it."""
+    weight = around.weight(bed.body)
+    yield "stiffness", "{} m by the weight", _over(weight, bed.stiffness), 1e-4, 2.0
+    if bed.friction > 0.0:
+        away = np.asarray(bed.anchor) - placed(around.scene, bed.body, bed.point)
+        yield "anchor", "{} m from its point", float(np.linalg.norm(away[:2])), 0.0, 100.0
+        yield "load", "{} times the weight on it", _over(bed.load, weight), 1e-2, 100.0
+
+
+def _part(around: Around, part: _core.ImmersedPart) -> Iterator[Made]:
     """Its size counts beside that of the body, its coefficients beside those of a plate of its size."""
     if part.body in around.led:
         return
@@ -278,153 +244,134 @@ def _part(around: _Around, part: _core.ImmersedPart) -> Iterator[Proportion]:
     if own[0] is part:
         water = part.density * sum(displaced_volume(one) for one in own)
         share = _over(water, welded_mass(around.scene, part.body))
-        yield Proportion("size", "all parts displace {:.3g} times the body's mass", share, 0.0, LIGHT, "m")
-    body, sizes = around.scene.bodies[part.body], np.sort(part.size)
-    reach = 2.0 * math.sqrt(1.5 * float(np.trace(np.asarray(body.inertia))) / body.mass)  # of a box with it
-    longest, face = float(sizes[2]), float(sizes[1] * sizes[2])
+        yield "size", "all parts displace {} times the body's mass", share, 0.0, LIGHT
     if part.shape == "disc":  # all that it has is that of its size
         return
+    sizes, step = np.sort(part.size), float(np.linalg.norm(part.step))
+    longest, face = float(sizes[2]), float(sizes[1] * sizes[2])
     if part.place == 0:
-        whole = max(longest, part.count * float(np.linalg.norm(part.step)))
-        yield Proportion("size", "{:.3g} times the body's size", _over(whole, reach), 3e-3, 20.0, "m")
-    share = _over(float(np.linalg.norm(part.step)), longest)
-    yield Proportion("step", "{:.3g} times the size of a strip", share, 4e-3, 20.0, "m")
-    share = _over(part.depths[-1], longest)
-    yield Proportion("depths", "{:.3g} times the size", share, 0.02, 200.0, "m")
-    plate = part.density * face * float(sizes[1])
-    share = _over(float(part.added_masses[-1].max()), plate)
-    yield Proportion("added_masses", "{:.3g} times a plate's of this size", share, 4e-3, 50.0, "kg")
+        reach = 2.0 * _half_box(around.scene.bodies[part.body])
+        whole = _over(max(longest, part.count * step), reach)
+        yield "size", "{} times the body's size", whole, 3e-3, 20.0
+    yield "step", "{} times the size of a strip", _over(step, longest), 4e-3, 20.0
+    yield "depths", "{} times the size", _over(part.depths[-1], longest), 0.02, 200.0
+    plate, added = part.density * face * float(sizes[1]), float(part.added_masses[-1].max())
+    yield "added_masses", "{} times a plate's of this size", _over(added, plate), 4e-3, 50.0
     if len(part.slow_added_masses):
-        share = _over(float(part.slow_added_masses[-1].max()), float(part.added_masses[-1].max()))
-        yield Proportion("slow_added_masses", "{:.3g} times added_masses, deep down", share, 0.2, 5.0, "kg")
+        share = _over(float(part.slow_added_masses[-1].max()), added)
+        yield "slow_added_masses", "{} times added_masses, deep down", share, 0.2, 5.0
     share = _over(float(np.max(part.drag)), 0.5 * part.density * face)
-    yield Proportion("drag", "a drag coefficient of {:.3g}", share, 5e-3, 100.0, "N s2/m2")
+    yield "drag", "a drag coefficient of {}", share, 5e-3, 100.0
     if len(part.volumes):
         share = _over(part.volumes[-1], float(np.prod(sizes)))
-        yield Proportion("volumes", "{:.3g} of the box around it", share, 1e-3, 1.5, "m3")
+        yield "volumes", "{} of the box around it", share, 1e-3, 1.5
 
 
-def _compartment(around: _Around, water: _core.EntrappedWater) -> Iterator[Proportion]:
+def _compartment(around: Around, water: _core.EntrappedWater) -> Iterator[Made]:
     mass = around.scene.bodies[water.body].mass
-    for field, unit in (("area", "m2"), ("height", "m")):
+    for field in ("area", "height"):
         share = _over(water.density * water.area * water.height, mass)
-        yield Proportion(field, "{:.3g} times the body's mass of water", share, 1e-4, 50.0, unit)
+        yield field, "{} times the body's mass of water", share, 1e-4, 50.0
     share = _over(float(np.sum(water.opening_areas)), water.area)
-    yield Proportion("opening_areas", "{:.3g} of the section open", share, 1e-4, 12.0, "m2")
+    yield "opening_areas", "{} of the section open", share, 1e-4, 12.0
 
 
-def _contact(around: _Around, contact: _core.Contact) -> Iterator[Proportion]:
+def _contact(around: Around, contact: _core.Contact) -> Iterator[Made]:
     """Each point counts with its share of the lighter body."""
     count, ends = len(contact.points), (contact.body, contact.on)
     mass = min(borne_mass(around.scene, *pair) for pair in (ends, ends[::-1])) / count
     weight = mass * abs(around.scene.gravity)
     if len(contact.forces):
-        deepest = float(contact.compressions[-1])
-        yield Proportion("compressions", "a depth of {:.3g} m", deepest, 2e-3, 10.0, "m")
+        yield "compressions", "a depth of {} m", float(contact.compressions[-1]), 2e-3, 10.0
         share = _over(float(contact.forces[-1]), weight)
-        yield Proportion("forces", "{:.3g} times the weight on a point", share, 0.02, 500.0, "N")
+        yield "forces", "{} times the weight on a point", share, 0.02, 500.0
     else:
         sunk, most = _over(weight, contact.stiffness), 100.0 if around.afloat(contact) else 1.0
-        yield Proportion("stiffness", "{:.3g} m of compression at rest", sunk, 2e-5, most, "N/m")
+        yield "stiffness", "{} m of compression at rest", sunk, 2e-5, most
     if contact.friction > 0.0:
         give = _over(contact.friction * weight, contact.shear_stiffness)
-        yield Proportion("shear_stiffness", "{:.3g} m before a point slides", give, 5e-6, 0.3, "N/m")
-        ratio = _damped("shear_damping", contact.shear_damping, contact.shear_stiffness, mass, "N s/m")
-        yield replace(ratio, least=2e-3)
+        yield "shear_stiffness", "{} m before a point slides", give, 5e-6, 0.3
+        yield _damped("shear_damping", contact.shear_damping, contact.shear_stiffness, mass, least=2e-3)
     owner = around.scene.bodies.get(contact.body)
     if owner is None or contact.body in around.led:
         return
-    reach = math.sqrt(1.5 * float(np.trace(np.asarray(owner.inertia))) / owner.mass)  # of a box with it
     levers = np.linalg.norm(np.asarray(contact.points) - np.asarray(owner.center_of_mass), axis=1)
-    yield Proportion("points", "{:.3g} times the body's size", _over(levers.max(), reach), 3e-3, 100.0, "m")
+    yield "points", "{} times the body's size", _over(levers.max(), _half_box(owner)), 3e-3, 100.0
     point = placed(around.scene, contact.body, contact.points[0])
     apart = float(np.linalg.norm(placed(around.scene, contact.on, contact.place) - point))
-    yield Proportion("place", "a surface {:.3g} m away", apart, 0.0, 3000.0, "m")
+    yield "place", "a surface {} m away", apart, 0.0, 3000.0
 
 
-def _pendulum(around: _Around, swing: _core.PendulumDamping) -> Iterator[Proportion]:
-    mass = around.mass(swing.second)
-    share = _over(swing.mass, mass)
-    yield Proportion("mass", "{:.3g} times the mass that swings", share, 1.0 / 300.0, 300.0, "kg")
+def _pendulum(around: Around, swing: _core.PendulumDamping) -> Iterator[Made]:
+    share = _over(swing.mass, around.mass(swing.second))
+    yield "mass", "{} times the mass that swings", share, 1.0 / 300.0, 300.0
 
 
-def _spring(around: _Around, spring: _core.Spring) -> Iterator[Proportion]:
-    distance, mass = around.distance(spring), around.mass(spring.first, spring.second)
-    weight = around.weight(spring.first, spring.second)
-    if distance > 0.0 and distance < 1e5:
+def _spring(around: Around, spring: _core.Spring) -> Iterator[Made]:
+    distance, bodies = around.distance(spring), (spring.first, spring.second)
+    if 0.0 < distance < 1e5:
         longest = float(np.max(spring.lengths)) if len(spring.lengths) else spring.natural_length
         field = "lengths" if len(spring.lengths) else "natural_length"
-        yield Proportion(field, "{:.3g} times the distance", _over(longest, distance), 1.0 / 30.0, 30.0, "m")
+        yield field, "{} times the distance", _over(longest, distance), 1.0 / 30.0, 30.0
     if len(spring.forces):
-        share = _over(float(np.abs(spring.forces).max()), weight)
-        yield Proportion("forces", "{:.3g} times the lighter body's weight", share, 1e-2, 300.0, "N")
-    yield _damped("damping", spring.damping, spring.stiffness, mass, "N s/m")
+        share = _over(float(np.abs(spring.forces).max()), around.weight(*bodies))
+        yield "forces", "{} times the lighter body's weight", share, 1e-2, 300.0
+    yield _damped("damping", spring.damping, spring.stiffness, around.mass(*bodies))
 
 
-def _pushed(around: _Around, force: _core.PointForce) -> Iterator[Proportion]:
-    yield around.as_weight("force", float(np.linalg.norm(force.force)), "N", force.body)
+def _pushed(around: Around, force: _core.PointForce) -> Iterator[Made]:
+    yield around.as_weight("force", float(np.linalg.norm(force.force)), force.body)
 
 
-def _tabled(around: _Around, table: _core.ForceTable) -> Iterator[Proportion]:
+def _tabled(around: Around, table: _core.ForceTable) -> Iterator[Made]:
     largest = float(np.abs(np.asarray(table.wrenches)[:, :3]).max())
-    yield around.as_weight("wrenches", largest, "N, N m", table.body)
+    yield around.as_weight("wrenches", largest, table.body)
 
 
-def _actuator(around: _Around, actuator: _core.Actuator) -> Iterator[Proportion]:
+def _actuator(around: Around, actuator: _core.Actuator) -> Iterator[Made]:
     if actuator.coordinate not in ANGLES:
-        yield around.as_weight("feed_forward", around.largest(actuator.feed_forward), "N or N m")
+        yield around.as_weight("feed_forward", around.largest(actuator.feed_forward))
 
 
-def _driver(around: _Around, driver: _core.Driver) -> Iterator[Proportion]:
-    rate = float(np.abs(driver.curve.evaluate(around.times)[:, 1]).max())
-    if driver.coordinate in ANGLES:
-        yield Proportion("curve", "{:.3g} rad/s", rate, 0.0, FASTEST_TURN, "rad")
-    else:
-        yield Proportion("curve", "{:.3g} m/s", rate, 0.0, FASTEST_SLIDE, "m")
+def _driver(around: Around, driver: _core.Driver) -> Iterator[Made]:
+    makes, fastest = FASTEST[driver.coordinate in ANGLES]
+    yield "curve", makes, float(np.abs(driver.curve.evaluate(around.times)[:, 1]).max()), 0.0, fastest
 
 
-def _vessel(around: _Around, vessel: _core.VesselHydrodynamics) -> Iterator[Proportion]:
+def _vessel(around: Around, vessel: VesselHydrodynamics) -> Iterator[Made]:
     body = around.scene.bodies[vessel.body]
     added, restoring = np.diag(vessel.added_mass), np.diag(vessel.restoring)
     heavy = np.array([body.mass] * 3 + list(np.diag(body.inertia)))
     own = float(np.max(added[:3])) / body.mass
-    least = LEAST_ADDED_MASS if vessel.floats else 0.0
-    yield Proportion("added_mass", "{:.3g} times the body's mass", own, least, 50.0, "kg, kg m, kg m2")
-    spun = float(np.max(added[3:] / heavy[3:]))
-    yield Proportion("added_mass", "{:.3g} times its inertia", spun, 0.0, 100.0, "kg, kg m, kg m2")
+    yield "added_mass", "{} times the body's mass", own, LEAST_ADDED_MASS if vessel.floats else 0.0, 50.0
+    yield "added_mass", "{} times its inertia", float(np.max(added[3:] / heavy[3:])), 0.0, 100.0
     for at, name in ((2, "heave"), (3, "roll"), (4, "pitch")):
-        period, makes = _period(heavy[at] + added[at], restoring[at]), f"a period of {name} of {{:.3g}} s"
-        yield Proportion("restoring", makes, period, 0.7, 150.0, "N/m, N, N m")
-    moored = np.diag([*vessel.mooring_stiffness])
+        period = _period(heavy[at] + added[at], restoring[at])
+        yield "restoring", f"a period of {name} of {{}} s", period, 0.7, 150.0
+        yield _damped("linear_damping", vessel.linear_damping[at, at], restoring[at], heavy[at] + added[at])
     for i, at in enumerate((0, 1, 5)):
-        period = _period(heavy[at] + added[at], moored[i, i])
-        yield Proportion("mooring_stiffness", "a period of {:.3g} s", period, 7.0, 3000.0, "N/m, N m/rad")
-        yield _damped("mooring_damping", vessel.mooring_damping[i], moored[i, i], heavy[at] + added[at],
-                      "N s/m, N m s/rad")  # fmt: skip
-    for at in (2, 3, 4):
-        yield _damped("linear_damping", vessel.linear_damping[at, at], restoring[at], heavy[at] + added[at],
-                      "N s/m, N s, N m s")  # fmt: skip
+        inertia, moored = heavy[at] + added[at], vessel.mooring_stiffness[i]
+        yield "mooring_stiffness", "a period of {} s", _period(inertia, moored), 7.0, 3000.0
+        yield _damped("mooring_damping", vessel.mooring_damping[i], moored, inertia)
 
 
-def _period(inertia: float, stiffness: float) -> float:
-    return 2.0 * math.pi * math.sqrt(inertia / stiffness) if stiffness > 0.0 < inertia else 0.0
-
-
-_OF_LOADS: Mapping[type, tuple[str, Callable[..., Iterator[Proportion]]]] = {
-    _core.Line: ("line", _line),
-    _core.GasSpring: ("gas spring", _gas_spring),
-    _core.HydraulicCylinder: ("hydraulic cylinder", _hydraulic),
-    _core.FlowForce: ("flow force", _flow),
-    _core.SpanDrag: ("span drag", _span),
-    _core.ImmersedSpan: ("immersed span", _immersed_span),
-    _core.ImmersedPart: ("immersed part", _part),
-    _core.EntrappedWater: ("entrapped water", _compartment),
-    _core.Contact: ("contact", _contact),
-    _core.WoundSpan: ("wound span", _wet_span),
-    _core.SeabedNode: ("seabed node", _seabed),
-    _core.PendulumDamping: ("pendulum damping", _pendulum),
-    _core.Spring: ("spring", _spring),
-    _core.Actuator: ("actuator", _actuator),
-    _core.PointForce: ("point force", _pushed),
-    _core.ForceTable: ("force table", _tabled),
+_MADE_BY: Mapping[type, Callable[[Around, Any], Iterator[Made]]] = {
+    VesselHydrodynamics: _vessel,
+    _core.Driver: _driver,
+    _core.Line: _line,
+    _core.GasSpring: _gas_spring,
+    _core.HydraulicCylinder: _hydraulic,
+    _core.FlowForce: _flow,
+    _core.SpanDrag: _span,
+    _core.ImmersedSpan: _immersed_span,
+    _core.ImmersedPart: _part,
+    _core.EntrappedWater: _compartment,
+    _core.Contact: _contact,
+    _core.WoundSpan: _wet_span,
+    _core.SeabedNode: _seabed,
+    _core.PendulumDamping: _pendulum,
+    _core.Spring: _spring,
+    _core.Actuator: _actuator,
+    _core.PointForce: _pushed,
+    _core.ForceTable: _tabled,
 }
