@@ -8,7 +8,7 @@ import re as _re
 from importlib.resources import files as _files
 
 _PAGE = (_files("seacrane") / "data" / "warnings.md").read_text(encoding="utf-8")
-_ENTRY = _re.compile(r"^(?:## (SW\d+) (\w+)\n\n|\*\*(SW\d+) (\w+)\*\*: )(.+?)(?=\n\n|\n\Z)", _re.M | _re.S)
+_ENTRY = _re.compile(r"^(## |- \*\*)(SW\d+) (\w+)(?:\n\n|\*\*: )(.+?)(?=\n- |\n\n|\n\Z)", _re.M | _re.S)
 
 
 class SeacraneWarning(UserWarning):
@@ -21,12 +21,10 @@ def _made() -> dict[str, type[SeacraneWarning]]:
     """Classes by name: an entry of the page is a kind of the section above it."""
     made: dict[str, type[SeacraneWarning]] = {}
     section = SeacraneWarning
-    for of_section, name_of_section, code, name, text in _ENTRY.findall(_PAGE):
-        own = {"code": of_section or code, "__doc__": text, "__module__": __name__}
-        if of_section:
-            made[name_of_section] = section = type(name_of_section, (SeacraneWarning,), own)
-        else:
-            made[name] = type(name, (section,), own)
+    for mark, code, name, text in _ENTRY.findall(_PAGE):
+        own = {"code": code, "__doc__": text.replace("\n  ", "\n"), "__module__": __name__}
+        made[name] = type(name, (SeacraneWarning if mark == "## " else section,), own)
+        section = made[name] if mark == "## " else section
     return made
 
 

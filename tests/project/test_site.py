@@ -12,14 +12,13 @@ import pytest
 import seacrane
 
 ROOT = Path(__file__).resolve().parents[2]
-READ_BESIDE = ("examples", "studies", "tests")
 LISTED = re.compile(r"^- \[[^]]+\]\(([^)]+)\)", re.MULTILINE)
 
 
 def test_the_first_page_lists_every_document() -> None:
     docs = ROOT / "docs"
     listed = {(docs / link).resolve() for link in LISTED.findall((docs / "index.md").read_text("utf-8"))}
-    places = ("*", "docs/*", "benchmarks/**/*", "python/**/*", *(f"{one}/*/README" for one in READ_BESIDE))
+    places = ("*", "docs/*", "benchmarks/**/*", "python/**/*", "*/*/README")
     there = {path for place in places for path in ROOT.glob(f"{place}.md")}
     assert listed == there - {docs / "index.md"}
 
