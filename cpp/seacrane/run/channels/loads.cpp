@@ -6,12 +6,7 @@
 namespace seacrane {
 namespace {
 
-const Axis state_name{"state_name", {}, [](const Model& m) {
-                        std::vector<std::string> names;
-                        for (const LoadState& one : m.load_states) names.push_back(one.name);
-                        return names;
-                      }};
-
+const Axis state_name{"state_name", {}, [](const Model& m) { return names_of_all(m.load_states); }};
 const Axis line{"line", {}, names_of<Line>};
 
 bool has_drum(const Line::Description& d) { return d.winch && d.drum_inertia > 0.0; }

@@ -11,12 +11,16 @@
 
 namespace seacrane {
 
+template <class Elements>
+std::vector<std::string> names_of_all(const Elements& elements) {
+  std::vector<std::string> names;
+  for (const auto& one : elements) names.push_back(one.name);
+  return names;
+}
 /// Names of the described loads of a kind.
 template <class Load>
 std::vector<std::string> names_of(const Model& m) {
-  std::vector<std::string> names;
-  for (const auto& d : m.description.loads.of<Load>()) names.push_back(d.name);
-  return names;
+  return names_of_all(m.description.loads.of<Load>());
 }
 
 inline LoadInput<double> input_of(const Output& o) {
