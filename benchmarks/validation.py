@@ -2,7 +2,7 @@
 all.
 
 Runs the comparisons of `benchmarks/compared`, and takes those that other measurements wrote from their
-files. `benchmarks/run.py` writes them to ``validation.csv``, which fills docs/validation.md. Files of real
+files. `benchmarks/run.py` writes them to ``validation.csv``, which fills benchmarks/README.md. Files of real
 ships are looked for in the folder that SEACRANE_SHARED names; without it their rows stay as they were. A
 difference beyond its bound ends the call, and nothing is written.
 """

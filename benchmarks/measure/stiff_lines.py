@@ -27,7 +27,6 @@ TIGHT = Method(integrator="dop853", rtol=1e-8)
 RIGID = Method(integrator="dopri5", rtol=1e-4)
 IMPLICIT = (
     Method(integrator="rosenbrock", rtol=1e-3),
-    Method(integrator="ark-dirk", rtol=1e-3),
     Method(integrator="cvode-bdf", rtol=1e-4),
 )
 

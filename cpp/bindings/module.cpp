@@ -17,9 +17,7 @@ void translate(std::exception_ptr pointer) {
   };
   try {
     if (pointer) std::rethrow_exception(pointer);
-  } catch (const seacrane::SceneError& error) {
-    raise("SceneError", error.what());
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::invalid_argument& error) {  // SceneError too
     raise("SceneError", error.what());
   } catch (const seacrane::ChatteringError& error) {
     raise("ChatteringError", error.what());

@@ -117,9 +117,7 @@ Above the water they are those at its level.)")
            }),
            py::arg("waves"), py::kw_only(), py::arg("stretching") = "wheeler")
       .def("at", &flow_at, py::kw_only(), py::arg("times"), py::arg("points"),
-           "Flows (n, m, 11) at times (n,), s, and points (m, 3), m, component by component.")
-      .def("share_beyond", &SeaField::share_beyond, py::arg("length"),
-           "Share of the variance of the acceleration that is of waves shorter than this, m.");
+           "Flows (n, m, 11) at times (n,), s, and points (m, 3), m, component by component.");
 
   py::class_<FlowEvaluator>(
       m, "FlowEvaluator",
@@ -159,36 +157,5 @@ Above the water they are those at its level.)")
             return flow_rows({&bound, 1});
           },
           py::kw_only(), py::arg("time"), py::arg("x"), py::arg("y"),
-          "Bounds (1, 11) of the distance from the sum component by component.")
-      .def(
-          "repeat_line",
-          [](FlowEvaluator& e, double time, const Vec3d& first, const Vec3d& step, long count, double dt) {
-            const WithoutGil released;
-            clear_vector_state();
-            double sum = 0.0;
-            for (long i = 0; i < count; ++i) {
-              sum += e.line(time + static_cast<double>(i) * dt, first, step).front().pressure;
-            }
-            return sum;
-          },
-          py::kw_only(), py::arg("time"), py::arg("first"), py::arg("step"), py::arg("count"), py::arg("dt"),
-          "Evaluates the line `count` times; the caller takes the time.")
-      .def(
-          "repeat_cloud",
-          [](FlowEvaluator& e, double time, const std::vector<Vec3d>& points, const Mat3d& extents,
-             long count, double dt) {
-            std::vector<FlowPoint> at;
-            for (const Vec3d& point : points) at.push_back({point, extents});
-            if (at.size() != e.stencil().count)
-              throw py::value_error("stencil: give as many points as it has");
-            const WithoutGil released;
-            clear_vector_state();
-            double sum = 0.0;
-            for (long i = 0; i < count; ++i) {
-              sum += e.cloud(time + static_cast<double>(i) * dt, at).front().pressure;
-            }
-            return sum;
-          },
-          py::kw_only(), py::arg("time"), py::arg("points"), py::arg("extents"), py::arg("count"),
-          py::arg("dt"), "The same of a cloud, whose elements have the same extents.");
+          "Bounds (1, 11) of the distance from the sum component by component.");
 }

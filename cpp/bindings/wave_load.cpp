@@ -180,10 +180,7 @@ ValueError
       .def(
           "elevation",
           [](const WaveTable& table, const Doubles& times) { return table_channels(table, times, 6, 1); },
-          py::arg("times"), "Wave elevation (m) at the elevation point, shape of `times` (s).")
-      .def_property_readonly(
-          "elevation_error_bound", [](const WaveTable& table) { return table.error_bound()[6]; },
-          "The same, m.");
+          py::arg("times"), "Wave elevation (m) at the elevation point, shape of `times` (s).");
 }
 
 void bind_drift(py::module_& m) {

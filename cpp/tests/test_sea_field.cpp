@@ -418,8 +418,6 @@ TEST_CASE("an element feels its mean over the wave, and no wave shorter than its
     extents.col(2) = Vec3d(0.0, length, 0.0);  // along the crest
     CHECK(sea->filter<double>(0, extents) == 1.0);
   }
-  CHECK(sea->share_beyond(15.0) == 0.0);
-  CHECK(sea->share_beyond(16.0) == 1.0);
 }
 
 TEST_CASE("stencils allocate nothing when they are evaluated") {

@@ -336,10 +336,6 @@ class SeaField:
         """
         Flows (n, m, 11) at times (n,), s, and points (m, 3), m, component by component.
         """
-    def share_beyond(self, length: typing.SupportsFloat | typing.SupportsIndex) -> float:
-        """
-        Share of the variance of the acceleration that is of waves shorter than this, m.
-        """
 class FlowEvaluator:
     """
     A stencil of `count` points in a sea field, for tests and timing; loads hold theirs in the core.
@@ -359,14 +355,6 @@ class FlowEvaluator:
     def line(self, *, time: typing.SupportsFloat | typing.SupportsIndex, first: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], step: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], whole: bool = True) -> numpy.typing.NDArray[numpy.float64]:
         """
         Flows (count, 11) at first + i step, m; with `whole` each is the mean over an element as long as the step.
-        """
-    def repeat_cloud(self, *, time: typing.SupportsFloat | typing.SupportsIndex, points: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]], extents: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"], count: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> float:
-        """
-        The same of a cloud, whose elements have the same extents.
-        """
-    def repeat_line(self, *, time: typing.SupportsFloat | typing.SupportsIndex, first: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], step: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], count: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex) -> float:
-        """
-        Evaluates the line `count` times; the caller takes the time.
         """
 class ExactWaveLoad:
     """
@@ -451,11 +439,6 @@ class WaveTable:
     def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
         Forces (N) and moments (N m) at times (s): shape times.shape + (6,).
-        """
-    @property
-    def elevation_error_bound(self) -> float:
-        """
-        The same, m.
         """
     @property
     def error_bound(self) -> numpy.typing.NDArray[numpy.float64]:

@@ -231,6 +231,23 @@ def test_four_feet_of_unequal_height_land_and_their_hits_are_told() -> None:
     assert given == pytest.approx(LOAD * GRAVITY * 12.0, rel=1e-3)
 
 
+def test_one_contact_of_64_points_is_two_of_32() -> None:
+    points = [(x - 3.5, y - 3.5, -1e-3 * (8 * x + y)) for x in range(8) for y in range(8)]
+
+    def landed(**parts: list[tuple[float, float, float]]) -> tuple[np.ndarray, list[float]]:
+        scene = Scene(name="mat", gravity=GRAVITY)
+        scene.add_body(name="mat", mass=6400.0, inertia=(4e4, 4e4, 8e4), position=(0.0, 0.0, 0.5))
+        for name, own in parts.items():
+            scene.add_contact("mat", on="ground", name=name, points=own, stiffness=1e6, friction=0.3)
+        result = simulate(scene, t_end=1.0, dt_out=0.01, rtol=1e-9)
+        return np.asarray(result["position"]), sorted(e.time for e in result.events if e.kind == "contact")
+
+    whole, halves = landed(all=points), landed(low=points[:32], high=points[32:])
+    assert len(whole[1]) >= 64
+    np.testing.assert_allclose(whole[0], halves[0], atol=1e-7)
+    np.testing.assert_allclose(whole[1], halves[1], atol=1e-6)
+
+
 def test_a_fender_gives_by_its_table() -> None:
     scene = Scene(name="fender", gravity=GRAVITY)
     weight = 1000.0 * GRAVITY

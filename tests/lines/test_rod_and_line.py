@@ -1,4 +1,4 @@
-"""What a rod has, a line has: every row of the table in docs/lines.md, asked of every lift by a run."""
+"""What a rod has, a line has: every row of the table in docs/hoists.md, asked of every lift by a run."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from seacrane.operability import Criterion, allowable_hs
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.warnings import BallastWarning, LoadInHullWarning, MassUnitWarning
 
-DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "lines.md"
+DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "hoists.md"
 G, MASS, SIZE, LENGTH = 9.80665, 40e3, (6.0, 6.0, 4.0), 8.0  # of the rod's usual load
 ROPE = {"EA": 4e7}
 SLUNG = {"falls": 4, "block_mass": 2e3, "slings": {"angle_deg": 60.0, "EA": 8e7}}

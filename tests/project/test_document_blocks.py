@@ -13,7 +13,7 @@ from veres_writer import VeresRun
 
 ROOT = Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
-SAMPLE = ("README.md", "docs/getting-started.md", "docs/lines.md", "docs/stages.md", "docs/hydraulics.md")
+SAMPLE = ("README.md", "docs/getting-started.md", "docs/winches.md", "docs/stages.md", "docs/hydraulics.md")
 PATHS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
 RUN = [name for name, text in TEXTS.items() if BLOCK.search(text)]
@@ -31,7 +31,7 @@ def as_script(text: str) -> str:
 
 TOLD_OF_THE_GIVEN = {
     "docs/frequency-domain.md": {"InfiniteFrequencyWarning", "MemoryFitWarning"},
-    "docs/lines.md": {"WinchLimitWarning"},  # a motor and a brake at their bounds are what it shows
+    "docs/winches.md": {"WinchLimitWarning"},  # a motor and a brake at their bounds are what it shows
     "docs/hydraulics.md": {"BoilingOilWarning"},  # and a hose that bursts
 }
 

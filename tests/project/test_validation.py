@@ -1,17 +1,14 @@
-"""docs/validation.md: it shows every row of its file as their sources say; a sample is computed again."""
+"""The table of validation: every row within its bound and as its source says; a sample is computed again."""
 
 from __future__ import annotations
 
 import importlib
-import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
-MARK = re.compile(r"<!-- table benchmarks/results/validation\.csv; .*rows: subject = (.*) -->")
 ROUNDING = 1e-11  # differences below it depend on the compiler
 
 
@@ -30,10 +27,9 @@ def published(modules: Any) -> dict[str, dict[str, str]]:
     return {f"{row['compared']}; {row['with']}": row for row in rows}
 
 
-def test_the_page_shows_every_subject_within_its_bound(published: dict[str, dict[str, str]]) -> None:
+def test_every_row_is_within_its_bound(published: dict[str, dict[str, str]]) -> None:
     rows = published.values()
     assert len(rows) > 60
-    assert sorted(MARK.findall(PAGE)) == sorted({row["subject"] for row in rows})
     assert [row["test"] for row in rows if not (ROOT / row["test"].strip("`")).is_file()] == []
     bounded = [row for row in rows if row["bound"]]
     assert len(bounded) > 20

@@ -16,11 +16,9 @@ GRAVITY = 9.80665
 SHAPES = ("plane", "box", "post", "pipe", "seabed")
 FINEST = {"rosenbrock": -6.0, "bs32": -7.0}  # powers of ten, rtol
 METHODS = (
-    "dopri5", "tsit5", "dop853", "verner65", "bs32", "rosenbrock", "dopri5-stiff", "ark-dirk", "cvode-bdf",
-    "ida",
+    "dopri5", "tsit5", "dop853", "verner65", "bs32", "rosenbrock", "dopri5-stiff", "cvode-bdf", "ida",
 )  # fmt: skip
 ROUGH = ("cvode-bdf", "ida")
-BY_NEWTON = (*ROUGH, "ark-dirk")  # whose stages are solved to a share of the tolerance
 AT_END = 2e-6  # of a step: a touch so near to its end is at it
 
 
@@ -42,7 +40,7 @@ class Drop:
         if not hits:
             return f"steps over {self.thick:.3g} m at t = {time:.6g} s, with {speed:.4g} m/s"
         late, fast = hits[0].time - time, hits[0].speed - speed
-        off = 1e-5 + (2e3 if self.how["integrator"] in BY_NEWTON else 100.0) * self.how["rtol"]  # m
+        off = 1e-5 + (2e3 if self.how["integrator"] in ROUGH else 100.0) * self.how["rtol"]  # m
         round_edge = min(0.05, 0.5 * self.thick)
         if abs(late) * speed > off + AT_END * time * speed or abs(fast) > off * (1.0 + 30.0 / round_edge):
             return f"touches {late:.3g} s late, {fast:.3g} m/s too fast"

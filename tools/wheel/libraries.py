@@ -1,4 +1,4 @@
-"""Builds what a wheel holds inside: SUNDIALS (ARKODE, CVODE, IDA), static, and the headers of Eigen.
+"""Builds what a wheel holds inside: SUNDIALS (CVODE, IDA), static, and the headers of Eigen.
 
     python tools/wheel/libraries.py FOLDER [--sundials ARCHIVE] [--eigen ARCHIVE]
 
@@ -29,6 +29,7 @@ SUNDIALS = (
     "-DBUILD_STATIC_LIBS=ON",
     "-DCMAKE_POSITION_INDEPENDENT_CODE=ON",
     "-DCMAKE_C_VISIBILITY_PRESET=hidden",
+    "-DBUILD_ARKODE=OFF",
     "-DBUILD_CVODES=OFF",
     "-DBUILD_IDAS=OFF",
     "-DBUILD_KINSOL=OFF",

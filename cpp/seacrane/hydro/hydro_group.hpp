@@ -15,7 +15,7 @@ struct HydroGroup {
   template <class T>
   using Motions = std::array<T, 6 * most_vessels>;  // of each vessel in turn
 
-  /// Two of its vessels, by their places in it.
+  /// Two of its vessels, by their places in it, the first behind the second.
   struct Pair {
     int first, second;
     Mat6d added_mass;  // load on the first over the acceleration of the second

@@ -3,7 +3,6 @@
 // The differences between the SUNDIALS releases 6.x and 7.x, and nothing else. Compiled and tested with
 // 6.4; the branches for 7.x follow its documentation and headers and have not been compiled.
 
-#include <arkode/arkode_arkstep.h>
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 #include <cvode/cvode_proj.h>
@@ -49,7 +48,6 @@ inline SUNContext create_context(MessageLog& log) {
 // One handler, that of the context, serves all solvers.
 inline void record_cvode_messages(void* /*memory*/, MessageLog& /*log*/) {}
 inline void record_ida_messages(void* /*memory*/, MessageLog& /*log*/) {}
-inline void record_ark_messages(void* /*memory*/, MessageLog& /*log*/) {}
 
 #else
 
@@ -70,20 +68,10 @@ inline void record_cvode_messages(void* memory, MessageLog& log) {
 inline void record_ida_messages(void* memory, MessageLog& log) {
   IDASetErrHandlerFn(memory, record_message, &log);
 }
-inline void record_ark_messages(void* memory, MessageLog& log) {
-  ARKStepSetErrHandlerFn(memory, record_message, &log);
-}
 
 #endif
 
-// From 7.1 on ARKODE's steppers share one set of functions, and the names of the steppers are deprecated.
-#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
-#define SEACRANE_ARK(function) ARKode##function
-#else
-#define SEACRANE_ARK(function) ARKStep##function
-#endif
-
-/// The functions that CVODE, IDA and ARKODE have in common.
+/// The functions that CVODE and IDA have in common.
 struct Solver {
   const char* name;
   void (*free)(void**);
@@ -111,7 +99,6 @@ struct Solver {
 #define SEACRANE_IDA(function) IDA##function
 inline constexpr Solver cvode = SEACRANE_SOLVER("CVODE", SEACRANE_CVODE);
 inline constexpr Solver ida = SEACRANE_SOLVER("IDA", SEACRANE_IDA);
-inline constexpr Solver arkode = SEACRANE_SOLVER("ARKODE", SEACRANE_ARK);
 #undef SEACRANE_IDA
 #undef SEACRANE_CVODE
 #undef SEACRANE_SOLVER

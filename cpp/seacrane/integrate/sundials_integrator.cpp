@@ -166,8 +166,6 @@ void SundialsIntegrator::step(double t_limit) {
       restart();
       started_ = true;
       must_restart_ = false;
-    } else {
-      prepare_step();
     }
     const double reached = advance(t_limit);
     if (reached < t_limit && reached - before < shortest) {

@@ -47,8 +47,6 @@ class SundialsIntegrator : public Integrator {
   virtual void attach(void* memory) = 0;
   /// Makes the solver forget the past, at time_ and solution_.
   virtual void reinitialise(void* memory) = 0;
-  /// Called before a step that continues from the last one.
-  virtual void prepare_step() {}
   /// One internal step. Fills state_ and returns the time reached, or returns through fail().
   virtual double advance(double t_limit) = 0;
   virtual void fill_weights(const double* y, double* w) const { norm_.weights(y, w); }

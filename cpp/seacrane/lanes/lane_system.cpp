@@ -26,7 +26,8 @@ std::string kept_out_of_lanes(const Model& model) {
   }
   for (const auto& list : m.loads.lists) {
     for (std::size_t i = 0; i < list->size(); ++i) {
-      if (list->jumps(i, 0, ~0)) return "states of " + name_of(*list, i) + " jump where it is touched";
+      if (list->jumps(i, Side(), ~Side()))
+        return "states of " + name_of(*list, i) + " jump where it is touched";
     }
   }
   for (const WaveLoad& wave : m.wave_loads) {

@@ -103,16 +103,7 @@ struct NumTraits<seacrane::Dual<N>> : NumTraits<double> {
   using Real = seacrane::Dual<N>;
   using NonInteger = seacrane::Dual<N>;
   using Nested = seacrane::Dual<N>;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = N + 1,
-    AddCost = N + 1,
-    MulCost = 2 * N + 1
-  };
+  enum { RequireInitialization = 1, ReadCost = N + 1, AddCost = N + 1, MulCost = 2 * N + 1 };
 };
 
 }  // namespace Eigen

@@ -168,16 +168,6 @@ struct NumTraits<seacrane::Pack<L>> : NumTraits<double> {
   using Real = seacrane::Pack<L>;
   using NonInteger = seacrane::Pack<L>;
   using Nested = seacrane::Pack<L>;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 0,
-    ReadCost = 1,
-    AddCost = 1,
-    MulCost = 1
-  };
 };
 
 }  // namespace Eigen

@@ -78,16 +78,7 @@ struct NumTraits<seacrane::WithRate<T>> : NumTraits<double> {
   using Real = seacrane::WithRate<T>;
   using NonInteger = seacrane::WithRate<T>;
   using Nested = seacrane::WithRate<T>;
-  using Literal = double;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 4,
-    AddCost = 4,
-    MulCost = 8
-  };
+  enum { RequireInitialization = 1, ReadCost = 4, AddCost = 4, MulCost = 8 };
 };
 
 }  // namespace Eigen

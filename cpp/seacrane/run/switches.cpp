@@ -80,7 +80,7 @@ void look_into_dip(double first, double last, double pace, F&& clear_at, const M
 std::string Switches::first_that_jumps(const Model& model) {
   std::string out;
   model.loads.for_each([&](const LoadList& list, std::size_t i) {
-    if (out.empty() && list.jumps(i, 0, ~0)) out = name_of(list, i);
+    if (out.empty() && list.jumps(i, Side(), ~Side())) out = name_of(list, i);
   });
   return out;
 }
@@ -211,9 +211,9 @@ void Switches::finish(Stepper& at, const LastStep& step) {
   strike_pace_ = 0.0;
   strike_thin_ = Sight::kFar;
   for (const Watched& one : watched_) {
-    const int left = one.left.value_or(one.before);
+    const Side left = one.left.value_or(one.before);
     has_jumped_ = has_jumped_ || one.list->jumps(one.place, left, one.after);
-    if (one.from.strikes && ((left ^ one.after) & one.from.watched) != 0) {
+    if (one.from.strikes && ((left ^ one.after) & one.from.watched).any()) {
       strike_pace_ = std::max({strike_pace_, one.from.pace, one.to.pace});
       strike_thin_ = std::min(strike_thin_, one.from.thin);
     }
@@ -232,7 +232,8 @@ void Switches::settle(Stepper& at, double t, const double* y, double* load_state
   settled_at_ = t;
   list_loads(at);
   for (const Watched& one : watched_) {
-    if (one.list->jumps(one.place, 0, ~0)) one.list->settle(one.place, read(at, t, y), one.left, load_states);
+    if (one.list->jumps(one.place, Side(), ~Side()))
+      one.list->settle(one.place, read(at, t, y), one.left, load_states);
   }
 }
 
@@ -356,7 +357,7 @@ std::optional<double> Switches::look_between(Stepper& at, LastStep& step) {
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const Watched& load = watched_[i];
     const double pace = pace_between(load.from, load.to, load.clear_at_end(), h);
-    const bool ends_in_it = ends_before_ && ((load.after ^ load.before) & load.from.watched) != 0;
+    const bool ends_in_it = ends_before_ && ((load.after ^ load.before) & load.from.watched).any();
     if (!(pace > 0.0) || (ends_in_it && load.from.thin == Sight::kFar)) continue;
     std::optional<Between> met = look_between(at, step, load, pace, false);
     if (!met && leads_far(pace * h, load.from.thin)) {
@@ -445,8 +446,8 @@ std::optional<Switches::Between> Switches::look_between(Stepper& at, const LastS
   const auto clear_at = [&](double t) {
     const LoadInput<double> in = read_within(at, step, t, on_cubic);
     const Sight now = load.list->look(load.place, in);
-    const int changed = (now.side ^ load.before) & from.watched, side = load.before ^ changed;
-    if (changed != 0) met = Between{t, side, load.across(in, load.before, side)};
+    const Side changed = (now.side ^ load.before) & from.watched, side = load.before ^ changed;
+    if (changed.any()) met = Between{t, side, load.across(in, load.before, side)};
     return now.clear;
   };
   struct {

@@ -29,8 +29,8 @@ class LineSlackError : public std::domain_error {
 /// Kinks that loads have in the state: where a soft stop is touched, left or lets go, the corners of a
 /// spring's table, where a line goes slack or taut. They have no time to offer. A step that ends on another
 /// side of one is taken again, up to where it crossed, so that every step sees one side only. A load that may
-/// have kinks has has_sides(), side(input), a number for each side, and across(input, from, to), which
-/// changes its sign between two of them. What it may have besides:
+/// have kinks has margins(input); or side(input), and across(input, from, to), which changes its sign
+/// between two sides; and has_sides(), where not every one has them. What it may have besides:
 ///
 /// - look(input): its side, and how near it is to what it may meet and leave again within a step.
 /// - jumps(from, to), whether states of its own jump there, and settle(input, side, states), which writes
@@ -78,14 +78,14 @@ class Switches {
     double time = std::numeric_limits<double>::quiet_NaN();
     double length = 0.0;
     std::size_t load = 0;
-    int to = 0;
+    Side to;
     double from_start = 0.0;
   };
 
   /// What a step met and left again: when, on which side it was then, and how far across.
   struct Between {
     double time;
-    int side;
+    Side side;
     double across;
   };
 
@@ -93,14 +93,14 @@ class Switches {
   struct Watched {
     const LoadList* list;
     LoadList::Place place;
-    int before = 0, after = 0;
-    int passed = 0;                          // on that just after the step's start
-    std::optional<int> left = std::nullopt;  // where its states last jumped or the last step began
+    Side before, after;
+    Side passed;                              // on that just after the step's start
+    std::optional<Side> left = std::nullopt;  // where its states last jumped or the last step began
     Sight from = {}, to = {};
     double instant = 0.0;  // of the change
 
     bool changes() const { return before != after; }
-    double across(const LoadInput<double>& in, int first, int second) const {
+    double across(const LoadInput<double>& in, const Side& first, const Side& second) const {
       return list->across(place, in, first, second);
     }
     double across(const LoadInput<double>& in) const { return across(in, before, after); }

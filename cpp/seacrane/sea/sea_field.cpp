@@ -119,14 +119,4 @@ LocalFlow<double> SeaField::magnitude() const {
   return out;
 }
 
-double SeaField::share_beyond(double length) const {
-  double whole = 0.0, beyond = 0.0;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const double part = std::pow(arrays_.amplitude[i] * arrays_.sigma[i] * arrays_.sigma[i], 2);
-    whole += part;
-    if (arrays_.k[i] * length > 2.0 * std::numbers::pi) beyond += part;
-  }
-  return whole > 0.0 ? beyond / whole : 0.0;
-}
-
 }  // namespace seacrane

@@ -119,10 +119,6 @@ class SeaField {
   /// Bounds of all numbers of a flow: sums of the magnitudes of the components at z = 0.
   LocalFlow<double> magnitude() const;
 
-  /// Share of the variance of the acceleration that is of waves shorter than an element of this length (m),
-  /// which no filtered stencil feels where they run along it.
-  double share_beyond(double length) const;
-
  private:
   /// exp(kz) and its image below the sea floor, of component i.
   template <class T>

@@ -102,7 +102,7 @@ def soft_stop() -> Scene:
     return scene
 
 
-@case(by("dopri5"), by("ark-dirk", "redundant"))
+@case(by("dopri5"), by("cvode-bdf", "redundant"))
 def gas_spring() -> Scene:
     scene = guided(axis=(0, 0, 1), position=(0, 0, -4.2))
     scene.add_gas_spring(

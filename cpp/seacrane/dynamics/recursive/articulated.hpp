@@ -74,15 +74,11 @@ class ArticulatedTree {
       inertia_[idx(body)] = mass;
     }
   }
-  /// Mass between the roots at two places of coupled ones, which stays until it is set again.
+  /// Mass between the roots at two places of coupled ones, the first behind the second; it stays until it is
+  /// set again.
   void set_coupling(std::size_t coupled, int first, int second, const Mat6<T>& mass) {
     Coupled& c = coupled_[coupled];
-    const int count = c.mass.count();
-    if (first > second) {
-      c.coupling[idx(first * count + second)] = mass;
-    } else {
-      c.coupling[idx(second * count + first)] = mass.transpose();
-    }
+    c.coupling[idx(first * c.mass.count() + second)] = mass;
   }
   /// Articulated inertias for those of all bodies, at the last place(). They are used up: set them again.
   /// Not `coupled`: of geometry, where the water has no part.

@@ -171,16 +171,17 @@ struct Contact {
     return out;
   }
 
-  static bool has_sides() { return true; }
   /// Of each point, whether it is closed, and whether it is free: not held by friction, or open and outside
   /// the surface, not torn off inside it.
-  int side(const LoadInput<double>& in) const {
+  Side side(const LoadInput<double>& in) const {
     if (!apart(in)) return margins(in).side();
-    int out = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) out |= kFree << 2 * i;
+    Side out;
+    for (std::size_t i = 0; i < points.size(); ++i) out.set(free(i));
     return out;
   }
-  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  double across(const LoadInput<double>& in, const Side& from, const Side& to) const {
+    return margins(in).across(from, to);
+  }
 
   /// Points that do not press: those of a ball about all of them while that is outside. One that is torn off
   /// is at the surface.
@@ -196,47 +197,45 @@ struct Contact {
               .at = axes.transpose() * (s.rotation.transpose() * ball - place)};
     const double apart = surface.at<double>(out.at).distance - radius;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const int closed = kClosed << 2 * i;
-      out.presses = out.presses || (out.side & closed) != 0;
-      if ((out.side & closed) != 0) continue;
-      out.watched |= closed;
+      out.presses = out.presses || out.side[closed(i)];
+      if (out.side[closed(i)]) continue;
+      out.watched.set(closed(i));
       out.clear = std::min(out.clear, apart > 0.0 ? apart : std::max(0.0, touch(in, i).gap));
     }
     return out;
   }
 
   /// What a change of the side is, point by point.
-  std::vector<Happening> happened(const LoadInput<double>& in, int from, int to) const {
+  std::vector<Happening> happened(const LoadInput<double>& in, const Side& from, const Side& to) const {
     std::vector<Happening> out;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const int before = from >> 2 * i & 3, after = to >> 2 * i & 3, changed = before ^ after;
-      const bool is_closed = (after & kClosed) != 0;
-      if ((changed & kClosed) != 0) {
+      const bool is_closed = to[closed(i)];
+      if (is_closed != from[closed(i)]) {
         const double speed = is_closed ? std::max(touch(in, i).rate, 0.0) : 0.0;
         out.push_back({point_name(i), is_closed ? "contact" : "release", speed});
-      } else if (states.count > 0 && is_closed && changed != 0) {
-        out.push_back({point_name(i), (after & kFree) != 0 ? "slip" : "stick"});
+      } else if (states.count > 0 && is_closed && to[free(i)] != from[free(i)]) {
+        out.push_back({point_name(i), to[free(i)] ? "slip" : "stick"});
       }
     }
     return out;
   }
 
   /// Whether a point touches where the side changes, and its anchor jumps.
-  bool jumps(int from, int to) const {
+  bool jumps(const Side& from, const Side& to) const {
     if (states.count == 0) return false;
     bool out = false;
-    for (std::size_t i = 0; i < points.size(); ++i) out = out || (~from & to) >> 2 * i & kClosed;
+    for (std::size_t i = 0; i < points.size(); ++i) out = out || (to[closed(i)] && !from[closed(i)]);
     return out;
   }
 
   /// Writes the anchors of points that may not have one yet, among the states of all loads: of those that are
   /// open at `side`, or, where no side is known, of those whose spring is longer than friction allows.
-  void settle(const LoadInput<double>& in, std::optional<int> side, double* all_states) const {
+  void settle(const LoadInput<double>& in, const std::optional<Side>& side, double* all_states) const {
     if (states.count == 0) return;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Touch<double> now = touch(in, i);
       const double longest = kLongest * d.friction * now.press.total() / d.shear_stiffness;
-      const bool held = side ? (*side >> 2 * i & kClosed) != 0 : now.spring.norm() <= longest;
+      const bool held = side ? (*side)[closed(i)] : now.spring.norm() <= longest;
       if (!held) view<3>(all_states + anchor(i)) = now.at;
     }
   }
@@ -256,13 +255,13 @@ struct Contact {
   }
 
  private:
-  static constexpr int kClosed = 1, kFree = 2;
-  static constexpr double kDeep = 0.1;  // m, that a point may start inside
-  static constexpr double kCrushed =
-      10.0;                               // times its share of the weight, with which it may be pressed there
-  static constexpr double kLeast = 1e-6;  // of that quarter
-  static constexpr double kLongest = 1.5;  // of the spring of a point that slides, in a state that is given
+  static constexpr double kDeep = 0.1;      // m, that a point may start inside
+  static constexpr double kCrushed = 10.0;  // times its share of the weight, that presses it there
+  static constexpr double kLeast = 1e-6;    // of that quarter
+  static constexpr double kLongest = 1.5;   // of the spring of a point that slides, in a state that is given
 
+  static std::size_t closed(std::size_t i) { return 2 * i; }
+  static std::size_t free(std::size_t i) { return 2 * i + 1; }
   int anchor(std::size_t i) const { return states.first + 3 * static_cast<int>(i); }
 
   /// A point from the state point of `on`, in axes of the surface.

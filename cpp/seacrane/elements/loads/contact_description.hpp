@@ -22,7 +22,7 @@ struct ContactDescription {
   std::vector<double> compressions, forces;
   double friction = 0.0, shear_stiffness = 0.0, shear_damping = 0.0, hold = 1e-3;
 
-  static constexpr std::size_t kMostPoints = 15;
+  static constexpr std::size_t kMostPoints = 64;
   static constexpr const char* type = "Contact";
   static constexpr const char* text =
       "Points of a body against the surface of another, which presses and rubs; see Scene.add_contact.";

@@ -227,24 +227,42 @@ struct EntrappedWater {
     return gravity * water.mass * (in.bodies[body].position.z() + water.center.z());
   }
 
-  std::vector<std::string> reached(int from, int to) const { return bounds_met(d.name, kMargins, from, to); }
-  static bool has_sides() { return true; }
-  int side(const LoadInput<double>& in) const { return margins(in).side(); }
-  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
+  std::vector<std::string> reached(const Side& from, const Side& to) const {
+    return bounds_met(d.name, kMargins, from, to);
+  }
   /// Openings, which the water outside comes to and leaves.
   Sight look(const LoadInput<double>& in) const {
-    const auto dry = [](std::size_t i) { return 1 << (kMargins.size() + 2 * i); };  // above the water outside
+    const auto dry = [](std::size_t i) { return kMargins.size() + 2 * i; };  // above the water outside
+    const Margins margins = this->margins(in);
     const auto& k = in.bodies[body];
-    Sight out{.side = side(in), .at = k.position};
+    Sight out{.side = margins.side(), .at = k.position};
     double crest = 0.0;
     for (std::size_t i = 0; i < openings.size(); ++i) {
-      out.watched |= dry(i);
+      out.watched.set(dry(i));
       out.pace = std::max(out.pace, velocity_of(k, openings[i].point).norm());
-      if ((out.side & dry(i)) != 0) crest = std::max(crest, in.sea->crest(openings[i].stencil));
+      if (out.side[dry(i)]) crest = std::max(crest, in.sea->crest(openings[i].stencil));
     }
-    if (out.watched == 0) return out;
-    out.clear = across(in, out.side, out.side ^ out.watched);
+    if (out.watched.none()) return out;
+    out.clear = margins.across(out.side, out.side ^ out.watched);
     if (out.clear > crest) out.clear -= crest;
+    return out;
+  }
+
+  Margins margins(const LoadInput<double>& in) const {
+    const auto& k = in.bodies[body];
+    const Column<double> water = column(in);
+    auto own = kMargins;
+    own[0].value = d.area * d.height - water.volume;
+    own[1].value = water.volume - d.area * kFilm * kRoundedHead;
+    own[2].value = water.axis.z() - kUpright;
+    own[3].value = water.volume;
+    Margins out(own);
+    for (const Opening& one : openings) {
+      const Vec3d place = k.position + k.rotation * one.point;
+      const double outside = flow_at(in, one.stencil, place).pressure * per_gravity;
+      out.add({nullptr, outside - place.z()});
+      out.add({nullptr, water.level - place.z()});
+    }
     return out;
   }
 
@@ -563,24 +581,6 @@ struct EntrappedWater {
     bottom_share = std::max(0.0, 1.0 - open_share(d, -1));
     full_share = std::max(bottom_share, 1.0 - lid);
     slab = whole() * std::min(1.0, std::max(kLeastSlab, 3.0 * jet * jet));
-  }
-
-  Margins margins(const LoadInput<double>& in) const {
-    const auto& k = in.bodies[body];
-    const Column<double> water = column(in);
-    auto own = kMargins;
-    own[0].value = d.area * d.height - water.volume;
-    own[1].value = water.volume - d.area * kFilm * kRoundedHead;
-    own[2].value = water.axis.z() - kUpright;
-    own[3].value = water.volume;
-    Margins out(own);
-    for (const Opening& one : openings) {
-      const Vec3d place = k.position + k.rotation * one.point;
-      const double outside = flow_at(in, one.stencil, place).pressure * per_gravity;
-      out.add({nullptr, outside - place.z()});
-      out.add({nullptr, water.level - place.z()});
-    }
-    return out;
   }
 
   static constexpr int kMostHalvings = 200;

@@ -117,21 +117,20 @@ struct GasSpring {
   }
 
   bool has_sides() const { return d.stop_stiffness > 0.0; }
-  int side(const LoadInput<double>& in) const { return margins(in).side(); }
-  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
   /// Its end stops.
   Sight look(const LoadInput<double>& in) const {
-    constexpr int ends = 1 | 2;  // as margins() adds them
-    const int now = side(in);
-    if ((now & ends) != 0) return {.side = now};
+    const Side now = margins(in).side();
+    if (now.any()) return {.side = now};
     const SpanMotion<double> m = span.motion(in);
     return {.side = now,
-            .watched = ends,
+            .watched = ~now,
             .clear = std::max(0.0, std::min(d.maximum - m.length, m.length - d.minimum)),
             .pace = std::abs(m.rate),
             .at = {m.length, 0.0, 0.0}};
   }
-  std::vector<std::string> reached(int from, int to) const { return bounds_met(d.name, kMargins, from, to); }
+  std::vector<std::string> reached(const Side& from, const Side& to) const {
+    return bounds_met(d.name, kMargins, from, to);
+  }
 
   double potential(const LoadInput<double>& in) const {
     const double l = motion(in).length, ratio = d.volume / gas_volume(l), depth = beyond(l);
@@ -141,10 +140,6 @@ struct GasSpring {
     return d.pressure * d.volume * gas + 0.5 * d.stop_stiffness * depth * depth;
   }
 
- private:
-  static constexpr std::array<Margin, 2> kMargins = {{{"maximum"}, {"minimum"}}};
-  static constexpr double kLeastVolume = 0.1;  // of that at the end stop, where there is one
-
   Margins margins(const LoadInput<double>& in) const {
     const double length = span.length(in);
     auto out = kMargins;
@@ -152,6 +147,10 @@ struct GasSpring {
     out[1].value = length - d.minimum;
     return Margins(out);
   }
+
+ private:
+  static constexpr std::array<Margin, 2> kMargins = {{{"maximum"}, {"minimum"}}};
+  static constexpr double kLeastVolume = 0.1;  // of that at the end stop, where there is one
 
   static bool has_end(const Description& d) { return d.pushes ? true : d.maximum < kFarthest; }
   static double volume_at_end(const Description& d) {

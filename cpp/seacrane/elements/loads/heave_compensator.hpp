@@ -88,27 +88,30 @@ struct HeaveCompensator {
   }
 
   bool has_sides() const { return signal.d.maximum_rate < kFarthest || signal.d.maximum_stroke < kFarthest; }
-  /// 0 within the bounds; 1 at that on the rate, 2 at that on the stroke; negative: downwards.
-  int side(const LoadInput<double>& in) const {
+  Side side(const LoadInput<double>& in) const {
     const HeaveSignal::Motion<double> now = signal.motion(in);
-    if (now.wanted > now.high) return now.high < signal.d.maximum_rate ? 2 : 1;
-    if (now.wanted < now.low) return now.low > -signal.d.maximum_rate ? -2 : -1;
-    return 0;
+    if (now.wanted > now.high) return side_of({now.high < signal.d.maximum_rate ? kStroke : kRate});
+    if (now.wanted < now.low) return side_of({now.low > -signal.d.maximum_rate ? kStroke : kRate, kDown});
+    return {};
   }
-  double across(const LoadInput<double>& in, int from, int to) const {
+  double across(const LoadInput<double>& in, const Side& from, const Side& to) const {
     const HeaveSignal::Motion<double> now = signal.motion(in);
-    const bool up = from > 0 || (from == 0 && to > 0);
-    if (from * to > 0) {
+    const bool up = !(from.any() ? from : to)[kDown];
+    if (from.any() && to.any() && from[kDown] == to[kDown]) {
       const double left = signal.d.maximum_stroke + (up ? -now.stroke : now.stroke);
       return left / signal.d.settling - signal.d.maximum_rate;
     }
     return up ? now.high - now.wanted : now.wanted - now.low;
   }
   /// What is reached where it changes its side; empty: nothing.
-  std::string reached(int from, int to) const {
-    if (to == 0 || to == from) return "";
-    return signal.d.name + (std::abs(to) == 1 ? ".rate" : ".stroke");
+  std::string reached(const Side& from, const Side& to) const {
+    if (to.none() || to == from) return "";
+    return signal.d.name + (to[kRate] ? ".rate" : ".stroke");
   }
+
+ private:
+  /// Bounds that hold it, and whether it is held downwards.
+  static constexpr std::size_t kRate = 0, kStroke = 1, kDown = 2;
 };
 
 }  // namespace seacrane

@@ -178,14 +178,10 @@ struct HydraulicCylinder {
     return sum + d.accumulator_pressure * (d.accumulator_volume * work + further);
   }
 
-  static bool has_sides() { return true; }
-  int side(const LoadInput<double>& in) const { return margins(in).side(); }
-  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
   /// Its end stops.
   Sight look(const LoadInput<double>& in) const {
-    constexpr int ends = 1 << kRetracted | 1 << kExtended;
-    const int now = side(in);
-    if ((now & ends) != 0) return {.side = now};
+    const Side ends = side_of({kRetracted, kExtended}), now = margins(in).side();
+    if ((now & ends).any()) return {.side = now};
     const SpanMotion<double> m = span.motion(in);
     const double stroke = m.length - d.retracted_length;
     return {.side = now,
@@ -194,17 +190,44 @@ struct HydraulicCylinder {
             .pace = std::abs(m.rate),
             .at = {stroke, 0.0, 0.0}};
   }
-  std::vector<std::string> reached(int from, int to) const { return bounds_met(d.name, kMargins, from, to); }
+  std::vector<std::string> reached(const Side& from, const Side& to) const {
+    return bounds_met(d.name, kMargins, from, to);
+  }
 
   /// Why a run cannot go on at a side; empty: it can.
-  std::string refused(int at) const {
+  std::string refused(const Side& at) const {
     for (std::size_t side = 0; d.refuse_void && side < 2; ++side) {
-      if ((at >> (kVapour + side) & 1) == 0) continue;
+      if (!at[kVapour + side]) continue;
       return "hydraulic cylinder '" + d.name + "': its oil boils on the " + (side == 0 ? "full" : "rod") +
              " side, and refuse_void is set; give makeup_flow, a higher tank_pressure or a slower motion, "
              "or leave refuse_void out, and a void opens";
     }
     return "";
+  }
+
+  Margins margins(const LoadInput<double>& in) const {
+    const Motion<double> m = place(in);
+    auto out = kMargins;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double p = m.pressure[side], opening = valve.relief_pressure[side];
+      if (opening > 0.0) out[kRelief + side].value = opening - p;
+      out[kVapour + side].value = in.states[states.first + static_cast<int>(side)] - d.vapour_pressure;
+      if (valve.makeup > 0.0) out[kMakeup + side].value = p - d.tank_pressure;
+    }
+    out[kRetracted].value = m.stroke;
+    out[kExtended].value = d.stroke - m.stroke;
+    if (d.accumulator_volume > 0.0) out[kAccumulator].value = d.accumulator_volume - in.states[gas];
+    if (valve.edge[0] == 0.0) return Margins(out);
+    out[kEdges].value = m.spool - d.overlap;
+    out[kEdges + 1].value = -m.spool - d.overlap;
+    out[kSpool].value = 1.0 - m.asked;
+    out[kSpool + 1].value = 1.0 + m.asked;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto port = valve.port(side, m.spool);
+      const bool one_way = valve.holds(side) || (d.pump_check && port.to_pump);
+      if (one_way && port.conductance > 0.0) out[kOneWay + side].value = port.source - m.pressure[side];
+    }
+    return Margins(out);
   }
 
  private:
@@ -371,31 +394,6 @@ struct HydraulicCylinder {
   template <class T>
   T beyond(const T& s) const {
     return select(s > T(d.stroke), T(s - T(d.stroke)), select(s < T(0), s, T(0)));
-  }
-
-  Margins margins(const LoadInput<double>& in) const {
-    const Motion<double> m = place(in);
-    auto out = kMargins;
-    for (std::size_t side = 0; side < 2; ++side) {
-      const double p = m.pressure[side], opening = valve.relief_pressure[side];
-      if (opening > 0.0) out[kRelief + side].value = opening - p;
-      out[kVapour + side].value = in.states[states.first + static_cast<int>(side)] - d.vapour_pressure;
-      if (valve.makeup > 0.0) out[kMakeup + side].value = p - d.tank_pressure;
-    }
-    out[kRetracted].value = m.stroke;
-    out[kExtended].value = d.stroke - m.stroke;
-    if (d.accumulator_volume > 0.0) out[kAccumulator].value = d.accumulator_volume - in.states[gas];
-    if (valve.edge[0] == 0.0) return Margins(out);
-    out[kEdges].value = m.spool - d.overlap;
-    out[kEdges + 1].value = -m.spool - d.overlap;
-    out[kSpool].value = 1.0 - m.asked;
-    out[kSpool + 1].value = 1.0 + m.asked;
-    for (std::size_t side = 0; side < 2; ++side) {
-      const auto port = valve.port(side, m.spool);
-      const bool one_way = valve.holds(side) || (d.pump_check && port.to_pump);
-      if (one_way && port.conductance > 0.0) out[kOneWay + side].value = port.source - m.pressure[side];
-    }
-    return Margins(out);
   }
 };
 

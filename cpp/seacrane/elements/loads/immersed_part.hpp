@@ -245,33 +245,29 @@ struct ImmersedPart {
     return at.depth > 0.0 ? weight / whole * wet_volume.integral(at.depth)[0] : 0.0;
   }
 
-  std::vector<std::string> reached(int from, int to) const {
-    return bounds_met(d.name, Sides{Margin{"touch"}, {"awash"}}, from, to);
+  std::vector<std::string> reached(const Side& from, const Side& to) const {
+    return bounds_met(d.name, std::array<Margin, 2>{{{"touch"}, {"awash"}}}, from, to);
   }
-  static bool has_sides() { return true; }
-  int side(const LoadInput<double>& in) const { return margins(in).side(); }
-  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
   Margins margins(const LoadInput<double>& in) const {
     const Shared<double> as = shared(in);
     const Place<double> at = place(in, as);
-    return Margins(Sides{Margin{"touch", -at.depth}, {"awash", as.below - at.center}});
+    return Margins(std::array<Margin, 2>{{{"touch", -at.depth}, {"awash", as.below - at.center}}});
   }
   /// A part above all crests has these to come down to; others see the water where they are.
   Sight look(const LoadInput<double>& in) const {
-    constexpr int touch = 1, awash = 2;  // as margins() has them
+    constexpr std::size_t touch = 0, awash = 1;  // as margins() has them
     const Margins margins = this->margins(in);
     const auto& k = in.bodies[body];
-    Sight out{.side = margins.side(), .watched = touch | awash};
+    Sight out{.side = margins.side(), .watched = side_of({touch, awash})};
     out.clear = margins.across(out.side, out.side ^ out.watched);
-    out.at[0] = (out.side & touch) != 0 ? -out.clear : out.clear;
+    out.at[0] = out.side[touch] ? -out.clear : out.clear;
     const double crest = in.sea->crest(stencil);
-    if ((out.side & touch) == 0 && out.clear > crest) out.clear -= crest;
+    if (!out.side[touch] && out.clear > crest) out.clear -= crest;
     out.pace = velocity_of(k, point).norm() + k.angular_velocity.norm() * d.size.norm();
     return out;
   }
 
  private:
-  using Sides = std::array<Margin, 2>;
   static constexpr double kRound = 1e-3;      // of half a size, or of a cosine
   static constexpr double kLeast = 1e-6;      // of a radius: no attitude is singular
   static constexpr double kStruck = 0.4;      // 2 / C_S, with C_S 5 of what is flat

@@ -78,7 +78,7 @@ struct Line {
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     if (d.winch) names.input(c, kind, d.winch_name());
-    d.check(c, names, Margins::kMost - own_margins(d.winch) + 2);
+    d.check(c, names, kMostMargins - own_margins(d.winch) + 2);
   }
   static Description example() { return Description::example(); }
 
@@ -205,51 +205,46 @@ struct Line {
   }
 
   /// Whether it is quasi-static and, on a side, neither taut nor free to haul in.
-  bool slack(int at) const { return quasi_static() && (at & (kSlack | kAtEnd)) != 0; }
+  bool slack(const Side& at) const { return quasi_static() && (at[kPushes] || at[kShort] || at[kAtEnd]); }
   /// Why a run cannot go on at a side; empty: it can.
-  std::string refused(int at) const {
+  std::string refused(const Side& at) const {
     const std::string what = "line '" + d.name + "': ";
     for (std::size_t i = 1; has_sheaves && i + 1 < path.points().size(); ++i) {
-      if ((at >> (own_margins(winch.has_value()) + i - 1) & 1) != 0)
-        return what + SheaveDescriptions::lost(i);
+      if (at[own_margins(winch.has_value()) + i - 1]) return what + SheaveDescriptions::lost(i);
     }
-    if (winch && !d.paid_out_by.empty() && (at & kAtEnd) != 0) {
+    if (winch && !d.paid_out_by.empty() && at[kAtEnd]) {
       return what +
              "it has hauled in to its minimum_length, which would stop the mass of the line at once; " +
              "stop its winch before, or give a smaller one";
     }
     if (!slack(at)) return "";
     const std::string stretch = what + "its stretch is quasi-static, and it ";
-    if ((at & 1) == 0)
+    if (!at[kPushes])
       return stretch + "has hauled in to its minimum_length; give a smaller one, or rung 'elastic'";
     return stretch + "goes slack; give it rung 'elastic', which snatches";
   }
 
-  static bool has_sides() { return true; }
-  int side(const LoadInput<double>& in) const { return margins(in).side(); }
-  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
   /// A slack line may snatch; one on a winch comes to its end.
   Sight look(const LoadInput<double>& in) const {
-    constexpr int slack = 1 | 2, hauled_in = 4;  // as margins() adds them
-    Sight out{.side = side(in)};
-    const bool is_slack = (out.side & slack) == slack, winds = winch && (out.side & hauled_in) == 0;
+    Sight out{.side = margins(in).side()};
+    const bool is_slack = out.side[kPushes] && out.side[kShort], winds = winch && !out.side[kAtEnd];
     if (!is_slack && !winds) return out;
     const Motion<double> now = motion(in);
     if (is_slack) {
-      out.watched = slack;
+      out.watched = side_of({kPushes, kShort});
       out.clear = std::max(0.0, -now.stretch());
       out.pace = std::abs(now.straining());
       out.strikes = true;
       out.at[0] = now.stretch();
     }
     if (!winds) return out;
-    out.watched |= hauled_in;
+    out.watched.set(kAtEnd);
     out.pace = std::max(out.pace, std::abs(winch->rate(in, now.elastic)));
     out.at[1] = winch->length(in);
     out.clear = std::min(out.clear, std::max(0.0, out.at[1] - d.minimum_length));
     return out;
   }
-  std::vector<std::string> reached(int from, int to) const {
+  std::vector<std::string> reached(const Side& from, const Side& to) const {
     return winch ? bounds_met(d.winch_name(), kMargins, from, to) : std::vector<std::string>();
   }
 
@@ -339,10 +334,26 @@ struct Line {
     return winch && winch->drum ? strain + winch->drum->stored(in, winch->turning(in, now.elastic)) : strain;
   }
 
+  Margins margins(const LoadInput<double>& in) const {
+    const Motion<double> now = motion(in);
+    Margins out;
+    out.add({nullptr, quasi_static() ? now.stretch() : unbounded_pull(now)});
+    out.add({nullptr, now.stretch()});
+    if (winch) {
+      out.add({"minimum_length", winch->length(in) - d.minimum_length});
+      winch->add_margins(in, now.elastic, now.first(), out);
+    }
+    if (!has_sheaves) return out;
+    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t i) {
+      if (i + 1 < path.points().size()) out.add({nullptr, path.points()[i].radius == 0.0 ? 1.0 : s.hold});
+    });
+    return out;
+  }
+
  private:
   /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), and, with
   /// a winch, whether hauling in has not reached its end and what the winch meets. Sheaves follow.
-  static constexpr int kSlack = 1 + 2, kAtEnd = 4;
+  static constexpr std::size_t kPushes = 0, kShort = 1, kAtEnd = 2;
   static constexpr auto kMargins = [] {
     std::array<Margin, 3 + Winch::kKinks> out;
     out[2].bound = "minimum_length";
@@ -436,22 +447,6 @@ struct Line {
     const Vec3<T> linear = a.template head<3>(), angular = a.template tail<3>();
     return linear + cross<T>(angular, lever) + cross<T>(omega, cross<T>(omega, lever));
   }
-  Margins margins(const LoadInput<double>& in) const {
-    const Motion<double> now = motion(in);
-    Margins out;
-    out.add({nullptr, quasi_static() ? now.stretch() : unbounded_pull(now)});
-    out.add({nullptr, now.stretch()});
-    if (winch) {
-      out.add({"minimum_length", winch->length(in) - d.minimum_length});
-      winch->add_margins(in, now.elastic, now.first(), out);
-    }
-    if (!has_sheaves) return out;
-    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t i) {
-      if (i + 1 < path.points().size()) out.add({nullptr, path.points()[i].radius == 0.0 ? 1.0 : s.hold});
-    });
-    return out;
-  }
-
   template <class T>
   T unstretched_acceleration(const LoadInput<T>& in, const Motion<T>& now) const {
     if (winch) return T(d.share) * winch->asked_acceleration(in, now.elastic);

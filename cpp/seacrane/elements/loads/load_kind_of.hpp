@@ -14,15 +14,20 @@
 /// All that the engine asks of a load, made of its own members. Included by the object of each load alone.
 namespace seacrane {
 
+/// A load with kinks over the state, told by margins.
 template <class Load>
-concept HasSides = requires(const Load& load, const LoadInput<double>& in) {
+concept HasMargins = requires(const Load& load, const LoadInput<double>& in) {
+  load.margins(in);
+};
+template <class Load>
+concept HasSides = HasMargins<Load> || requires(const Load& load, const LoadInput<double>& in) {
   load.side(in);
 };
 /// A load with states that jump where its side changes.
 template <class Load>
 concept Jumps = requires(const Load& load, const LoadInput<double>& in, double* states) {
-  { load.jumps(0, 0) } -> std::same_as<bool>;
-  load.settle(in, std::optional<int>(), states);
+  { load.jumps(Side(), Side()) } -> std::same_as<bool>;
+  load.settle(in, std::optional<Side>(), states);
 };
 template <class Load>
 concept HasUnit = requires(const Load& load, const LoadInput<double>& in, Vec6d* wrenches) {
@@ -124,40 +129,49 @@ class LoadListOf final : public LoadsOf<Load> {
   std::vector<LoadKinks> kinks(Place i) const override { return items[i].kinks(); }
 
   bool has_sides(Place i) const override {
-    if constexpr (HasSides<Load>) return items[i].has_sides();
-    return false;
+    if constexpr (requires(const Load& load) { load.has_sides(); }) return items[i].has_sides();
+    return HasSides<Load>;
   }
   Sight look(Place i, const LoadInput<double>& in) const override {
     if constexpr (requires(const Load& load) { load.look(in); }) return items[i].look(in);
     Sight out;
-    if constexpr (HasSides<Load>) out.side = items[i].side(in);
+    if constexpr (HasMargins<Load>) {
+      out.side = items[i].margins(in).side();
+    } else if constexpr (HasSides<Load>) {
+      out.side = items[i].side(in);
+    }
     return out;
   }
-  double across(Place i, const LoadInput<double>& in, int from, int to) const override {
-    if constexpr (HasSides<Load>) return items[i].across(in, from, to);
+  double across(Place i, const LoadInput<double>& in, const Side& from, const Side& to) const override {
+    if constexpr (HasMargins<Load>) {
+      return items[i].margins(in).across(from, to);
+    } else if constexpr (HasSides<Load>) {
+      return items[i].across(in, from, to);
+    }
     return 1.0;
   }
-  std::vector<std::string> reached(Place i, int from, int to) const override {
+  std::vector<std::string> reached(Place i, const Side& from, const Side& to) const override {
     if constexpr (requires(const Load& load) {
-                    { load.reached(0, 0) } -> std::convertible_to<std::string>;
+                    { load.reached(Side(), Side()) } -> std::convertible_to<std::string>;
                   }) {
       return {items[i].reached(from, to)};
-    } else if constexpr (requires(const Load& load) { load.reached(0, 0); }) {
+    } else if constexpr (requires(const Load& load) { load.reached(Side(), Side()); }) {
       return items[i].reached(from, to);
     }
     return {};
   }
-  std::vector<Happening> happened(Place i, const LoadInput<double>& in, int from, int to) const override {
-    if constexpr (requires(const Load& load) { load.happened(in, 0, 0); }) {
+  std::vector<Happening> happened(Place i, const LoadInput<double>& in, const Side& from,
+                                  const Side& to) const override {
+    if constexpr (requires(const Load& load) { load.happened(in, from, to); }) {
       return items[i].happened(in, from, to);
     }
     return {};
   }
-  bool jumps(Place i, int from, int to) const override {
+  bool jumps(Place i, const Side& from, const Side& to) const override {
     if constexpr (Jumps<Load>) return items[i].jumps(from, to);
     return false;
   }
-  void settle(Place i, const LoadInput<double>& in, std::optional<int> side,
+  void settle(Place i, const LoadInput<double>& in, const std::optional<Side>& side,
               double* all_states) const override {
     if constexpr (Jumps<Load>) items[i].settle(in, side, all_states);
   }
@@ -166,12 +180,12 @@ class LoadListOf final : public LoadsOf<Load> {
       items[i].check_start(in, weights);
     }
   }
-  std::string refused(Place i, int side) const override {
-    if constexpr (requires(const Load& load) { load.refused(0); }) return items[i].refused(side);
+  std::string refused(Place i, const Side& side) const override {
+    if constexpr (requires(const Load& load) { load.refused(side); }) return items[i].refused(side);
     return "";
   }
-  bool slack(Place i, int side) const override {
-    if constexpr (requires(const Load& load) { load.slack(0); }) return items[i].slack(side);
+  bool slack(Place i, const Side& side) const override {
+    if constexpr (requires(const Load& load) { load.slack(side); }) return items[i].slack(side);
     return false;
   }
 

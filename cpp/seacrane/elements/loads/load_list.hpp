@@ -76,22 +76,23 @@ class LoadList {
   virtual bool has_sides(Place i) const = 0;
   /// Its side, and what it sees from there.
   virtual Sight look(Place i, const LoadInput<double>& in) const = 0;
-  virtual double across(Place i, const LoadInput<double>& in, int from, int to) const = 0;
+  virtual double across(Place i, const LoadInput<double>& in, const Side& from, const Side& to) const = 0;
   /// Names of bounds that are reached where the side changes; and what happened there.
-  virtual std::vector<std::string> reached(Place i, int from, int to) const = 0;
-  virtual std::vector<Happening> happened(Place i, const LoadInput<double>& in, int from, int to) const = 0;
+  virtual std::vector<std::string> reached(Place i, const Side& from, const Side& to) const = 0;
+  virtual std::vector<Happening> happened(Place i, const LoadInput<double>& in, const Side& from,
+                                          const Side& to) const = 0;
   /// Whether its states jump there.
-  virtual bool jumps(Place i, int from, int to) const = 0;
+  virtual bool jumps(Place i, const Side& from, const Side& to) const = 0;
   /// Writes those that jump, among the states of all loads, as it was on `side`; as far as the state shows
   /// that they are not given, where that is not known.
-  virtual void settle(Place i, const LoadInput<double>& in, std::optional<int> side,
+  virtual void settle(Place i, const LoadInput<double>& in, const std::optional<Side>& side,
                       double* all_states) const = 0;
   /// Throws where it cannot start so. N: what bodies weigh.
   virtual void check_start(Place i, const LoadInput<double>& in,
                            const std::vector<double>& weights) const = 0;
   /// Why a side is refused; empty: it is not. And whether that is slack of a line.
-  virtual std::string refused(Place i, int side) const = 0;
-  virtual bool slack(Place i, int side) const = 0;
+  virtual std::string refused(Place i, const Side& side) const = 0;
+  virtual bool slack(Place i, const Side& side) const = 0;
 
   // A load with stiff states.
   virtual StateRange stiff_states(Place i) const = 0;

@@ -128,18 +128,29 @@ struct SeabedNode {
     return normal + 0.5 * grip * away(in, at).squaredNorm();
   }
 
-  static bool has_sides() { return true; }
-  int side(const LoadInput<double>& in) const { return margins(in).side(); }
-  double across(const LoadInput<double>& in, int from, int to) const { return margins(in).across(from, to); }
   /// The seabed below it.
   Sight look(const LoadInput<double>& in) const {
-    constexpr int below = 1;  // as margins() adds it
-    const int now = side(in);
-    if ((now & below) != 0) return {.side = now};
+    constexpr std::size_t below = 0;  // as margins() adds it
+    const Side now = margins(in).side();
+    if (now[below]) return {.side = now};
     const auto& k = in.bodies[body];
-    Sight out{.side = now, .watched = below, .pace = velocity_of(k, point).norm()};
+    Sight out{.side = now, .watched = side_of({below}), .pace = velocity_of(k, point).norm()};
     out.at = k.position + k.rotation * point;
     out.clear = std::max(0.0, out.at.z() + d.depth);
+    return out;
+  }
+
+  /// Positive above the seabed, while it would not pull, and while friction holds; below zero off the seabed.
+  Margins margins(const LoadInput<double>& in) const {
+    const Place<double> at = place(in);
+    const bool touches = at.depth > 0.0;
+    const double share = 1.0 - d.damping * at.velocity.z();
+    Margins out;
+    out.add({nullptr, -at.depth});
+    out.add({nullptr, touches ? share : 1.0});
+    if (states.count == 0) return out;
+    const double most = d.friction * d.stiffness * at.depth * (touches ? std::max(share, 0.0) : 1.0);
+    out.add({nullptr, most - pull(away(in, at), at).norm()});
     return out;
   }
 
@@ -179,20 +190,6 @@ struct SeabedNode {
   template <class T>
   Vec2<T> pull(const Vec2<T>& away, const Place<T>& at) const {
     return away * T(grip) + at.velocity.template head<2>() * T(drag);
-  }
-
-  /// Positive above the seabed, while it would not pull, and while friction holds; below zero off the seabed.
-  Margins margins(const LoadInput<double>& in) const {
-    const Place<double> at = place(in);
-    const bool touches = at.depth > 0.0;
-    const double share = 1.0 - d.damping * at.velocity.z();
-    Margins out;
-    out.add({nullptr, -at.depth});
-    out.add({nullptr, touches ? share : 1.0});
-    if (states.count == 0) return out;
-    const double most = d.friction * d.stiffness * at.depth * (touches ? std::max(share, 0.0) : 1.0);
-    out.add({nullptr, most - pull(away(in, at), at).norm()});
-    return out;
   }
 };
 

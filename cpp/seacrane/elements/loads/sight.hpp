@@ -4,6 +4,7 @@
 #include <string>
 
 #include "seacrane/elements/kinematics.hpp"
+#include "seacrane/elements/loads/margin.hpp"
 
 namespace seacrane {
 
@@ -13,8 +14,8 @@ namespace seacrane {
 struct Sight {
   static constexpr double kFar = std::numeric_limits<double>::infinity();
 
-  int side = 0;
-  int watched = 0;           // what changes of the side where the other one is met
+  Side side = {};
+  Side watched = {};         // what changes of the side where the other one is met
   double clear = kFar;       // m or rad
   double pace = 0.0;         // m/s or rad/s
   double thin = kFar;        // m: no shorter way leads through what is met

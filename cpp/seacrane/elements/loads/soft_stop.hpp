@@ -81,22 +81,21 @@ struct SoftStop {
     out.add_power(T(side) * force.viscous * rate);
   }
 
-  static bool has_sides() { return true; }
-  /// 1 beyond the minimum, -1 beyond the maximum, else 0.
-  int side(const LoadInput<double>& in) const {
-    return pressed(in, 1) > 0.0 ? 1 : (pressed(in, -1) > 0.0 ? -1 : 0);
+  Side side(const LoadInput<double>& in) const {
+    if (pressed(in, 1.0) > 0.0) return side_of({kAtMinimum});
+    return pressed(in, -1.0) > 0.0 ? side_of({kAtMaximum}) : Side();
   }
-  double across(const LoadInput<double>& in, int from, int to) const {
-    return pressed(in, from != 0 ? from : to);
+  double across(const LoadInput<double>& in, const Side& from, const Side& to) const {
+    return pressed(in, (from.any() ? from : to)[kAtMinimum] ? 1.0 : -1.0);
   }
   Sight look(const LoadInput<double>& in) const {
     const auto &a = in.bodies[coordinate.joint.first], &b = in.bodies[coordinate.joint.second];
     const CoordinateRow<double> row = evaluate_coordinate<double>(coordinate, a, b);
     const double pace = std::abs(coordinate_rate<double>(row, a, b));
-    const int now = side(in);
-    if (now != 0) return {.side = now, .pace = pace};
+    const Side now = side(in);
+    if (now.any()) return {.side = now, .pace = pace};
     return {.side = now,
-            .watched = ~0,
+            .watched = ~Side(),
             .clear = std::max(0.0, std::min(row.value - d.minimum, d.maximum - row.value)),
             .pace = pace,
             .strikes = true,
@@ -112,8 +111,10 @@ struct SoftStop {
   }
 
  private:
-  /// How far the bound of a side is passed; negative also where the stop would pull.
-  double pressed(const LoadInput<double>& in, int side) const {
+  static constexpr std::size_t kAtMinimum = 0, kAtMaximum = 1;
+
+  /// How far the minimum (1) or the maximum (-1) is passed; negative also where the stop would pull.
+  double pressed(const LoadInput<double>& in, double side) const {
     const auto &ka = in.bodies[coordinate.joint.first], &kb = in.bodies[coordinate.joint.second];
     const CoordinateRow<double> row = evaluate_coordinate<double>(coordinate, ka, kb);
     const double depth = side * ((side > 0 ? d.minimum : d.maximum) - row.value);

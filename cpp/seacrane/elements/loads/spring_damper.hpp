@@ -89,18 +89,19 @@ struct SpringDamper {
 
   bool has_sides() const { return !d.lengths.empty(); }
   /// The segment of the table; 0 before its first length.
-  int side(const LoadInput<double>& in) const {
-    return static_cast<int>(std::upper_bound(d.lengths.begin(), d.lengths.end(), span.length(in)) -
-                            d.lengths.begin());
+  Side side(const LoadInput<double>& in) const {
+    const auto next = std::upper_bound(d.lengths.begin(), d.lengths.end(), span.length(in));
+    return Side(static_cast<std::size_t>(next - d.lengths.begin()));
   }
-  double across(const LoadInput<double>& in, int from, int to) const {
-    return span.length(in) - d.lengths[idx(to > from ? from : from - 1)];
+  double across(const LoadInput<double>& in, const Side& from, const Side& to) const {
+    const std::size_t at = from.to_ulong();
+    return span.length(in) - d.lengths[to.to_ulong() > at ? at : at - 1];
   }
   /// The corners of its table beside its length.
   Sight look(const LoadInput<double>& in) const {
     const SpanMotion<double> now = span.motion(in);
-    Sight out{.side = side(in), .watched = ~0, .pace = std::abs(now.rate), .at = {now.length, 0.0, 0.0}};
-    const std::size_t next = idx(out.side);
+    Sight out{.side = side(in), .watched = ~Side(), .pace = std::abs(now.rate), .at = {now.length, 0.0, 0.0}};
+    const std::size_t next = out.side.to_ulong();
     if (next < d.lengths.size()) out.clear = d.lengths[next] - now.length;
     if (next > 0) out.clear = std::min(out.clear, now.length - d.lengths[next - 1]);
     return out;

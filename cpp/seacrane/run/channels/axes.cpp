@@ -5,17 +5,10 @@
 
 #include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/loads/actuator.hpp"
-#include "seacrane/model/model.hpp"
+#include "seacrane/run/channels/of_loads.hpp"
 
 namespace seacrane {
 namespace {
-
-template <class Elements>
-std::vector<std::string> names_of_all(const Elements& elements) {
-  std::vector<std::string> out;
-  for (const auto& element : elements) out.push_back(element.name);
-  return out;
-}
 
 std::vector<std::string> coordinate_names(const Model& m) {
   std::vector<std::string> out;
@@ -68,8 +61,7 @@ const Axis body{"body", {}, [](const Model& m) { return names_of_all(m.bodies); 
 const Axis vessel{"vessel", {}, [](const Model& m) { return names_of_all(m.description.vessels); }, true};
 const Axis joint{"joint", {}, [](const Model& m) { return names_of_all(m.description.joints); }};
 const Axis joint_coordinate{"joint_coordinate", {}, coordinate_names};
-const Axis actuator{
-    "actuator", {}, [](const Model& m) { return names_of_all(m.description.loads.of<Actuator>()); }};
+const Axis actuator{"actuator", {}, names_of<Actuator>};
 const Axis driver{"driver", {}, [](const Model& m) { return names_of_all(m.description.drivers); }};
 const Axis link{"link", {}, link_names};
 const Axis limit{"limit", {}, [](const Model& m) { return names_of_all(m.limits); }};

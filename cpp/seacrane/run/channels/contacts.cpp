@@ -1,19 +1,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "seacrane/dynamics/terms.hpp"
 #include "seacrane/elements/loads/contact.hpp"
 #include "seacrane/run/channels/axes.hpp"
-#include "seacrane/run/channels/channel.hpp"
+#include "seacrane/run/channels/of_loads.hpp"
 
 namespace seacrane {
 namespace {
 
-const Axis contact{"contact", {}, [](const Model& m) {
-                     std::vector<std::string> names;
-                     for (const Contact& one : m.loads.of<Contact>()) names.push_back(one.d.name);
-                     return names;
-                   }};
+const Axis contact{"contact", {}, names_of<Contact>};
 const Axis contact_point{"contact_point", {}, [](const Model& m) {
                            std::vector<std::string> names;
                            for (const Contact& one : m.loads.of<Contact>()) {
@@ -26,34 +21,20 @@ const Axis contact_point{"contact_point", {}, [](const Model& m) {
 
 using Touch = Contact::Touch<double>;
 
-/// put(touch, out) writes the values of a point and returns where the next one's begin.
-template <double* (*put)(const Touch& touch, double* out)>
+/// Writes what `read` has of each point.
+template <auto read>
 void write_points(const Output& o, double* out) {
-  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
+  const LoadInput<double> in = input_of(o);
   for (const Contact& one : o.terms.model().loads.of<Contact>()) {
-    for (std::size_t i = 0; i < one.points.size(); ++i) out = put(one.touch(in, i), out);
+    for (std::size_t i = 0; i < one.points.size(); ++i) out = put(std::invoke(read, one.touch(in, i)), out);
   }
 }
 
-double* put_force(const Touch& touch, double* out) {
-  view<3>(out) = touch.force();
-  return out + 3;
-}
-double* put_press(const Touch& touch, double* out) {
-  *out = touch.press.total();
-  return out + 1;
-}
-double* put_gap(const Touch& touch, double* out) {
-  *out = touch.gap;
-  return out + 1;
-}
-double* put_slip(const Touch& touch, double* out) {
-  *out = touch.slides ? touch.slip.norm() : 0.0;
-  return out + 1;
-}
+double press_of(const Touch& touch) { return touch.press.total(); }
+double slip_of(const Touch& touch) { return touch.slides ? touch.slip.norm() : 0.0; }
 
 void write_least_gap(const Output& o, double* out) {
-  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
+  const LoadInput<double> in = input_of(o);
   for (const Contact& one : o.terms.model().loads.of<Contact>()) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < one.points.size(); ++i) least = std::min(least, one.touch(in, i).gap);
@@ -70,19 +51,19 @@ std::vector<Channel> contact_channels() {
        .unit = "N",
        .text = "of the surface on the point, inertial frame",
        .peaks = Peaks::of_states,
-       .write = write_points<put_force>},
+       .write = write_points<&Touch::force>},
       {.name = "contact_press",
        .axes = {&contact_point},
        .unit = "N",
        .text = "its part away from the surface",
        .peaks = Peaks::of_states,
-       .write = write_points<put_press>},
+       .write = write_points<press_of>},
       {.name = "contact_gap",
        .axes = {&contact_point},
        .unit = "m",
        .text = "distance of the point from the surface; negative: compression",
        .peaks = Peaks::of_states,
-       .write = write_points<put_gap>},
+       .write = write_points<&Touch::gap>},
       {.name = "contact_least_gap",
        .axes = {&contact},
        .unit = "m",
@@ -94,7 +75,7 @@ std::vector<Channel> contact_channels() {
        .unit = "m/s",
        .text = "speed of the point over the surface while it presses and slides; 0 while it sticks",
        .peaks = Peaks::of_states,
-       .write = write_points<put_slip>},
+       .write = write_points<slip_of>},
   };
 }
 

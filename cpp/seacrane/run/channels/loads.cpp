@@ -1,25 +1,13 @@
 #include <algorithm>
 
-#include "seacrane/dynamics/terms.hpp"
 #include "seacrane/elements/loads/line.hpp"
-#include "seacrane/run/channels/channel.hpp"
+#include "seacrane/run/channels/of_loads.hpp"
 
 namespace seacrane {
 namespace {
 
-const Axis state_name{"state_name", {}, [](const Model& m) {
-                        std::vector<std::string> names;
-                        for (const LoadState& one : m.load_states) names.push_back(one.name);
-                        return names;
-                      }};
-
-const Axis line{"line", {}, [](const Model& m) {
-                  std::vector<std::string> names;
-                  for (const auto& d : m.description.loads.of<Line>()) {
-                    names.push_back(d.name);
-                  }
-                  return names;
-                }};
+const Axis state_name{"state_name", {}, [](const Model& m) { return names_of_all(m.load_states); }};
+const Axis line{"line", {}, names_of<Line>};
 
 bool has_drum(const Line::Description& d) { return d.winch && d.drum_inertia > 0.0; }
 
@@ -36,17 +24,10 @@ void write_load_state(const Output& o, double* out) {
   std::copy(o.state + layout.loads, o.state + layout.work, out);
 }
 
-/// What `read` takes of the motion of each line.
-template <double (*read)(const Line::Motion<double>& motion)>
-void write_lines(const Output& o, double* out) {
-  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
-  for (const Line& one : o.terms.model().loads.of<Line>()) *out++ = read(one.motion(in));
-}
-
 /// What `read` takes of the motor and the brake of each drum.
 template <double (*read)(const Drum& drum, const Drum::Drive& drive)>
 void write_drums(const Output& o, double* out) {
-  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
+  const LoadInput<double> in = input_of(o);
   for (const Line& one : o.terms.model().loads.of<Line>()) {
     if (one.winch && one.winch->drum) *out++ = read(*one.winch->drum, one.drive(in));
   }
@@ -57,13 +38,10 @@ double motor_power_of(const Drum& /*drum*/, const Drum::Drive& now) { return now
 double brake_torque_of(const Drum& drum, const Drum::Drive& now) { return now.brake * drum.d.drum_radius; }
 double brake_power_of(const Drum& /*drum*/, const Drum::Drive& now) { return now.brake_power; }
 
-using Motion = const Line::Motion<double>&;
-double tension_of(Motion m) { return m.tension; }
-double length_of(Motion m) { return m.length; }
-double unstretched_of(Motion m) { return m.unstretched; }
-double stretch_of(Motion m) { return m.stretch(); }
-double pay_out_of(Motion m) { return m.unstretched_rate; }
-double winch_power_of(Motion m) { return m.winch_power() + m.winch_power_per_inertial() * m.inertial; }
+using Motion = Line::Motion<double>;
+double winch_power_of(const Motion& m) { return m.winch_power() + m.winch_power_per_inertial() * m.inertial; }
+template <auto read>
+constexpr auto write_lines = write_motions<Line, read>;
 
 }  // namespace
 
@@ -80,31 +58,31 @@ std::vector<Channel> load_channels() {
        .text = "tension of the line; with friction on sheaves its mean over the length",
        .needs = {.solution = true},
        .peaks = Peaks::of_lines,
-       .write = write_lines<tension_of>},
+       .write = write_lines<&Motion::tension>},
       {.name = "line_length",
        .axes = {&line},
        .unit = "m",
        .text = "length of the line's path over its points and sheaves",
        .peaks = Peaks::of_states,
-       .write = write_lines<length_of>},
+       .write = write_lines<&Motion::length>},
       {.name = "line_unstretched_length",
        .axes = {&line},
        .unit = "m",
        .text = "length of the line without tension",
        .peaks = Peaks::of_states,
-       .write = write_lines<unstretched_of>},
+       .write = write_lines<&Motion::unstretched>},
       {.name = "line_stretch",
        .axes = {&line},
        .unit = "m",
        .text = "length of the path over that of the line; negative: slack",
        .peaks = Peaks::of_states,
-       .write = write_lines<stretch_of>},
+       .write = write_lines<&Motion::stretch>},
       {.name = "line_pay_out_rate",
        .axes = {&line},
        .unit = "m/s",
        .text = "rate of the unstretched length; positive: pays out",
        .peaks = Peaks::of_states,
-       .write = write_lines<pay_out_of>},
+       .write = write_lines<&Motion::unstretched_rate>},
       {.name = "line_winch_power",
        .axes = {&line},
        .unit = "W",

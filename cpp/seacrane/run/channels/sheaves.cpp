@@ -2,9 +2,8 @@
 #include <string_view>
 #include <utility>
 
-#include "seacrane/dynamics/terms.hpp"
 #include "seacrane/elements/loads/line.hpp"
-#include "seacrane/run/channels/channel.hpp"
+#include "seacrane/run/channels/of_loads.hpp"
 
 namespace seacrane {
 namespace {
@@ -68,7 +67,7 @@ const Axis line_end{"line_end", {"first", "last"}};
 /// Calls f(line, motion, section, tension, friction, point) for each section of each line.
 template <class F>
 void for_each_tension(const Output& o, F&& f) {
-  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
+  const LoadInput<double> in = input_of(o);
   for (const Line& one : lines_of(o.terms.model())) {
     one.for_each_tension<double>(
         in, one.motion(in),
@@ -105,7 +104,7 @@ double beyond(double near, double far) {
 }
 
 void write_end_tension(const Output& o, double* out) {
-  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
+  const LoadInput<double> in = input_of(o);
   const std::vector<Line>& lines = lines_of(o.terms.model());
   const auto& described = o.terms.model().description.loads.of<Line>();
   for_each_whole(described, [&](std::size_t i, std::size_t count) {
@@ -123,17 +122,14 @@ void write_sheave_power(const Output& o, double* out) {
   });
 }
 
-/// What `read` takes of the section before each sheave.
-template <double (*read)(const PathSection<double>& section)>
+/// A number of the section before each sheave.
+template <double PathSection<double>::*member>
 void write_sheaves(const Output& o, double* out) {
   for_each_tension(o, [&](const Line& one, const PathSection<double>& s, double,
                           const SheaveFriction<double>&, std::size_t i) {
-    if (one.path.points()[i].turns_line()) *out++ = read(s);
+    if (one.path.points()[i].turns_line()) *out++ = s.*member;
   });
 }
-
-double wrap_of(const PathSection<double>& s) { return s.wrap; }
-double fleet_of(const PathSection<double>& s) { return s.fleet; }
 
 }  // namespace
 
@@ -158,13 +154,13 @@ std::vector<Channel> sheave_channels() {
        .axes = {&sheave},
        .unit = "rad",
        .text = "angle by which a line lies on its sheave; 0 at points with friction",
-       .write = write_sheaves<wrap_of>},
+       .write = write_sheaves<&PathSection<double>::wrap>},
       {.name = "sheave_fleet_angle",
        .axes = {&sheave},
        .unit = "rad",
        .text = "larger angle of both spans at a sheave with the plane of its rim",
        .peaks = Peaks::of_states,
-       .write = write_sheaves<fleet_of>},
+       .write = write_sheaves<&PathSection<double>::fleet>},
       {.name = "sheave_friction_power",
        .axes = {&sheave},
        .unit = "W",

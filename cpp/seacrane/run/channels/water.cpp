@@ -4,33 +4,18 @@
 #include "seacrane/elements/loads/immersed_part.hpp"
 #include "seacrane/elements/loads/immersed_span.hpp"
 #include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/of_loads.hpp"
 
 namespace seacrane {
 namespace {
 
-template <class Load>
-void add_names(const Model& m, std::vector<std::string>& names) {
-  for (const auto& d : m.description.loads.of<Load>()) names.push_back(d.name);
-}
-
-const Axis part{"part", {}, [](const Model& m) {
-                  std::vector<std::string> names;
-                  add_names<ImmersedPart>(m, names);
-                  return names;
-                }};
-
+const Axis part{"part", {}, names_of<ImmersedPart>};
 const Axis wet{"wet", {}, [](const Model& m) {
-                 std::vector<std::string> names;
-                 add_names<ImmersedPart>(m, names);
-                 add_names<ImmersedSpan>(m, names);
+                 std::vector<std::string> names = names_of<ImmersedPart>(m);
+                 for (std::string& name : names_of<ImmersedSpan>(m)) names.push_back(std::move(name));
                  return names;
                }};
-
 const Axis cause{"cause", {"buoyancy", "waves", "added mass", "drag", "slam"}};  // WaterCause
-
-LoadInput<double> input_of(const Output& o) {
-  return o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
-}
 
 /// Calls f(what the water does to a part by cause) for each.
 template <class F>
