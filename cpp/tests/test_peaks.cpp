@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "seacrane/run/peak_window.hpp"
 
@@ -46,6 +48,12 @@ TEST_CASE("a window finds the peaks of a wave to a thousandth from 16 values a p
       CHECK(found.least == doctest::Approx(1.0).epsilon(uneven > 1.0 ? 1e-2 : 3e-3));
     }
   }
+}
+
+TEST_CASE("where no smooth curve leads through all values, a peak is that of the parabola through three") {
+  const std::vector<double> values{9.0, 7.0, 10.0, 9.0, -10.0};
+  const auto at = [&](double t) { return values[static_cast<std::size_t>(t)]; };
+  CHECK(seen({0.0, 1.0, 2.0, 3.0, 4.0}, at).largest == doctest::Approx(10.125).epsilon(1e-12));
 }
 
 TEST_CASE("a window finds the peak of a hit that ends with it, and makes none of a jump") {

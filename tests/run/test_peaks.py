@@ -50,15 +50,26 @@ def test_a_stiff_line_reaches_its_peak_in_closed_form(formulation: str, fall: fl
     assert least.min() == pytest.approx(-GRAVITY, rel=1e-3)
 
 
-@pytest.mark.parametrize("integrator", ["dopri5", "rk4", "dop853", "cvode-bdf", "rosenbrock"])
-def test_peaks_are_those_of_a_dense_record(integrator: str) -> None:
+@pytest.mark.parametrize(
+    ("integrator", "rtol"),
+    [
+        ("dopri5", 1e-6),
+        ("rk4", None),
+        ("dop853", 1e-6),
+        ("dop853", 1e-5),
+        ("cvode-bdf", 1e-6),
+        ("rosenbrock", 1e-6),
+    ],
+)
+def test_peaks_are_those_of_a_dense_record(integrator: str, rtol: float | None) -> None:
+    """Also where steps are long."""
     random = np.random.default_rng(5)
     for hangs in (1, 2, 3):
         EA = 10.0 ** random.uniform(6.0, 8.5)
         scene = hung(EA=EA, fall=0.02 * random.random(), damping=0.02, hangs=hangs)
         period = 2.0 * np.pi * np.sqrt(MASS / hangs * LENGTH / (4.0 * EA))
         how = {"integrator": integrator, "formulation": "redundant"}
-        how |= {"dt": period / 25.0} if integrator == "rk4" else {}
+        how |= {"dt": period / 25.0} if rtol is None else {"rtol": rtol}
         seldom, often = (sc.simulate(scene, 2.0, dt_out=dt_out, **how) for dt_out in (0.3, period / 50.0))
         for channel in ("line_tension", "hook_load"):
             dense = often[channel]
