@@ -129,6 +129,16 @@ def test_air_that_is_shut_in_is_compressed_as_its_law_says(form: str, lean: floa
     assert force == pytest.approx(-RHO * G * np.cos(lean) * volume, abs=6e3)
 
 
+def test_air_of_the_pressure_outside_keeps_the_water_out() -> None:
+    pressure, exponent = ATMOSPHERE + 10.0 * RHO * G, 1.4
+    given: dict[str, Any] = {"air": "shut", "exponent": exponent, "air_pressure": pressure}
+    scene = bucket(0.0, -10.0, Curve.constant(value=0.0), MOUTH, **given)
+    result = simulate(scene, 20.0, dt_out=1.0)
+    held = A * H * (pressure / ATMOSPHERE) ** (1.0 / exponent)
+    assert result.select("load_state", state_name="water.air") == pytest.approx(held, rel=1e-6)
+    assert np.abs(result.select("load_state", state_name="water.volume")).max() < 1e-3 * A
+
+
 @pytest.mark.parametrize("form", FORMS)
 def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(form: str) -> None:
     """Full, its hatch shut, pulled out of the sea on a wire."""
