@@ -66,6 +66,21 @@ def test_a_given_step_that_leads_through_a_deck_is_refused_and_a_short_one_holds
 
 
 @needs_lanes
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_tip_that_turns_about_a_standing_middle_is_met_at_each_half_turn(formulation: str) -> None:
+    """It dips by 5 mm, for 0.07 s, where steps are as long as the run."""
+    height, reach, spin = 1.995, 2.0, 2.0
+    scene = Scene(name="propeller", gravity=GRAVITY)
+    middle = (0.0, 0.0, height)
+    scene.add_body("bar", mass=1e3, size=(4, 1, 0.5), position=middle, angular_velocity=(0, spin, 0))
+    scene.add_joint("shaft", kind="revolute", first="ground", second="bar", point=middle, axis=(0, 1, 0))
+    scene.add_contact("bar", on="ground", points=[(reach, 0, 0), (-reach, 0, 0)], stiffness=1e4, name="tips")
+    result = simulate(scene, 10.0, dt_out=10.0, formulation=formulation)
+    touches = [event.time for event in result.events if event.kind == "contact"]
+    assert len(touches) == 6
+    assert touches[0] == pytest.approx((0.5 * np.pi - np.arccos(height / reach)) / spin, abs=1e-6)
+
+
 def test_lanes_step_over_no_deck() -> None:
     given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "formulation": "recursive", "dt_out": 0.1}
     runs = [Run(over_deck(4.0, 1.0, speed), **given) for speed in (0.0, 1.0, 3.0, 6.0)]
