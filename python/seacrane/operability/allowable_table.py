@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -10,19 +10,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.description import STANDARD_GRAVITY
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import flag_of
+from seacrane.inputs.described import described
+from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import AlphaFactor
 from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
+from seacrane.plotting.figure import new_figure
+from seacrane.plotting.panel import COLOURS
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.sea.spectra import steepness_limit
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 MARK = {"frequency": "f", "time": "t"}
 LARGEST_GAP = 90.0  # degrees between two directions that are taken as neighbours
 ROUNDING = 1e-9  # degrees
+DARK = 0.6  # of the colour scale, above which figures on it are black
+STYLES = ("-", "--", ":", "-.")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -57,23 +67,14 @@ class AllowableHs(Answer):
 
     @classmethod
     def of(
-        cls,
-        scene: str,
-        cells: Cells,
-        alpha: AlphaFactor,
-        hours: float,
-        *,
-        hs: Sequence[float],
-        seeds: Sequence[int],
-        duration: float | None,
-        linear_within: float,
-        failures: Mapping[int, str],
+        cls, scene: str, cells: Cells, alpha: AlphaFactor, hours: float, failures: Mapping[int, str]
     ) -> AllowableHs:
         """The table of filled cells; without a duration it is of lifts in stages."""
-        names = [one.name for one in cells.criteria]
-        found, capped = cells.allowable, cells.by_criterion.min(axis=0) > cells.largest
+        asked = cells.asked
+        names = [one.name for one in asked.criteria]
+        found, capped = cells.allowable, cells.by_criterion.min(axis=0) > asked.hs[-1]
         governing = np.where(capped, "", np.array(names)[cells.by_criterion.argmin(axis=0)])
-        low, high = (np.minimum(values.min(axis=0), cells.largest) for values in (cells.low, cells.high))
+        low, high = (np.minimum(values.min(axis=0), asked.hs[-1]) for values in (cells.low, cells.high))
         forecast = alpha.at(found, hours=hours) * found
         cell, period, told = ("tp", "direction_deg"), ("tp",), alpha.told(hours=hours)
 
@@ -82,8 +83,8 @@ class AllowableHs(Answer):
 
         axes = [
             Column(name="criterion", values=names),
-            Column(name="tp", values=cells.tp, unit="s", long_name="peak period"),
-            Column(name="direction_deg", values=cells.directions, unit="degrees",
+            Column(name="tp", values=asked.tp, unit="s", long_name="peak period"),
+            Column(name="direction_deg", values=asked.direction_deg, unit="degrees",
                    long_name="direction of travel of the waves"),
         ]  # fmt: skip
         columns = [
@@ -97,22 +98,22 @@ class AllowableHs(Answer):
             column("reason", cells.reason.astype(str)),
             column("by_criterion", cells.by_criterion, "m", over=None),
             column("difference", cells.difference, "1", "run against linear model, over the allowance", None),
-            column("breaking_hs", [breaking_height(tp) for tp in cells.tp], "m",
+            column("breaking_hs", [breaking_height(tp) for tp in asked.tp], "m",
                    "Hs above which waves of that period break (DNV-RP-C205)", period),
             column("wave_energy_share", cells.energy_share, "1", over=period),
         ]  # fmt: skip
         attributes = {
             "scene": scene,
-            "criteria": "; ".join(one.told(one_lift=duration is None) for one in cells.criteria),
+            "criteria": "; ".join(one.told(one_lift=asked.duration is None) for one in asked.criteria),
             "alpha_factor": told,
             "operation_hours": hours,
-            "hs_of_runs": list(hs),
-            "seeds": list(seeds),
-            **({} if duration is None else {"duration": duration}),
-            "linear_within": linear_within,
+            "hs_of_runs": list(asked.hs),
+            "seeds": list(asked.seeds),
+            **({} if asked.duration is None else {"duration": asked.duration}),
+            "linear_within": asked.linear_within,
         }
         return cls(
-            scene=scene, criteria=cells.criteria, alpha=alpha, hours=hours, failures=dict(failures),
+            scene=scene, criteria=asked.criteria, alpha=alpha, hours=hours, failures=dict(failures),
             dataset=Table(axes=axes, columns=columns, attributes=attributes).to_xarray(),
         )  # fmt: skip
 
@@ -233,3 +234,96 @@ def over_circle(directions: Array, values: Array, asked: Array) -> Array:
     )
     mixed = np.where(share <= ROUNDING, lower, (1.0 - share) * lower + share * upper)
     return np.asarray(np.where((width <= LARGEST_GAP + ROUNDING) | (share <= ROUNDING), mixed, np.nan))
+
+
+def plot_allowable_hs(table: AllowableHs, *, kind: str = "map", forecast: bool = False) -> Figure:
+    """Draw allowable Hs over peak period and direction of travel.
+
+    Parameters
+    ----------
+    kind : str
+        "map" (default): colours and numbers, with the letter of what governs; in a frame where runs told it.
+        "rosette": Hs over the direction, a curve for each period, drawn where the waves come from with the
+        bow upwards.
+    forecast : bool
+        With the alpha factor; default without.
+
+    Raises
+    ------
+    SceneError
+        For something else.
+    """
+    if not isinstance(table, AllowableHs):
+        raise SceneError(f"table is {described(table)}; give what allowable_hs() returns")
+    if kind not in ("map", "rosette"):
+        raise SceneError(f"kind is {shown(kind)}; choose 'map' or 'rosette'")
+    with_alpha = flag_of("forecast", forecast)
+    figure = new_figure(figsize=(7.2, 5.4), layout="constrained")
+    name = "forecast_hs" if with_alpha else "allowable_hs"
+    (_map if kind == "map" else _rosette)(figure, table, table.dataset[name].to_numpy())
+    what = "allowable Hs in a forecast" if with_alpha else "allowable Hs"
+    figure.suptitle(f"{table.scene}: {what}", fontsize=11)
+    figure.supxlabel("\n".join(_notes(table, with_alpha, kind)), fontsize=7, ha="left", x=0.02)
+    return figure
+
+
+def _notes(table: AllowableHs, with_alpha: bool, kind: str) -> list[str]:
+    told = table.alpha.told(hours=table.hours)
+    notes = table.told_criteria()
+    if kind == "map":
+        notes.append("in a frame: by runs, else by the linear model; >: no criterion is reached")
+    return [*notes, told if with_alpha else f"{told}: not in these numbers"]
+
+
+def _map(figure: Figure, table: AllowableHs, values: Any) -> None:
+    from matplotlib.patches import Rectangle
+
+    axes = figure.subplots()
+    image = axes.imshow(values, cmap="viridis", origin="lower", aspect="auto", vmin=0.0)
+    figure.colorbar(image, ax=axes, label="Hs [m]")
+    data = table.dataset
+    _ticks(axes, data)
+    top = max(float(np.max(values, initial=0.0, where=np.isfinite(values))), 1e-9)
+    names = [one.name for one in table.criteria]
+    for i in range(data.sizes["tp"]):
+        for j in range(data.sizes["direction_deg"]):
+            cell = data.isel(tp=i, direction_deg=j)
+            governs = str(cell["governing"].item())
+            text = (
+                f"{values[i, j]:.2f} {letters()[names.index(governs)]}" if governs else f">{values[i, j]:.2f}"
+            )
+            text = "failed" if np.isnan(values[i, j]) else text
+            colour = "black" if values[i, j] / top > DARK else "white"
+            axes.text(j, i, text, ha="center", va="center", fontsize=8, color=colour)
+            if cell["domain"].item() == "time":
+                axes.add_patch(
+                    Rectangle(
+                        (j - 0.47, i - 0.46), 0.94, 0.92, fill=False, edgecolor=COLOURS[1], linewidth=1.6
+                    )
+                )
+
+
+def _ticks(axes: Axes, data: Any) -> None:
+    axes.set_xticks(
+        range(data.sizes["direction_deg"]), [f"{one:g}" for one in data["direction_deg"].to_numpy()]
+    )
+    axes.set_yticks(range(data.sizes["tp"]), [f"{one:g}" for one in data["tp"].to_numpy()])
+    axes.set(xlabel="direction of travel of the waves [deg], 180: head waves", ylabel="peak period [s]")
+
+
+def _rosette(figure: Figure, table: AllowableHs, values: Any) -> None:
+    axes: Any = figure.add_subplot(projection="polar")
+    axes.set_theta_zero_location("S")  # head waves come from the top, where the bow points
+    directions = table.dataset["direction_deg"].to_numpy()
+    closed = directions[0] + 360.0 - directions[-1] <= 90.0
+    angles = np.radians(np.append(directions, directions[0] + 360.0) if closed else directions)
+    for k, (tp, row) in enumerate(zip(table.dataset["tp"].to_numpy(), values, strict=True)):
+        curve = np.append(row, row[0]) if closed else row
+        style = STYLES[k // len(COLOURS) % len(STYLES)]
+        axes.plot(
+            angles, curve, style, marker="o", markersize=3, color=COLOURS[k % len(COLOURS)], label=f"{tp:g} s"
+        )
+    axes.set_rlim(0.0, None)
+    axes.set_rlabel_position(22.5)
+    axes.grid(alpha=0.4)
+    figure.legend(title="peak period", loc="outside right upper", fontsize=8, title_fontsize=8)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.operability.criterion import Criterion
+from seacrane.operability.asked import Asked
 from seacrane.operability.linear_channels import LinearSeas
 from seacrane.operability.time_domain import ByTime
 
@@ -16,14 +16,11 @@ Array = NDArray[np.float64]
 Place = tuple[int, int]  # number of the peak period, and of the direction
 
 
-@dataclass(kw_only=True, eq=False)
 class Cells:
-    """Cells by peak period and direction, filled step by step.
+    """Cells by peak period and direction, filled step by step; runs are wanted where nothing is known.
 
     Attributes
     ----------
-    tp, directions : s, and degrees.
-    largest : Hs up to which was looked, m.
     by_criterion, low, high : ndarray, shape (criteria, periods, directions)
         Allowable Hs, m, and its 95 % interval; NaN where a cell needed no runs.
     difference : ndarray, shape (criteria, periods, directions)
@@ -32,52 +29,35 @@ class Cells:
     energy_share : (periods,) Of the waves, within the database.
     """
 
-    criteria: tuple[Criterion, ...]
-    tp: tuple[float, ...]
-    directions: tuple[float, ...]
-    largest: float
-    by_criterion: Array
-    low: Array
-    high: Array
-    difference: Array
-    domain: NDArray[np.str_]
-    reason: NDArray[np.object_]
-    energy_share: Array
-    linear: LinearSeas | None = None
-
-    @classmethod
-    def of(
-        cls,
-        criteria: Sequence[Criterion],
-        tp: Sequence[float],
-        directions: Sequence[float],
-        *,
-        largest: float,
-    ) -> Cells:
-        """Cells of which nothing is known: runs are wanted for all."""
-        shape = (len(tp), len(directions))
-        all_of = (len(criteria), *shape)
-        return cls(
-            criteria=tuple(criteria), tp=tuple(tp), directions=tuple(directions), largest=largest,
-            by_criterion=np.full(all_of, np.inf), low=np.full(all_of, np.nan), high=np.full(all_of, np.nan),
-            difference=np.full(all_of, np.nan), domain=np.full(shape, "time", dtype="U9"),
-            reason=np.full(shape, "asked for", dtype=object), energy_share=np.full(len(tp), np.nan),
-        )  # fmt: skip
+    def __init__(self, asked: Asked) -> None:
+        shape = (len(asked.tp), len(asked.direction_deg))
+        all_of = (len(asked.criteria), *shape)
+        self.asked = asked
+        self.linear: LinearSeas | None = None
+        self.by_criterion: Array = np.full(all_of, np.inf)
+        self.low, self.high, self.difference = (np.full(all_of, np.nan) for _ in range(3))
+        self.domain = np.full(shape, "time", dtype="U9")
+        self.reason = np.full(shape, "asked for", dtype=object)
+        self.energy_share: Array = np.full(shape[0], np.nan)
 
     @property
     def places(self) -> list[Place]:
         """All cells, directions fastest."""
-        return [(i, j) for i in range(len(self.tp)) for j in range(len(self.directions))]
+        return [(i, j) for i in range(len(self.asked.tp)) for j in range(len(self.asked.direction_deg))]
 
     @property
     def wanted(self) -> list[Place]:
         """Cells of the time domain."""
         return [place for place in self.places if self.domain[place] == "time"]
 
+    def words(self, place: Place) -> dict[str, Any]:
+        """The words of the sea of a cell, without its height and seed."""
+        return {"tp": self.asked.tp[place[0]], "direction_deg": self.asked.direction_deg[place[1]]}
+
     @property
     def allowable(self) -> Array:
         """Over all criteria, up to the largest Hs that was examined."""
-        return np.asarray(np.minimum(self.by_criterion.min(axis=0), self.largest))
+        return np.asarray(np.minimum(self.by_criterion.min(axis=0), self.asked.hs[-1]))
 
     def refuse(self, reason: str) -> None:
         """Leave all cells to the time domain."""
@@ -90,7 +70,7 @@ class Cells:
         at_rest = allowable.min() <= 0.0
         self.reason[period, direction] = "a bound is exceeded at rest" if at_rest else "not tested"
 
-    def take_difference(self, place: Place, found: Array | str, within: float) -> None:
+    def take_difference(self, place: Place, found: Array | str) -> None:
         """What a probe of a cell brought: the largest of several counts."""
         if isinstance(found, str):
             self.domain[place], self.reason[place] = "time", f"a run failed: {found}"
@@ -101,8 +81,8 @@ class Cells:
             return
         worst = int(np.argmax(self.difference[(slice(None), *place)]))
         share = 100.0 * self.difference[worst, place[0], place[1]]
-        name = self.criteria[worst].name
-        if share > 100.0 * within:
+        name = self.asked.criteria[worst].name
+        if share > 100.0 * self.asked.linear_within:
             self.domain[place] = "time"
             self.reason[place] = f"{name}: run and linear model differ by {share:.0f} % of the allowance"
         else:

@@ -118,35 +118,31 @@ def _by_force_at(
 ) -> Array:
     """Channels per force at a point of a body, inertial axes, (m, 3)."""
     size = PUSH * model.scene.bodies[body].mass
-    columns = []
-    for axis in np.eye(3):
-        pushed = [
-            _Look(_pushed(model, body, point, sign * size * axis), criteria).at(model.state)
-            for sign in (1.0, -1.0)
-        ]
-        columns.append((pushed[0] - pushed[1]) / (2.0 * size))
+    columns = [_slope(model, criteria, body, size, along, point) for along in np.eye(3, 6)]
     return np.stack(columns, axis=1)
 
 
 def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:
-    dof, columns = model.degrees_of_freedom, []
-    axes = model.yaw_axes()
-    for i, accelerations in enumerate(np.abs(model.b[dof : 2 * dof]).max(axis=0)):
-        size = PUSH / accelerations
-        assert model.vessel is not None
-        pushed = [
-            _Look(_loaded(model, model.vessel, sign * size * axes[:, i]), criteria).at(model.state)
-            for sign in (1.0, -1.0)
-        ]
-        columns.append((pushed[0] - pushed[1]) / (2.0 * size))
+    assert model.vessel is not None
+    dof, axes = model.degrees_of_freedom, model.yaw_axes()
+    sizes = PUSH / np.abs(model.b[dof : 2 * dof]).max(axis=0)
+    columns = [_slope(model, criteria, model.vessel, size, axes[:, i]) for i, size in enumerate(sizes)]
     return np.stack(columns, axis=1)
 
 
-def _pushed(model: LinearModel, body: str, point: Any, force: Array) -> Scene:
-    return _loaded(model, body, np.concatenate([force, np.zeros(3)]), point)
+def _slope(
+    model: LinearModel, criteria: Sequence[Criterion], body: str, size: float, along: Array,
+    point: Any = (0.0, 0.0, 0.0),
+) -> Array:  # fmt: skip
+    """Channels per load `along` (6,) at a point of a body, by so much of it to either side."""
+    above, below = (
+        _Look(_loaded(model, body, sign * size * along, point), criteria).at(model.state)
+        for sign in (1.0, -1.0)
+    )
+    return (above - below) / (2.0 * size)
 
 
-def _loaded(model: LinearModel, body: str, wrench: Array, point: Any = (0.0, 0.0, 0.0)) -> Scene:
+def _loaded(model: LinearModel, body: str, wrench: Array, point: Any) -> Scene:
     """The scene held as at the model's time, with one more load (6,) about a point of a body."""
     scene: Scene = held(model.scene, time=model.state.time)  # type: ignore[assignment]
     name = "operability"
