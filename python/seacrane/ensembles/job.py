@@ -12,11 +12,10 @@ from typing import Any, TypeVar
 
 from seacrane import _core
 from seacrane.description.given import given_vessels
+from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, with_sea
-from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.stage_values import START_TIME
-from seacrane.ensembles.study import Study, Values
+from seacrane.ensembles.study import START_TIME, Study, Values
 from seacrane.errors import SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.advance import ended

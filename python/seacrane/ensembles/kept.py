@@ -11,7 +11,7 @@ import numpy as np
 
 from seacrane.description.channels import attributes, unit_of
 from seacrane.description.pick import Pick, pick_of
-from seacrane.ensembles.outcome import Labelled
+from seacrane.ensembles.dataset import Labelled
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, positive_of, text_of
 from seacrane.inputs.keywords import named

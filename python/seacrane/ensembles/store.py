@@ -1,22 +1,27 @@
-"""Where outcomes are kept as they come: in memory, or in a folder with a NetCDF file for each pack."""
+"""Packs of members, and where their outcomes are kept: in memory, or in a folder of NetCDF files."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
-from seacrane.ensembles.dataset import TEXTS, table_of
-from seacrane.ensembles.members import MOST_MEMBERS, Members
-from seacrane.ensembles.outcome import Labelled, Outcome
-from seacrane.errors import FileFormatError
+from seacrane import _core
+from seacrane.ensembles.dataset import TEXTS, Labelled, Outcome, table_of
+from seacrane.ensembles.members import MOST_MEMBERS, Members, Value
+from seacrane.ensembles.other_sea import WORDS
+from seacrane.ensembles.study import START_TIME, Study
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.json_text import json_of
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
+from seacrane.inputs.shown import shown
 from seacrane.run.interrupts import interrupts_kept
 from seacrane.warnings import LostMembersWarning
 
@@ -25,6 +30,8 @@ if TYPE_CHECKING:
 
 DIGITS = 7  # of a pack's number in the name of its file
 LARGEST_FILE = 2**32  # bytes of arrays
+MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
+LARGEST_PACK = 64
 
 
 class Store(Protocol):
@@ -233,3 +240,83 @@ def _read_group(group: Any) -> dict[int, dict[str, Labelled]]:
 
 def _texts_or_numbers(values: Any) -> Any:
     return values.astype(str) if values.dtype == object else np.asarray(values)
+
+
+def packs_of(order: Sequence[int], size: int) -> dict[int, Sequence[int]]:
+    """Members in packs of a size, by the number of the pack."""
+    starts = range(0, len(order), size)
+    return {number: order[start : start + size] for number, start in enumerate(starts)}
+
+
+def pack_size(pack: int | None, count: int, lanes: int, together: int) -> int:
+    """Members in a pack. `together` is how many members share what is done before the first of them.
+
+    Raises SceneError for a pack that is no number, or no multiple of the lanes.
+    """
+    if pack is None and together:
+        return min(LARGEST_PACK, together)
+    if pack is None:
+        return lanes * ceil(min(LARGEST_PACK, ceil(count / MOST_PACKS)) / lanes)
+    if not isinstance(pack, int) or isinstance(pack, bool) or pack < 1:
+        raise SceneError(f"pack is {shown(pack)}; give a whole number from 1 on")
+    if pack % lanes:
+        raise SceneError(f"pack is {pack} and lanes is {lanes}; give a pack that is a multiple of lanes")
+    return pack
+
+
+def order_of(study: Study, members: Members) -> Sequence[int]:
+    """Numbers of all members, those of one lift next to each other, with seeds fastest.
+
+    Parameters that part lifts, as kinds of crane do, come first. Other numbers, such as masses, lie by size,
+    and the words of the sea behind them: neighbours cost about the same.
+    """
+    if study.lanes == 1:
+        return range(len(members))
+    others = sorted(name for name in members.axes if name not in WORDS)
+    sea = sorted(name for name in members.axes if name in WORDS and name != "seed")
+    parting = _parting(study, members, others) if len(others) > 1 else []
+    slowest_first = [*parting, *(name for name in others if name not in parting), *sea]
+    slowest_first += ["seed"] if "seed" in members.axes else []
+    ranks = [_ranks(members, name) for name in slowest_first]
+    return np.lexsort(ranks[::-1]).tolist()  # type: ignore[no-any-return]
+
+
+def _ranks(members: Members, name: str) -> NDArray[np.int64]:
+    """The place of every member's value among those of a parameter, by size."""
+    values = members.axes[name]
+    sizes = {value: rank for rank, value in enumerate(sorted(set(values), key=_size))}
+    ranks = np.array([sizes[value] for value in values])
+    if not members.grid:
+        return ranks
+    axis, shape = list(members.axes).index(name), tuple(members.shape.values())
+    return np.broadcast_to(ranks.reshape([-1 if i == axis else 1 for i in range(len(shape))]), shape).ravel()
+
+
+def _size(value: Value) -> tuple[bool, Any]:
+    return isinstance(value, str), value
+
+
+def _parting(study: Study, members: Members, names: Sequence[str]) -> list[str]:
+    """Parameters whose values keep lifts apart, as two lifts that differ in nothing else tell."""
+    base = {name: min(values, key=_size) for name, values in sorted(members.axes.items())}
+    usual = _model(study, base)
+    found = []
+    for name in names:
+        if name == START_TIME:
+            continue
+        several = sorted(set(members.axes[name]), key=_size)
+        for value in {several[len(several) // 2], several[-1]} - {base[name]}:
+            other = _model(study, {**base, name: value})
+            if usual is None or other is None or _core.lanes_differ(usual, other):
+                found.append(name)
+                break
+    return found
+
+
+def _model(study: Study, values: dict[str, Value]) -> _core.Model | None:
+    """The compiled lift of these values; None where there is none, which its member will say."""
+    with silently():
+        try:
+            return study.scene(values).compile()
+        except Exception:
+            return None

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.study import Keep
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
