@@ -340,7 +340,7 @@ def _table_may_show(case: Asked, waves: Waves, result: Result) -> bool:
 
 def _unreachable(case: Asked, errors: Mapping[str, float], term: str) -> str:
     name = max(case.limits, key=lambda quantity: errors[quantity] / case.limits[quantity])
-    expected = expected_error(method_for(0.0)) * case.scale(name)
+    expected, unit = expected_error(method_for(0.0)) * case.scale(name), case.quantities[name].unit
     if not term and errors[name] > AMPLIFIED * expected:
         term = (
             "the motion itself, which amplifies the smallest differences: ask for statistics, or a shorter "
@@ -348,6 +348,6 @@ def _unreachable(case: Asked, errors: Mapping[str, float], term: str) -> str:
         )
     term = term or f"rounding at the tightest tolerance, {TIGHTEST:g}"
     return (
-        f"accuracy: {name} of {case.limits[name]:g} {case.unit(name)} cannot be reached: the limit is "
-        f"{errors[name]:.3g} {case.unit(name)}, set by {term}"
+        f"accuracy: {name} of {case.limits[name]:g} {unit} cannot be reached: the limit is "
+        f"{errors[name]:.3g} {unit}, set by {term}"
     )

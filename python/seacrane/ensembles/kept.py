@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
 
+from seacrane.accuracy.quantities import STAGE, stage_time
 from seacrane.description.channels import attributes, unit_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.ensembles.dataset import Labelled
@@ -24,7 +24,6 @@ NUMBERS: Mapping[str, Callable[..., Any]] = {
     "maximum": np.max,
     "minimum": np.min,
 }
-STAGE = re.compile(r"stage\[\s*([^\[\]]+?)\s*\]\.(start|end|duration)")
 SHORT: Mapping[str, str] = {"max": "maximum", "min": "minimum", "std": "standard_deviation"}
 TEXTS = {
     "mean": "mean",
@@ -172,11 +171,7 @@ class StageTime:
 
     def __call__(self, result: Result) -> float:
         """What is kept of a result; SceneError where it has no such stage."""
-        for span in result.stages:
-            if span.name == self.stage:
-                return span.end - span.start if self.what == "duration" else float(getattr(span, self.what))
-        known = ", ".join(span.name for span in result.stages) or "none"
-        raise SceneError(f"kept: there is no stage {self.stage!r}; the run has {known}")
+        return stage_time(result, self.stage, self.what, "kept")
 
 
 def made_by(name: str, function: Callable[[Result], Any], result: Result) -> Labelled:

@@ -149,12 +149,12 @@ class AllowableHs(Answer):
 
     def _shown(self) -> Table:
         tp, directions = (self.dataset[name].to_numpy() for name in ("tp", "direction_deg"))
-        heights = self.dataset["allowable_hs"].to_numpy()
+        heights, domain = (self.dataset[name].to_numpy() for name in ("allowable_hs", "domain"))
         return Table(
             axes=[Column(head="Tp", values=tp, unit="s", form="g")],
             columns=[
                 Column(head=f"{one:g} deg", values=heights[:, j],
-                       read=("", [self._cell(i, j) for i in range(tp.size)]))
+                       read=("", [self._cell(heights, i, j) + MARK[domain[i, j]] for i in range(tp.size)]))
                 for j, one in enumerate(directions)
             ],
             title=f"{self.scene}: allowable Hs [m] over peak period and direction of travel of the waves",
@@ -182,15 +182,14 @@ class AllowableHs(Answer):
             lines.append(f"{len(self.failures)} runs failed, see failures and reason; failed: not known")
         return lines
 
-    def _cell(self, i: int, j: int) -> str:
-        cell = self.dataset.isel(tp=i, direction_deg=j)
-        value, mark = float(cell["allowable_hs"]), MARK[str(cell["domain"].item())]
-        if np.isnan(value):
-            return f"failed {mark}"
-        if cell["capped"].item():
-            return f">{value:.2f} {mark}"
-        names = [one.name for one in self.criteria]
-        return f"{value:.2f} {letters()[names.index(str(cell['governing'].item()))]}{mark}"
+    def _cell(self, values: Array, i: int, j: int) -> str:
+        """A value of the table, then the letter of what governs it."""
+        if np.isnan(values[i, j]):
+            return "failed "
+        governs = str(self.dataset["governing"].to_numpy()[i, j])
+        if not governs:
+            return f">{values[i, j]:.2f} "
+        return f"{values[i, j]:.2f} {letters()[[one.name for one in self.criteria].index(governs)]}"
 
 
 def breaking_height(tp: float) -> float:
@@ -284,23 +283,14 @@ def _map(figure: Figure, table: AllowableHs, values: Any) -> None:
     data = table.dataset
     _ticks(axes, data)
     top = max(float(np.max(values, initial=0.0, where=np.isfinite(values))), 1e-9)
-    names = [one.name for one in table.criteria]
     for i in range(data.sizes["tp"]):
         for j in range(data.sizes["direction_deg"]):
-            cell = data.isel(tp=i, direction_deg=j)
-            governs = str(cell["governing"].item())
-            text = (
-                f"{values[i, j]:.2f} {letters()[names.index(governs)]}" if governs else f">{values[i, j]:.2f}"
-            )
-            text = "failed" if np.isnan(values[i, j]) else text
+            text = table._cell(values, i, j).rstrip()
             colour = "black" if values[i, j] / top > DARK else "white"
             axes.text(j, i, text, ha="center", va="center", fontsize=8, color=colour)
-            if cell["domain"].item() == "time":
-                axes.add_patch(
-                    Rectangle(
-                        (j - 0.47, i - 0.46), 0.94, 0.92, fill=False, edgecolor=COLOURS[1], linewidth=1.6
-                    )
-                )
+            if data["domain"].to_numpy()[i, j] == "time":
+                look: dict[str, Any] = {"fill": False, "edgecolor": COLOURS[1], "linewidth": 1.6}
+                axes.add_patch(Rectangle((j - 0.47, i - 0.46), 0.94, 0.92, **look))
 
 
 def _ticks(axes: Axes, data: Any) -> None:

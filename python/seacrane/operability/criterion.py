@@ -17,8 +17,7 @@ from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of, te
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
-from seacrane.statistics.estimate import Estimate
-from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
+from seacrane.statistics.estimate import THREE_HOURS, Estimate, gaussian_maximum
 from seacrane.statistics.record import crests
 from seacrane.statistics.seeds import mean_of, seed_extremes
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.inputs.checked import numbers_of
 from seacrane.warnings import RepeatingSeaWarning, StartTransientWarning
 
 Array = NDArray[np.float64]
@@ -23,31 +23,24 @@ UNLIKELY = 0.002  # probability, for each of mean and variance, of a warning wit
 CLEAR_MEAN, CLEAR_SPREAD = 0.25, 0.1  # of the standard deviation: smaller changes are let pass
 
 
-def positive(what: str, value: Any) -> float:
-    """A number above zero, or a SceneError."""
-    number = number_of(what, value)
-    if not number > 0.0:
-        raise SceneError(f"{what}={number:g}: must be above zero")
-    return number
+def listed(what: str, given: Any, *, fewest: int, finite: str, varied: str) -> Array:
+    """One list of finite numbers that are not all equal, or a SceneError with what mends it."""
+    values = numbers_of(what, given)
+    if values.ndim != 1 or values.size < fewest:
+        raise SceneError(f"{what} of shape {values.shape}: give one list of at least {fewest}")
+    if not np.isfinite(values).all():
+        raise SceneError(f"{what}: not all are finite; {finite}")
+    if np.ptp(values) <= ROUNDING * np.abs(values).max():
+        raise SceneError(f"{what}: all are {values[0]:g}; {varied}")
+    return values
 
 
 def record_of(values: Any) -> Array:
-    """Values of a record that varies, or a SceneError.
-
-    Parameters
-    ----------
-    values : (n,) At least 64, finite, any unit.
-    """
-    record = numbers_of("values", values)
-    if record.ndim != 1 or record.size < FEWEST_VALUES:
-        raise SceneError(
-            f"values of shape {record.shape}: a record is one list of at least {FEWEST_VALUES} numbers"
-        )
-    if not np.isfinite(record).all():
-        raise SceneError("values: not all are finite; take a part of the record without gaps")
-    if np.ptp(record) <= ROUNDING * np.abs(record).max():
-        raise SceneError(f"values: all are {record[0]:g}; a record that does not vary has no extremes")
-    return record
+    """Values of a record that varies, at least 64, any unit, or a SceneError."""
+    return listed(
+        "values", values, fewest=FEWEST_VALUES, finite="take a part of the record without gaps",
+        varied="a record that does not vary has no extremes",
+    )  # fmt: skip
 
 
 def up_crossings(values: Array, level: float) -> Places:

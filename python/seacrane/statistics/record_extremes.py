@@ -10,19 +10,18 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of
-from seacrane.plotting.table import Answer, Table
-from seacrane.statistics.estimate import CONFIDENCE, Estimate, Maximum, maxima_table
-from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
-from seacrane.statistics.record import (
-    crests,
-    positive,
-    record_of,
-    up_crossings,
-    warn_of_repeat,
-    warn_of_start,
+from seacrane.inputs.checked import number_of, positive_of
+from seacrane.plotting.table import Table
+from seacrane.statistics.estimate import (
+    THREE_HOURS,
+    Estimate,
+    Extremes,
+    Maximum,
+    gaussian_maximum,
+    maxima_table,
 )
-from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
+from seacrane.statistics.record import crests, record_of, up_crossings, warn_of_repeat, warn_of_start
+from seacrane.statistics.spectrum import SpectrumEstimate, by_chi_squared, spectrum_estimate
 from seacrane.statistics.tail import FEWEST_PEAKS, Tail, peaks_over_threshold
 from seacrane.warnings import PoorFitWarning
 
@@ -31,7 +30,7 @@ MOST_KURTOSIS = 3.0  # excess, of records whose largest value a Gaussian process
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class RecordExtremes(Answer):
+class RecordExtremes(Extremes):
     """Statistics of one record. Made by `record_extremes` and `extremes`; prints as a table.
 
     Attributes
@@ -61,16 +60,11 @@ class RecordExtremes(Answer):
         From this tail.
     """
 
-    name: str
-    unit: str
-    duration: float
-    exposure: float
     mean: float
     std: float
     largest: float
     skewness: float
     kurtosis: float
-    static: float
     significant: float
     crossing_rate: float
     crests: Array
@@ -90,19 +84,10 @@ class RecordExtremes(Answer):
         """By peaks over the threshold; where these are too few, as if Gaussian with clumps."""
         return self.over_threshold or self.clumped
 
-    @property
-    def dynamic_factor(self) -> float:
-        """Most probable maximum over the static value."""
-        if self.static == 0.0:
-            raise SceneError("static=0: a dynamic factor needs a static value; give static=")
-        return self.maximum.mpm.value / self.static
-
     def exceedance(self, levels: Any) -> Array:
         """Share of the crests above levels."""
         above = self.crests.size - np.searchsorted(self.crests, np.asarray(levels, dtype=float), side="right")
         return np.asarray(above / self.crests.size)
-
-    __repr__ = Answer.__str__
 
     def _shown(self) -> Table:
         title = (
@@ -169,7 +154,8 @@ def record_extremes(
     -----
     StartTransientWarning, RepeatingSeaWarning, PoorFitWarning
     """
-    record, step, asked = record_of(values), positive("interval", interval), positive("exposure", exposure)
+    record, step = record_of(values), positive_of("interval", interval)
+    asked = positive_of("exposure", exposure)
     duration, mean, std = record.size * step, float(record.mean()), float(record.std())
     crossings = up_crossings(record, mean).size
     heights = crests(record, mean)
@@ -222,10 +208,7 @@ def _gaussian(
     mean: float, std: float, rate: float, exposure: float, spectrum: SpectrumEstimate, bandwidth: float | None
 ) -> Maximum:
     """The Gaussian maximum, with intervals from the scatter of the standard deviation."""
-    from scipy.stats import chi2
-
-    degrees, tails = spectrum.variance_degrees, (1.0 - CONFIDENCE) / 2.0
-    low, high = np.sqrt(degrees / chi2.ppf([1.0 - tails, tails], degrees)).tolist()
+    low, high = np.sqrt(by_chi_squared(spectrum.variance_degrees)).tolist()
     unit = gaussian_maximum(std=1.0, rate=rate, exposure=exposure, bandwidth=bandwidth)
 
     def scaled(one: Estimate) -> Estimate:

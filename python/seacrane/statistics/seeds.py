@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of, numbers_of
-from seacrane.plotting.table import Answer, Table
-from seacrane.statistics.estimate import CONFIDENCE, EULER, P90_REDUCED, Estimate, Maximum, maxima_table
-from seacrane.statistics.record import positive
+from seacrane.inputs.checked import number_of, positive_of
+from seacrane.plotting.table import Table
+from seacrane.statistics.estimate import EULER, P90_REDUCED, TAILS, Estimate, Extremes, Maximum, maxima_table
+from seacrane.statistics.record import listed
 from seacrane.warnings import FewSeedsWarning, PoorFitWarning
 
 Array = NDArray[np.float64]
@@ -90,7 +90,7 @@ def standard_fits(count: int) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class SeedExtremes(Answer):
+class SeedExtremes(Extremes):
     """Statistics of the maxima of several seeds. Made by `seed_extremes` and `extremes`; prints as a table.
 
     Attributes
@@ -113,12 +113,7 @@ class SeedExtremes(Answer):
         The same from the ordered maxima alone; intervals by their ranks, without any distribution.
     """
 
-    name: str
-    unit: str
     maxima: Array
-    duration: float
-    exposure: float
-    static: float
     location: float
     scale: float
     fit_probability: float
@@ -129,13 +124,6 @@ class SeedExtremes(Answer):
     def maximum(self) -> Maximum:
         """By Gumbel's distribution."""
         return self.gumbel
-
-    @property
-    def dynamic_factor(self) -> float:
-        """Most probable maximum over the static value."""
-        if self.static == 0.0:
-            raise SceneError("static=0: a dynamic factor needs a static value; give static=")
-        return self.gumbel.mpm.value / self.static
 
     def relative_half_width(self, number: str = "mpm") -> float:
         """Half width of the 95 % interval over the dynamic part of "mpm", "mean" or "p90"."""
@@ -157,13 +145,11 @@ class SeedExtremes(Answer):
         int
             At least 3, by the scatter of maximum likelihood with many seeds.
         """
-        share = positive("half_width", half_width)
+        share = positive_of("half_width", half_width)
         estimate: Estimate = getattr(self.gumbel, _asked(number))
         reduced = REDUCED[number] + np.log(self.exposure / self.duration)
         one = self.scale * np.sqrt(_likelihood_variance(float(reduced)))
         return max(FEWEST, int(np.ceil((NORMAL * one / (share * abs(estimate.value - self.static))) ** 2)))
-
-    __repr__ = Answer.__str__
 
     def _shown(self) -> Table:
         title = (
@@ -218,9 +204,12 @@ def seed_extremes(
     -----
     FewSeedsWarning, PoorFitWarning
     """
-    values, length = _maxima_of(maxima), positive("duration", duration)
-    asked = length if exposure is None else positive("exposure", exposure)
-    share = None if half_width is None else positive("half_width", half_width)
+    values = listed(
+        "maxima", maxima, fewest=FEWEST, finite="leave failed seeds out", varied="were the seeds different?"
+    )
+    values, length = np.sort(values), positive_of("duration", duration)
+    asked = length if exposure is None else positive_of("exposure", exposure)
+    share = None if half_width is None else positive_of("half_width", half_width)
     location, scale = (float(one) for one in gumbel_fit(values))
     worse = standard_fits(values.size)[2] > anderson_darling(values, np.array(location), np.array(scale))
     found = SeedExtremes(
@@ -232,19 +221,6 @@ def seed_extremes(
     )  # fmt: skip
     _judge(found, share, _asked(number))
     return found
-
-
-def _maxima_of(maxima: Any) -> Array:
-    values = numbers_of("maxima", maxima)
-    if values.ndim != 1 or values.size < FEWEST:
-        raise SceneError(
-            f"maxima of shape {values.shape}: give one list of at least {FEWEST}, one of each seed"
-        )
-    if not np.isfinite(values).all():
-        raise SceneError("maxima: not all are finite; leave failed seeds out")
-    if np.ptp(values) <= 1e-12 * np.abs(values).max():
-        raise SceneError(f"maxima: all are {values[0]:g}; were the seeds different?")
-    return np.sort(values)
 
 
 def _asked(number: str) -> str:
@@ -303,7 +279,7 @@ def _gumbel_maximum(count: int, location: float, scale: float, duration: float, 
     def estimate(reduced: float) -> Estimate:
         at = reduced + float(np.log(exposure / duration))
         pivot = (drawn_location + at * drawn_scale - at) / drawn_scale
-        low, high = np.quantile(pivot, [(1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0])
+        low, high = np.quantile(pivot, TAILS)
         value = location + at * scale
         return Estimate(value=value, low=float(value - scale * high), high=float(value - scale * low))
 
@@ -330,7 +306,7 @@ def mean_of(values: Array) -> Estimate:
     """The mean of independent values, with its interval by Student's t."""
     from scipy.stats import t
 
-    half = float(t.ppf((1.0 + CONFIDENCE) / 2.0, values.size - 1) * values.std(ddof=1)) / values.size**0.5
+    half = float(t.ppf(TAILS[1], values.size - 1) * values.std(ddof=1)) / values.size**0.5
     mean = float(values.mean())
     return Estimate(value=mean, low=mean - half, high=mean + half)
 
@@ -339,8 +315,8 @@ def _ordered(ascending: Array, share: float) -> Estimate:
     """A quantile, between those ordered values that enclose it with a probability of 95 %."""
     from scipy.stats import binom
 
-    below = int(binom.ppf((1.0 - CONFIDENCE) / 2.0, ascending.size, share))
-    above = int(binom.ppf((1.0 + CONFIDENCE) / 2.0, ascending.size, share)) + 1
+    below, above = (int(binom.ppf(tail, ascending.size, share)) for tail in TAILS)
+    above = min(above, ascending.size) + 1
     edged = np.concatenate([[-np.inf], ascending, [np.inf]])
     value = float(np.quantile(ascending, share, method="weibull"))
-    return Estimate(value=value, low=float(edged[below]), high=float(edged[min(above, ascending.size + 1)]))
+    return Estimate(value=value, low=float(edged[below]), high=float(edged[above]))

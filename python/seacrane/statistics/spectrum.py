@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
-from seacrane.statistics.estimate import CONFIDENCE
-from seacrane.statistics.record import FEWEST_VALUES, positive, record_of
+from seacrane.inputs.checked import positive_of
+from seacrane.statistics.estimate import TAILS
+from seacrane.statistics.record import FEWEST_VALUES, record_of
 
 Array = NDArray[np.float64]
 SEGMENTS = 15  # half overlapping, where the record is long enough
@@ -68,13 +69,15 @@ class SpectrumEstimate:
 
     def interval(self) -> tuple[Array, Array]:
         """Bounds of the 95 % interval of every density, by chi-squared."""
-        from scipy.stats import chi2
-
-        tails = (1.0 - CONFIDENCE) / 2.0
-        low, high = (
-            self.degrees_of_freedom / chi2.ppf([1.0 - tails, tails], self.degrees_of_freedom)
-        ).tolist()
+        low, high = by_chi_squared(self.degrees_of_freedom).tolist()
         return self.density * low, self.density * high
+
+
+def by_chi_squared(degrees: float) -> Array:
+    """Ends (2,) of the 95 % interval of a variance, over its estimate with so many degrees of freedom."""
+    from scipy.stats import chi2
+
+    return np.asarray(degrees / chi2.ppf(TAILS[::-1], degrees))
 
 
 def spectrum_estimate(values: Any, *, interval: float, segments: int = SEGMENTS) -> SpectrumEstimate:
@@ -96,7 +99,7 @@ def spectrum_estimate(values: Any, *, interval: float, segments: int = SEGMENTS)
     """
     from scipy.signal import welch
 
-    record, step = record_of(values), positive("interval", interval)
+    record, step = record_of(values), positive_of("interval", interval)
     if not isinstance(segments, (int, np.integer)) or segments < 1:
         raise SceneError(f"segments={segments!r}: give a whole number of at least 1")
     length = min(record.size, max(FEWEST_VALUES, 2 * record.size // (int(segments) + 1)))
