@@ -72,16 +72,9 @@ def run_to_accuracy(
 ) -> Result:
     """The run of a case whose estimated error meets all limits.
 
-    Parameters
-    ----------
-    accuracy, method, outputs, shorthand, controllers, progress
-        As `simulate`; the integrator and its tolerance are chosen here, and no controllers can be.
-
-    Returns
-    -------
-    Result
-        With `error_estimate_<quantity>`, `accuracy_<quantity>`, and of all runs `accuracy_runs`,
-        `accuracy_wall_s` and `accuracy_evaluations` in its stats; without them if it was interrupted.
+    As of `simulate`; the integrator and its tolerance are chosen here, and no controllers can be. Unless it
+    was interrupted its stats have `error_estimate_<quantity>`, `accuracy_<quantity>`, and of all runs
+    `accuracy_runs`, `accuracy_wall_s` and `accuracy_evaluations`.
 
     Raises SceneError for an accuracy that is no positive number, an unknown quantity, a setting that is
     chosen here, or a limit that cannot be reached.
@@ -100,12 +93,7 @@ def run_to_accuracy(
 def error_of(case: Asked, method: Method) -> tuple[dict[str, float], int, int]:
     """Estimated errors of a run by a method that `run_to_accuracy` chose for another scene.
 
-    Returns
-    -------
-    errors : dict of str to float
-        By quantity that has a limit, in its unit.
-    run, other : int
-        Evaluations of the run, and of the cheap one that tells its error.
+    By quantity with a limit, in its unit; then evaluations of the run, and of the cheap one that tells it.
 
     Raises
     ------

@@ -123,12 +123,8 @@ def _database(scene: Scene) -> HydroDatabase | None:
 def with_memory(scene: Scene, kind: str, *, level: float | None = None, vessel: str | None = None) -> Scene:
     """The scene with another fluid memory of one vessel; the added mass is that of the memory's fit.
 
-    Parameters
-    ----------
-    level : float, optional
-        R2 or limit asked of a fit; default: the database's own memory where it has one of that kind.
-    vessel : str, optional
-        Default: the only one.
+    By an R2 or limit of the fit, else the database's own where it has one of that kind; of the only vessel,
+    where none is named.
     """
     own = next(iter(scene.vessels.values())) if vessel is None else scene.vessels[vessel]
     changes: dict[str, Any] = {"memory": []}

@@ -72,90 +72,54 @@ class Outcome:
     kept_apart: str = ""
 
 
-def axes_of(members: Members) -> dict[str, tuple[str, Any]]:
-    """Dimension and values of each parameter, and the numbers of members that are no grid."""
-    if members.grid:
-        return {name: (name, np.array(values)) for name, values in members.axes.items()}
-    own = {"member": ("member", np.arange(len(members)))}
-    return own | {name: ("member", np.array(values)) for name, values in members.axes.items()}
+def dataset_of(members: Members, outcomes: Iterable[Outcome]) -> xarray.Dataset:
+    """Outcomes, as they come, over the members; those that failed or are not there are NaN.
+
+    What lies otherwise than that of the first member that did not fail is a failure.
+    """
+    import xarray
+
+    count, first, arrays = len(members), dict[str, Labelled](), dict[str, NDArray[np.float64]]()
+    told, texts = {name: np.full(count, "", dtype=object) for name in TEXTS}, dict[str, str]()
+    told["failure"][:] = NOT_RUN
+    for one in outcomes:
+        failure = _failure_of(one, first)
+        for name, column in told.items():
+            text = failure if name == "failure" else getattr(one, name)
+            column[one.index] = texts.setdefault(text, text)  # as often as it comes one object
+        for name, kept in ({} if failure else one.kept).items():
+            if name not in arrays:
+                first[name], arrays[name] = kept, np.full((count, *kept.values.shape), np.nan)
+            arrays[name][one.index] = kept.values
+    over, lengths = tuple(members.shape), tuple(members.shape.values())
+    coords: dict[str, Any] = {} if members.grid else {"member": ("member", np.arange(count))}
+    for name, values in members.axes.items():
+        coords[name] = (name if members.grid else "member", np.array(values))
+    variables: dict[str, Any] = {}
+    several = _several(first.values())
+    for name, kept in first.items():
+        own = {dim: f"{dim}_{name}" if dim in several else dim for dim in kept.dims}
+        shaped = arrays[name].reshape(*lengths, *kept.values.shape)
+        variables[name] = ((*over, *own.values()), shaped, dict(kept.attributes))
+        coords |= {own[dim]: (own[dim], along) for dim, along in kept.coords.items()}
+    for name, column in told.items():
+        variables[name] = (over, column.reshape(lengths), {"long_name": TEXTS[name]})
+    return xarray.Dataset(variables, coords)
 
 
-def own_dims(first: Mapping[str, Labelled]) -> dict[str, dict[str, str]]:
-    """By variable: the names of its own dimensions, with its name where another has them otherwise."""
-    shared = _shared(first)
+def _several(kept: Iterable[Labelled]) -> set[str]:
+    """Dimensions that are of other lengths, or have other values, in some that have them."""
+    found: dict[str, tuple[int, Any]] = {}
     return {
-        name: {dim: dim if shared[dim] else f"{dim}_{name}" for dim in kept.dims}
-        for name, kept in first.items()
+        dim
+        for one in kept
+        for dim, length in zip(one.dims, one.values.shape, strict=True)
+        for known in [found.setdefault(dim, (length, one.coords.get(dim)))]
+        if known[0] != length or not np.array_equal(known[1], one.coords.get(dim))  # type: ignore[arg-type]
     }
 
 
-def _shared(first: Mapping[str, Labelled]) -> dict[str, bool]:
-    """Whether each dimension has the same length and values in all that have it."""
-    found: dict[str, tuple[int, Any]] = {}
-    shared: dict[str, bool] = {}
-    for kept in first.values():
-        for dim, length in zip(kept.dims, kept.values.shape, strict=True):
-            known = found.setdefault(dim, (length, kept.coords.get(dim)))
-            same = known[0] == length and np.array_equal(known[1], kept.coords.get(dim))  # type: ignore[arg-type]
-            shared[dim] = shared.get(dim, True) and same
-    return shared
-
-
-class Table:
-    """Arrays over all members, filled outcome by outcome in the order of the members."""
-
-    def __init__(self, members: Members) -> None:
-        self._members, count = members, len(members)
-        self._told = {name: np.full(count, "", dtype=object) for name in TEXTS}
-        self._told["failure"][:] = NOT_RUN
-        self._texts: dict[str, str] = {}
-        self._first: dict[str, Labelled] = {}
-        self._arrays: dict[str, Any] = {}
-
-    def add(self, outcome: Outcome) -> None:
-        """Take one; what lies otherwise than that of the first member that did not fail is a failure."""
-        index, failure = outcome.index, failure_of(outcome, self._first)
-        for name, texts in self._told.items():
-            texts[index] = self._shared(failure if name == "failure" else getattr(outcome, name))
-        if failure:
-            return
-        for name, kept in outcome.kept.items():
-            if name not in self._arrays:
-                self._first[name] = kept
-                self._arrays[name] = np.full((len(self._members), *kept.values.shape), np.nan)
-            self._arrays[name][index] = kept.values
-
-    def _shared(self, text: str) -> str:
-        """The text itself, as often as it comes one object."""
-        return self._texts.setdefault(text, text)
-
-    def dataset(self) -> xarray.Dataset:
-        """A data set of what was added; members that failed or are not there are NaN."""
-        import xarray
-
-        variables: dict[str, Any] = {}
-        coords: dict[str, Any] = axes_of(self._members)
-        over = tuple(self._members.shape)
-        lengths = tuple(self._members.shape.values())
-        for name, own in own_dims(self._first).items():
-            first = self._first[name]
-            values = self._arrays[name].reshape(*lengths, *first.values.shape)
-            variables[name] = ((*over, *own.values()), values, dict(first.attributes))
-            coords |= {own[dim]: (own[dim], along) for dim, along in first.coords.items()}
-        for name, texts in self._told.items():
-            variables[name] = (over, texts.reshape(lengths), {"long_name": TEXTS[name]})
-        return xarray.Dataset(variables, coords)
-
-
-def table_of(members: Members, outcomes: Iterable[Outcome]) -> Table:
-    """All outcomes, which come in the order of the members."""
-    table = Table(members)
-    for outcome in outcomes:
-        table.add(outcome)
-    return table
-
-
-def failure_of(outcome: Outcome, first: Mapping[str, Labelled]) -> str:
+def _failure_of(outcome: Outcome, first: Mapping[str, Labelled]) -> str:
     """Why a member failed, which it also did where its arrays lie otherwise than the first ones."""
     if outcome.failure:
         return outcome.failure

@@ -16,13 +16,13 @@ from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.analysis.rest_state import equilibrium
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
-from seacrane.ensembles.dataset import NOT_RUN, RESERVED, table_of
+from seacrane.ensembles.dataset import NOT_RUN, RESERVED, dataset_of
 from seacrane.ensembles.filling import SIDE_BY_SIDE, lanes_for, progress_bar, remark, run_packs
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, Value, members_of
-from seacrane.ensembles.store import Folder, Memory, Store, order_of, pack_size, packs_of
+from seacrane.ensembles.store import Folder, Store, order_of, pack_size, packs_of, stored
 from seacrane.ensembles.study import (
     START_TIME,
     Asked,
@@ -150,10 +150,10 @@ class Ensemble:
         data = study_in(path)
         if data.get("seeds_in_pack"):
             growth = growth_in(path, data)
-            members = growth.members(max(growth.batches_in(Folder(path).done()), 1))
+            members = growth.members(max(growth.batches_in(Folder(path)), 1))
         else:
             members = members_in(path, data)
-        return _ensemble(members, Folder(path).dataset(members), lanes_in(data))
+        return _ensemble(members, stored(Folder(path), members), lanes_in(data))
 
 
 @named
@@ -305,14 +305,14 @@ def ensemble(
         growth = growth_of(members, beside if pack is None else size)
         with _store(store, study, growth.members(1), growth.size, grows=True) as kept:
             grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
-        dataset = table_of(grown.members, grown.outcomes).dataset()
+        dataset = dataset_of(grown.members, grown.outcomes)
         done = replace(_ensemble(grown.members, dataset, study.lanes), certainty=grown.certainty)
     else:
         with _store(store, study, members, size, grows=False) as kept:
             packs = packs_of(order_of(study, members), size)
             with progress_bar(len(members), progress, lanes=study.lanes, names=members.axes) as bar:
                 run_packs(kept, Job(study), members, packs, executor, bar, raises=raises)
-            done = _ensemble(members, kept.dataset(members), study.lanes)
+            done = _ensemble(members, stored(kept, members), study.lanes)
         _warn_of_failures(done)
     if accuracy is None:
         return done
@@ -396,7 +396,7 @@ def _store(
 ) -> Iterator[Store]:
     """Of an ensemble that grows half widths and the most seeds do not tell it from another."""
     if path is None:
-        yield Memory()
+        yield {}
         return
     identity = identity_of(study, members, size) | ({"seeds in a batch": BATCH} if grows else {})
     data = {"identity": identity, "grid": members.grid, "axes": dict(members.axes)}

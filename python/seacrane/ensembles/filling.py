@@ -40,12 +40,12 @@ def run_packs(
     bar.skip(sum(len(packs[number]) for number in there))
     if raises:
         for number in sorted(there):
-            _require_success(store.of(number), members)
+            _require_success(store[number], members)
     left = ((number, indices) for number, indices in packs.items() if number not in there)
     coming = ((number, tuple((index, members.values(index)) for index in own)) for number, own in left)
     with contextlib.closing(gathered(job, coming, executor)) as found:
         for number, outcomes in found:
-            store.keep(number, outcomes)
+            store[number] = outcomes
             bar.add(outcomes)
             if raises:
                 _require_success(outcomes, members)
@@ -192,14 +192,7 @@ def lanes_for(lanes: int | None, pack: int | None, members: Members, *, starts: 
 
 
 def remark(lanes: int, told: Mapping[str, int], names: Collection[str]) -> str:
-    """One line on how members are stepped.
-
-    Parameters
-    ----------
-    lanes : Runs side by side.
-    told : How many members were kept apart for each reason; none for the empty reason.
-    names : What varies.
-    """
+    """One line on how members are stepped, by how many were kept apart for each reason."""
     count = sum(told.values())
     if lanes == 1:
         return f"{count} one by one: {_why_one_by_one(names)}"

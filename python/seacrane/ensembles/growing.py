@@ -137,7 +137,7 @@ def grow(
             run_packs(store, job, members, packs, executor, bar, raises=raises)
             for cell in going:
                 with interrupts_kept():
-                    cells[cell] += [one for number in growth.packs(batch, cell) for one in store.of(number)]
+                    cells[cell] += [one for number in growth.packs(batch, cell) for one in store[number]]
                     known[cell] = [
                         certainty_of(target, cells[cell], growth.parameters(cell)) for target in targets
                     ]

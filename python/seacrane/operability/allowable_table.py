@@ -209,16 +209,8 @@ def _along(periods: Array, values: Array, asked: Array) -> Array:
 def over_circle(directions: Array, values: Array, asked: Array) -> Array:
     """Values at directions, linear between neighbours.
 
-    Parameters
-    ----------
-    directions : (k,) Ascending, over less than a circle, degrees.
-    values : (k, ...) One for each direction and each of `asked`.
-    asked : (...) Degrees; 370 is 10.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        NaN in gaps of more than a right angle.
+    These ascend (k,) over less than a circle, degrees; values (k, ...) are one for each of them and each of
+    `asked` (...), of which 370 is 10. NaN in gaps of more than a right angle.
     """
     first = directions[0]
     turned = first + (asked - first) % 360.0

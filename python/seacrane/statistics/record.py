@@ -52,16 +52,18 @@ def up_crossings(values: Array, level: float) -> Places:
 def crests(values: Array, level: float) -> Array:
     """Largest value between each two up-crossings of `level`, by the parabola through its neighbours.
 
-    Returns
-    -------
-    ndarray, shape (number of whole cycles,)
-        In the order of time; as heights above `level`.
+    One for each whole cycle, in the order of time, as heights above `level`.
     """
     starts = up_crossings(values, level)
     if starts.size < 2:
         return np.empty(0)
     tops = np.array([a + 1 + int(np.argmax(values[a + 1 : b + 1])) for a, b in pairwise(starts.tolist())])
     return np.asarray(_vertex(values, tops) - level)
+
+
+def highest_third(heights: Array) -> float:
+    """Mean of the highest third of crests."""
+    return float(np.sort(heights)[-max(1, heights.size // 3) :].mean())
 
 
 def _vertex(values: Array, tops: Places) -> Array:
@@ -76,15 +78,7 @@ def _vertex(values: Array, tops: Places) -> Array:
 def start_differs(values: Array, cycles: float) -> bool | None:
     """Whether the first fifth differs from the rest in mean or standard deviation, beyond chance.
 
-    Parameters
-    ----------
-    values : (n,)
-    cycles : Of the record, in number.
-
-    Returns
-    -------
-    bool or None
-        None where the record is too short to tell: fewer than 50 cycles.
+    None where the record is too short to tell: fewer than 50 cycles.
     """
     parts = PARTS if cycles >= CYCLES * PARTS else PARTS // 2
     if cycles < CYCLES * parts:

@@ -20,7 +20,14 @@ from seacrane.statistics.estimate import (
     gaussian_maximum,
     maxima_table,
 )
-from seacrane.statistics.record import crests, record_of, up_crossings, warn_of_repeat, warn_of_start
+from seacrane.statistics.record import (
+    crests,
+    highest_third,
+    record_of,
+    up_crossings,
+    warn_of_repeat,
+    warn_of_start,
+)
 from seacrane.statistics.spectrum import SpectrumEstimate, by_chi_squared, spectrum_estimate
 from seacrane.statistics.tail import FEWEST_PEAKS, Tail, peaks_over_threshold
 from seacrane.warnings import PoorFitWarning
@@ -175,12 +182,11 @@ def record_extremes(
     kurtosis = float(np.mean(reduced**4)) - 3.0
     if found is None and kurtosis > MOST_KURTOSIS:
         _refuse_or_warn_of_few(heights.size, kurtosis)
-    third = np.sort(heights)[-max(1, heights.size // 3) :]
     return RecordExtremes(
         name=name, unit=unit, duration=duration, exposure=asked, mean=mean, std=std,
         largest=float(record.max()),
         skewness=float(np.mean(reduced**3)), kurtosis=kurtosis,
-        static=mean if static is None else number_of("static", static), significant=float(third.mean()),
+        static=mean if static is None else number_of("static", static), significant=highest_third(heights),
         crossing_rate=rate, crests=np.sort(mean + heights), spectrum=spectrum,
         gaussian=_gaussian(mean, std, rate, asked, spectrum, None),
         clumped=_gaussian(mean, std, rate, asked, spectrum, max(spectrum.bandwidth, 1e-6)),

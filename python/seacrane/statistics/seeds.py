@@ -14,7 +14,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, positive_of
 from seacrane.plotting.table import Table
 from seacrane.statistics.estimate import EULER, P90_REDUCED, TAILS, Estimate, Extremes, Maximum, maxima_table
-from seacrane.statistics.record import listed
+from seacrane.statistics.record import ROUNDING, listed
 from seacrane.warnings import FewSeedsWarning, PoorFitWarning
 
 Array = NDArray[np.float64]
@@ -22,7 +22,7 @@ FEWEST = 3
 FEW = 10  # below which the fit test finds nothing
 POOR = 0.05  # probability of a worse fit below which Gumbel's is not believed
 REDUCED = {"mpm": 0.0, "mean": EULER, "p90": P90_REDUCED}  # in one record
-ASKED = ("mpm", "mean", "p90")
+ASKED = tuple(REDUCED)
 NORMAL = 1.959964  # half width of the 95 % interval in standard deviations
 DRAWS, FEWEST_DRAWS, VALUES = 4000, 500, 2_000_000  # samples that a bootstrap draws; values in all of them
 BLOCK = 200_000  # values held at a time
@@ -31,16 +31,7 @@ STEPS = 60  # of Newton's iteration, which has converged long before
 
 
 def gumbel_fit(maxima: Array) -> tuple[Array, Array]:
-    """Location and scale of every row by maximum likelihood.
-
-    Parameters
-    ----------
-    maxima : (..., k) Rows whose values are not all equal.
-
-    Returns
-    -------
-    location, scale : ndarray, shape (...)
-    """
+    """Location and scale (...) of every row of maxima (..., k), not all equal, by maximum likelihood."""
     shifted = maxima - maxima.min(axis=-1, keepdims=True)
     mean = shifted.mean(axis=-1)
     scale = shifted.std(axis=-1) * np.sqrt(6.0) / np.pi
@@ -253,15 +244,19 @@ def _judge(found: SeedExtremes, share: float | None, number: str) -> None:
         )
 
 
-def gumbel_maximum_of(maxima: Array) -> Maximum:
-    """Statistics of finite maxima that are not all equal, in one record; warns of nothing.
-
-    Parameters
-    ----------
-    maxima : (k,) At least 3.
-    """
+def gumbel_maximum_of(maxima: Array, duration: float = 1.0, exposure: float = 1.0) -> Maximum:
+    """Of 3 finite maxima or more of records of a duration, in an exposure time (s); warns of nothing."""
+    if (same := _common(maxima)) is not None:
+        return Maximum(mpm=same, mean=same, p90=same, exposure=exposure)
     location, scale = (float(one) for one in gumbel_fit(np.sort(maxima)))
-    return _gumbel_maximum(maxima.size, location, scale, 1.0, 1.0)
+    return _gumbel_maximum(maxima.size, location, scale, duration, exposure)
+
+
+def _common(values: Array) -> Estimate | None:
+    """What all values are, where they are equal."""
+    one = float(values[0])
+    equal = np.ptp(values) <= ROUNDING * np.abs(values).max()
+    return Estimate(value=one, low=one, high=one) if equal else None
 
 
 def _likelihood_variance(reduced: float) -> float:
@@ -306,6 +301,8 @@ def mean_of(values: Array) -> Estimate:
     """The mean of independent values, with its interval by Student's t."""
     from scipy.stats import t
 
+    if (same := _common(values)) is not None:
+        return same
     half = float(t.ppf(TAILS[1], values.size - 1) * values.std(ddof=1)) / values.size**0.5
     mean = float(values.mean())
     return Estimate(value=mean, low=mean - half, high=mean + half)

@@ -124,18 +124,9 @@ def peaks_over_threshold(
 ) -> Tail | None:
     """Fit the tail of the crests of one record.
 
-    Parameters
-    ----------
-    crests : (n,) One for each cycle, in the order of time, any unit.
-    duration : Of the record, s.
-    threshold : float, optional
-        By default the lowest of the 85 % to 98 % quantiles of the crests at which the fit is acceptable.
-    kind : "pareto" (default) or "exponential".
-
-    Returns
-    -------
-    Tail or None
-        None where fewer than 20 clusters lie above any threshold tried.
+    One (n,) for each cycle, in the order of time; its duration is in s. Without a threshold the lowest of the
+    85 % to 98 % quantiles of the crests is taken at which the fit is acceptable. None where fewer than 20
+    clusters lie above any threshold tried.
     """
     if kind not in ACCEPTED:
         raise SceneError(f"tail={shown(kind)}: choose from {', '.join(ACCEPTED)}")
