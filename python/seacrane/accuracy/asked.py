@@ -131,10 +131,6 @@ class Asked:
         """Whether a quantity is one; extremes and times are not."""
         return self.quantities[name].of_numbers is None
 
-    def over_difference(self, name: str) -> float:
-        """The error of a quantity at most, over its difference from a looser run."""
-        return BESIDE if self.staged or not self.is_curve(name) else 1.0
-
     def scale(self, name: str) -> float:
         """Of the errors of a quantity, in its unit."""
         return unit_error(self.scene, self.quantities[name])

@@ -109,13 +109,6 @@ def error_of(case: Asked, method: Method) -> tuple[dict[str, float], int, int]:
     return _estimate(case, done).errors, run, other
 
 
-def _cheap(case: Asked, method: Method) -> Method:
-    """What tells the error of a method."""
-    if method.used_rtol <= ROUNDING:
-        return _looser(method)
-    return probe_of(method, stiffest=method.integrator == STIFF and case.explicit_steps > MOST_STEPS)
-
-
 def refuse_what_is_chosen(
     method: Method | None, shorthand: Mapping[str, Any], controllers: Sequence[SampledController]
 ) -> None:
@@ -172,8 +165,11 @@ def _run(case: Asked, method: Method) -> Done:
 
 def _beside(case: Asked, method: Method) -> Done:
     """The run that tells the error of a method; of a lift that it does not carry out one that is nearer."""
+    if method.used_rtol <= ROUNDING:
+        return _run(case, _looser(method))
     try:
-        return _run(case, _cheap(case, method))
+        stiffest = method.integrator == STIFF and case.explicit_steps > MOST_STEPS
+        return _run(case, probe_of(method, stiffest=stiffest))
     except (SceneError, SimulationError):
         if not case.staged:
             raise
@@ -245,7 +241,9 @@ def _estimate(case: Asked, done: Sequence[Done]) -> _Estimate:
     }
     by_tolerance = not (_cut_short(near.result) or _cut_short(tight.result))
     whole = {name: d for name, d in last.by_name.items() if not (linear[name] and by_tolerance)}
-    errors |= {name: max(errors[name], case.over_difference(name) * d) for name, d in whole.items()}
+    for name, d in whole.items():  # of curves as much as it, of others as of two methods that are as good
+        over = 1.0 if case.is_curve(name) and not case.staged else BESIDE
+        errors[name] = max(errors[name], over * d)
     known = all(linear.values()) and by_tolerance and tight.method.used_rtol > ROUNDING
     return _Estimate(errors=errors, known=known, course=last.course)
 

@@ -304,9 +304,11 @@ def ensemble(
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)
         with _store(store, study, growth.members(1), growth.size, grows=True) as kept:
-            grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
-        dataset = dataset_of(grown.members, grown.outcomes)
-        done = replace(_ensemble(grown.members, dataset, study.lanes), certainty=grown.certainty)
+            members, outcomes, certainty = grow(
+                growth, Job(study), kept, executor, targets, raises=raises, progress=progress
+            )
+        done = _ensemble(members, dataset_of(members, outcomes), study.lanes)
+        done = replace(done, certainty=certainty)
     else:
         with _store(store, study, members, size, grows=False) as kept:
             packs = packs_of(order_of(study, members), size)

@@ -99,15 +99,6 @@ def growth_of(members: Members, pack: int | None) -> Growth:
     return Growth(first=int(seeds[0]), batches=len(seeds) // BATCH, others=others, size=size)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Grown:
-    """What was run: members of the seeds that were needed, their outcomes, and what they tell."""
-
-    members: Members
-    outcomes: tuple[Outcome, ...]
-    certainty: tuple[Certainty, ...]
-
-
 def grow(
     growth: Growth,
     job: Job,
@@ -117,8 +108,10 @@ def grow(
     *,
     raises: bool,
     progress: bool,
-) -> Grown:
+) -> tuple[Members, list[Outcome], tuple[Certainty, ...]]:
     """Add batches of seeds to every cell until its targets are reached, or there are no more.
+
+    Members of the seeds that were needed, their outcomes, and what they tell.
 
     Warns
     -----
@@ -148,7 +141,7 @@ def grow(
     _warn_of_failed(certainty, [cells[cell] for cell in sorted(known) for _ in targets])
     _warn_of_few(certainty, growth.batches * BATCH)
     outcomes = sorted((one for several in cells.values() for one in several), key=lambda one: one.index)
-    return Grown(members=growth.members(batch), outcomes=tuple(outcomes), certainty=certainty)
+    return growth.members(batch), outcomes, certainty
 
 
 def _expected(growth: Growth, batch: int, going: list[list[Certainty]]) -> int:
