@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -300,7 +301,11 @@ def _work_precision(trade: Trade, over: str) -> Figure:
     panels = figure.subplots(len(measured), columns, squeeze=False, width_ratios=WIDTHS[:columns])
     for axes, name in zip(panels, measured, strict=True):
         _draw_methods(axes[0], full, name, looks, over)
-        _draw_rungs(axes[0], joined, name, over)
+        for (label, rung), marker in zip(joined.items(), cycle(MARKERS)):  # each a dashed line
+            points = _points(rung, name, over)
+            axes[0].loglog(
+                *points, "--", color="black", marker=marker, markersize=5, linewidth=1.5, label=label
+            )
         axes[0].step(
             *_points(fronts[name], name, over), where="post", color="black", linewidth=5.0, alpha=0.15,
             label="Pareto front", solid_capstyle="butt",
@@ -377,15 +382,6 @@ def _draw_methods(
     axes.set_title(plain(quantity.replace("_", " ")) + ": methods", fontsize=10)
     axes.xaxis.set_major_formatter("{x:g}")
     axes.set_xlim(right=ROOM * axes.get_xlim()[1])
-
-
-def _draw_rungs(axes: Axes, rungs: Mapping[str, Sequence[Row]], quantity: str, over: str) -> None:
-    """Rungs at several tolerances, each a dashed line."""
-    for number, (label, rows) in enumerate(rungs.items()):
-        axes.loglog(
-            *_points(rows, quantity, over), "--", color="black", marker=MARKERS[number % len(MARKERS)],
-            markersize=5, linewidth=1.5, label=label,
-        )  # fmt: skip
 
 
 def _draw_physics(axes: Axes, rows: Mapping[str, Row], quantity: str, over: str) -> None:

@@ -152,15 +152,8 @@ def _stage(stage: Stage) -> list[Any]:
     }
     commands = json.dumps(plain, sort_keys=True, default=lambda array: np.asarray(array).tolist())
     ends = [condition.text for condition in stage.conditions]
-    return [
-        stage.name,
-        stage.duration,
-        stage.maximum_duration,
-        ends,
-        commands,
-        [*stage.connect],
-        [*stage.release],
-    ]
+    spans = [stage.name, stage.duration, stage.maximum_duration]
+    return [*spans, ends, commands, [*stage.connect], [*stage.release]]
 
 
 def _start(study: Study, members: Members) -> str:

@@ -10,6 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
@@ -22,13 +23,13 @@ from seacrane.ensembles.study import Stages, Start
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.keywords import named
-from seacrane.operability.allowable_table import AllowableHs
+from seacrane.operability.allowable_table import AllowableHs, breaking_height
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.asked import Asked, Still, asked_of, still_of
-from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.linear_channels import LinearSeas
-from seacrane.operability.time_domain import allowable_in, differences, storms_in
+from seacrane.operability.time_domain import ByTime, allowable_in, differences, storms_in
+from seacrane.plotting.table import Column, Table
 from seacrane.run.method import Method
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
@@ -36,6 +37,8 @@ from seacrane.scene.scene import Scene
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+Array = NDArray[np.float64]
+Place = tuple[int, int]  # number of the peak period, and of the direction
 LINEAR_WITHIN = 0.1  # of the allowance
 PROBES = 2  # seeds of each cell that are compared with the linear model
 DT = 0.5  # s between outputs
@@ -151,7 +154,7 @@ def allowable_hs(
         _test(cells, cells.linear, still, executor, progress)
     if cells.wanted:
         failures = _by_time(cells, still, executor, store, progress)
-    return AllowableHs.of(scene.name, cells, factor, period, failures)
+    return cells.table(scene.name, factor, period, failures)
 
 
 def _by_frequency(cells: Cells, still: Still, *, strict: bool, progress: bool) -> None:
@@ -233,3 +236,137 @@ def steady_start(scene: Scene, rest: _core.State) -> Start:
     except SceneError:
         return rest
     return rest if model.memories else SteadyStart(model=model)
+
+
+class Cells:
+    """Cells by peak period and direction, filled step by step; runs are wanted where nothing is known.
+
+    Attributes
+    ----------
+    by_criterion, low, high : ndarray, shape (criteria, periods, directions)
+        Allowable Hs, m, and its 95 % interval; NaN where a cell needed no runs.
+    difference : ndarray, shape (criteria, periods, directions)
+        Between run and linear model, over the allowance; NaN where it was not tested.
+    domain, reason : (periods, directions)
+    energy_share : (periods,) Of the waves, within the database.
+    """
+
+    def __init__(self, asked: Asked) -> None:
+        shape = (len(asked.tp), len(asked.direction_deg))
+        all_of = (len(asked.criteria), *shape)
+        self.asked = asked
+        self.linear: LinearSeas | None = None
+        self.by_criterion: Array = np.full(all_of, np.inf)
+        self.low, self.high, self.difference = (np.full(all_of, np.nan) for _ in range(3))
+        self.domain = np.full(shape, "time", dtype="U9")
+        self.reason = np.full(shape, "asked for", dtype=object)
+        self.energy_share: Array = np.full(shape[0], np.nan)
+
+    @property
+    def places(self) -> list[Place]:
+        """All cells, directions fastest."""
+        return [(i, j) for i in range(len(self.asked.tp)) for j in range(len(self.asked.direction_deg))]
+
+    @property
+    def wanted(self) -> list[Place]:
+        """Cells of the time domain."""
+        return [place for place in self.places if self.domain[place] == "time"]
+
+    def words(self, place: Place) -> dict[str, Any]:
+        """The words of the sea of a cell, without its height and seed."""
+        return {"tp": self.asked.tp[place[0]], "direction_deg": self.asked.direction_deg[place[1]]}
+
+    @property
+    def allowable(self) -> Array:
+        """Over all criteria, up to the largest Hs that was examined."""
+        return np.asarray(np.minimum(self.by_criterion.min(axis=0), self.asked.hs[-1]))
+
+    def refuse(self, reason: str) -> None:
+        """Leave all cells to the time domain."""
+        self.reason[:] = reason
+
+    def take_linear(self, period: int, direction: int, allowable: Array) -> None:
+        """Fill a cell by its linear model."""
+        self.by_criterion[:, period, direction] = allowable
+        self.domain[period, direction] = "frequency"
+        at_rest = allowable.min() <= 0.0
+        self.reason[period, direction] = "a bound is exceeded at rest" if at_rest else "not tested"
+
+    def take_difference(self, place: Place, found: Array | str) -> None:
+        """What a probe of a cell brought: the largest of several counts."""
+        if isinstance(found, str):
+            self.domain[place], self.reason[place] = "time", f"a run failed: {found}"
+            return
+        here = self.difference[(slice(None), *place)]
+        self.difference[(slice(None), *place)] = np.fmax(here, found)
+        if self.reason[place].startswith("a run failed"):
+            return
+        worst = int(np.argmax(self.difference[(slice(None), *place)]))
+        share = 100.0 * self.difference[worst, place[0], place[1]]
+        name = self.asked.criteria[worst].name
+        if share > 100.0 * self.asked.linear_within:
+            self.domain[place] = "time"
+            self.reason[place] = f"{name}: run and linear model differ by {share:.0f} % of the allowance"
+        else:
+            self.reason[place] = f"within {share:.1f} % of the allowance ({name})"
+
+    def take_time(self, place: Place, found: Sequence[ByTime]) -> None:
+        """Fill a cell by its runs."""
+        for i, one in enumerate(found):
+            at = (i, *place)
+            self.by_criterion[at], self.low[at], self.high[at] = one.allowable, one.low, one.high
+        failed = max((one.failed for one in found), default=0)
+        unknown = [one.unknown for one in found if not np.isnan(one.unknown)]
+        if unknown and (np.isnan(self.allowable[place]) or self.allowable[place] <= min(unknown)):
+            self.reason[place] = f"{failed} runs failed: not known from Hs {min(unknown):g} m on"
+        elif failed:
+            self.reason[place] = f"{failed} runs failed, and the others count"
+
+    def table(self, scene: str, alpha: AlphaFactor, hours: float, failures: Mapping[int, str]) -> AllowableHs:
+        """The table of these cells, filled; without a duration it is of lifts in stages."""
+        asked = self.asked
+        names = [one.name for one in asked.criteria]
+        found, capped = self.allowable, self.by_criterion.min(axis=0) > asked.hs[-1]
+        governing = np.where(capped, "", np.array(names)[self.by_criterion.argmin(axis=0)])
+        low, high = (np.minimum(values.min(axis=0), asked.hs[-1]) for values in (self.low, self.high))
+        forecast = alpha.at(found, hours=hours) * found
+        cell, period, told = ("tp", "direction_deg"), ("tp",), alpha.told(hours=hours)
+
+        def column(name: str, values: Any, unit: str = "", long_name: str = "", over: Any = cell) -> Column:
+            return Column(name=name, values=values, unit=unit, long_name=long_name, over=over)
+
+        axes = [
+            Column(name="criterion", values=names),
+            Column(name="tp", values=asked.tp, unit="s", long_name="peak period"),
+            Column(name="direction_deg", values=asked.direction_deg, unit="degrees",
+                   long_name="direction of travel of the waves"),
+        ]  # fmt: skip
+        columns = [
+            column("allowable_hs", found, "m", "allowable significant wave height"),
+            column("low", low, "m", "lower end of its 95 % interval"),
+            column("high", high, "m", "upper end of its 95 % interval"),
+            column("forecast_hs", forecast, "m", f"allowable in a forecast: {told}"),
+            column("capped", capped, "", "no criterion is reached at the largest Hs examined"),
+            column("governing", governing.astype(str)),
+            column("domain", self.domain),
+            column("reason", self.reason.astype(str)),
+            column("by_criterion", self.by_criterion, "m", over=None),
+            column("difference", self.difference, "1", "run against linear model, over the allowance", None),
+            column("breaking_hs", [breaking_height(tp) for tp in asked.tp], "m",
+                   "Hs above which waves of that period break (DNV-RP-C205)", period),
+            column("wave_energy_share", self.energy_share, "1", over=period),
+        ]  # fmt: skip
+        attributes = {
+            "scene": scene,
+            "criteria": "; ".join(one.told(one_lift=asked.duration is None) for one in asked.criteria),
+            "alpha_factor": told,
+            "operation_hours": hours,
+            "hs_of_runs": list(asked.hs),
+            "seeds": list(asked.seeds),
+            **({} if asked.duration is None else {"duration": asked.duration}),
+            "linear_within": asked.linear_within,
+        }
+        return AllowableHs(
+            scene=scene, criteria=asked.criteria, alpha=alpha, hours=hours, failures=dict(failures),
+            dataset=Table(axes=axes, columns=columns, attributes=attributes).to_xarray(),
+        )  # fmt: skip

@@ -15,7 +15,6 @@ from seacrane.inputs.checked import flag_of
 from seacrane.inputs.described import described
 from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import AlphaFactor
-from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS
@@ -64,58 +63,6 @@ class AllowableHs(Answer):
     hours: float
     dataset: xarray.Dataset
     failures: Mapping[int, str] = field(default_factory=dict)
-
-    @classmethod
-    def of(
-        cls, scene: str, cells: Cells, alpha: AlphaFactor, hours: float, failures: Mapping[int, str]
-    ) -> AllowableHs:
-        """The table of filled cells; without a duration it is of lifts in stages."""
-        asked = cells.asked
-        names = [one.name for one in asked.criteria]
-        found, capped = cells.allowable, cells.by_criterion.min(axis=0) > asked.hs[-1]
-        governing = np.where(capped, "", np.array(names)[cells.by_criterion.argmin(axis=0)])
-        low, high = (np.minimum(values.min(axis=0), asked.hs[-1]) for values in (cells.low, cells.high))
-        forecast = alpha.at(found, hours=hours) * found
-        cell, period, told = ("tp", "direction_deg"), ("tp",), alpha.told(hours=hours)
-
-        def column(name: str, values: Any, unit: str = "", long_name: str = "", over: Any = cell) -> Column:
-            return Column(name=name, values=values, unit=unit, long_name=long_name, over=over)
-
-        axes = [
-            Column(name="criterion", values=names),
-            Column(name="tp", values=asked.tp, unit="s", long_name="peak period"),
-            Column(name="direction_deg", values=asked.direction_deg, unit="degrees",
-                   long_name="direction of travel of the waves"),
-        ]  # fmt: skip
-        columns = [
-            column("allowable_hs", found, "m", "allowable significant wave height"),
-            column("low", low, "m", "lower end of its 95 % interval"),
-            column("high", high, "m", "upper end of its 95 % interval"),
-            column("forecast_hs", forecast, "m", f"allowable in a forecast: {told}"),
-            column("capped", capped, "", "no criterion is reached at the largest Hs examined"),
-            column("governing", governing.astype(str)),
-            column("domain", cells.domain),
-            column("reason", cells.reason.astype(str)),
-            column("by_criterion", cells.by_criterion, "m", over=None),
-            column("difference", cells.difference, "1", "run against linear model, over the allowance", None),
-            column("breaking_hs", [breaking_height(tp) for tp in asked.tp], "m",
-                   "Hs above which waves of that period break (DNV-RP-C205)", period),
-            column("wave_energy_share", cells.energy_share, "1", over=period),
-        ]  # fmt: skip
-        attributes = {
-            "scene": scene,
-            "criteria": "; ".join(one.told(one_lift=asked.duration is None) for one in asked.criteria),
-            "alpha_factor": told,
-            "operation_hours": hours,
-            "hs_of_runs": list(asked.hs),
-            "seeds": list(asked.seeds),
-            **({} if asked.duration is None else {"duration": asked.duration}),
-            "linear_within": asked.linear_within,
-        }
-        return cls(
-            scene=scene, criteria=asked.criteria, alpha=alpha, hours=hours, failures=dict(failures),
-            dataset=Table(axes=axes, columns=columns, attributes=attributes).to_xarray(),
-        )  # fmt: skip
 
     def at(self, tp: Any, direction_deg: Any = None, *, forecast: bool = False) -> Array:
         """Allowable Hs (m) at peak periods (s) and directions of travel (degrees), linear in between.

@@ -95,15 +95,11 @@ class Criterion:
         usual = " ".join([channel.replace("_", " "), *map(str, self.names.values()), *of_stage])
         object.__setattr__(self, "name", name_of("criterion", self.name, usual))
         self._require_bound()
-        if self.statistic not in STATISTICS:
-            raise SceneError(
-                f"criterion {self.name!r}: statistic is {shown(self.statistic)}; choose from "
-                f"{', '.join(STATISTICS)}"
-            )
-        if self.maxima not in MAXIMA:
-            raise SceneError(
-                f"criterion {self.name!r}: maxima is {shown(self.maxima)}; choose from {', '.join(MAXIMA)}"
-            )
+        for what, known in (("statistic", STATISTICS), ("maxima", MAXIMA)):
+            if (given := getattr(self, what)) not in known:
+                raise SceneError(
+                    f"criterion {self.name!r}: {what} is {shown(given)}; choose from {', '.join(known)}"
+                )
         if self.exposure is not None:
             positive_of(f"criterion {self.name!r}: exposure", self.exposure, "s")
 

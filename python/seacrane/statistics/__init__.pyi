@@ -13,8 +13,8 @@ from seacrane.statistics.tail import Tail as Tail
 from seacrane.statistics.estimate import gaussian_maximum as gaussian_maximum
 from seacrane.statistics.control_variate import controlled_mean as controlled_mean
 from seacrane.statistics.control_variate import ControlledMean as ControlledMean
-from seacrane.statistics.spectrum import spectrum_estimate as spectrum_estimate
-from seacrane.statistics.spectrum import SpectrumEstimate as SpectrumEstimate
+from seacrane.statistics.record import spectrum_estimate as spectrum_estimate
+from seacrane.statistics.record import SpectrumEstimate as SpectrumEstimate
 from seacrane.series.measured_series import MeasuredSeries as MeasuredSeries
 from seacrane.series.mending import interpolated as interpolated
 from seacrane.statistics.compare import compare as compare

@@ -21,7 +21,7 @@ from seacrane.plotting.table import Answer, Column, Table, read_as
 from seacrane.result import Result
 from seacrane.series.clock import step_of
 from seacrane.series.measured_series import MeasuredSeries
-from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
+from seacrane.statistics.record import SpectrumEstimate, spectrum_estimate
 from seacrane.warnings import UncertainShiftWarning
 
 if TYPE_CHECKING:
@@ -153,10 +153,8 @@ class Comparison(Answer):
     __repr__ = Answer.__str__
 
     def _shown(self) -> Table:
-        run, record = (
-            np.array([values.mean(), values.std(), values.max(), values.min()])
-            for values in (self.run, self.record)
-        )
+        both = (self.run, self.record)
+        run, record = (np.array([one.mean(), one.std(), one.max(), one.min()]) for one in both)
         apart = [*(run - record), self.rms, self.scatter]
         factor, unit = read_as(self.unit)
         extent = float(np.ptp(self.record))

@@ -5,13 +5,19 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of
+from seacrane.inputs.described import described
+from seacrane.plotting.panel import Sheet, draw
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.sea.crossings import expected_crossings, level_crossed
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 EULER = float(np.euler_gamma)
 P90_COUNT = -float(np.log(0.9))  # mean number of exceedances of what is exceeded with probability 0.1
@@ -88,7 +94,31 @@ class Extremes(Answer):
             raise SceneError("static=0: a dynamic factor needs a static value; give static=")
         return self.maximum.mpm.value / self.static
 
+    @abstractmethod
+    def sheet(self) -> Sheet:
+        """The panel of `plot_extremes` with its numbers."""
+
     __repr__ = Answer.__str__
+
+
+def plot_extremes(found: Extremes) -> Figure:
+    """Draw what `extremes` returned.
+
+    Parameters
+    ----------
+    found : RecordExtremes or SeedExtremes
+        Of one record: up-crossings in the exposure time over the level, counted and fitted; the most probable
+        maximum is where one crossing is left. Of several seeds: their maxima on Gumbel paper, where Gumbel's
+        distribution is a straight line.
+
+    Raises
+    ------
+    SceneError
+        For anything else.
+    """
+    if not isinstance(found, Extremes):
+        raise SceneError(f"found is {described(found)}; give what extremes() returns")
+    return draw(found.sheet())
 
 
 HEADS = {"mpm": "most probable", "mean": "mean", "p90": "P90"}

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, positive_of
+from seacrane.plotting.panel import Line, Panel, Sheet
 from seacrane.plotting.table import Table
+from seacrane.sea.crossings import expected_crossings
 from seacrane.statistics.estimate import (
     THREE_HOURS,
     Estimate,
@@ -21,18 +23,22 @@ from seacrane.statistics.estimate import (
     maxima_table,
 )
 from seacrane.statistics.record import (
+    SpectrumEstimate,
+    by_chi_squared,
     crests,
     highest_third,
     record_of,
+    spectrum_estimate,
     up_crossings,
     warn_of_repeat,
     warn_of_start,
 )
-from seacrane.statistics.spectrum import SpectrumEstimate, by_chi_squared, spectrum_estimate
 from seacrane.statistics.tail import FEWEST_PEAKS, Tail, peaks_over_threshold
 from seacrane.warnings import PoorFitWarning
 
 Array = NDArray[np.float64]
+LEVELS = 200  # of a curve
+LOWEST = 0.03  # crossings in the exposure time that are drawn
 MOST_KURTOSIS = 3.0  # excess, of records whose largest value a Gaussian process may tell
 
 
@@ -96,6 +102,29 @@ class RecordExtremes(Extremes):
         above = self.crests.size - np.searchsorted(self.crests, np.asarray(levels, dtype=float), side="right")
         return np.asarray(above / self.crests.size)
 
+    def sheet(self) -> Sheet:
+        """Crossings over levels: one is left at the most probable maximum."""
+        top = max(self.largest, self.gaussian.p90.value, self.maximum.p90.value)
+        levels = np.linspace(self.mean, top, LEVELS)
+        counted = self.crests.size * self.exceedance(levels) * self.exposure / self.duration
+        clumped = _crossings(self, levels, self.spectrum.bandwidth)
+        lines = [
+            Line(label="crests counted", values=_frequent(counted)),
+            Line(label="Rayleigh", values=_frequent(_crossings(self, levels, None)), colour=1, style="--"),
+            Line(label="clumped, Vanmarcke", values=_frequent(clumped), colour=2, style="--"),
+        ]
+        if self.tail is not None:
+            above = np.where(levels >= self.tail.threshold, levels, np.nan)
+            fitted = _frequent(self.tail.crossings(above, self.exposure))
+            lines.append(Line(label="peaks over threshold", values=fitted, colour=3))
+        return Sheet(
+            title=f"{self.name}: crossings in {self.exposure:g} s",
+            caption="Up-crossings of levels above the mean. One is left at the most probable maximum.",
+            abscissa=levels, abscissa_name=self.name, abscissa_unit=self.unit, logarithmic=True,
+            panels=(Panel(quantity="crossings", unit="-", lines=tuple(lines)),),
+            marks={"most probable maximum": np.array([self.maximum.mpm.value])},
+        )  # fmt: skip
+
     def _shown(self) -> Table:
         title = (
             f"{self.name} [{self.unit}], {self.duration:.4g} s: mean {self.mean:.4g}, std {self.std:.4g}, "
@@ -115,6 +144,17 @@ class RecordExtremes(Extremes):
             f"Threshold {self.tail.threshold:.4g} ({chosen}), {self.tail.peaks.size} clusters, "
             f"{self.tail.kind} tail, extremal index {self.tail.extremal_index:.2f}."
         )
+
+
+def _crossings(found: RecordExtremes, levels: Array, bandwidth: float | None) -> Array:
+    cycles = found.crossing_rate * found.exposure
+    reduced = (levels - found.mean) / found.std
+    return np.array([expected_crossings(one, cycles=cycles, bandwidth=bandwidth) for one in reduced.tolist()])
+
+
+def _frequent(crossings: Array) -> Array:
+    """Without what is too rare to draw."""
+    return np.where(crossings >= LOWEST, crossings, np.nan)
 
 
 def record_extremes(

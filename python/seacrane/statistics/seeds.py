@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, positive_of
+from seacrane.plotting.panel import Line, Panel, Sheet
 from seacrane.plotting.table import Table
 from seacrane.statistics.estimate import EULER, P90_REDUCED, TAILS, Estimate, Extremes, Maximum, maxima_table
 from seacrane.statistics.record import ROUNDING, listed
@@ -141,6 +142,25 @@ class SeedExtremes(Extremes):
         reduced = REDUCED[number] + np.log(self.exposure / self.duration)
         one = self.scale * np.sqrt(_likelihood_variance(float(reduced)))
         return max(FEWEST, int(np.ceil((NORMAL * one / (share * abs(estimate.value - self.static))) ** 2)))
+
+    def sheet(self) -> Sheet:
+        """Maxima over Gumbel's reduced variable."""
+        count = self.maxima.size
+        reduced = -np.log(-np.log((np.arange(count) + 0.5) / count))
+        fitted = (self.maxima - self.location) / self.scale
+        lines = (
+            Line(label="seeds", values=reduced, style="o"),
+            Line(label="Gumbel, maximum likelihood", values=fitted, colour=1),
+        )
+        caption = (
+            "Gumbel's distribution is the straight line. F is the share of seeds with a smaller maximum."
+        )
+        return Sheet(
+            title=f"{self.name}: maxima of {count} seeds of {self.duration:g} s on Gumbel paper",
+            caption=caption, abscissa=self.maxima, abscissa_name=self.name, abscissa_unit=self.unit,
+            panels=(Panel(quantity="-ln(-ln F)", unit="-", lines=lines),),
+            marks={"most probable maximum of a record": np.array([self.location])},
+        )  # fmt: skip
 
     def _shown(self) -> Table:
         title = (
