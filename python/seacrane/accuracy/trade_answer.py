@@ -311,11 +311,12 @@ def _work_precision(trade: Trade, over: str) -> Figure:
             label="Pareto front", solid_capstyle="butt",
         )  # fmt: skip
         axes[0].axhspan(0.0, known[name], color="0.9")
+        error = f"largest error [{measured[name].unit}]"
+        axes[0].set_ylabel(error)
         if alone:
             _draw_physics(axes[1], alone, name, over)
+            axes[1].set_xlabel(error)
         for panel in axes:
-            error = f"largest error [{measured[name].unit}]"
-            panel.set(**({"ylabel": error} if panel is axes[0] else {"xlabel": error}))
             panel.grid(alpha=0.3)
     handles = {
         label: handle

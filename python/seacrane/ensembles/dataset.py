@@ -110,13 +110,14 @@ def dataset_of(members: Members, outcomes: Iterable[Outcome]) -> xarray.Dataset:
 def _several(kept: Iterable[Labelled]) -> set[str]:
     """Dimensions that are of other lengths, or have other values, in some that have them."""
     found: dict[str, tuple[int, Any]] = {}
-    return {
-        dim
-        for one in kept
-        for dim, length in zip(one.dims, one.values.shape, strict=True)
-        for known in [found.setdefault(dim, (length, one.coords.get(dim)))]
-        if known[0] != length or not np.array_equal(known[1], one.coords.get(dim))  # type: ignore[arg-type]
-    }
+    several = set()
+    for one in kept:
+        for dim, length in zip(one.dims, one.values.shape, strict=True):
+            along: Any = one.coords.get(dim)
+            known = found.setdefault(dim, (length, along))
+            if known[0] != length or not np.array_equal(known[1], along):
+                several.add(dim)
+    return several
 
 
 def _failure_of(outcome: Outcome, first: Mapping[str, Labelled]) -> str:
