@@ -14,7 +14,6 @@ from scipy.stats import genpareto, gumbel_r
 import seacrane as sc
 from seacrane import Result, SceneError
 from seacrane.result.checked_parts import ALWAYS_STATED
-from seacrane.statistics.extremes_figure import extremes_sheet
 from seacrane.statistics.record import start_differs
 from seacrane.statistics.seeds import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.tail import Tail, extremal_index, peaks_over_threshold
@@ -219,11 +218,11 @@ def test_extremes_of_a_result_and_of_several() -> None:
 
 def test_figures_hold_the_numbers_they_show() -> None:
     one = sc.statistics.record_extremes(records(400)[2], interval=STEP)
-    sheet = extremes_sheet(one)
+    sheet = one.sheet()
     assert sheet.marks["most probable maximum"][0] == one.maximum.mpm.value
     assert sheet.panels[0].lines[0].values[0] == pytest.approx(one.crests.size, rel=0.02)
     several = sc.statistics.seed_extremes(gumbel(20, 1)[0], duration=1.0)
-    fitted = extremes_sheet(several).panels[0].lines[1].values
+    fitted = several.sheet().panels[0].lines[1].values
     assert np.interp(0.0, fitted, several.maxima) == pytest.approx(several.location, abs=1e-9)
     assert sc.pictures.plot_extremes(several).axes
 

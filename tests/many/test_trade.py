@@ -17,7 +17,7 @@ from trade_scenes import a_run_each, pendulum
 import seacrane as sc
 from seacrane import Scene, SceneError, cases, simulate, trade
 from seacrane._core import Integrator, integrators
-from seacrane.accuracy import Trade, methods, simpler_scenes, trade_rows, trade_study
+from seacrane.accuracy import Trade, methods, simpler_scenes, trade_study
 from seacrane.accuracy.case import Case
 from seacrane.accuracy.measured import Reference
 from seacrane.accuracy.quantities import ErrorMeasures, compare, quantities_of
@@ -104,7 +104,7 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
 def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
     names = [case["memory"] for case, _ in simpler_scenes.variants(case2, quick=False)]
     names = [name for name in names if name.startswith("by-m")]
-    assert names == [f"by-motion limit={limit:g}" for limit in simpler_scenes.LIMIT_LEVELS.all]
+    assert names == [f"by-motion limit={limit:g}" for limit in simpler_scenes.FITTED["by-motion"][1]]
     scenes = [simpler_scenes.with_memory(case2, "by-motion", level=limit) for limit in (0.05, 0.01)]
     few, more = (scene.compile().memory_states for scene in scenes)
     assert few < more
@@ -128,10 +128,10 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
     run = sc.simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
     truth = {name: quantity.values(run) for name, quantity in quantities.items()}
     case = Case(scene=scene, t_end=5.0, dt_out=0.1)
-    bench = trade_rows.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
+    bench = trade_study.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
     method = sc.Method(integrator="dop853", rtol=1e-9)
     row = Row(case={"memory": "none", "rung": simpler_scenes.WEIGHT}, method=method)
-    done = trade_rows.measure(bench, row, lambda: simpler_scenes.payload_as_weight(scene))
+    done = trade_study.measure(bench, row, lambda: simpler_scenes.payload_as_weight(scene))
     assert done.stable, done.message
     assert done.error("payload_position") < 1e-6 and done.error("hook_load") < 1.0
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)

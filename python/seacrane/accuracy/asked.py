@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.accuracy.case import Case
-from seacrane.accuracy.expected import SCALE, unit_error
+from seacrane.accuracy.expected import unit_error
 from seacrane.accuracy.quantities import Quantity, channels_of, compare, limits_of, quantities_of
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.loads import any_stiff
@@ -34,6 +34,10 @@ Array = NDArray[np.float64]
 EVENT_TIMES = "event_times"  # a quantity: the largest shift of an event, s
 BESIDE = 1.5  # the error of one of two methods that are as good as each other, over their difference
 STABLE = 3.0  # steps of an explicit method times the fastest mode
+OF_EVENTS = Quantity(
+    name=EVENT_TIMES, unit="s", channels=(), of_numbers=lambda result: float(np.ptp(result.time)),
+    values=lambda result: np.array([event.time for event in result.events]).reshape(1, -1, 1),
+)  # fmt: skip
 Key = tuple[str, str]  # a kind of event and its name
 BY_FRICTION = ("slip", "stick")  # of a load that stands: rounding says how often, and no course hangs on it
 APART = 1e-9  # s: marks nearer than that are one
@@ -102,9 +106,10 @@ class Asked:
             return Difference(by_name={n: compare(q.values(one), q.values(other)).largest for n, q in named})
         matching = matched(one, other)
         apart = {
-            name: self._apart(quantity, one, other, matching) for name, quantity in self.quantities.items()
+            name: matching.shift if name == EVENT_TIMES else self._apart(quantity, one, other, matching)
+            for name, quantity in self.quantities.items()
         }
-        return Difference(by_name=apart | {EVENT_TIMES: matching.shift}, course=matching.course)
+        return Difference(by_name=apart, course=matching.course)
 
     def _apart(self, quantity: Quantity, one: Result, other: Result, matching: Matching) -> float:
         values, others = quantity.values(one), quantity.values(other)
@@ -116,8 +121,7 @@ class Asked:
 
     def motions(self, result: Result) -> dict[str, float]:
         """Largest distance of each quantity from its start."""
-        found = {name: quantity.motion(result) for name, quantity in self.quantities.items()}
-        return found | {EVENT_TIMES: float(result.time[-1] - result.time[0])}
+        return {name: quantity.motion(result) for name, quantity in self.quantities.items()}
 
     def excess(self, errors: Mapping[str, float]) -> float:
         """Of the errors over their limits the largest."""
@@ -125,19 +129,11 @@ class Asked:
 
     def is_curve(self, name: str) -> bool:
         """Whether a quantity is one; extremes and times are not."""
-        return name != EVENT_TIMES and self.quantities[name].of_numbers is None
-
-    def over_difference(self, name: str) -> float:
-        """The error of a quantity at most, over its difference from a looser run."""
-        return BESIDE if self.staged or not self.is_curve(name) else 1.0
-
-    def unit(self, name: str) -> str:
-        """Of a quantity."""
-        return "s" if name == EVENT_TIMES else self.quantities[name].unit
+        return self.quantities[name].of_numbers is None
 
     def scale(self, name: str) -> float:
         """Of the errors of a quantity, in its unit."""
-        return SCALE["s"] if name == EVENT_TIMES else unit_error(self.scene, self.quantities[name])
+        return unit_error(self.scene, self.quantities[name])
 
 
 def asked(case: Case, accuracy: Any, outputs: Outputs, *, progress: bool = False) -> Asked:
@@ -159,6 +155,8 @@ def asked(case: Case, accuracy: Any, outputs: Outputs, *, progress: bool = False
         model = case.begun(None, outputs).model  # warns of the description
         span = sum(one.duration or one.maximum_duration or 0.0 for one in stages)
         limits = {EVENT_TIMES: math.inf, **limits}
+    if EVENT_TIMES in limits:
+        measured[EVENT_TIMES] = OF_EVENTS
     steps = (fastest_mode(model) or 0.0) * span / STABLE if any_stiff(case.scene.loads) else 0.0
     return Asked(
         case=case, outputs=outputs, quantities=measured, limits=limits, explicit_steps=steps,

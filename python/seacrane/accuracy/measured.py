@@ -94,16 +94,8 @@ def measured(
 ) -> Row:
     """The row filled in; what stops or refuses the run is its verdict.
 
-    Parameters
-    ----------
-    case, method, repeats, long_s, limit_s
-        As `timed`.
-    quantities : mapping of str to Quantity
-        What errors are measured in.
-    row : Row
-        What is known before.
-    values : callable, optional
-        Values of quantities from a result; default: what the quantities make of it, where they can.
+    Repeats and bounds of time are those of `timed`. Values of a result are, without a function for them, what
+    the quantities make of it, where they can.
     """
     row = replace(row, uncertainty=truth.uncertainty, motion=truth.motion)
     channels = [*channels_of(quantities), *CHECKS]

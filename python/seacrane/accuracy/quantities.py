@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 GENERIC = ("position", "velocity")
-STAGE = re.compile(r"stage\[\s*([^\[\]]+?)\s*\]\.(start|end)")
+STAGE = re.compile(r"stage\[\s*([^\[\]]+?)\s*\]\.(start|end|duration)")
 ENDS = {"min": 0, "max": 1}
 
 
@@ -194,23 +194,23 @@ def _stacked(name: str, channel: str, items: Sequence[Mapping[str, str]]) -> Qua
 def _of_text(text: str) -> Quantity:
     """A curve, an extreme such as "hook_load.max", or the time of a stage such as "stage[lift].end"."""
     stage = STAGE.fullmatch(text) if isinstance(text, str) else None
-    if stage is not None:
-        return _stage_time(text, stage[1], stage[2])
+    if stage is not None and stage[2] != "duration":
+        name, what = stage.groups()
+        return Quantity(
+            name=text, unit="s", channels=(), of_numbers=lambda result: float(np.ptp(result.time)),
+            values=lambda result: np.full((1, 1, 1), stage_time(result, name, what, "accuracy")),
+        )  # fmt: skip
     selector, _, end = text.rpartition(".") if isinstance(text, str) else ("", "", "")
     return _extreme(text, selector, ENDS[end]) if selector and end in ENDS else _picked(text)
 
 
-def _stage_time(text: str, stage: str, end: str) -> Quantity:
-    def values(result: Result) -> Array:
-        span = next((one for one in result.stages if one.name == stage), None)
-        if span is None:
-            known = ", ".join(one.name for one in result.stages) or "none"
-            raise SceneError(f"accuracy: there is no stage {stage!r}; the lift has {known}")
-        return np.full((1, 1, 1), getattr(span, end))
-
-    return Quantity(
-        name=text, unit="s", channels=(), values=values, of_numbers=lambda result: float(np.ptp(result.time))
-    )
+def stage_time(result: Result, stage: str, what: str, asker: str) -> float:
+    """When a stage of a lift begins or ends, or how long it takes, s; SceneError where there is none."""
+    for span in result.stages:
+        if span.name == stage:
+            return span.end - span.start if what == "duration" else float(getattr(span, what))
+    known = ", ".join(one.name for one in result.stages) or "none"
+    raise SceneError(f"{asker}: there is no stage {stage!r}; the run has {known}")
 
 
 def _extreme(text: str, selector: str, end: int) -> Quantity:

@@ -4,7 +4,7 @@ prescribed vessel."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, cast
 
@@ -37,20 +37,10 @@ RIGID_LINES = "lines rigid"
 LINE_RUNGS = (RIGID_LINES, f"lines {QUASI_STATIC}", f"lines {ELASTIC}")
 SHARES = (0.5, 0.25)  # of the wave components, the strongest
 BOUND = 1e-4  # of a coarse wave table
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Levels:
-    """What fits of a kind are asked for, each level for more states; a vessel's own memory has the usual."""
-
-    asked: str
-    all: tuple[float, ...]
-    usual: float
-
-
-R2_LEVELS = _Levels(asked="r2", all=(0.9, 0.95, 0.99, 0.999), usual=0.99)
-LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), usual=0.01)
-FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS}
+FITTED = {  # what fits of a kind are asked for, each level for more states, and what a vessel's own has
+    "by-motion": ("limit", (0.05, 0.02, 0.01), 0.01),
+    "per-pair": ("r2", (0.9, 0.95, 0.99, 0.999), 0.99),
+}
 
 
 def memory_name(scene: Scene) -> str:
@@ -108,11 +98,10 @@ def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Build]
         yield kind, partial(with_memory, scene, kind)
     if quick or database is None:  # a fit costs more than many runs
         return
-    for kind, levels in FITTED.items():
-        for level in levels.all:
-            if kind != memory or level != levels.usual:
-                fit = partial(with_memory, scene, kind, level=level)
-                yield f"{kind} {levels.asked}={level:g}", fit
+    for kind, (asked, levels, usual) in FITTED.items():
+        for level in levels:
+            if kind != memory or level != usual:
+                yield f"{kind} {asked}={level:g}", partial(with_memory, scene, kind, level=level)
 
 
 def full_memory_name(scene: Scene, name: str) -> str:
@@ -134,12 +123,8 @@ def _database(scene: Scene) -> HydroDatabase | None:
 def with_memory(scene: Scene, kind: str, *, level: float | None = None, vessel: str | None = None) -> Scene:
     """The scene with another fluid memory of one vessel; the added mass is that of the memory's fit.
 
-    Parameters
-    ----------
-    level : float, optional
-        R2 or limit asked of a fit; default: the database's own memory where it has one of that kind.
-    vessel : str, optional
-        Default: the only one.
+    By an R2 or limit of the fit, else the database's own where it has one of that kind; of the only vessel,
+    where none is named.
     """
     own = next(iter(scene.vessels.values())) if vessel is None else scene.vessels[vessel]
     changes: dict[str, Any] = {"memory": []}
@@ -160,9 +145,8 @@ def with_memory(scene: Scene, kind: str, *, level: float | None = None, vessel: 
 
 @lru_cache(maxsize=16)
 def _fit(database: HydroDatabase, kind: str, level: float) -> MemoryModel:
-    if FITTED[kind].asked == "limit":
-        return fit_memory(database=database, kind=kind, limit=level)
-    return fit_memory(database=database, kind=kind, r2=level)
+    asked: dict[str, Any] = {FITTED[kind][0]: level}
+    return fit_memory(database=database, kind=kind, **asked)
 
 
 def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Build]]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,6 @@ import numpy as np
 
 from seacrane._core import integrators
 from seacrane.accuracy import simpler_scenes
-from seacrane.accuracy.diagram import COSTS, Measured, work_precision
 from seacrane.accuracy.measured import Reference
 from seacrane.accuracy.quantities import Quantity, limits_of
 from seacrane.accuracy.row import Row, front
@@ -20,18 +20,28 @@ from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.shown import shown
+from seacrane.plotting.figure import new_figure
+from seacrane.plotting.panel import plain
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.run.method import DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE, Method
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
 
 MEASURED = ("wall_s", "simulated_s", "evaluations", "drift", "energy", "stable")
 ERRORS = {"error": "largest", "rms": "rms", "std": "std"}
 OTHERS = 0.01  # of its motion, that a default quantity may err by which nobody names
 ORDER = next(one.order for one in integrators() if one.name == DEFAULT_INTEGRATOR)
 ALIKE = 1.15  # times the least cost, which is no more than that
+MARKERS = "ovs^Dp*hXP"
+OTHER = "0.72"  # the grey of methods that some other beats everywhere
+HEIGHT, WIDTHS = 4.0, (7.5, 6.0)  # inches: of a row; of methods, of less physics
+ROOM = 3.0  # times the largest cost: room for names on the right
+COSTS = {
+    "wall_s": "wall time per simulated second [ms]",
+    "cpu_s": "CPU time per simulated second [ms]",
+}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -65,12 +75,10 @@ class Trade(Answer):
     def _data(self) -> Table:
         """All rows: settings, cost, and of each quantity `error_`, `rms_` and `std_` with its name."""
         rows, names = self.rows, list(self.quantities)
+        asked = ("integrator", "setting", "rtol", "dt")
         columns: dict[str, list[Any]] = {
             "formulation": [row.formulation for row in rows],
-            **{
-                key: [getattr(row.method, key) for row in rows]
-                for key in ("integrator", "setting", "rtol", "dt")
-            },
+            **{key: [getattr(row.method, key) for row in rows] for key in asked},
             **{name: [row.case[name] for row in rows] for name in self.full_case},
             **{name: [getattr(row, name) for row in rows] for name in MEASURED},
             "wall_per_simulated_s": [row.wall_s / row.simulated_s for row in rows],
@@ -171,15 +179,13 @@ class Trade(Answer):
         rows = [row for row in self._of_full_scene() if row.stable]
         best = min(rows, key=lambda row: row.error(name), default=None)
         if best is None or best.error(name) > limit:
-            least = "none" if best is None else f"{best.error(name):.3g} {unit}"
-            by = (
-                ""
-                if best is None
-                else f" ({best.formulation}, {best.method.integrator}, {best.method.setting})"
-            )
+            least = "none"
+            if best is not None:
+                by = f"{best.formulation}, {best.method.integrator}, {best.method.setting}"
+                least = f"{best.error(name):.3g} {unit} ({by})"
             raise SceneError(
                 f"accuracy: {name} of {limit:g} {unit} is beyond this grid: its smallest error is "
-                f"{least}{by}, set by the local error of the time integration; simulate(accuracy=...) tries "
+                f"{least}, set by the local error of the time integration; simulate(accuracy=...) tries "
                 "finer tolerances"
             )
 
@@ -189,11 +195,7 @@ class Trade(Answer):
     @property
     def full_case(self) -> dict[str, str]:
         """What rows of the full scene have as their `case`: memory, waves, rung."""
-        return {
-            "memory": self.metadata["memory"],
-            "waves": self.metadata["waves"],
-            "rung": simpler_scenes.FULL,
-        }
+        return {name: self.metadata[name] for name in ("memory", "waves")} | {"rung": simpler_scenes.FULL}
 
     def __repr__(self) -> str:
         stable = sum(row.stable for row in self.rows)
@@ -257,7 +259,8 @@ class Trade(Answer):
         """Work-precision diagrams: error of each quantity over cost, and what less physics loses.
 
         A line for each integrator, through those of its settings that none of its own beats; in colour where
-        it is on the Pareto front of some quantity.
+        it is on the Pareto front of some quantity. Dashed lines are rungs of elastic lines, the grey band is
+        the reference's uncertainty. On the right are errors of a scene with other physics, with their cost.
 
         Parameters
         ----------
@@ -272,18 +275,7 @@ class Trade(Answer):
         """
         if over not in COSTS:
             raise SceneError(f"plot: over is {shown(over)}; give {' or '.join(COSTS)}")
-        rows = [row for row in self.rows if getattr(row, over) > 0]
-        measured = [
-            Measured(
-                quantity=name,
-                unit=quantity.unit,
-                uncertainty=self.reference.uncertainty[name],
-            )
-            for name, quantity in self.quantities.items()
-        ]
-        about = self.metadata
-        title = f"{about['scene']}: {about['t_end']:g} s, errors at outputs every {about['dt_out']:g} s"
-        return work_precision(rows, measured, self.full_case, title, over)
+        return _work_precision(self, over)
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Write trade.csv and trade.png into a folder."""
@@ -294,3 +286,113 @@ class Trade(Answer):
 
 def _ms(row: Row) -> str:
     return f"{1e3 * row.cpu_s:.3g} ms"
+
+
+def _work_precision(trade: Trade, over: str) -> Figure:
+    """The panels of `Trade.plot`."""
+    rows = [row for row in trade.rows if getattr(row, over) > 0]
+    full, joined, alone = _sorted_out(rows, trade.full_case)
+    measured, known = trade.quantities, trade.reference.uncertainty
+    fronts = {name: _own_front(full, name, over) for name in measured}
+    best = dict.fromkeys(row.method.integrator for rows in fronts.values() for row in rows)
+    looks = {name: (f"C{n % 10}", MARKERS[n % len(MARKERS)]) for n, name in enumerate(best)}
+    columns = 2 if alone else 1
+    figure = new_figure(figsize=(sum(WIDTHS[:columns]), HEIGHT * len(measured) + 1.0), layout="constrained")
+    panels = figure.subplots(len(measured), columns, squeeze=False, width_ratios=WIDTHS[:columns])
+    for axes, name in zip(panels, measured, strict=True):
+        _draw_methods(axes[0], full, name, looks, over)
+        for (label, rung), marker in zip(joined.items(), cycle(MARKERS)):  # each a dashed line
+            points = _points(rung, name, over)
+            axes[0].loglog(
+                *points, "--", color="black", marker=marker, markersize=5, linewidth=1.5, label=label
+            )
+        axes[0].step(
+            *_points(fronts[name], name, over), where="post", color="black", linewidth=5.0, alpha=0.15,
+            label="Pareto front", solid_capstyle="butt",
+        )  # fmt: skip
+        axes[0].axhspan(0.0, known[name], color="0.9")
+        error = f"largest error [{measured[name].unit}]"
+        axes[0].set_ylabel(error)
+        if alone:
+            _draw_physics(axes[1], alone, name, over)
+            axes[1].set_xlabel(error)
+        for panel in axes:
+            panel.grid(alpha=0.3)
+    handles = {
+        label: handle
+        for axes in panels[:, 0]
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+        if handle.get_color() != OTHER
+    }
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=6, fontsize=8)
+    about = trade.metadata
+    figure.suptitle(f"{about['scene']}: {about['t_end']:g} s, errors at outputs every {about['dt_out']:g} s")
+    return figure
+
+
+def _sorted_out(
+    rows: Sequence[Row], full: Mapping[str, str]
+) -> tuple[list[Row], dict[str, list[Row]], dict[str, Row]]:
+    """Rows of the full scene; those of other physics by what they change: several settings, or one."""
+    changed: dict[str, list[Row]] = {}
+    for row in rows:
+        if row.stable:
+            changed.setdefault(_changed(row, full), []).append(row)
+    plain_rows = changed.pop("", [])
+    joined = {label: rows for label, rows in changed.items() if len(rows) > 1}
+    return plain_rows, joined, {label: rows[0] for label, rows in changed.items() if len(rows) == 1}
+
+
+def _changed(row: Row, full: Mapping[str, str]) -> str:
+    """What a row has that the full scene has not."""
+    changed = [name for name in full if row.case[name] != full[name]]
+    return ", ".join(f"{n} {row.case[n]}" if n in ("memory", "waves") else str(row.case[n]) for n in changed)
+
+
+def _own_front(rows: Sequence[Row], quantity: str, over: str) -> list[Row]:
+    """The rows that none of them beats, the cheapest first."""
+    on = front(rows, quantity, cost=over)
+    return sorted((row for row, kept in zip(rows, on, strict=True) if kept), key=lambda row: _cost(row, over))
+
+
+def _points(rows: Sequence[Row], quantity: str, over: str) -> tuple[list[float], list[float]]:
+    return [_cost(row, over) for row in rows], [row.error(quantity) for row in rows]
+
+
+def _cost(row: Row, over: str) -> float:
+    return 1e3 * float(getattr(row, over)) / row.simulated_s
+
+
+def _draw_methods(
+    axes: Axes, rows: Sequence[Row], quantity: str, looks: Mapping[str, tuple[str, str]], over: str
+) -> None:
+    names = dict.fromkeys(row.method.integrator for row in rows)
+    for name in sorted(names, key=lambda name: name in looks):
+        own = [row for row in rows if row.method.integrator == name]
+        points = _points(_own_front(own, quantity, over), quantity, over)
+        if not points[0]:
+            continue
+        colour, marker = looks.get(name, (OTHER, "."))
+        axes.loglog(*points, "-", color=colour, marker=marker, markersize=4, linewidth=1.2, label=name)
+        if name not in looks:
+            axes.annotate(
+                name, (points[0][-1], points[1][-1]), xytext=(4, 0), textcoords="offset points",
+                fontsize=7, color="0.35", va="center",
+            )  # fmt: skip
+    axes.set_xlabel(COSTS[over])
+    axes.set_title(plain(quantity.replace("_", " ")) + ": methods", fontsize=10)
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.set_xlim(right=ROOM * axes.get_xlim()[1])
+
+
+def _draw_physics(axes: Axes, rows: Mapping[str, Row], quantity: str, over: str) -> None:
+    """Less physics, one line of text for each, the largest error on top."""
+    known = {label: row for label, row in rows.items() if row.error(quantity) > 0.0}
+    order = sorted(known, key=lambda label: known[label].error(quantity))
+    axes.semilogx([known[label].error(quantity) for label in order], range(len(order)), "kx")
+    axes.set_yticks(range(len(order)), [_with_cost(label, known[label], over) for label in order], fontsize=7)
+    axes.set_title("less physics; in brackets the cost [ms]", fontsize=10)
+
+
+def _with_cost(label: str, row: Row, over: str) -> str:
+    return plain(f"{label} ({_cost(row, over):.2g})")

@@ -7,37 +7,50 @@ import os
 import sys
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
 from seacrane.accuracy import simpler_scenes
 from seacrane.accuracy.case import Case, timed
-from seacrane.accuracy.measured import CHECKS, tight_reference, values_by
-from seacrane.accuracy.methods import Ladders, measured_methods
+from seacrane.accuracy.measured import CHECKS, Reference, measured, tight_reference, values_by, with_errors
+from seacrane.accuracy.methods import LINES, PHYSICS, Ladders, measured_methods
 from seacrane.accuracy.quantities import Quantity, channels_of, of_stages, quantities_of
-from seacrane.accuracy.row import Row, RowFile
+from seacrane.accuracy.row import REFUSED, Row, RowFile
 from seacrane.accuracy.trade_answer import Trade
-from seacrane.accuracy.trade_rows import Bench, Task, measure, physics
+from seacrane.analysis.drag_in_sea import drag_in_components
+from seacrane.analysis.frequency_domain import response_summed
+from seacrane.analysis.linear_system import LinearModel, linear_model
+from seacrane.description.crane_parts import hooks, payloads
 from seacrane.description.file import scene_digest
-from seacrane.errors import SceneError
+from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of, positive_of
+from seacrane.inputs.frames import heading_of, rotation_matrix
 from seacrane.inputs.keywords import named
+from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
 from seacrane.run.stage import Stage
 from seacrane.run.start import Start
+from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import require_finite
 from seacrane.version import __version__
-
-if TYPE_CHECKING:
-    from seacrane.scene.scene import Scene
 
 REPEATS = 3  # runs of each setting of the whole grid; the quickest counts
 BUDGET = 20.0  # runs of the default setting, beside the reference
 REFERENCE = 12.0  # of them, that the reference and its check are told to take
 BENEATH = 1e-6  # of its motion, an error of which none is looked for
 METHODS = 0.6  # of the budget, before physics is left out
+LONG = 0.3  # s of wall time from which on one run tells the cost
+LINEAR = Method(integrator="none")  # the frequency domain has no integrator
+Array = NDArray[np.float64]
+Task = tuple[Row, simpler_scenes.Build | None]  # to be filled in, and what makes its scene with less physics
 LEAST = 0.5  # runs, that any row may take
 LONGEST = 3.0  # runs, that no row of a method may take more than
 
@@ -105,11 +118,11 @@ def trade(
         scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt_out, stages=tuple(stages) or None,
         start=start,
     )  # fmt: skip
-    measured = quantities_of(scene, case.model, quantities)
+    asked = quantities_of(scene, case.model, quantities)
     if stages:
-        measured = {name: of_stages(one) for name, one in measured.items()}
+        asked = {name: of_stages(one) for name, one in asked.items()}
     begun = time.process_time()
-    unit, whole = _price(case, measured)
+    unit, whole = _price(case, asked)
     told = REFERENCE * unit + (0.0 if math.isinf(runs) else runs) * whole
     if progress:
         sys.stderr.write(f"trade: {_told(runs, unit, told)}\n")
@@ -119,18 +132,18 @@ def trade(
         "stages": ", ".join(stage.name for stage in stages),
         "default quantities": int(quantities is None),
     }  # fmt: skip
-    truth = tight_reference(case, measured)
+    truth = tight_reference(case, asked)
     metadata |= {"reference": truth.runs[0], "checked_by": "; ".join(truth.runs[1:])}
     metadata |= {f"refused {name}": reason for name, reason in truth.refused.items()}
-    file = _row_file(out, {**metadata, "quantities": list(measured)}, scene)
-    bench = Bench(case=case, quantities=measured, truth=truth, repeats=REPEATS if budget is None else 1)
+    file = _row_file(out, {**metadata, "quantities": list(asked)}, scene)
+    bench = Bench(case=case, quantities=asked, truth=truth, repeats=REPEATS if budget is None else 1)
     spending = Spending(unit_s=whole, runs=runs)
     rows, left = _measured(bench, spending, methods, file, progress=progress)
     if stages:
         metadata["t_end"] = max((row.simulated_s for row in rows if row.stable), default=math.nan)
     different = {row.key: row for row in reversed(rows)}  # two levels of a memory fit may give one model
     result = Trade(
-        rows=tuple(reversed(different.values())), quantities=measured, reference=truth, metadata=metadata,
+        rows=tuple(reversed(different.values())), quantities=asked, reference=truth, metadata=metadata,
         told_s=told, took_s=time.process_time() - begun, not_measured=left,
     )  # fmt: skip
     if out is not None:
@@ -160,12 +173,11 @@ def _told(runs: float, unit: float, told: float) -> str:
 
 
 def _row_file(out: str | os.PathLike[str] | None, experiment: Mapping[str, Any], scene: Scene) -> RowFile:
-    if out is None:
-        return RowFile(None, experiment)
-    folder = Path(out)
-    if not folder.is_dir():
+    folder = None if out is None else Path(out)
+    if folder is not None and not folder.is_dir():
         raise SceneError(f"out {str(folder)!r} is no folder; create it first")
-    return RowFile(folder / "trade_rows.jsonl", {**experiment, "described": scene_digest(scene)})
+    path = folder and folder / "trade_rows.jsonl"
+    return RowFile(path, {**experiment, "described": scene_digest(scene)})
 
 
 @dataclass(kw_only=True)
@@ -251,3 +263,138 @@ def _chosen(
         while spending.has_room(share) and (method := ladders.next()) is not None:
             yield keys[method]
         yield from (key for key in less if spending.has_room())
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Bench:
+    """What every row of a trade is measured with.
+
+    Attributes
+    ----------
+    case : The full scene.
+    quantities : mapping of str to Quantity
+    repeats : Equal runs; the quickest counts.
+    """
+
+    case: Case
+    quantities: Mapping[str, Quantity]
+    truth: Reference
+    repeats: int
+
+
+def physics(bench: Bench, *, quick: bool) -> Iterator[Task]:
+    """Each scene with less physics, all by the same method; rungs of lines by several."""
+    for case, build in simpler_scenes.variants(bench.case.scene, quick=quick):
+        for method in _of_rung(case["rung"], quick=quick):
+            yield Row(case=case, method=method), build
+
+
+def _of_rung(rung: str, *, quick: bool) -> Sequence[Method]:
+    if rung == simpler_scenes.LINEAR:
+        return (LINEAR,)
+    if rung in simpler_scenes.LINE_RUNGS:
+        return LINES[1::2] if quick else LINES
+    return (Method(),) if quick else (PHYSICS,)
+
+
+def measure(
+    bench: Bench, row: Row, build: simpler_scenes.Build | None = None, limit_s: float | None = None
+) -> Row:
+    """The row filled in; a fitted memory is named by its states.
+
+    Parameters
+    ----------
+    build : callable, optional
+        Makes a scene with less physics; default: the full one.
+    limit_s : Processor time that a run of the full scene may take, s.
+    """
+    case, before, values = bench.case, (0.0, 0.0), None
+    try:
+        if build is not None:
+            limit_s, case = None, replace(case, scene=build())
+            memory = simpler_scenes.full_memory_name(case.scene, str(row.case["memory"]))
+            row = replace(row, case={**row.case, "memory": memory})
+        if row.case["rung"] == simpler_scenes.LINEAR:
+            return _frequency_domain(bench, row)
+        if row.case["rung"] == simpler_scenes.WEIGHT:
+            values = partial(_values_of_weight, bench.quantities, bench.case.scene)
+        elif row.case["rung"] == simpler_scenes.PRESCRIBED:
+            case, before = _prescribed(bench, case, row.method)
+    except (SeacraneError, ValueError) as error:
+        return row.ended(REFUSED, error)
+    done = measured(
+        case, row.method, bench.quantities, bench.truth, row, values=values,
+        repeats=bench.repeats, long_s=LONG, limit_s=limit_s,
+    )  # fmt: skip
+    return replace(done, wall_s=done.wall_s + before[0], cpu_s=done.cpu_s + before[1])
+
+
+def _prescribed(bench: Bench, case: Case, method: Method) -> tuple[Case, tuple[float, float]]:
+    """The case with the vessel's motion of a locked crane prescribed; wall and CPU time of finding it, s."""
+    alone = replace(case, scene=simpler_scenes.locked(case.scene))
+    done = timed(alone, method, ["vessel_motion"], repeats=bench.repeats, long_s=LONG)
+    result = require_finite(done.result())
+    driven = simpler_scenes.with_prescribed_vessel(case.scene, result.time, result["vessel_motion"])
+    return replace(case, scene=driven), (done.wall_s, done.cpu_s)
+
+
+def _values_of_weight(
+    quantities: Mapping[str, Quantity], scene: Scene, result: Result
+) -> Mapping[str, Array]:
+    """Tension is the weight; each payload hangs plumb under its tip."""
+    links = [scene.joints[link] for link in hooks(scene).values()]
+    found = [_under_the_tip(scene, result, link) for link in links]
+    out = {name: np.stack([one[name] for one in found], axis=1) for name in found[0]}
+    if [link.second for link in links] != list(payloads(scene).values()):
+        del out["payload_position"]
+    return {**values_by(quantities)(result), **out}
+
+
+def _under_the_tip(scene: Scene, result: Result, link: _core.Joint) -> dict[str, Array]:
+    """What `_values_of_weight` returns for one payload, each of shape (n, parts)."""
+    payload, body = scene.bodies[link.second], scene.bodies[link.first]
+    turn = rotation_matrix(result.select("quaternion", body=link.first))
+    lever = np.asarray(link.first_frame.point) - np.asarray(body.center_of_mass)
+    tip = result.select("position", body=link.first) + turn @ lever
+    below = link.length + float(link.second_frame.point[2] - payload.center_of_mass[2])
+    return {
+        "hook_load": np.full((len(tip), 1), payload.mass * scene.gravity),
+        "payload_position": tip - np.array([0.0, 0.0, below]),
+    }
+
+
+def _frequency_domain(bench: Bench, row: Row) -> Row:
+    """The row of the linear model about the described pose, in its steady state under the same waves."""
+    begun, ticks = time.perf_counter(), time.thread_time()
+    values = _linear_values(bench.case, bench.truth.values)
+    done = replace(
+        row, stepped="linear", wall_s=time.perf_counter() - begun, cpu_s=time.thread_time() - ticks,
+        simulated_s=bench.case.t_end, uncertainty=bench.truth.uncertainty,
+    )  # fmt: skip
+    return with_errors(done, values, bench.truth, bench.quantities)
+
+
+def _linear_values(case: Case, truth: Mapping[str, Array]) -> dict[str, Array]:
+    scene = case.scene
+    hulls = {} if scene.waves is None else scene.waves.hulls
+    linear = linear_model(scene, vessel=next(iter(hulls), None))
+    if scene.waves is not None:
+        linear = drag_in_components(linear, scene.waves)
+    times: Array = case.dt_out * np.arange(len(next(iter(truth.values()))), dtype=float)
+    values: dict[str, Array] = {}
+    if "roll" in truth:
+        rolls = [_roll(linear, vessel.body, times) for vessel in scene.vessels.values()]
+        values["roll"] = np.stack(rolls, axis=1)[:, :, None]
+    if "payload_position" in truth:
+        start = truth["payload_position"][0]
+        bodies = payloads(scene).values()
+        moved = [response_summed(linear, body=body).at(times)[:, :3] for body in bodies]
+        values["payload_position"] = start + np.stack(moved, axis=1)
+    return values
+
+
+def _roll(linear: LinearModel, body: str, times: Array) -> Array:
+    """The roll of a vessel about its own axis, rad."""
+    heading = heading_of(linear.scene.bodies[body].quaternion)
+    rotation = response_summed(linear, body=body).at(times)[:, 3:]
+    return np.asarray(np.cos(heading) * rotation[:, 0] + np.sin(heading) * rotation[:, 1])

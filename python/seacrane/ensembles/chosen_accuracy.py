@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import partial
 
 import numpy as np
 
@@ -151,12 +151,9 @@ def _each(
     places: list[int],
     executor: Executor | None,
 ) -> dict[int, Probe]:
-    if executor is None:
-        return {place: function(study, accuracy, members.values(place)) for place in places}
-    sent: dict[int, Any] = {
-        place: executor.submit(function, study, accuracy, members.values(place)) for place in places
-    }
-    return {place: future.result() for place, future in sent.items()}
+    how = map if executor is None else executor.map
+    found = how(partial(function, study, accuracy), map(members.values, places))
+    return dict(zip(places, found, strict=True))
 
 
 @one_thread

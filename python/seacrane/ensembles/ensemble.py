@@ -16,25 +16,25 @@ from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.analysis.rest_state import equilibrium
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
-from seacrane.ensembles.dataset import NOT_RUN, RESERVED, table_of
-from seacrane.ensembles.filling import (
-    SIDE_BY_SIDE,
-    any_outcome,
-    fill,
-    lanes_for,
-    progress_bar,
-    remark,
-    require_success,
-)
+from seacrane.ensembles.dataset import NOT_RUN, RESERVED, dataset_of
+from seacrane.ensembles.filling import SIDE_BY_SIDE, lanes_for, progress_bar, remark, run_packs
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, Value, members_of
-from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.packs import Packs, order_of, pack_size
-from seacrane.ensembles.stage_values import START_TIME, Stages, checked_stages_of
-from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
-from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
+from seacrane.ensembles.store import Folder, Store, order_of, pack_size, packs_of, stored
+from seacrane.ensembles.study import (
+    START_TIME,
+    Asked,
+    Keep,
+    Source,
+    Stages,
+    Start,
+    Study,
+    checked_keep,
+    checked_stages_of,
+    outputs_for,
+)
 from seacrane.ensembles.study_folder import claimed, identity_of, study_in
 from seacrane.ensembles.targets import Certainty, targets_of, with_static_parts
 from seacrane.errors import FileFormatError, SceneError
@@ -148,13 +148,12 @@ class Ensemble:
         """What a store holds so far. Raises FileFormatError for a folder that is none, or damaged."""
         path = Path(folder)
         data = study_in(path)
-        if not data.get("seeds_in_pack"):
+        if data.get("seeds_in_pack"):
+            growth = growth_in(path, data)
+            members = growth.members(max(growth.batches_in(Folder(path)), 1))
+        else:
             members = members_in(path, data)
-            return _ensemble(members, Folder(path).dataset(members), lanes_in(data))
-        growth = growth_in(path, data)
-        store = Folder(path)
-        members = growth.members(max(growth.batches_in(store.done()), 1))
-        return _ensemble(members, store.dataset(members), lanes_in(data))
+        return _ensemble(members, stored(Folder(path), members), lanes_in(data))
 
 
 @named
@@ -305,14 +304,17 @@ def ensemble(
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)
         with _store(store, study, growth.members(1), growth.size, grows=True) as kept:
-            grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
-        dataset = table_of(grown.members, grown.outcomes).dataset()
-        done = replace(_ensemble(grown.members, dataset, study.lanes), certainty=grown.certainty)
+            members, outcomes, certainty = grow(
+                growth, Job(study), kept, executor, targets, raises=raises, progress=progress
+            )
+        done = _ensemble(members, dataset_of(members, outcomes), study.lanes)
+        done = replace(done, certainty=certainty)
     else:
         with _store(store, study, members, size, grows=False) as kept:
-            packs = Packs(order=order_of(study, members), size=size)
-            _run(study, members, packs, kept, executor, raises=raises, progress=progress)
-            done = _ensemble(members, kept.dataset(members), study.lanes)
+            packs = packs_of(order_of(study, members), size)
+            with progress_bar(len(members), progress, lanes=study.lanes, names=members.axes) as bar:
+                run_packs(kept, Job(study), members, packs, executor, bar, raises=raises)
+            done = _ensemble(members, stored(kept, members), study.lanes)
         _warn_of_failures(done)
     if accuracy is None:
         return done
@@ -396,43 +398,12 @@ def _store(
 ) -> Iterator[Store]:
     """Of an ensemble that grows half widths and the most seeds do not tell it from another."""
     if path is None:
-        yield Memory()
+        yield {}
         return
     identity = identity_of(study, members, size) | ({"seeds in a batch": BATCH} if grows else {})
     data = {"identity": identity, "grid": members.grid, "axes": dict(members.axes)}
     with claimed(path, data | ({"seeds_in_pack": size} if grows else {})) as folder:
         yield Folder(folder)
-
-
-def _run(
-    study: Study,
-    members: Members,
-    packs: Packs,
-    store: Store,
-    executor: Executor | None,
-    *,
-    raises: bool,
-    progress: bool,
-) -> None:
-    """Run the packs that are not in the store."""
-    check = require_success(members) if raises else any_outcome
-    every = {number: packs[number] for number in range(len(packs))}
-    there = kept_packs(store, every)
-    if raises:
-        for number in sorted(there):
-            for outcome in store.of(number):
-                check(outcome)
-    wanted = [number for number in every if number not in there]
-    coming = ((number, tuple((index, members.values(index)) for index in every[number])) for number in wanted)
-    count = len(members)
-    left = sum(len(every[number]) for number in wanted)
-    with progress_bar(count, count - left, progress, lanes=study.lanes, names=members.axes) as bar:
-
-        def look(outcome: Outcome) -> None:
-            bar.tell(outcome.kept_apart)
-            check(outcome)
-
-        fill(store, Job(study), coming, executor, done=bar.add, check=look)
 
 
 def lanes_in(data: Mapping[str, Any]) -> int:

@@ -5,17 +5,17 @@ from __future__ import annotations
 import contextlib
 import re
 from collections import Counter
-from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
+from collections.abc import Collection, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from itertools import islice
 from typing import Any
 
+from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.members import Members
 from seacrane.ensembles.other_sea import WORDS
-from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.stage_values import START_TIME
-from seacrane.ensembles.store import Store
+from seacrane.ensembles.store import Store, kept_packs
+from seacrane.ensembles.study import START_TIME
 from seacrane.errors import SceneError, SimulationError, WorkerVersionError
 from seacrane.run.lanes import lanes_of
 from seacrane.version import __version__
@@ -28,43 +28,34 @@ PARTLY = re.compile(r"from t = \S+ s on: |in part: ")
 MOST_REASONS = 3
 
 
-def fill(
-    store: Store,
-    job: Job,
-    packs: Iterator[tuple[int, Pack]],
-    executor: Executor | None,
-    *,
-    done: Callable[[int], None],
-    check: Callable[[Outcome], None],
-) -> None:
-    """Run packs by their number and keep what comes back.
+def run_packs(
+    store: Store, job: Job, members: Members, packs: Mapping[int, Sequence[int]], executor: Executor | None,
+    bar: Progress, *, raises: bool,
+) -> None:  # fmt: skip
+    """Run and keep those packs, by number and members, that are not in the store.
 
-    Parameters
-    ----------
-    done : Told how many members each pack had.
-    check : Given every outcome once its pack is kept; may raise.
+    Raises SimulationError for the first member that failed, now or before, where it `raises`.
     """
-    with contextlib.closing(gathered(job, packs, executor)) as coming:
-        for number, outcomes in coming:
-            store.keep(number, outcomes)
-            done(len(outcomes))
-            for outcome in outcomes:
-                check(outcome)
+    there = kept_packs(store, packs)
+    bar.skip(sum(len(packs[number]) for number in there))
+    if raises:
+        for number in sorted(there):
+            _require_success(store[number], members)
+    left = ((number, indices) for number, indices in packs.items() if number not in there)
+    coming = ((number, tuple((index, members.values(index)) for index in own)) for number, own in left)
+    with contextlib.closing(gathered(job, coming, executor)) as found:
+        for number, outcomes in found:
+            store[number] = outcomes
+            bar.add(outcomes)
+            if raises:
+                _require_success(outcomes, members)
 
 
-def any_outcome(_: Outcome) -> None:
-    """Whatever came of a member."""
-
-
-def require_success(members: Members) -> Callable[[Outcome], None]:
-    """A check that raises SimulationError for a member that failed."""
-
-    def check(outcome: Outcome) -> None:
+def _require_success(outcomes: Iterable[Outcome], members: Members) -> None:
+    for outcome in outcomes:
         if outcome.failure:
             told = ", ".join(f"{name}={value!r}" for name, value in members.values(outcome.index).items())
             raise SimulationError(f"ensemble: member {outcome.index} ({told}) failed: {outcome.failure}")
-
-    return check
 
 
 class Progress:
@@ -74,17 +65,19 @@ class Progress:
         self._bar, self._lanes, self._names = bar, lanes, names
         self._told = Counter[str]()
 
-    def add(self, count: int) -> None:
-        """So many members more are done."""
+    def skip(self, count: int) -> None:
+        """So many members were done before, which tells nothing of the time left."""
         if self._bar is not None:
+            self._bar.initial += count
             self._bar.update(count)
 
-    def tell(self, kept_apart: str) -> None:
-        """How a member went: in how many lanes, or why by itself; the bar says so of all until now."""
+    def add(self, outcomes: Sequence[Outcome]) -> None:
+        """Members more are done: in how many lanes, or why by themselves, the bar says of all until now."""
         if self._bar is None:
             return
-        self._told[kept_apart] += 1
+        self._told.update(one.kept_apart for one in outcomes)
         self._bar.set_postfix_str(remark(self._lanes, self._told, self._names), refresh=False)
+        self._bar.update(len(outcomes))
 
     def left(self, count: int) -> None:
         """So many members are still expected."""
@@ -94,16 +87,14 @@ class Progress:
 
 
 @contextlib.contextmanager
-def progress_bar(
-    total: int, done: int, wanted: bool, *, lanes: int, names: Collection[str]
-) -> Iterator[Progress]:
-    """A bar over so many members, some of which are done, with a remark on how they are stepped."""
+def progress_bar(total: int, wanted: bool, *, lanes: int, names: Collection[str]) -> Iterator[Progress]:
+    """A bar over so many members, with a remark on how they are stepped."""
     if not wanted:
         yield Progress(None, lanes, names)
         return
     from tqdm.auto import tqdm
 
-    with tqdm(total=total, initial=done, unit="member", desc="ensemble") as bar:
+    with tqdm(total=total, unit="member", desc="ensemble") as bar:
         yield Progress(bar, lanes, names)
 
 
@@ -201,14 +192,7 @@ def lanes_for(lanes: int | None, pack: int | None, members: Members, *, starts: 
 
 
 def remark(lanes: int, told: Mapping[str, int], names: Collection[str]) -> str:
-    """One line on how members are stepped.
-
-    Parameters
-    ----------
-    lanes : Runs side by side.
-    told : How many members were kept apart for each reason; none for the empty reason.
-    names : What varies.
-    """
+    """One line on how members are stepped, by how many were kept apart for each reason."""
     count = sum(told.values())
     if lanes == 1:
         return f"{count} one by one: {_why_one_by_one(names)}"

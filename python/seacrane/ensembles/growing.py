@@ -7,15 +7,15 @@ results of those before it alone: so the ensemble is the same whatever runs it, 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
-from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
-from seacrane.ensembles.job import Job, Pack
+from seacrane.ensembles.dataset import Outcome
+from seacrane.ensembles.filling import progress_bar, run_packs
+from seacrane.ensembles.job import Job
 from seacrane.ensembles.members import Members, Value
-from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.store import Store, kept_packs
+from seacrane.ensembles.store import Store
 from seacrane.ensembles.targets import Certainty, Target, certainty_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
@@ -62,24 +62,14 @@ class Growth:
     def _chunks(self) -> int:
         return math.ceil(BATCH / self.size)
 
-    def packs(self, batch: int, cell: int) -> list[int]:
-        """Numbers of the packs of a batch of a cell."""
-        first = (batch * self.cells + cell) * self._chunks
-        return list(range(first, first + self._chunks))
-
-    def indices(self, number: int) -> list[int]:
-        """Numbers of the members of a pack."""
-        whole, chunk = divmod(number, self._chunks)
-        batch, cell = divmod(whole, self.cells)
-        begin = batch * BATCH + chunk * self.size
-        places = range(begin, min(begin + self.size, (batch + 1) * BATCH))
-        return [place * self.cells + cell for place in places]
-
-    def pack(self, number: int) -> Pack:
-        """The members of a pack."""
-        indices = self.indices(number)
-        members = self.members(indices[0] // (BATCH * self.cells) + 1)  # of whole batches up to this one
-        return tuple((index, members.values(index)) for index in indices)
+    def packs(self, batch: int, cell: int) -> dict[int, range]:
+        """Numbers of the members of each pack of a batch of a cell, by the number of the pack."""
+        first, end = (batch * self.cells + cell) * self._chunks, (batch + 1) * BATCH * self.cells
+        starts = range(batch * BATCH * self.cells + cell, end, self.size * self.cells)
+        return {
+            first + chunk: range(start, min(start + self.size * self.cells, end), self.cells)
+            for chunk, start in enumerate(starts)
+        }
 
     def parameters(self, cell: int) -> dict[str, Value]:
         """What the members of a cell share."""
@@ -109,15 +99,6 @@ def growth_of(members: Members, pack: int | None) -> Growth:
     return Growth(first=int(seeds[0]), batches=len(seeds) // BATCH, others=others, size=size)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Grown:
-    """What was run: members of the seeds that were needed, their outcomes, and what they tell."""
-
-    members: Members
-    outcomes: tuple[Outcome, ...]
-    certainty: tuple[Certainty, ...]
-
-
 def grow(
     growth: Growth,
     job: Job,
@@ -127,8 +108,10 @@ def grow(
     *,
     raises: bool,
     progress: bool,
-) -> Grown:
+) -> tuple[Members, list[Outcome], tuple[Certainty, ...]]:
     """Add batches of seeds to every cell until its targets are reached, or there are no more.
+
+    Members of the seeds that were needed, their outcomes, and what they tell.
 
     Warns
     -----
@@ -137,22 +120,17 @@ def grow(
     FewSeedsWarning
         Where the most seeds did not do.
     """
-    check = require_success(growth.members(growth.batches)) if raises else any_outcome
+    members = growth.members(growth.batches)
     cells: dict[int, list[Outcome]] = {cell: [] for cell in range(growth.cells)}
     known: dict[int, list[Certainty]] = {}
-    going, batch = list(cells), 0
-    most, names = BATCH * growth.cells, growth.members(1).axes
-    with progress_bar(most, 0, progress, lanes=job.study.lanes, names=names) as bar:
-
-        def look(outcome: Outcome) -> None:
-            bar.tell(outcome.kept_apart)
-            check(outcome)
-
+    going, batch, most = list(cells), 0, BATCH * growth.cells
+    with progress_bar(most, progress, lanes=job.study.lanes, names=members.axes) as bar:
         while going and batch < growth.batches:
-            _run_batch(growth, batch, going, job, store, executor, bar.add, look)
+            packs = {n: own for cell in going for n, own in growth.packs(batch, cell).items()}
+            run_packs(store, job, members, packs, executor, bar, raises=raises)
             for cell in going:
                 with interrupts_kept():
-                    cells[cell] += [one for number in growth.packs(batch, cell) for one in store.of(number)]
+                    cells[cell] += [one for number in growth.packs(batch, cell) for one in store[number]]
                     known[cell] = [
                         certainty_of(target, cells[cell], growth.parameters(cell)) for target in targets
                     ]
@@ -163,32 +141,7 @@ def grow(
     _warn_of_failed(certainty, [cells[cell] for cell in sorted(known) for _ in targets])
     _warn_of_few(certainty, growth.batches * BATCH)
     outcomes = sorted((one for several in cells.values() for one in several), key=lambda one: one.index)
-    return Grown(members=growth.members(batch), outcomes=tuple(outcomes), certainty=certainty)
-
-
-def _run_batch(
-    growth: Growth,
-    batch: int,
-    cells: list[int],
-    job: Job,
-    store: Store,
-    executor: Executor | None,
-    advance: Callable[[int], None],
-    check: Callable[[Outcome], None],
-) -> None:
-    numbers = [number for cell in cells for number in growth.packs(batch, cell)]
-    there = kept_packs(store, {number: growth.indices(number) for number in numbers})
-
-    def wanted() -> Iterator[tuple[int, Pack]]:
-        return ((number, growth.pack(number)) for number in numbers if number not in there)
-
-    for number in numbers:
-        if number in there:
-            outcomes = store.of(number)
-            advance(len(outcomes))
-            for outcome in outcomes:
-                check(outcome)
-    fill(store, job, wanted(), executor, done=advance, check=check)
+    return growth.members(batch), outcomes, certainty
 
 
 def _expected(growth: Growth, batch: int, going: list[list[Certainty]]) -> int:

@@ -12,11 +12,10 @@ from typing import Any, TypeVar
 
 from seacrane import _core
 from seacrane.description.given import given_vessels
+from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, with_sea
-from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.stage_values import START_TIME
-from seacrane.ensembles.study import Study, Values
+from seacrane.ensembles.study import START_TIME, Study, Values
 from seacrane.errors import SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.advance import ended
@@ -62,17 +61,7 @@ class Carried:
 
     It lands on each of them on its way to a later one, so that every state is the same to the bit whichever
     were asked for before. Threads may share it.
-
-    Parameters
-    ----------
-    scene, stages
-        Of the lift: what waits is the scene before its first stage.
-    start : State, optional
-        Default: the assembled start.
-    times : sequence of float
-        s, ascending.
-    method, outputs
-        Of the lift; nothing is recorded.
+    Its times ascend, s; without a start it is assembled. By the method of the lift, and nothing is recorded.
     """
 
     def __init__(
@@ -288,9 +277,7 @@ class Prepared:
         if not isinstance(study.source, Scene) or callable(study.stages) or given_vessels(scene):
             return None
         key = repr([(name, value) for name, value in values.items() if name not in WORDS])
-        with self._lock:
-            self._alike.setdefault(key, AlikeStages())
-            return _kept_of_late(self._alike, key, MOST_HELD)
+        return self._kept(self._alike, key, MOST_HELD, AlikeStages)
 
     def _carrier(
         self, scene: Scene, stages: list[Stage], start: _core.State | None, values: Values
@@ -298,13 +285,13 @@ class Prepared:
         """What carries the scene of these values from start to start."""
         study = self._study
         key = repr([(name, value) for name, value in values.items() if name != START_TIME])
-        with self._lock:
-            if key not in self._carried:
-                self._carried[key] = Carried(
-                    scene, stages, start=start, times=study.start_times, method=study.method,
-                    outputs=study.outputs,
-                )  # fmt: skip
-            return _kept_of_late(self._carried, key, MOST_CARRIED)
+        return self._kept(
+            self._carried, key, MOST_CARRIED,
+            lambda: Carried(
+                scene, stages, start=start, times=study.start_times, method=study.method,
+                outputs=study.outputs,
+            ),
+        )  # fmt: skip
 
     def _begun(self, scene: Scene) -> Run:
         study = self._study
@@ -314,15 +301,14 @@ class Prepared:
     def _first(self, others: Values) -> Run:
         """The run of the scene's own sea that those of other seas are made from; it is not stepped."""
         key = tuple(others.values())
+        return self._kept(self._held, key, MOST_HELD, lambda: self._begun(self._study.scene(others)))
+
+    def _kept(self, held: OrderedDict[Any, Some], key: Any, most: int, make: Callable[[], Some]) -> Some:
+        """What is held under a key, made where it is not; of too many the one of longest ago goes."""
         with self._lock:
-            if key not in self._held:
-                self._held[key] = self._begun(self._study.scene(others))
-            return _kept_of_late(self._held, key, MOST_HELD)
-
-
-def _kept_of_late(held: OrderedDict[Any, Some], key: Any, most: int) -> Some:
-    """What is held under a key, which is the last one to be dropped where there are more than so many."""
-    held.move_to_end(key)
-    if len(held) > most:
-        held.popitem(last=False)
-    return held[key]
+            if key not in held:
+                held[key] = make()
+            held.move_to_end(key)
+            if len(held) > most:
+                held.popitem(last=False)
+            return held[key]

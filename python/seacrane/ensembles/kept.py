@@ -2,36 +2,29 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
 
+from seacrane.accuracy.quantities import STAGE, stage_time
 from seacrane.description.channels import attributes, unit_of
 from seacrane.description.pick import Pick, pick_of
-from seacrane.ensembles.outcome import Labelled
+from seacrane.ensembles.dataset import Labelled
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, positive_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 
-NUMBERS: Mapping[str, Callable[..., Any]] = {
-    "mean": np.mean,
-    "standard_deviation": np.std,
-    "maximum": np.max,
-    "minimum": np.min,
+NUMBERS: Mapping[str, tuple[Callable[..., Any], str]] = {
+    "mean": (np.mean, "mean"),
+    "standard_deviation": (np.std, "standard deviation"),
+    "maximum": (np.max, "largest"),
+    "minimum": (np.min, "smallest"),
 }
-STAGE = re.compile(r"stage\[\s*([^\[\]]+?)\s*\]\.(start|end|duration)")
 SHORT: Mapping[str, str] = {"max": "maximum", "min": "minimum", "std": "standard_deviation"}
-TEXTS = {
-    "mean": "mean",
-    "standard_deviation": "standard deviation",
-    "maximum": "largest",
-    "minimum": "smallest",
-}
 
 
 @named
@@ -76,7 +69,8 @@ class Kept:
         if isinstance(self.channel, Pick) or "[" in text_of("kept: channel", self.channel):
             self._take(pick_of("kept: channel", self.channel))
         if self.what not in ("series", *NUMBERS):
-            raise SceneError(f"kept {self.channel}: what is {self.what!r}; choose 'series', {_listed()}")
+            known = ", ".join(map(repr, ("series", *NUMBERS)))
+            raise SceneError(f"kept {self.channel}: what is {self.what!r}; choose {known}")
         if not isinstance(self.names, Mapping):
             raise SceneError(f"kept {self.channel}: names is {shown(self.names)}; give names by dimension")
         finite_of(f"kept {self.channel}: after", self.after, "s")
@@ -141,16 +135,13 @@ class Kept:
             every = 1
             if self.interval is not None and result.time.size > 1:
                 every = round(self.interval / float(result.time[1] - result.time[0]))
-            return Labelled(
-                values=np.array(channel[::every]),
-                dims=dims,
-                coords={"time": time[::every], **coords},
-                attributes=told,
-            )
+            coords = {"time": time[::every], **coords}
+            return Labelled(values=np.array(channel[::every]), dims=dims, coords=coords, attributes=told)
         least, largest = result.reached(self.channel, part=part, **self.names)
         of = {"minimum": least, "maximum": largest}.get(self.what, channel)
-        values = np.asarray(NUMBERS[self.what](of, axis=0), dtype=float)
-        told = told | {"long_name": f"{TEXTS[self.what]} of {told['long_name']}"}
+        number, words = NUMBERS[self.what]
+        values = np.asarray(number(of, axis=0), dtype=float)
+        told = told | {"long_name": f"{words} of {told['long_name']}"}
         return Labelled(values=values, dims=dims[1:], coords=coords, attributes=told)
 
 
@@ -172,11 +163,7 @@ class StageTime:
 
     def __call__(self, result: Result) -> float:
         """What is kept of a result; SceneError where it has no such stage."""
-        for span in result.stages:
-            if span.name == self.stage:
-                return span.end - span.start if self.what == "duration" else float(getattr(span, self.what))
-        known = ", ".join(span.name for span in result.stages) or "none"
-        raise SceneError(f"kept: there is no stage {self.stage!r}; the run has {known}")
+        return stage_time(result, self.stage, self.what, "kept")
 
 
 def made_by(name: str, function: Callable[[Result], Any], result: Result) -> Labelled:
@@ -186,7 +173,3 @@ def made_by(name: str, function: Callable[[Result], Any], result: Result) -> Lab
     except (TypeError, ValueError) as error:
         raise SceneError(f"keep {name!r}: {error}; return a number or an array of numbers") from error
     return Labelled(values=values, dims=tuple(f"{name}_{axis}" for axis in range(values.ndim)))
-
-
-def _listed() -> str:
-    return ", ".join(map(repr, NUMBERS))

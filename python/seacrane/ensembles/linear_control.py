@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -87,73 +86,6 @@ def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
     return Motion(channel=pick.channel, **pick.names, point=point)
 
 
-class _Control(ABC):
-    """A series for each seed, made of linear motions at even `times` (s, shape (n,)), and its extremes.
-
-    Waves load vessels, and parts and lines under water, with drag made linear in the sea as described.
-    """
-
-    def __init__(
-        self,
-        scene: Scene,
-        motions: Sequence[Motion],
-        *,
-        t_end: float,
-        after: float,
-        dt_out: float,
-        words: Mapping[str, Value] | None,
-        state: _core.State | None,
-    ) -> None:
-        self._words = dict(words or {})
-        for word in self._words:
-            if word not in WORDS or word == "seed":
-                raise SceneError(f"control: {word!r} is no word of the sea beside its seed")
-        require_same_sea(scene, ("seed", *self._words))
-        assert scene.waves is not None
-        self._scene = scene.copy()
-        linear = linear_model(scene, state=state, vessel=next(iter(scene.waves.hulls)))
-        if linear.memories:
-            raise SceneError(
-                "control: the memory of a vessel is a convolution, whose start from rest the linear model "
-                "does not know; take a fitted one, such as memory='by-motion'"
-            )
-        described = with_sea(scene, self._words).waves
-        assert described is not None
-        linear = drag_in_components(linear, described)
-        self._parts = PartsInWaves(linear)
-        self.times = _times(t_end, after, dt_out)
-        self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
-        self._resolvent = Resolvent(linear)
-        self._rows = np.array([motion.row(linear) for motion in motions])
-        self._orders = [ORDERS[motion.channel] for motion in motions]
-        self._decays = _decays(linear.a, self._rows, self._orders, self.times)
-
-    @abstractmethod
-    def series(self, seed: int) -> Array:
-        """The series of a seed at `times`, shape (n,)."""
-
-    def extremes(self, seeds: Iterable[int], *, what: str = "maximum") -> Array:
-        """The largest ("maximum") or smallest ("minimum") value of each seed."""
-        if what not in EXTREMES:
-            raise SceneError(f"control: what is {shown(what)}; choose 'maximum' or 'minimum'")
-        return np.array([EXTREMES[what](self.series(seed)) for seed in seeds])
-
-    def _curves(self, seed: int) -> Array:
-        """All motions in the sea of a seed, shape (motions, times)."""
-        sea = with_sea(self._scene, {**self._words, "seed": int(seed)}).waves
-        assert sea is not None
-        omega, forces = component_forces(sea)
-        rates: Complex = np.zeros((omega.size, self._rows.shape[1]), dtype=complex)
-        for vessel, force in forces.items():
-            rates += force @ self._by_vessel[vessel].T
-        if self._parts:
-            rates += self._parts.rates(omega, self._parts.flow_of(sea))
-        x = self._resolvent.response(omega, rates)
-        orders = (1j * omega) ** np.array(self._orders)[:, None]
-        steady = _sums_of(omega, (self._rows @ x.T) * orders, self.times)
-        return np.asarray(steady - self._decays @ x.sum(axis=0).real)
-
-
 def _times(t_end: Any, after: Any, dt_out: Any) -> Array:
     end, begin, step = (
         number_of(f"control: {n}", v) for n, v in (("t_end", t_end), ("after", after), ("dt_out", dt_out))
@@ -195,7 +127,7 @@ def _sums_of(omega: Array, amplitudes: Complex, times: Array) -> Array:
     return np.asarray(sums.reshape(len(amplitudes), -1)[:, : times.size])
 
 
-class LinearControl(_Control):
+class LinearControl:
     """A motion of the linearised scene, from rest, in the waves of any seed.
 
     Its extremes go along with those of runs of the same seeds as far as the lift is linear. A seed takes
@@ -235,15 +167,64 @@ class LinearControl(_Control):
         words: Mapping[str, Value] | None = None,
         state: _core.State | None = None,
     ) -> None:
-        motions = [motion_of(channel, point)]
-        super().__init__(scene, motions, t_end=t_end, after=after, dt_out=dt_out, words=words, state=state)
+        self._begin(scene, [motion_of(channel, point)], _times(t_end, after, dt_out), words, state)
 
     def series(self, seed: int) -> Array:
         """The motion of a seed at `times`, shape (n,)."""
         return np.asarray(self._curves(seed)[0])
 
+    def extremes(self, seeds: Iterable[int], *, what: str = "maximum") -> Array:
+        """The largest ("maximum") or smallest ("minimum") value of each seed."""
+        if what not in EXTREMES:
+            raise SceneError(f"control: what is {shown(what)}; choose 'maximum' or 'minimum'")
+        return np.array([EXTREMES[what](self.series(seed)) for seed in seeds])
 
-class HookLoadControl(_Control):
+    def _begin(
+        self, scene: Scene, motions: Sequence[Motion], times: Array, words: Mapping[str, Value] | None,
+        state: _core.State | None,
+    ) -> None:  # fmt: skip
+        """Linearise, for motions at even `times` (s); drag is made linear in the sea as described."""
+        self._words = dict(words or {})
+        for word in self._words:
+            if word not in WORDS or word == "seed":
+                raise SceneError(f"control: {word!r} is no word of the sea beside its seed")
+        require_same_sea(scene, ("seed", *self._words))
+        assert scene.waves is not None
+        self._scene = scene.copy()
+        linear = linear_model(scene, state=state, vessel=next(iter(scene.waves.hulls)))
+        if linear.memories:
+            raise SceneError(
+                "control: the memory of a vessel is a convolution, whose start from rest the linear model "
+                "does not know; take a fitted one, such as memory='by-motion'"
+            )
+        described = with_sea(scene, self._words).waves
+        assert described is not None
+        linear = drag_in_components(linear, described)
+        self._parts = PartsInWaves(linear)
+        self.times = times
+        self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
+        self._resolvent = Resolvent(linear)
+        self._rows = np.array([motion.row(linear) for motion in motions])
+        self._orders = [ORDERS[motion.channel] for motion in motions]
+        self._decays = _decays(linear.a, self._rows, self._orders, self.times)
+
+    def _curves(self, seed: int) -> Array:
+        """All motions in the sea of a seed, shape (motions, times)."""
+        sea = with_sea(self._scene, {**self._words, "seed": int(seed)}).waves
+        assert sea is not None
+        omega, forces = component_forces(sea)
+        rates: Complex = np.zeros((omega.size, self._rows.shape[1]), dtype=complex)
+        for vessel, force in forces.items():
+            rates += force @ self._by_vessel[vessel].T
+        if self._parts:
+            rates += self._parts.rates(omega, self._parts.flow_of(sea))
+        x = self._resolvent.response(omega, rates)
+        orders = (1j * omega) ** np.array(self._orders)[:, None]
+        steady = _sums_of(omega, (self._rows @ x.T) * orders, self.times)
+        return np.asarray(steady - self._decays @ x.sum(axis=0).real)
+
+
+class HookLoadControl(LinearControl):
     """The load in a link by the linear motions of its ends, to second order in the swing.
 
     m (g + a - g theta^2 / 2 + L theta'^2): of the mass m that hangs L below the upper end of the link, the
@@ -293,7 +274,7 @@ class HookLoadControl(_Control):
             for body, point in ((joint.second, None), (joint.first, head))
         ]
         motions.append(Motion(channel="acceleration", body=joint.first, axis="z", point=head))
-        super().__init__(scene, motions, t_end=t_end, after=after, dt_out=dt_out, words=words, state=state)
+        self._begin(scene, motions, _times(t_end, after, dt_out), words, state)
 
     def series(self, seed: int) -> Array:
         """The load in the link of a seed at `times`, N, shape (n,)."""

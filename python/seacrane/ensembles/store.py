@@ -1,22 +1,27 @@
-"""Where outcomes are kept as they come: in memory, or in a folder with a NetCDF file for each pack."""
+"""Packs of members, and where their outcomes are kept: in memory, or in a folder of NetCDF files."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from seacrane.ensembles.dataset import TEXTS, table_of
-from seacrane.ensembles.members import MOST_MEMBERS, Members
-from seacrane.ensembles.outcome import Labelled, Outcome
-from seacrane.errors import FileFormatError
+from seacrane import _core
+from seacrane.ensembles.dataset import TEXTS, Labelled, Outcome, dataset_of
+from seacrane.ensembles.members import MOST_MEMBERS, Members, Value
+from seacrane.ensembles.other_sea import WORDS
+from seacrane.ensembles.study import START_TIME, Study
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.json_text import json_of
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
+from seacrane.inputs.shown import shown
 from seacrane.run.interrupts import interrupts_kept
 from seacrane.warnings import LostMembersWarning
 
@@ -25,96 +30,88 @@ if TYPE_CHECKING:
 
 DIGITS = 7  # of a pack's number in the name of its file
 LARGEST_FILE = 2**32  # bytes of arrays
+MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
+LARGEST_PACK = 64
 
 
-class Store(Protocol):
-    """Keeps the outcomes of packs by their number."""
-
-    def done(self) -> set[int]:
-        """Numbers of the packs that are there."""
-
-    def lost(self, pack: int, indices: Sequence[int]) -> str:
-        """Why a pack of these members, which is there, cannot be read; nothing where it can."""
-
-    def keep(self, pack: int, outcomes: list[Outcome]) -> None:
-        """Take a pack."""
-
-    def of(self, pack: int) -> list[Outcome]:
-        """The outcomes of one pack that is there."""
-
-    def outcomes(self) -> Iterator[Outcome]:
-        """The outcomes of all packs that are there, in order."""
-        for pack in sorted(self.done()):
-            yield from self.of(pack)
-
-    def dataset(self, members: Members) -> xarray.Dataset:
-        """All that is there, over these members."""
-        return table_of(members, self.outcomes()).dataset()
-
-
-class Memory(Store):
-    """A store for as long as the process lives."""
-
-    def __init__(self) -> None:
-        self._packs: dict[int, list[Outcome]] = {}
-
-    def done(self) -> set[int]:
-        return set(self._packs)
-
-    def lost(self, pack: int, indices: Sequence[int]) -> str:
-        return ""
-
-    def keep(self, pack: int, outcomes: list[Outcome]) -> None:
-        self._packs[pack] = outcomes
-
-    def of(self, pack: int) -> list[Outcome]:
-        return self._packs[pack]
-
-
-class Folder(Store):
-    """A NetCDF file for each pack; one process writes."""
+class Folder:
+    """Outcomes of packs by their number, each in a NetCDF file; one process writes."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
-    def done(self) -> set[int]:
+    def __iter__(self) -> Iterator[int]:
+        """Numbers of the packs that are there."""
         names = (path.stem.removeprefix("pack_") for path in self.path.glob("pack_*.nc"))
         found = {int(name) for name in names if name.isdecimal() and len(name) == DIGITS}
         if found and max(found) >= MOST_MEMBERS:
             raise FileFormatError(
                 f"{self.path}: has a pack {max(found)}, more than there may be members; remove it"
             )
-        return found
+        return iter(found)
 
-    def lost(self, pack: int, indices: Sequence[int]) -> str:
+    @interrupts_kept()
+    def __setitem__(self, pack: int, outcomes: list[Outcome]) -> None:
+        """Write a pack: complete under its name, or not at all.
+
+        Members that lie alike share a group: as a rule there is one.
+
+        Raises OSError if it cannot be written; it names the file, the cause and the space left.
+        """
+        import netCDF4
+
+        with atomic_write(self._file(pack), tidy=False) as draft:
+            try:
+                with netCDF4.Dataset(draft, "w") as file:
+                    file.createDimension("member", len(outcomes))
+                    file.createVariable("member", "i8", ("member",))[:] = [one.index for one in outcomes]
+                    for name in TEXTS:
+                        texts = np.array([getattr(one, name) for one in outcomes], dtype=object)
+                        file.createVariable(name, str, ("member",))[:] = texts
+                    for number, alike in enumerate(_alike(outcomes)):
+                        _write_group(file.createGroup(f"kept_{number}"), alike)
+            except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
+                raise OSError(f"the NetCDF library reports: {error}") from error
+
+    @interrupts_kept()
+    def __getitem__(self, pack: int) -> list[Outcome]:
+        """The outcomes of a pack. Raises FileFormatError where its file is damaged."""
+        path = self._file(pack)
         try:
-            found = [one.index for one in self.of(pack)]
-        except (FileFormatError, OSError) as error:
-            return str(error)
-        return "" if found == list(indices) else f"{self._file(pack)}: holds other members"
-
-    @interrupts_kept()
-    def keep(self, pack: int, outcomes: list[Outcome]) -> None:
-        write_pack(self._file(pack), outcomes)
-
-    @interrupts_kept()
-    def of(self, pack: int) -> list[Outcome]:
-        return read_pack(self._file(pack))
+            with open_netcdf(path, LARGEST_FILE, "give a smaller pack") as file:
+                kept: dict[int, dict[str, Labelled]] = {}
+                for group in file.groups.values():
+                    kept.update(_read_group(group))
+                rows = zip(*(file[name][:].tolist() for name in ("member", *TEXTS)), strict=True)
+                outcomes = [
+                    Outcome(index=index, kept=kept.get(index, {}), **dict(zip(TEXTS, texts, strict=True)))
+                    for index, *texts in rows
+                ]
+                if any(not one.kept and not one.failure for one in outcomes):
+                    raise ValueError("it lacks what a member kept")
+                return outcomes
+        except NETCDF_ERRORS as error:
+            raise FileFormatError(
+                f"{path}: is no pack of an ensemble, or damaged: {str(error)[:200]}; run the ensemble again, "
+                "which makes it anew"
+            ) from error
 
     def _file(self, pack: int) -> Path:
         return self.path / f"pack_{pack:0{DIGITS}d}.nc"
 
 
-def kept_packs(store: Store, packs: Mapping[int, Sequence[int]]) -> set[int]:
-    """Packs that need not be run, by their members.
+Store = Folder | dict[int, list[Outcome]]  # in memory, for as long as the process lives
 
-    Warns
-    -----
-    LostMembersWarning
-        For those that are there and cannot be read.
-    """
-    there = store.done() & packs.keys()
-    lost = {number: why for number in sorted(there) if (why := store.lost(number, packs[number]))}
+
+def stored(store: Store, members: Members) -> xarray.Dataset:
+    """All that is there, over these members."""
+    return dataset_of(members, (one for number in sorted(store) for one in store[number]))
+
+
+def kept_packs(store: Store, packs: Mapping[int, Sequence[int]]) -> set[int]:
+    """Packs that need not be run, by their members; warns with LostMembersWarning of what cannot be read."""
+    there = set(store) & packs.keys()
+    lost = {number: why for number in sorted(there) if (why := _lost(store, number, packs[number]))}
     if lost:
         first = next(iter(lost))
         others = f"; so are those of {len(lost) - 1} other packs" if len(lost) > 1 else ""
@@ -126,56 +123,20 @@ def kept_packs(store: Store, packs: Mapping[int, Sequence[int]]) -> set[int]:
     return there - lost.keys()
 
 
+def _lost(store: Store, number: int, indices: Sequence[int]) -> str:
+    """Why a pack of these members, which is there, cannot be read; nothing where it can."""
+    try:
+        found = [one.index for one in store[number]]
+    except (FileFormatError, OSError) as error:
+        return str(error)
+    return "" if found == list(indices) else f"pack {number}: holds other members"
+
+
 def _shown(indices: Sequence[int]) -> str:
     first, last = indices[0], indices[-1]
     if list(indices) == list(range(first, last + 1)):
         return f"{first} to {last}"
     return ", ".join(map(str, indices))
-
-
-def write_pack(path: Path, outcomes: list[Outcome]) -> None:
-    """Write it: complete under its name, or not at all.
-
-    Members that lie alike share a group: as a rule there is one.
-
-    Raises OSError if it cannot be written; it names the file, the cause and the space left.
-    """
-    import netCDF4
-
-    with atomic_write(path, tidy=False) as draft:
-        try:
-            with netCDF4.Dataset(draft, "w") as file:
-                file.createDimension("member", len(outcomes))
-                file.createVariable("member", "i8", ("member",))[:] = [one.index for one in outcomes]
-                for name in TEXTS:
-                    texts = np.array([getattr(one, name) for one in outcomes], dtype=object)
-                    file.createVariable(name, str, ("member",))[:] = texts
-                for number, alike in enumerate(_alike(outcomes)):
-                    _write_group(file.createGroup(f"kept_{number}"), alike)
-        except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
-            raise OSError(f"the NetCDF library reports: {error}") from error
-
-
-def read_pack(path: Path) -> list[Outcome]:
-    """The outcomes of a pack. Raises FileFormatError where the file is damaged."""
-    try:
-        with open_netcdf(path, LARGEST_FILE, "give a smaller pack") as file:
-            kept: dict[int, dict[str, Labelled]] = {}
-            for group in file.groups.values():
-                kept.update(_read_group(group))
-            rows = zip(*(file[name][:].tolist() for name in ("member", *TEXTS)), strict=True)
-            outcomes = [
-                Outcome(index=index, kept=kept.get(index, {}), **dict(zip(TEXTS, texts, strict=True)))
-                for index, *texts in rows
-            ]
-            if any(not one.kept and not one.failure for one in outcomes):
-                raise ValueError("it lacks what a member kept")
-            return outcomes
-    except NETCDF_ERRORS as error:
-        raise FileFormatError(
-            f"{path}: is no pack of an ensemble, or damaged: {str(error)[:200]}; run the ensemble again, "
-            "which makes it anew"
-        ) from error
 
 
 def _alike(outcomes: Iterable[Outcome]) -> list[list[Outcome]]:
@@ -233,3 +194,83 @@ def _read_group(group: Any) -> dict[int, dict[str, Labelled]]:
 
 def _texts_or_numbers(values: Any) -> Any:
     return values.astype(str) if values.dtype == object else np.asarray(values)
+
+
+def packs_of(order: Sequence[int], size: int) -> dict[int, Sequence[int]]:
+    """Members in packs of a size, by the number of the pack."""
+    starts = range(0, len(order), size)
+    return {number: order[start : start + size] for number, start in enumerate(starts)}
+
+
+def pack_size(pack: int | None, count: int, lanes: int, together: int) -> int:
+    """Members in a pack. `together` is how many members share what is done before the first of them.
+
+    Raises SceneError for a pack that is no number, or no multiple of the lanes.
+    """
+    if pack is None and together:
+        return min(LARGEST_PACK, together)
+    if pack is None:
+        return lanes * ceil(min(LARGEST_PACK, ceil(count / MOST_PACKS)) / lanes)
+    if not isinstance(pack, int) or isinstance(pack, bool) or pack < 1:
+        raise SceneError(f"pack is {shown(pack)}; give a whole number from 1 on")
+    if pack % lanes:
+        raise SceneError(f"pack is {pack} and lanes is {lanes}; give a pack that is a multiple of lanes")
+    return pack
+
+
+def order_of(study: Study, members: Members) -> Sequence[int]:
+    """Numbers of all members, those of one lift next to each other, with seeds fastest.
+
+    Parameters that part lifts, as kinds of crane do, come first. Other numbers, such as masses, lie by size,
+    and the words of the sea behind them: neighbours cost about the same.
+    """
+    if study.lanes == 1:
+        return range(len(members))
+    others = sorted(name for name in members.axes if name not in WORDS)
+    sea = sorted(name for name in members.axes if name in WORDS and name != "seed")
+    parting = _parting(study, members, others) if len(others) > 1 else []
+    slowest_first = [*parting, *(name for name in others if name not in parting), *sea]
+    slowest_first += ["seed"] if "seed" in members.axes else []
+    ranks = [_ranks(members, name) for name in slowest_first]
+    return np.lexsort(ranks[::-1]).tolist()  # type: ignore[no-any-return]
+
+
+def _ranks(members: Members, name: str) -> NDArray[np.int64]:
+    """The place of every member's value among those of a parameter, by size."""
+    values = members.axes[name]
+    sizes = {value: rank for rank, value in enumerate(sorted(set(values), key=_size))}
+    ranks = np.array([sizes[value] for value in values])
+    if not members.grid:
+        return ranks
+    axis, shape = list(members.axes).index(name), tuple(members.shape.values())
+    return np.broadcast_to(ranks.reshape([-1 if i == axis else 1 for i in range(len(shape))]), shape).ravel()
+
+
+def _size(value: Value) -> tuple[bool, Any]:
+    return isinstance(value, str), value
+
+
+def _parting(study: Study, members: Members, names: Sequence[str]) -> list[str]:
+    """Parameters whose values keep lifts apart, as two lifts that differ in nothing else tell."""
+    base = {name: min(values, key=_size) for name, values in sorted(members.axes.items())}
+    usual = _model(study, base)
+    found = []
+    for name in names:
+        if name == START_TIME:
+            continue
+        several = sorted(set(members.axes[name]), key=_size)
+        for value in {several[len(several) // 2], several[-1]} - {base[name]}:
+            other = _model(study, {**base, name: value})
+            if usual is None or other is None or _core.lanes_differ(usual, other):
+                found.append(name)
+                break
+    return found
+
+
+def _model(study: Study, values: dict[str, Value]) -> _core.Model | None:
+    """The compiled lift of these values; None where there is none, which its member will say."""
+    with silently():
+        try:
+            return study.scene(values).compile()
+        except Exception:
+            return None

@@ -19,8 +19,7 @@ from seacrane import _core
 from seacrane.description.file import scene_digest
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members
-from seacrane.ensembles.stage_values import Stages
-from seacrane.ensembles.study import Study
+from seacrane.ensembles.study import Stages, Study
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.drafts import is_draft, remove_all
@@ -110,12 +109,9 @@ def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
     if other:
         raise SceneError(
             f"store {str(folder)!r} is of another study: {', '.join(other)} differ; give another folder, or "
-            f"remove this one ({_told(there, here, other[0])})"
+            f"remove this one ({other[0]}: {str(there.get(other[0]))[:80]} there, "
+            f"{str(here.get(other[0]))[:80]} here)"
         )
-
-
-def _told(there: Mapping[str, Any], here: Mapping[str, Any], key: str) -> str:
-    return f"{key}: {str(there.get(key))[:80]} there, {str(here.get(key))[:80]} here"
 
 
 def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
@@ -124,11 +120,11 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
     The scenes of the first and the last member stand for what a function uses beyond its own text.
     """
     source = study.source
-    begun = {} if study.start is None else {"start": _start(study, members)}
+    begun = {} if study.start is None else {"start": _told(_start, study, members)}
     return begun | {
         "version": __version__,
         "scene": scene_digest(source) if isinstance(source, Scene) else _function(source),
-        "first and last member": [_scene(study, members, place) for place in (0, len(members) - 1)],
+        "first and last member": [_told(_scene, study, members, place) for place in (0, len(members) - 1)],
         "over": _digest([members.grid, *members.axes.items()]),
         "members": len(members),
         "members in a pack": pack,
@@ -156,31 +152,26 @@ def _stage(stage: Stage) -> list[Any]:
     }
     commands = json.dumps(plain, sort_keys=True, default=lambda array: np.asarray(array).tolist())
     ends = [condition.text for condition in stage.conditions]
-    return [
-        stage.name,
-        stage.duration,
-        stage.maximum_duration,
-        ends,
-        commands,
-        [*stage.connect],
-        [*stage.release],
-    ]
+    spans = [stage.name, stage.duration, stage.maximum_duration]
+    return [*spans, ends, commands, [*stage.connect], [*stage.release]]
 
 
 def _start(study: Study, members: Members) -> str:
     """The start of the first member, which stands for what a function makes of the others."""
-    try:
-        state = study.start_of(study.scene(members.values(0)))
-    except Exception as error:  # its failure is recorded when it is run
-        return f"{type(error).__name__}: {error}"
+    state = study.start_of(study.scene(members.values(0)))
     assert state is not None
     return _digest([state.time, *np.asarray(state.values).tolist()])
 
 
 def _scene(study: Study, members: Members, place: int) -> str:
+    return scene_digest(study.scene(members.values(place)))
+
+
+def _told(made: Callable[..., str], *of: Any) -> str:
+    """What is made, or how that fails, which is recorded when it is run."""
     try:
-        return scene_digest(study.scene(members.values(place)))
-    except Exception as error:  # its failure is recorded when it is run
+        return made(*of)
+    except Exception as error:
         return f"{type(error).__name__}: {error}"
 
 

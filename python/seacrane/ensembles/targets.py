@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.study import Keep
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
@@ -61,11 +61,7 @@ class Target:
         if values.size < FEWEST:
             middle = float(values.mean()) if values.size else float("nan")
             return Estimate(value=middle, low=-np.inf, high=np.inf)
-        if np.ptp(values) <= 1e-12 * np.abs(values).max():
-            same = float(values[0])
-            found = Estimate(value=same, low=same, high=same)
-        else:
-            found = _widened(self._extreme(values) if self.gumbel else mean_of(values))
+        found = _widened(self._extreme(values) if self.gumbel else mean_of(values))
         if not failed:
             return found
         low, high = self._ranked(values, failed)

@@ -11,7 +11,6 @@ import numpy as np
 from seacrane.ensembles.members import Value
 from seacrane.lift.shown_study import Cell, ShownStudy, Told
 from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet
-from seacrane.statistics.extremes_figure import extremes_sheet
 
 MOST_CURVES = len(COLOURS)
 UNITS = {"hs": "m", "tp": "s", "direction_deg": "deg", "gamma": "-", "seed": "-"}
@@ -25,7 +24,7 @@ def study_sheets(shown: ShownStudy) -> Iterator[tuple[str, Sheet]]:
             yield f"{told.name}-over-{_file_name(name)}", _over(told, name, varied)
         (only, *others) = told.cells
         if not others and only.extremes is not None:
-            yield f"{told.name}-gumbel", extremes_sheet(only.extremes)
+            yield f"{told.name}-gumbel", only.extremes.sheet()
 
 
 def _file_name(name: str) -> str:

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.other_sea import WORDS, require_same_sea
-from seacrane.ensembles.stage_values import stage_paths
-from seacrane.ensembles.study import Source, require_paths
+from seacrane.ensembles.study import Source, require_paths, stage_paths
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.drafts import is_draft

@@ -6,7 +6,7 @@ from seacrane.operability.criterion import Criterion as Criterion
 from seacrane.operability.alpha import AlphaFactor as AlphaFactor
 from seacrane.operability.availability import availability as availability
 from seacrane.operability.availability import Availability as Availability
-from seacrane.operability.scatter import ScatterDiagram as ScatterDiagram
+from seacrane.operability.availability import ScatterDiagram as ScatterDiagram
 from seacrane.operability.windows import weather_windows as weather_windows
 from seacrane.operability.windows import WeatherWindows as WeatherWindows
 from seacrane.operability.hindcast import WaveHindcast as WaveHindcast

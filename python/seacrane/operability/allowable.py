@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,40 +17,32 @@ from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
-from seacrane.analysis.rest_state import equilibrium, held
-from seacrane.description.given import given_drivers, in_calm_water, led_by
-from seacrane.ensembles.other_sea import require_same_sea
-from seacrane.ensembles.stage_values import Stages, checked_stages_of
-from seacrane.ensembles.study import Start
+from seacrane.analysis.rest_state import equilibrium
+from seacrane.description.given import given_drivers
+from seacrane.ensembles.study import Stages, Start
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import not_negative_of, number_of, numbers_of, positive_of
+from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.keywords import named
-from seacrane.inputs.shown import shown
-from seacrane.operability.allowable_table import AllowableHs
+from seacrane.operability.allowable_table import AllowableHs, breaking_height
 from seacrane.operability.alpha import AlphaFactor, alpha_of
-from seacrane.operability.cells import Cells
-from seacrane.operability.criterion import FEWEST_SEEDS, Criterion
+from seacrane.operability.asked import Asked, Still, asked_of, still_of
+from seacrane.operability.criterion import Criterion
 from seacrane.operability.linear_channels import LinearSeas
-from seacrane.operability.time_domain import Cell, Storms, differences
-from seacrane.result import Result
-from seacrane.run.advance import finished
+from seacrane.operability.time_domain import ByTime, allowable_in, differences, storms_in
+from seacrane.plotting.table import Column, Table
 from seacrane.run.method import Method
-from seacrane.run.outputs import Outputs
-from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
-from seacrane.simulation import simulate
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 Array = NDArray[np.float64]
+Place = tuple[int, int]  # number of the peak period, and of the direction
 LINEAR_WITHIN = 0.1  # of the allowance
 PROBES = 2  # seeds of each cell that are compared with the linear model
 DT = 0.5  # s between outputs
 HEIGHTS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0)  # m
-FEWEST_PERIODS = 10.0  # that a record holds
-DURATION, START_UP = 1800.0, 300.0  # s
 DELAY = 2.0  # s before a progress bar shows
 LARGEST_TURN = 0.2  # rad, of a body: what the linear model says of more is no state to start from
 
@@ -140,9 +132,6 @@ def allowable_hs(
     KeyboardInterrupt
         On Ctrl-C; runs that came back before are in the store.
     """
-    asked = _Asked.of(
-        criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain, stages, accuracy
-    )
     factor = alpha_of(alpha)
     period = positive_of("hours", hours)
     factor.at(1.0, hours=period)
@@ -151,270 +140,76 @@ def allowable_hs(
     if accuracy is not None:
         refuse_what_is_chosen(method, shorthand, ())
     how, recorded = settled(method, None, {"dt_out": DT, **shorthand})
-    outputs = Outputs(
-        dt_out=recorded.dt_out, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria))
-    )
-    still = _Still.of(scene, asked, number_of("time", time), how, outputs)
-    study = _Study(asked=asked, still=still, method=how, outputs=outputs)
-    cells = Cells.of(asked.criteria, asked.tp, asked.directions, largest=asked.hs[-1])
-    failures: dict[int, str] = {}
+    asked = asked_of(
+        criteria, tp, direction_deg, hs, domain=domain, stages=stages, duration=duration, start_up=start_up,
+        seeds=seeds, linear_within=linear_within, method=how, dt_out=recorded.dt_out, accuracy=accuracy,
+    )  # fmt: skip
+    still = still_of(scene, asked, number_of("time", time))
+    cells, failures = Cells(asked), dict[int, str]()
     if asked.stages:
         cells.refuse("a lift in stages")
     elif domain != "time":
-        study.by_frequency(cells, strict=domain == "frequency", progress=progress)
+        _by_frequency(cells, still, strict=domain == "frequency", progress=progress)
     if domain == "auto" and not asked.stages and cells.linear is not None:
-        study.test(cells, executor, progress)
+        _test(cells, cells.linear, still, executor, progress)
     if cells.wanted:
-        failures = study.by_time(cells, executor, store, progress)
-    return AllowableHs.of(
-        scene.name, cells, factor, period, hs=asked.hs, seeds=asked.seeds, duration=asked.duration,
-        linear_within=asked.linear_within, failures=failures,
-    )  # fmt: skip
+        failures = _by_time(cells, still, executor, store, progress)
+    return cells.table(scene.name, factor, period, failures)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Asked:
-    """What was asked, checked."""
+def _by_frequency(cells: Cells, still: Still, *, strict: bool, progress: bool) -> None:
+    """Fill cells by the linear model; where there is none, note why."""
+    from tqdm import tqdm
 
-    criteria: tuple[Criterion, ...]
-    tp: tuple[float, ...]
-    directions: tuple[float, ...]
-    hs: tuple[float, ...]
-    seeds: tuple[int, ...]
-    duration: float | None
-    start_up: float
-    linear_within: float
-    stages: Stages
-    accuracy: Mapping[str, float] | None
-
-    @classmethod
-    def of(
-        cls, criteria: Any, tp: Any, directions: Any, hs: Any, seeds: Any, duration: Any, start_up: Any,
-        linear_within: Any, domain: Any, stages: Any, accuracy: Any,
-    ) -> _Asked:  # fmt: skip
-        if domain not in ("auto", "frequency", "time"):
-            raise SceneError(f"domain is {shown(domain)}; choose 'auto', 'frequency' or 'time'")
-        in_stages, listed = checked_stages_of("allowable_hs", stages), _criteria(criteria)
-        _require_fit(listed, in_stages, {"duration": duration, "start_up": start_up}, domain)
-        usual = 0.0 if in_stages else START_UP
-        begin = not_negative_of("start_up", usual if start_up is None else start_up, "s")
-        within = _ascending("direction_deg", directions)
-        if within[-1] - within[0] >= 360.0:
-            raise SceneError(
-                f"direction_deg goes from {within[0]:g} to {within[-1]:g}; name each direction of the circle "
-                "once"
-            )
-        periods = _ascending("tp", tp, above_zero=True)
-        span = None if in_stages else positive_of("duration", DURATION if duration is None else duration)
-        if span is not None and span < FEWEST_PERIODS * periods[-1]:
-            raise SceneError(
-                f"duration is {span:g} s; give at least {FEWEST_PERIODS:g} of the longest peak period, "
-                f"{FEWEST_PERIODS * periods[-1]:g} s"
-            )
-        return cls(
-            criteria=listed,
-            tp=periods,
-            directions=within,
-            hs=_ascending("hs", hs, above_zero=True),
-            seeds=_seeds(seeds),
-            duration=span,
-            start_up=begin,
-            linear_within=positive_of("linear_within", linear_within),
-            stages=in_stages,
-            accuracy=accuracy,
-        )
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class _Still:
-    """The scene with its references held, its sea, its state at rest and the criteria's values there."""
-
-    scene: Scene
-    state: Any
-    rest: Array
-
-    @classmethod
-    def of(cls, scene: Any, asked: _Asked, time: float, method: Method, outputs: Outputs) -> _Still:
-        if not isinstance(scene, Scene):
-            raise SceneError(f"scene is {shown(scene)}; give a Scene")
-        if scene.waves is None:
-            raise SceneError(
-                f"scene {scene.name!r} has no sea; add one of any height, whose height, period and direction "
-                "are then replaced"
-            )
-        require_same_sea(scene, ("hs", "tp", "direction_deg"))
-        scene = _lasting(scene, asked, time)
-        calm = in_calm_water(scene)
-        state = equilibrium(calm, time=time)
-        if asked.stages:
-            stages = asked.stages(calm) if callable(asked.stages) else asked.stages
-            result = simulate(
-                calm, stages, start=state, method=method, outputs=outputs, accuracy=asked.accuracy
-            )
-            return cls(scene=scene, state=state, rest=_extremes(result, asked.criteria))
-        calm = held(calm, time=time)
-        result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
-        rest = np.array([result.curve(one.channel, **one.names)[0] for one in asked.criteria])
-        moving = {name: scene.drivers[name].curve for name in given_drivers(scene)}
-        moved = led_by(calm, moving).copy(waves=scene.waves)
-        return cls(scene=moved, state=state, rest=rest)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class _Study:
-    """The three steps: linear model, its test, runs."""
-
-    asked: _Asked
-    still: _Still
-    method: Method
-    outputs: Outputs
-
-    def by_frequency(self, cells: Cells, *, strict: bool, progress: bool) -> None:
-        """Fill cells by the linear model; where there is none, note why."""
-        from tqdm import tqdm
-
-        try:
-            linear = LinearSeas(self.still.scene, self.still.state, self.asked.criteria)
-        except SceneError as error:
-            if strict:
-                raise
-            cells.refuse(f"no linear model: {error}")
-            return
-        cells.linear = linear
-        cells.energy_share = np.array([linear.energy_share(tp) for tp in self.asked.tp])
-        directions = tqdm(self.asked.directions, desc="linear model", delay=DELAY, disable=not progress)
-        for j, direction in enumerate(directions):
-            gains = linear.gains(direction)
-            for i, tp in enumerate(self.asked.tp):
-                cells.take_linear(i, j, linear.allowable(gains, tp))
-
-    def test(self, cells: Cells, executor: Executor | None, progress: bool) -> None:
-        """Compare the linear model with runs, and leave what it does not hold for to the time domain."""
-        from tqdm import tqdm
-
-        assert cells.linear is not None and self.asked.duration is not None
-        places = [place for place in cells.places if cells.allowable[place] > 0.0]
-        seas = [
-            {"hs": float(cells.allowable[i, j]), "tp": tp, "direction_deg": direction, "seed": seed}
-            for i, j in places
-            for tp, direction in [(self.asked.tp[i], self.asked.directions[j])]
-            for seed in self.asked.seeds[:PROBES]
-        ]
-        of_places = [place for place in places for _ in self.asked.seeds[:PROBES]]
-        found = differences(
-            self.still.scene, cells.linear, self.asked.criteria, seas, start=self.still.state.time,
-            duration=self.asked.duration, method=self.method, outputs=self.outputs, executor=executor,
-        )  # fmt: skip
-        tested = tqdm(found, "test of the linear model", len(seas), delay=DELAY, disable=not progress)
-        for place, apart in zip(of_places, tested, strict=True):
-            cells.take_difference(place, apart, self.asked.linear_within)
-
-    def by_time(self, cells: Cells, executor: Executor | None, store: Any, progress: bool) -> dict[int, str]:
-        """Fill the cells that are wanted by runs; why members failed, by number."""
-        storms = Storms(
-            scene=self.still.scene, begin=self.still.state.time,
-            start=self._start(),
-            start_up=self.asked.start_up, duration=self.asked.duration, hs=self.asked.hs,
-            seeds=self.asked.seeds, criteria=self.asked.criteria, rest=self.still.rest, method=self.method,
-            outputs=self.outputs, stages=self.asked.stages, accuracy=self.asked.accuracy,
-        )  # fmt: skip
-        places = cells.wanted
-        of_cells: list[Cell] = [(self.asked.tp[i], self.asked.directions[j]) for i, j in places]
-        found = storms.run(of_cells, executor=executor, store=store, progress=progress)
-        for place, by_time in zip(places, storms.allowable(found, of_cells), strict=True):
-            cells.take_time(place, by_time)
-        return dict(found.failures)
-
-    def _start(self) -> Start:
-        """Where runs begin: in the linear steady state; on given ships and in stages at rest."""
-        still = self.still
-        if given_drivers(still.scene):
-            return partial(equilibrium, time=still.state.time)
-        return still.state if self.asked.stages else steady_start(still.scene, still.state)
-
-
-def _lasting(scene: Scene, asked: _Asked, begin: float) -> Scene:
-    """The scene with the motion of ships by RAOs described to the end of the runs, each in its own sea."""
-    end = begin + asked.start_up + (asked.duration or 0.0)
-    stages = asked.stages(scene) if callable(asked.stages) else asked.stages
-    end += sum(one.duration or one.maximum_duration or 0.0 for one in stages)
-    out = scene.copy()
-    for name, known in scene.provenance.items():
-        if known.motion == "raos" and known.duration is not None and known.duration < end:
-            out.provenance[name] = replace(known, duration=end)
-    return out
-
-
-def _extremes(calm: Result, criteria: Sequence[Criterion]) -> Array:
-    """What each criterion reaches in a lift in calm water, given ships at rest."""
-    found = []
-    for one in criteria:
-        least, largest = calm.reached(one.channel, part=calm.part(stage=one.stage or None), **one.names)
-        found.append(largest.max() if one.minimum is None else least.min())
-    return np.array(found)
-
-
-def _require_fit(criteria: Sequence[Criterion], stages: Stages, spans: dict[str, Any], domain: Any) -> None:
-    """Raise SceneError for what a lift with or without stages does not take."""
-    of_stages = {one.stage for one in criteria if one.stage}
-    if not stages:
-        if of_stages:
-            raise SceneError(
-                f"criteria: stage {min(of_stages)!r} is asked for, and the lift has none; give stages"
-            )
+    asked = cells.asked
+    try:
+        linear = LinearSeas(still.scene, still.state, asked.criteria)
+    except SceneError as error:
+        if strict:
+            raise
+        cells.refuse(f"no linear model: {error}")
         return
-    if not callable(stages):
-        missing = sorted(of_stages - {one.name for one in stages})
-        if missing:
-            known = ", ".join(one.name for one in stages)
-            raise SceneError(f"criteria: there is no stage {missing[0]!r}; the lift has {known}")
-    given = [name for name, value in spans.items() if value is not None]
-    if given:
-        raise SceneError(f"{given[0]}: stages tell how long a lift takes; leave {given[0]} out")
-    if domain == "frequency":
-        raise SceneError("domain is 'frequency': a lift in stages has no linear model; leave domain out")
-    for one in criteria:
-        if one.exposure is not None:
-            raise SceneError(
-                f"criterion {one.name!r}: a lift in stages is its own exposure time; leave it out"
-            )
-        if one.statistic == "significant" or one.motion:
-            what = (
-                "motion=True is a distance from rest" if one.motion else "'significant' is of a long record"
-            )
-            raise SceneError(f"criterion {one.name!r}: {what}, which a lift in stages does not have")
+    cells.linear = linear
+    cells.energy_share = np.array([linear.energy_share(tp) for tp in asked.tp])
+    directions = tqdm(asked.direction_deg, desc="linear model", delay=DELAY, disable=not progress)
+    for j, direction in enumerate(directions):
+        gains = linear.gains(direction)
+        for i, tp in enumerate(asked.tp):
+            cells.take_linear(i, j, linear.allowable(gains, tp))
 
 
-def _criteria(given: Any) -> tuple[Criterion, ...]:
-    listed = [given] if isinstance(given, Criterion) else list(given) if isinstance(given, Sequence) else []
-    if not listed or not all(isinstance(one, Criterion) for one in listed):
-        raise SceneError(f"criteria is {shown(given)}; give a list of Criterion")
-    names = [one.name for one in listed]
-    for name in names:
-        if names.count(name) > 1:
-            raise SceneError(f"criteria: {name!r} is there twice; give each a name of its own")
-    return tuple(listed)
+def _test(cells: Cells, linear: LinearSeas, still: Still, executor: Executor | None, progress: bool) -> None:
+    """Compare the linear model with runs, and leave what it does not hold for to the time domain."""
+    from tqdm import tqdm
+
+    seeds = cells.asked.seeds[:PROBES]
+    probes = [
+        (place, cells.words(place) | {"hs": float(cells.allowable[place]), "seed": seed})
+        for place in cells.places if cells.allowable[place] > 0.0 for seed in seeds
+    ]  # fmt: skip
+    found = differences(cells.asked, still, linear, [sea for _, sea in probes], executor)
+    tested = tqdm(found, "test of the linear model", len(probes), delay=DELAY, disable=not progress)
+    for (place, _), apart in zip(probes, tested, strict=True):
+        cells.take_difference(place, apart)
 
 
-def _seeds(given: Any) -> tuple[int, ...]:
-    listed = list(given) if isinstance(given, Sequence) and not isinstance(given, (str, bytes)) else []
-    whole = all(
-        isinstance(one, int | np.integer) and not isinstance(one, bool) and one >= 0 for one in listed
-    )
-    if len(listed) < FEWEST_SEEDS or not whole or len(set(listed)) < len(listed):
-        raise SceneError(
-            f"seeds is {shown(given)}; give at least {FEWEST_SEEDS} different whole numbers from 0 on"
-        )
-    return tuple(int(one) for one in listed)
+def _by_time(
+    cells: Cells, still: Still, executor: Executor | None, store: Any, progress: bool
+) -> dict[int, str]:
+    """Fill the cells that are wanted by runs; why members failed, by number."""
+    places = cells.wanted
+    seas, start = [cells.words(place) for place in places], _start(cells.asked, still)
+    storms = storms_in(cells.asked, still, seas, start, executor=executor, store=store, progress=progress)
+    for place, by_time in zip(places, allowable_in(cells.asked, still, storms, len(places)), strict=True):
+        cells.take_time(place, by_time)
+    return dict(storms.failures)
 
 
-def _ascending(name: str, given: Any, *, above_zero: bool = False) -> tuple[float, ...]:
-    values = np.atleast_1d(numbers_of(name, given))
-    if values.ndim != 1 or not values.size or not np.all(np.isfinite(values)) or np.any(np.diff(values) <= 0):
-        raise SceneError(f"{name} is {shown(given)}; give ascending finite numbers")
-    if above_zero and values[0] <= 0.0:
-        raise SceneError(f"{name} begins with {values[0]:g}; give numbers above zero")
-    return tuple(values.tolist())
+def _start(asked: Asked, still: Still) -> Start:
+    """Where runs begin: in the linear steady state; on given ships and in stages at rest."""
+    if given_drivers(still.scene):
+        return partial(equilibrium, time=still.state.time)
+    return still.state if asked.stages else steady_start(still.scene, still.state)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -441,3 +236,137 @@ def steady_start(scene: Scene, rest: _core.State) -> Start:
     except SceneError:
         return rest
     return rest if model.memories else SteadyStart(model=model)
+
+
+class Cells:
+    """Cells by peak period and direction, filled step by step; runs are wanted where nothing is known.
+
+    Attributes
+    ----------
+    by_criterion, low, high : ndarray, shape (criteria, periods, directions)
+        Allowable Hs, m, and its 95 % interval; NaN where a cell needed no runs.
+    difference : ndarray, shape (criteria, periods, directions)
+        Between run and linear model, over the allowance; NaN where it was not tested.
+    domain, reason : (periods, directions)
+    energy_share : (periods,) Of the waves, within the database.
+    """
+
+    def __init__(self, asked: Asked) -> None:
+        shape = (len(asked.tp), len(asked.direction_deg))
+        all_of = (len(asked.criteria), *shape)
+        self.asked = asked
+        self.linear: LinearSeas | None = None
+        self.by_criterion: Array = np.full(all_of, np.inf)
+        self.low, self.high, self.difference = (np.full(all_of, np.nan) for _ in range(3))
+        self.domain = np.full(shape, "time", dtype="U9")
+        self.reason = np.full(shape, "asked for", dtype=object)
+        self.energy_share: Array = np.full(shape[0], np.nan)
+
+    @property
+    def places(self) -> list[Place]:
+        """All cells, directions fastest."""
+        return [(i, j) for i in range(len(self.asked.tp)) for j in range(len(self.asked.direction_deg))]
+
+    @property
+    def wanted(self) -> list[Place]:
+        """Cells of the time domain."""
+        return [place for place in self.places if self.domain[place] == "time"]
+
+    def words(self, place: Place) -> dict[str, Any]:
+        """The words of the sea of a cell, without its height and seed."""
+        return {"tp": self.asked.tp[place[0]], "direction_deg": self.asked.direction_deg[place[1]]}
+
+    @property
+    def allowable(self) -> Array:
+        """Over all criteria, up to the largest Hs that was examined."""
+        return np.asarray(np.minimum(self.by_criterion.min(axis=0), self.asked.hs[-1]))
+
+    def refuse(self, reason: str) -> None:
+        """Leave all cells to the time domain."""
+        self.reason[:] = reason
+
+    def take_linear(self, period: int, direction: int, allowable: Array) -> None:
+        """Fill a cell by its linear model."""
+        self.by_criterion[:, period, direction] = allowable
+        self.domain[period, direction] = "frequency"
+        at_rest = allowable.min() <= 0.0
+        self.reason[period, direction] = "a bound is exceeded at rest" if at_rest else "not tested"
+
+    def take_difference(self, place: Place, found: Array | str) -> None:
+        """What a probe of a cell brought: the largest of several counts."""
+        if isinstance(found, str):
+            self.domain[place], self.reason[place] = "time", f"a run failed: {found}"
+            return
+        here = self.difference[(slice(None), *place)]
+        self.difference[(slice(None), *place)] = np.fmax(here, found)
+        if self.reason[place].startswith("a run failed"):
+            return
+        worst = int(np.argmax(self.difference[(slice(None), *place)]))
+        share = 100.0 * self.difference[worst, place[0], place[1]]
+        name = self.asked.criteria[worst].name
+        if share > 100.0 * self.asked.linear_within:
+            self.domain[place] = "time"
+            self.reason[place] = f"{name}: run and linear model differ by {share:.0f} % of the allowance"
+        else:
+            self.reason[place] = f"within {share:.1f} % of the allowance ({name})"
+
+    def take_time(self, place: Place, found: Sequence[ByTime]) -> None:
+        """Fill a cell by its runs."""
+        for i, one in enumerate(found):
+            at = (i, *place)
+            self.by_criterion[at], self.low[at], self.high[at] = one.allowable, one.low, one.high
+        failed = max((one.failed for one in found), default=0)
+        unknown = [one.unknown for one in found if not np.isnan(one.unknown)]
+        if unknown and (np.isnan(self.allowable[place]) or self.allowable[place] <= min(unknown)):
+            self.reason[place] = f"{failed} runs failed: not known from Hs {min(unknown):g} m on"
+        elif failed:
+            self.reason[place] = f"{failed} runs failed, and the others count"
+
+    def table(self, scene: str, alpha: AlphaFactor, hours: float, failures: Mapping[int, str]) -> AllowableHs:
+        """The table of these cells, filled; without a duration it is of lifts in stages."""
+        asked = self.asked
+        names = [one.name for one in asked.criteria]
+        found, capped = self.allowable, self.by_criterion.min(axis=0) > asked.hs[-1]
+        governing = np.where(capped, "", np.array(names)[self.by_criterion.argmin(axis=0)])
+        low, high = (np.minimum(values.min(axis=0), asked.hs[-1]) for values in (self.low, self.high))
+        forecast = alpha.at(found, hours=hours) * found
+        cell, period, told = ("tp", "direction_deg"), ("tp",), alpha.told(hours=hours)
+
+        def column(name: str, values: Any, unit: str = "", long_name: str = "", over: Any = cell) -> Column:
+            return Column(name=name, values=values, unit=unit, long_name=long_name, over=over)
+
+        axes = [
+            Column(name="criterion", values=names),
+            Column(name="tp", values=asked.tp, unit="s", long_name="peak period"),
+            Column(name="direction_deg", values=asked.direction_deg, unit="degrees",
+                   long_name="direction of travel of the waves"),
+        ]  # fmt: skip
+        columns = [
+            column("allowable_hs", found, "m", "allowable significant wave height"),
+            column("low", low, "m", "lower end of its 95 % interval"),
+            column("high", high, "m", "upper end of its 95 % interval"),
+            column("forecast_hs", forecast, "m", f"allowable in a forecast: {told}"),
+            column("capped", capped, "", "no criterion is reached at the largest Hs examined"),
+            column("governing", governing.astype(str)),
+            column("domain", self.domain),
+            column("reason", self.reason.astype(str)),
+            column("by_criterion", self.by_criterion, "m", over=None),
+            column("difference", self.difference, "1", "run against linear model, over the allowance", None),
+            column("breaking_hs", [breaking_height(tp) for tp in asked.tp], "m",
+                   "Hs above which waves of that period break (DNV-RP-C205)", period),
+            column("wave_energy_share", self.energy_share, "1", over=period),
+        ]  # fmt: skip
+        attributes = {
+            "scene": scene,
+            "criteria": "; ".join(one.told(one_lift=asked.duration is None) for one in asked.criteria),
+            "alpha_factor": told,
+            "operation_hours": hours,
+            "hs_of_runs": list(asked.hs),
+            "seeds": list(asked.seeds),
+            **({} if asked.duration is None else {"duration": asked.duration}),
+            "linear_within": asked.linear_within,
+        }
+        return AllowableHs(
+            scene=scene, criteria=asked.criteria, alpha=alpha, hours=hours, failures=dict(failures),
+            dataset=Table(axes=axes, columns=columns, attributes=attributes).to_xarray(),
+        )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -10,19 +10,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.description import STANDARD_GRAVITY
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import flag_of
+from seacrane.inputs.described import described
+from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import AlphaFactor
-from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
+from seacrane.plotting.figure import new_figure
+from seacrane.plotting.panel import COLOURS
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.sea.spectra import steepness_limit
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 MARK = {"frequency": "f", "time": "t"}
 LARGEST_GAP = 90.0  # degrees between two directions that are taken as neighbours
 ROUNDING = 1e-9  # degrees
+DARK = 0.6  # of the colour scale, above which figures on it are black
+STYLES = ("-", "--", ":", "-.")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -54,67 +63,6 @@ class AllowableHs(Answer):
     hours: float
     dataset: xarray.Dataset
     failures: Mapping[int, str] = field(default_factory=dict)
-
-    @classmethod
-    def of(
-        cls,
-        scene: str,
-        cells: Cells,
-        alpha: AlphaFactor,
-        hours: float,
-        *,
-        hs: Sequence[float],
-        seeds: Sequence[int],
-        duration: float | None,
-        linear_within: float,
-        failures: Mapping[int, str],
-    ) -> AllowableHs:
-        """The table of filled cells; without a duration it is of lifts in stages."""
-        names = [one.name for one in cells.criteria]
-        found, capped = cells.allowable, cells.by_criterion.min(axis=0) > cells.largest
-        governing = np.where(capped, "", np.array(names)[cells.by_criterion.argmin(axis=0)])
-        low, high = (np.minimum(values.min(axis=0), cells.largest) for values in (cells.low, cells.high))
-        forecast = alpha.at(found, hours=hours) * found
-        cell, period, told = ("tp", "direction_deg"), ("tp",), alpha.told(hours=hours)
-
-        def column(name: str, values: Any, unit: str = "", long_name: str = "", over: Any = cell) -> Column:
-            return Column(name=name, values=values, unit=unit, long_name=long_name, over=over)
-
-        axes = [
-            Column(name="criterion", values=names),
-            Column(name="tp", values=cells.tp, unit="s", long_name="peak period"),
-            Column(name="direction_deg", values=cells.directions, unit="degrees",
-                   long_name="direction of travel of the waves"),
-        ]  # fmt: skip
-        columns = [
-            column("allowable_hs", found, "m", "allowable significant wave height"),
-            column("low", low, "m", "lower end of its 95 % interval"),
-            column("high", high, "m", "upper end of its 95 % interval"),
-            column("forecast_hs", forecast, "m", f"allowable in a forecast: {told}"),
-            column("capped", capped, "", "no criterion is reached at the largest Hs examined"),
-            column("governing", governing.astype(str)),
-            column("domain", cells.domain),
-            column("reason", cells.reason.astype(str)),
-            column("by_criterion", cells.by_criterion, "m", over=None),
-            column("difference", cells.difference, "1", "run against linear model, over the allowance", None),
-            column("breaking_hs", [breaking_height(tp) for tp in cells.tp], "m",
-                   "Hs above which waves of that period break (DNV-RP-C205)", period),
-            column("wave_energy_share", cells.energy_share, "1", over=period),
-        ]  # fmt: skip
-        attributes = {
-            "scene": scene,
-            "criteria": "; ".join(one.told(one_lift=duration is None) for one in cells.criteria),
-            "alpha_factor": told,
-            "operation_hours": hours,
-            "hs_of_runs": list(hs),
-            "seeds": list(seeds),
-            **({} if duration is None else {"duration": duration}),
-            "linear_within": linear_within,
-        }
-        return cls(
-            scene=scene, criteria=cells.criteria, alpha=alpha, hours=hours, failures=dict(failures),
-            dataset=Table(axes=axes, columns=columns, attributes=attributes).to_xarray(),
-        )  # fmt: skip
 
     def at(self, tp: Any, direction_deg: Any = None, *, forecast: bool = False) -> Array:
         """Allowable Hs (m) at peak periods (s) and directions of travel (degrees), linear in between.
@@ -148,12 +96,12 @@ class AllowableHs(Answer):
 
     def _shown(self) -> Table:
         tp, directions = (self.dataset[name].to_numpy() for name in ("tp", "direction_deg"))
-        heights = self.dataset["allowable_hs"].to_numpy()
+        heights, domain = (self.dataset[name].to_numpy() for name in ("allowable_hs", "domain"))
         return Table(
             axes=[Column(head="Tp", values=tp, unit="s", form="g")],
             columns=[
                 Column(head=f"{one:g} deg", values=heights[:, j],
-                       read=("", [self._cell(i, j) for i in range(tp.size)]))
+                       read=("", [self._cell(heights, i, j) + MARK[domain[i, j]] for i in range(tp.size)]))
                 for j, one in enumerate(directions)
             ],
             title=f"{self.scene}: allowable Hs [m] over peak period and direction of travel of the waves",
@@ -181,15 +129,14 @@ class AllowableHs(Answer):
             lines.append(f"{len(self.failures)} runs failed, see failures and reason; failed: not known")
         return lines
 
-    def _cell(self, i: int, j: int) -> str:
-        cell = self.dataset.isel(tp=i, direction_deg=j)
-        value, mark = float(cell["allowable_hs"]), MARK[str(cell["domain"].item())]
-        if np.isnan(value):
-            return f"failed {mark}"
-        if cell["capped"].item():
-            return f">{value:.2f} {mark}"
-        names = [one.name for one in self.criteria]
-        return f"{value:.2f} {letters()[names.index(str(cell['governing'].item()))]}{mark}"
+    def _cell(self, values: Array, i: int, j: int) -> str:
+        """A value of the table, then the letter of what governs it."""
+        if np.isnan(values[i, j]):
+            return "failed "
+        governs = str(self.dataset["governing"].to_numpy()[i, j])
+        if not governs:
+            return f">{values[i, j]:.2f} "
+        return f"{values[i, j]:.2f} {letters()[[one.name for one in self.criteria].index(governs)]}"
 
 
 def breaking_height(tp: float) -> float:
@@ -209,16 +156,8 @@ def _along(periods: Array, values: Array, asked: Array) -> Array:
 def over_circle(directions: Array, values: Array, asked: Array) -> Array:
     """Values at directions, linear between neighbours.
 
-    Parameters
-    ----------
-    directions : (k,) Ascending, over less than a circle, degrees.
-    values : (k, ...) One for each direction and each of `asked`.
-    asked : (...) Degrees; 370 is 10.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        NaN in gaps of more than a right angle.
+    These ascend (k,) over less than a circle, degrees; values (k, ...) are one for each of them and each of
+    `asked` (...), of which 370 is 10. NaN in gaps of more than a right angle.
     """
     first = directions[0]
     turned = first + (asked - first) % 360.0
@@ -233,3 +172,87 @@ def over_circle(directions: Array, values: Array, asked: Array) -> Array:
     )
     mixed = np.where(share <= ROUNDING, lower, (1.0 - share) * lower + share * upper)
     return np.asarray(np.where((width <= LARGEST_GAP + ROUNDING) | (share <= ROUNDING), mixed, np.nan))
+
+
+def plot_allowable_hs(table: AllowableHs, *, kind: str = "map", forecast: bool = False) -> Figure:
+    """Draw allowable Hs over peak period and direction of travel.
+
+    Parameters
+    ----------
+    kind : str
+        "map" (default): colours and numbers, with the letter of what governs; in a frame where runs told it.
+        "rosette": Hs over the direction, a curve for each period, drawn where the waves come from with the
+        bow upwards.
+    forecast : bool
+        With the alpha factor; default without.
+
+    Raises
+    ------
+    SceneError
+        For something else.
+    """
+    if not isinstance(table, AllowableHs):
+        raise SceneError(f"table is {described(table)}; give what allowable_hs() returns")
+    if kind not in ("map", "rosette"):
+        raise SceneError(f"kind is {shown(kind)}; choose 'map' or 'rosette'")
+    with_alpha = flag_of("forecast", forecast)
+    figure = new_figure(figsize=(7.2, 5.4), layout="constrained")
+    name = "forecast_hs" if with_alpha else "allowable_hs"
+    (_map if kind == "map" else _rosette)(figure, table, table.dataset[name].to_numpy())
+    what = "allowable Hs in a forecast" if with_alpha else "allowable Hs"
+    figure.suptitle(f"{table.scene}: {what}", fontsize=11)
+    figure.supxlabel("\n".join(_notes(table, with_alpha, kind)), fontsize=7, ha="left", x=0.02)
+    return figure
+
+
+def _notes(table: AllowableHs, with_alpha: bool, kind: str) -> list[str]:
+    told = table.alpha.told(hours=table.hours)
+    notes = table.told_criteria()
+    if kind == "map":
+        notes.append("in a frame: by runs, else by the linear model; >: no criterion is reached")
+    return [*notes, told if with_alpha else f"{told}: not in these numbers"]
+
+
+def _map(figure: Figure, table: AllowableHs, values: Any) -> None:
+    from matplotlib.patches import Rectangle
+
+    axes = figure.subplots()
+    image = axes.imshow(values, cmap="viridis", origin="lower", aspect="auto", vmin=0.0)
+    figure.colorbar(image, ax=axes, label="Hs [m]")
+    data = table.dataset
+    _ticks(axes, data)
+    top = max(float(np.max(values, initial=0.0, where=np.isfinite(values))), 1e-9)
+    for i in range(data.sizes["tp"]):
+        for j in range(data.sizes["direction_deg"]):
+            text = table._cell(values, i, j).rstrip()
+            colour = "black" if values[i, j] / top > DARK else "white"
+            axes.text(j, i, text, ha="center", va="center", fontsize=8, color=colour)
+            if data["domain"].to_numpy()[i, j] == "time":
+                look: dict[str, Any] = {"fill": False, "edgecolor": COLOURS[1], "linewidth": 1.6}
+                axes.add_patch(Rectangle((j - 0.47, i - 0.46), 0.94, 0.92, **look))
+
+
+def _ticks(axes: Axes, data: Any) -> None:
+    axes.set_xticks(
+        range(data.sizes["direction_deg"]), [f"{one:g}" for one in data["direction_deg"].to_numpy()]
+    )
+    axes.set_yticks(range(data.sizes["tp"]), [f"{one:g}" for one in data["tp"].to_numpy()])
+    axes.set(xlabel="direction of travel of the waves [deg], 180: head waves", ylabel="peak period [s]")
+
+
+def _rosette(figure: Figure, table: AllowableHs, values: Any) -> None:
+    axes: Any = figure.add_subplot(projection="polar")
+    axes.set_theta_zero_location("S")  # head waves come from the top, where the bow points
+    directions = table.dataset["direction_deg"].to_numpy()
+    closed = directions[0] + 360.0 - directions[-1] <= 90.0
+    angles = np.radians(np.append(directions, directions[0] + 360.0) if closed else directions)
+    for k, (tp, row) in enumerate(zip(table.dataset["tp"].to_numpy(), values, strict=True)):
+        curve = np.append(row, row[0]) if closed else row
+        style = STYLES[k // len(COLOURS) % len(STYLES)]
+        axes.plot(
+            angles, curve, style, marker="o", markersize=3, color=COLOURS[k % len(COLOURS)], label=f"{tp:g} s"
+        )
+    axes.set_rlim(0.0, None)
+    axes.set_rlabel_position(22.5)
+    axes.grid(alpha=0.4)
+    figure.legend(title="peak period", loc="outside right upper", fontsize=8, title_fontsize=8)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, numbers_of, text_of
+from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
 NO_SOURCE = "none: forecasts are taken as certain"
@@ -45,7 +46,7 @@ class AlphaFactor:
 
     def __post_init__(self) -> None:
         values = numbers_of("alpha factor: values", self.values)
-        hours, hs = (_ascending(name, getattr(self, name)) for name in ("hours", "hs"))
+        hours, hs = (ascending(f"alpha factor: {name}", getattr(self, name)) for name in ("hours", "hs"))
         if values.shape != ((len(hours), len(hs)) if hours or hs else ()):
             raise SceneError(
                 f"alpha factor: values have shape {values.shape}, hours {len(hours)} and hs {len(hs)} "
@@ -88,10 +89,15 @@ class AlphaFactor:
         return f"alpha factor of {hours:g} h by a table (source: {self.source})"
 
 
-def _ascending(name: str, given: Any) -> tuple[float, ...]:
-    values = numbers_of(f"alpha factor: {name}", given)
-    if values.ndim != 1 or not np.all(np.isfinite(values)) or np.any(np.diff(values) <= 0.0):
-        raise SceneError(f"alpha factor: {name} are {values.tolist()}; give ascending numbers")
+def ascending(what: str, given: Any, *, fewest: int = 0, above_zero: bool = False) -> tuple[float, ...]:
+    """One row of ascending finite numbers, at least so many, or a SceneError."""
+    values = np.atleast_1d(numbers_of(what, given))
+    sound = values.ndim == 1 and values.size >= fewest and np.all(np.isfinite(values))
+    if not sound or np.any(np.diff(values) <= 0.0):
+        least = f"at least {fewest} " if fewest > 1 else ""
+        raise SceneError(f"{what} is {shown(given)}; give {least}ascending finite numbers")
+    if above_zero and values[0] <= 0.0:
+        raise SceneError(f"{what} begins with {values[0]:g}; give numbers above zero")
     return tuple(values.tolist())
 
 

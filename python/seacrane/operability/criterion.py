@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,15 +11,13 @@ from numpy.typing import NDArray
 from seacrane.description.channels import unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
-from seacrane.inputs.caller import silently
 from seacrane.inputs.checked import flag_of, name_of, number_of, positive_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
-from seacrane.statistics.estimate import Estimate
-from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
-from seacrane.statistics.record import crests
-from seacrane.statistics.seeds import mean_of, seed_extremes
+from seacrane.statistics.estimate import THREE_HOURS, Estimate, gaussian_maximum
+from seacrane.statistics.record import crests, highest_third
+from seacrane.statistics.seeds import gumbel_maximum_of, mean_of
 
 MAXIMA = {"clumped": "clumped, Vanmarcke", "rayleigh": "Rayleigh, sqrt(2 ln N)"}
 STATISTICS = {
@@ -98,15 +95,11 @@ class Criterion:
         usual = " ".join([channel.replace("_", " "), *map(str, self.names.values()), *of_stage])
         object.__setattr__(self, "name", name_of("criterion", self.name, usual))
         self._require_bound()
-        if self.statistic not in STATISTICS:
-            raise SceneError(
-                f"criterion {self.name!r}: statistic is {shown(self.statistic)}; choose from "
-                f"{', '.join(STATISTICS)}"
-            )
-        if self.maxima not in MAXIMA:
-            raise SceneError(
-                f"criterion {self.name!r}: maxima is {shown(self.maxima)}; choose from {', '.join(MAXIMA)}"
-            )
+        for what, known in (("statistic", STATISTICS), ("maxima", MAXIMA)):
+            if (given := getattr(self, what)) not in known:
+                raise SceneError(
+                    f"criterion {self.name!r}: {what} is {shown(given)}; choose from {', '.join(known)}"
+                )
         if self.exposure is not None:
             positive_of(f"criterion {self.name!r}: exposure", self.exposure, "s")
 
@@ -218,14 +211,10 @@ def record_numbers(values: Array, least: float = np.inf, largest: float = -np.in
         [
             max(float(values.max()), mean + high.max(initial=0.0), largest),
             min(float(values.min()), mean - low.max(initial=0.0), least),
-            mean + _highest_third(high) if high.size else float(values.max()),
-            mean - _highest_third(low) if low.size else float(values.min()),
+            mean + highest_third(high) if high.size else float(values.max()),
+            mean - highest_third(low) if low.size else float(values.min()),
         ]
     )
-
-
-def _highest_third(heights: Array) -> float:
-    return float(np.sort(heights)[-max(1, heights.size // 3) :].mean())
 
 
 def reached(criterion: Criterion, numbers: Array, rest: float) -> Array:
@@ -246,25 +235,14 @@ def reached(criterion: Criterion, numbers: Array, rest: float) -> Array:
 def seeds_level(criterion: Criterion, values: Array, duration: float | None) -> Estimate:
     """The criterion's statistic of several seeds, from the value at rest, with its 95 % interval.
 
-    Parameters
-    ----------
-    values : (n,) `reached` of each, NaN where a seed failed.
-    duration : Of each record, s; None: each is one lift, and so is what is asked for.
-
-    Returns
-    -------
-    Estimate
-        Infinite where fewer than three seeds came to their end.
+    Of `reached` (n,) by each, NaN where a seed failed, in records of a duration (s); None: each is one lift,
+    and so is what is asked for. Infinite where fewer than three seeds came to their end.
     """
     good = values[np.isfinite(values)]
     if good.size < FEWEST_SEEDS:
         return Estimate(value=np.inf, low=np.inf, high=np.inf)
     if criterion.statistic == "significant":
         return mean_of(good)
-    if np.ptp(good) <= 1e-12 * np.abs(good).max():
-        return Estimate(value=float(good[0]), low=float(good[0]), high=float(good[0]))
-    with silently():  # the interval is part of the answer
-        spans = (1.0, 1.0) if duration is None else (duration, criterion.span)
-        found = seed_extremes(good, duration=spans[0], exposure=spans[1])
-    estimate: Any = getattr(found.gumbel, criterion.statistic)
-    return Estimate(value=estimate.value, low=estimate.low, high=estimate.high)
+    spans = (1.0, 1.0) if duration is None else (duration, criterion.span)
+    found: Estimate = getattr(gumbel_maximum_of(good, *spans), criterion.statistic)
+    return found

@@ -234,21 +234,19 @@ def _of_csv(path: Path, names: Mapping[str, tuple[str, ...]]) -> dict[str, Any]:
     delimiter = next((one for one in DELIMITERS if one in first), ",")
     try:
         rows = list(csv.reader(lines_of_text, delimiter=delimiter))
+        head = [name.strip() for name in rows[0]] if rows else []
+        found = _named(head, names)
     except csv.Error as error:
         raise FileFormatError(f"{path}: is no table of text ({error}); write it as UTF-8") from error
-    head = [name.strip() for name in rows[0]] if rows else []
-    try:
-        found = _named(head, names)
     except FileFormatError as error:
         raise FileFormatError(f"{path}: {error}") from error
     lines = [(number, row) for number, row in enumerate(rows[1:], start=2) if row]
-    columns: dict[str, list[Any]] = {what: [] for what in found if found[what]}
-    for number, row in lines:
-        for what, column in columns.items():
-            column.append(_entry(path, number, row, head.index(found[what]), delimiter, date=what == "time"))
-    columns["time"] = _dates(path, columns["time"])
-    out = {what: column for what, column in columns.items() if what != "direction"}
-    return out | {"direction_from_deg": columns.get("direction")}
+    columns = {
+        what: [_entry(path, *line, head.index(name), delimiter, date=what == "time") for line in lines]
+        for what, name in found.items() if name
+    }  # fmt: skip
+    direction = columns.pop("direction", None)
+    return {**columns, "time": _dates(path, columns["time"]), "direction_from_deg": direction}
 
 
 def _dates(path: Path, given: list[Any]) -> list[Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -86,14 +86,14 @@ def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> Linear
     sizes = np.full(len(model.a), MOVE)
     pushes = np.abs(model.a[dof : 2 * dof, 2 * dof :]).max(axis=0, initial=0.0)
     sizes[2 * dof :] = PUSH / np.where(pushes > 0.0, pushes, PUSH)
-    look = _Look(held(model.scene, time=model.state.time), criteria)
-    rest, columns = look.at(model.state), []
+    look = _look(held(model.scene, time=model.state.time), criteria)
+    rest, columns = look(model.state), []
     for i, size in enumerate(sizes):
         step = np.zeros(sizes.size)
         step[i] = size
-        above = look.at(model.full_state(step))
+        above = look(model.full_state(step))
         # States of the fluid add loads in proportion: one side is enough.
-        below = look.at(model.full_state(-step)) if i < 2 * dof else 2.0 * rest - above
+        below = look(model.full_state(-step)) if i < 2 * dof else 2.0 * rest - above
         columns.append((above - below) / (2.0 * size))
     parts = PartsInWaves(model)
     return LinearChannels(
@@ -118,35 +118,30 @@ def _by_force_at(
 ) -> Array:
     """Channels per force at a point of a body, inertial axes, (m, 3)."""
     size = PUSH * model.scene.bodies[body].mass
-    columns = []
-    for axis in np.eye(3):
-        pushed = [
-            _Look(_pushed(model, body, point, sign * size * axis), criteria).at(model.state)
-            for sign in (1.0, -1.0)
-        ]
-        columns.append((pushed[0] - pushed[1]) / (2.0 * size))
+    columns = [_slope(model, criteria, body, size, along, point) for along in np.eye(3, 6)]
     return np.stack(columns, axis=1)
 
 
 def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:
-    dof, columns = model.degrees_of_freedom, []
-    axes = model.yaw_axes()
-    for i, accelerations in enumerate(np.abs(model.b[dof : 2 * dof]).max(axis=0)):
-        size = PUSH / accelerations
-        assert model.vessel is not None
-        pushed = [
-            _Look(_loaded(model, model.vessel, sign * size * axes[:, i]), criteria).at(model.state)
-            for sign in (1.0, -1.0)
-        ]
-        columns.append((pushed[0] - pushed[1]) / (2.0 * size))
+    assert model.vessel is not None
+    dof, axes = model.degrees_of_freedom, model.yaw_axes()
+    sizes = PUSH / np.abs(model.b[dof : 2 * dof]).max(axis=0)
+    columns = [_slope(model, criteria, model.vessel, size, axes[:, i]) for i, size in enumerate(sizes)]
     return np.stack(columns, axis=1)
 
 
-def _pushed(model: LinearModel, body: str, point: Any, force: Array) -> Scene:
-    return _loaded(model, body, np.concatenate([force, np.zeros(3)]), point)
+def _slope(
+    model: LinearModel, criteria: Sequence[Criterion], body: str, size: float, along: Array,
+    point: Any = (0.0, 0.0, 0.0),
+) -> Array:  # fmt: skip
+    """Channels per load `along` (6,) at a point of a body, by so much of it to either side."""
+    above, below = (
+        _look(_loaded(model, body, sign * size * along, point), criteria)(model.state) for sign in (1.0, -1.0)
+    )
+    return (above - below) / (2.0 * size)
 
 
-def _loaded(model: LinearModel, body: str, wrench: Array, point: Any = (0.0, 0.0, 0.0)) -> Scene:
+def _loaded(model: LinearModel, body: str, wrench: Array, point: Any) -> Scene:
     """The scene held as at the model's time, with one more load (6,) about a point of a body."""
     scene: Scene = held(model.scene, time=model.state.time)  # type: ignore[assignment]
     name = "operability"
@@ -156,21 +151,19 @@ def _loaded(model: LinearModel, body: str, wrench: Array, point: Any = (0.0, 0.0
     return scene
 
 
-class _Look:
-    """What a scene records at states."""
+def _look(scene: Scene, criteria: Sequence[Criterion]) -> Callable[[_core.State], Array]:
+    """What a scene records of the channels of criteria at states, (m,)."""
+    model = scene.compile()
+    channels = Outputs(channels=tuple(dict.fromkeys(one.channel for one in criteria)))
 
-    def __init__(self, scene: Scene, criteria: Sequence[Criterion]) -> None:
-        self._scene, self._criteria = scene, criteria
-        self._model = scene.compile()
-        self._channels = Outputs(channels=tuple(dict.fromkeys(one.channel for one in criteria)))
-
-    def at(self, state: _core.State) -> Array:
-        """The channels of the criteria (m,)."""
+    def at(state: _core.State) -> Array:
         with silently():  # of the scene as it would be in a run
-            run = Run(self._scene, state.time, start=state, outputs=self._channels, model=self._model)
+            run = Run(scene, state.time, start=state, outputs=channels, model=model)
             run.advance(state.time)
             result = require_finite(run.result())
-        return np.array([result.curve(one.channel, **one.names)[0] for one in self._criteria])
+        return np.array([result.curve(one.channel, **one.names)[0] for one in criteria])
+
+    return at
 
 
 class LinearSeas:

@@ -17,19 +17,16 @@ from seacrane.description.databases import without_databases
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.job import stepped
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.ensembles.stage_values import Stages
 from seacrane.ensembles.study import Start
 from seacrane.errors import SeacraneError
+from seacrane.operability.asked import Asked, Still
 from seacrane.operability.criterion import Criterion, RecordNumbers, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import LinearSeas
-from seacrane.run.method import Method
-from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
 
 Array = NDArray[np.float64]
-Cell = tuple[float, float]  # peak period, s, and direction, degrees
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,93 +45,49 @@ class ByTime:
     failed: int = 0
 
 
-@dataclass(frozen=True, kw_only=True)
-class Storms:
-    """What is run for a cell.
+def storms_in(
+    asked: Asked, still: Still, seas: Iterable[Mapping[str, Any]], start: Start, *,
+    executor: Executor | None, store: str | os.PathLike[str] | None, progress: bool,
+) -> Ensemble:  # fmt: skip
+    """Runs at each Hs, of all seeds, in seas of other periods and directions; seeds are the fastest."""
+    over = [{**sea, "hs": hs, "seed": seed} for sea in seas for hs in asked.hs for seed in asked.seeds]
+    after = still.state.time + asked.start_up
+    keep = {
+        f"criterion_{i}": RecordNumbers(channel=one.channel, names=one.names, after=after, stage=one.stage)
+        for i, one in enumerate(asked.criteria)
+    }
+    return ensemble(
+        still.scene, over=over, keep=keep, stages=asked.stages,
+        t_end=None if asked.duration is None else after + asked.duration, method=asked.method,
+        outputs=asked.outputs, start=start, executor=executor, store=store, progress=progress,
+        accuracy=asked.accuracy,
+    )  # fmt: skip
 
-    Attributes
-    ----------
-    scene : Its references held, with its sea.
-    begin : Time of the state at rest, s.
-    start : State or SteadyStart
-        Where runs begin.
-    start_up : Left out, s.
-    duration : Evaluated, s; None of lifts in stages, each of which is one.
-    hs : m, ascending.
-    rest : Value of each at rest.
-    method, outputs
-        Of the runs.
-    stages
-        Of lifts in stages, as of `ensemble`.
-    """
 
-    scene: Scene
-    begin: float
-    start: Start
-    start_up: float
-    duration: float | None
-    hs: tuple[float, ...]
-    seeds: tuple[int, ...]
-    criteria: tuple[Criterion, ...]
-    rest: Array
-    method: Method
-    outputs: Outputs
-    stages: Stages = ()
-    accuracy: Mapping[str, float] | None = None
+def allowable_in(asked: Asked, still: Still, storms: Ensemble, cells: int) -> list[list[ByTime]]:
+    """By cell and criterion."""
+    shape = (cells, len(asked.hs), len(asked.seeds))
+    found: list[list[ByTime]] = [[] for _ in range(cells)]
+    for i, (criterion, rest) in enumerate(zip(asked.criteria, still.rest.tolist(), strict=True)):
+        name = f"criterion_{i}"
+        numbers = storms.dataset[name].to_numpy() if name in storms.dataset else np.full((1, 4), np.nan)
+        numbers = np.broadcast_to(numbers, (int(np.prod(shape)), 4)).reshape(*shape, 4)
+        for by_cell, values in zip(found, reached(criterion, numbers, rest), strict=True):
+            by_cell.append(_crossing(asked, criterion, values, criterion.allowance(rest)))
+    return found
 
-    def run(
-        self,
-        cells: Sequence[Cell],
-        *,
-        executor: Executor | None,
-        store: str | os.PathLike[str] | None,
-        progress: bool,
-    ) -> Ensemble:
-        """All storms of the cells, seeds fastest."""
-        over: list[Mapping[str, Any]] = [
-            {"tp": tp, "direction_deg": direction, "hs": hs, "seed": seed}
-            for tp, direction in cells
-            for hs in self.hs
-            for seed in self.seeds
-        ]
-        after = self.begin + self.start_up
-        keep = {
-            f"criterion_{i}": RecordNumbers(
-                channel=one.channel, names=one.names, after=after, stage=one.stage
-            )
-            for i, one in enumerate(self.criteria)
-        }
-        return ensemble(
-            self.scene, over=over, keep=keep, stages=self.stages,
-            t_end=None if self.duration is None else after + self.duration, method=self.method,
-            outputs=self.outputs, start=self.start, executor=executor,
-            store=store, progress=progress, accuracy=self.accuracy,
-        )  # fmt: skip
 
-    def allowable(self, storms: Ensemble, cells: Sequence[Cell]) -> list[list[ByTime]]:
-        """By cell and criterion."""
-        shape = (len(cells), len(self.hs), len(self.seeds))
-        found: list[list[ByTime]] = [[] for _ in cells]
-        for i, (criterion, rest) in enumerate(zip(self.criteria, self.rest, strict=True)):
-            name = f"criterion_{i}"
-            numbers = storms.dataset[name].to_numpy() if name in storms.dataset else np.full((1, 4), np.nan)
-            numbers = np.broadcast_to(numbers, (int(np.prod(shape)), 4)).reshape(*shape, 4)
-            for place, of_cell in enumerate(reached(criterion, numbers, float(rest))):
-                found[place].append(self._crossing(criterion, of_cell, criterion.allowance(float(rest))))
-        return found
-
-    def _crossing(self, criterion: Criterion, values: Array, allowance: float) -> ByTime:
-        levels = [seeds_level(criterion, row, self.duration) for row in values]
-        by = {
-            name: first_crossing(self.hs, [getattr(level, of) for level in levels], allowance)
-            for name, of in (("allowable", "value"), ("low", "high"), ("high", "low"))
-        }
-        until = int(np.searchsorted(self.hs, by["allowable"])) + 1
-        return ByTime(
-            **by,
-            unknown=first_unknown(self.hs, [level.value for level in levels], allowance),
-            failed=int(np.isnan(values[:until]).sum()),
-        )
+def _crossing(asked: Asked, criterion: Criterion, values: Array, allowance: float) -> ByTime:
+    levels = [seeds_level(criterion, row, asked.duration) for row in values]
+    by = {
+        name: first_crossing(asked.hs, [getattr(level, of) for level in levels], allowance)
+        for name, of in (("allowable", "value"), ("low", "high"), ("high", "low"))
+    }
+    until = int(np.searchsorted(asked.hs, by["allowable"])) + 1
+    return ByTime(
+        **by, unknown=first_unknown(asked.hs, [level.value for level in levels], allowance),
+        failed=int(np.isnan(values[:until]).sum()),
+    )  # fmt: skip
 
 
 def first_crossing(hs: Sequence[float], levels: Sequence[float], allowance: float) -> float:
@@ -165,45 +118,31 @@ def first_unknown(hs: Sequence[float], levels: Sequence[float], allowance: float
 
 
 def differences(
-    scene: Scene,
-    linear: LinearSeas,
-    criteria: Sequence[Criterion],
-    seas: Iterable[Mapping[str, Any]],
-    *,
-    start: float,
-    duration: float,
-    method: Method,
-    outputs: Outputs,
+    asked: Asked, still: Still, linear: LinearSeas, seas: Iterable[Mapping[str, Any]],
     executor: Executor | None,
-) -> Iterator[Array | str]:
+) -> Iterator[Array | str]:  # fmt: skip
     """For each sea and criterion what a run reached beyond the linear model, over the allowance, (m,).
 
     A text where the run failed: why.
-
-    Parameters
-    ----------
-    scene : Its references held.
-    seas : By their words.
-    start, duration : s.
-    method, outputs
-        Of the runs.
     """
-    steps = np.arange(round(duration / outputs.dt_out) + 1, dtype=float)
+    assert asked.duration is not None
+    start, dt_out = still.state.time, asked.outputs.dt_out
+    steps = np.arange(round(asked.duration / dt_out) + 1, dtype=float)
     scenes, starts, told = [], [], []
     for sea in seas:
-        one = with_sea(scene, sea)
+        one = with_sea(still.scene, sea)
         assert one.waves is not None
-        state, values = linear.in_waves(one.waves, start, start + steps * outputs.dt_out)
+        state, values = linear.in_waves(one.waves, start, start + steps * dt_out)
         scenes.append(without_databases(one))
         starts.append(state)
         told.append([record_numbers(column) for column in values.T])
-    run = partial(_numbers, t_end=start + duration, criteria=criteria, method=method, outputs=outputs)
+    run = partial(_numbers, t_end=start + asked.duration, asked=asked)
     runs = map(run, scenes, starts) if executor is None else executor.map(run, scenes, starts)
     for found, numbers in zip(runs, told, strict=True):
         if isinstance(found, str):
             yield found
             continue
-        each = zip(criteria, found, numbers, linear.channels.rest.tolist(), strict=True)
+        each = zip(asked.criteria, found, numbers, linear.channels.rest.tolist(), strict=True)
         yield np.array([_apart(*one) for one in each])
 
 
@@ -212,19 +151,11 @@ def _apart(criterion: Criterion, run: Array, linear: Array, rest: float) -> floa
     return abs(float(apart)) / criterion.allowance(rest)
 
 
-def _numbers(
-    scene: Scene,
-    start: _core.State,
-    *,
-    t_end: float,
-    criteria: Sequence[Criterion],
-    method: Method,
-    outputs: Outputs,
-) -> Array | str:
+def _numbers(scene: Scene, start: _core.State, *, t_end: float, asked: Asked) -> Array | str:
     """`record_numbers` of each criterion's channel of a run, (m, 4), or why it failed."""
     try:
-        run = stepped(Run(scene, t_end, start=start, method=method, outputs=outputs))
+        run = stepped(Run(scene, t_end, start=start, method=asked.method, outputs=asked.outputs))
         result = require_finite(run.result())
-        return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in criteria])
+        return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in asked.criteria])
     except (SeacraneError, ArithmeticError, ValueError) as error:
         return f"{type(error).__name__}: {error}"

@@ -10,15 +10,19 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.described import described
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.hindcast import Flags, WaveHindcast
+from seacrane.plotting.figure import new_figure
+from seacrane.plotting.panel import COLOURS
 from seacrane.plotting.table import Answer, Column, Table
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
@@ -222,3 +226,35 @@ def _numbers(workable: Flags, may_start: Flags, waiting: Array, chosen: Flags) -
     times = [waits.mean(), *np.quantile(waits, (0.5, 0.9))] if waits.size else [np.nan] * 3
     shares = [100.0 * flags[chosen].mean() for flags in (workable, may_start)]
     return tuple(float(one) for one in (*shares, *times))
+
+
+def plot_weather_windows(windows: WeatherWindows) -> Figure:
+    """Draw shares of the time and waiting times by month.
+
+    Raises
+    ------
+    SceneError
+        For something else.
+    """
+    if not isinstance(windows, WeatherWindows):
+        raise SceneError(f"windows is {described(windows)}; give what weather_windows() returns")
+    figure = new_figure(figsize=(7.2, 5.4), layout="constrained")
+    shares, waits = figure.subplots(2, sharex=True)
+    data, months = windows.dataset, np.arange(12)
+    for k, (name, label) in enumerate(
+        (("workable_percent", "workable"), ("may_start_percent", f"{windows.hours:g} h may start"))
+    ):
+        shares.bar(months + 0.4 * (k - 0.5), data[name], 0.38, color=COLOURS[k], label=label)
+    shares.set(ylabel="of the time [%]", ylim=(0.0, 100.0))
+    for k, (name, label) in enumerate(
+        (("waiting_mean", "mean"), ("waiting_p50", "P50"), ("waiting_p90", "P90"))
+    ):
+        waits.plot(months, data[name], "-o", markersize=4, color=COLOURS[k], label=label)
+    waits.set(ylabel="waiting time [h]", ylim=(0.0, None))
+    waits.set_xticks(months, MONTHS)
+    for axes in (shares, waits):
+        axes.grid(axis="y", alpha=0.4)
+        axes.legend(fontsize=8)
+    figure.suptitle(f"Windows of {windows.hours:g} h in {windows.source}", fontsize=11)
+    figure.supxlabel(windows.alpha_factor, fontsize=7, ha="left", x=0.02)
+    return figure

@@ -8,9 +8,9 @@ from seacrane.pictures.plots import plot_track as plot_track
 from seacrane.pictures.pose import plot_scene as plot_scene
 from seacrane.answers.load_chart_figure import plot_load_chart as plot_load_chart
 from seacrane.pictures.plots import plot_rao as plot_rao
-from seacrane.statistics.extremes_figure import plot_extremes as plot_extremes
-from seacrane.operability.allowable_figure import plot_allowable_hs as plot_allowable_hs
-from seacrane.operability.allowable_figure import plot_weather_windows as plot_weather_windows
+from seacrane.statistics.estimate import plot_extremes as plot_extremes
+from seacrane.operability.allowable_table import plot_allowable_hs as plot_allowable_hs
+from seacrane.operability.windows import plot_weather_windows as plot_weather_windows
 from seacrane.plotting.panel import save_figure as save_figure
 from seacrane.plotting.panel import save_sheet as save_sheet
 from seacrane.plotting.panel import save_table as save_table

@@ -10,12 +10,12 @@ from seacrane.statistics.record_extremes import record_extremes as record_extrem
 from seacrane.statistics.distribution import Distribution as Distribution
 from seacrane.statistics.distribution import distribution as distribution
 from seacrane.statistics.tail import Tail as Tail
-from seacrane.statistics.gaussian import gaussian_maximum as gaussian_maximum
+from seacrane.statistics.estimate import gaussian_maximum as gaussian_maximum
 from seacrane.statistics.control_variate import controlled_mean as controlled_mean
 from seacrane.statistics.control_variate import ControlledMean as ControlledMean
-from seacrane.statistics.spectrum import spectrum_estimate as spectrum_estimate
-from seacrane.statistics.spectrum import SpectrumEstimate as SpectrumEstimate
+from seacrane.statistics.record import spectrum_estimate as spectrum_estimate
+from seacrane.statistics.record import SpectrumEstimate as SpectrumEstimate
 from seacrane.series.measured_series import MeasuredSeries as MeasuredSeries
 from seacrane.series.mending import interpolated as interpolated
 from seacrane.statistics.compare import compare as compare
-from seacrane.statistics.comparison import Comparison as Comparison
+from seacrane.statistics.compare import Comparison as Comparison

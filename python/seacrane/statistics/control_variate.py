@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import numbers_of
-from seacrane.statistics.estimate import CONFIDENCE, Estimate
+from seacrane.statistics.estimate import TAILS, Estimate
+from seacrane.statistics.record import listed
 
 Array = NDArray[np.float64]
 FOLDS = 10  # parts of the seeds: the coefficient for each comes from all others
 FEWEST = 10  # seeds
+FAILED = "leave failed seeds out, of values and of controls"
 LOOSE = 0.5  # correlation below which a control is left out: it saves less than a third
 
 
@@ -76,7 +77,7 @@ def controlled_mean(values: Any, *, controls: Any, many_controls: Any) -> Contro
         For fewer than 10 seeds, lists of other lengths, or numbers that are not finite or all equal.
     """
     y, c, many = (
-        _numbers(name, one)
+        listed(name, one, fewest=FEWEST, finite=FAILED, varied="were the seeds different?")
         for name, one in (("values", values), ("controls", controls), ("many_controls", many_controls))
     )
     if y.size != c.size:
@@ -107,16 +108,5 @@ def _controlled(y: Array, c: Array, many: Array) -> Estimate:
 def _interval(value: float, variance: float, freedom: int) -> Estimate:
     from scipy.stats import t
 
-    half = float(t.ppf((1.0 + CONFIDENCE) / 2.0, freedom)) * variance**0.5
+    half = float(t.ppf(TAILS[1], freedom)) * variance**0.5
     return Estimate(value=value, low=value - half, high=value + half)
-
-
-def _numbers(name: str, given: Any) -> Array:
-    values = numbers_of(name, given)
-    if values.ndim != 1 or values.size < FEWEST:
-        raise SceneError(f"{name} of shape {values.shape}: give one list of at least {FEWEST}")
-    if not np.isfinite(values).all():
-        raise SceneError(f"{name}: not all are finite; leave failed seeds out, of values and of controls")
-    if np.ptp(values) <= 1e-12 * np.abs(values).max():
-        raise SceneError(f"{name}: all are {values[0]:g}; were the seeds different?")
-    return values

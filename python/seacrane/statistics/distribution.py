@@ -16,7 +16,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.plotting.table import Answer, Column, Table
-from seacrane.statistics.estimate import CONFIDENCE, Estimate
+from seacrane.statistics.estimate import TAILS, Estimate
 from seacrane.warnings import FewSeedsWarning
 
 if TYPE_CHECKING:
@@ -93,13 +93,16 @@ class Distribution(Answer):
         return draw(self._sheet())
 
     def __repr__(self) -> str:
+        return f"<Distribution of {self.name!r}: {self._told}>"
+
+    @property
+    def _told(self) -> str:
         seeds, each = self.values.shape
-        return f"<Distribution of {self.name!r}: {seeds} seeds with {each} values each>"
+        return f"{seeds} seeds with {each} values each"
 
     def _shown(self) -> Table:
         found = {"mean": self.mean, **{f"{100.0 * share:g} %": self.quantile(share) for share in TOLD}}
         found["largest"] = Estimate(value=float(np.nanmax(self.values)))
-        seeds, each = self.values.shape
         failed = [f"{self.failed} values failed and are left out."] if self.failed else []
         numbers = {key: [getattr(one, key) for one in found.values()] for key in ("value", "low", "high")}
         return Table(
@@ -108,7 +111,7 @@ class Distribution(Answer):
                 Column(name=key, values=values, unit=self.unit, read=(self.unit, values), form=".5g")
                 for key, values in numbers.items()
             ],
-            title=f"{self.name}: {seeds} seeds with {each} values each",
+            title=f"{self.name}: {self._told}",
             remarks=["95 % intervals by resampling seeds.", *failed],
         )  # fmt: skip
 
@@ -141,7 +144,7 @@ class Distribution(Answer):
         if seeds < 2:
             return value, float("nan")
         found = (self._drawn @ sums) / np.maximum(self._drawn @ counts, 1.0)
-        wider = float(t.ppf(0.5 * (1.0 + CONFIDENCE), seeds - 1)) * (seeds / (seeds - 1.0)) ** 0.5
+        wider = float(t.ppf(TAILS[1], seeds - 1)) * (seeds / (seeds - 1.0)) ** 0.5
         return value, wider * float(found.std())
 
     def _share_of(self, hits: NDArray[np.bool_]) -> Estimate:
@@ -150,7 +153,7 @@ class Distribution(Answer):
         if np.isnan(half):
             return Estimate(value=value)
         if value in (0.0, 1.0):  # each of k seeds is the same: all of them with a chance of 2.5 %
-            most = 1.0 - (0.5 * (1.0 - CONFIDENCE)) ** (1.0 / self.values.shape[0])
+            most = 1.0 - TAILS[0] ** (1.0 / self.values.shape[0])
             return Estimate(value=value, low=value * (1.0 - most), high=value + (1.0 - value) * most)
         odds, wide = np.log(value / (1.0 - value)), half / (value * (1.0 - value))
         low, high = (float(1.0 / (1.0 + np.exp(-end))) for end in (odds - wide, odds + wide))
@@ -164,9 +167,8 @@ class Distribution(Answer):
             Line(label="low", values=np.array([one.low for one in found]), colour=1, style="--"),
             Line(label="high", values=np.array([one.high for one in found]), colour=1, style="--"),
         )
-        seeds, each = self.values.shape
         return Sheet(
-            title=f"{self.name}: {seeds} seeds with {each} values each",
+            title=f"{self.name}: {self._told}",
             caption="Share of values above a level, with its 95 % interval by resampling seeds.",
             abscissa=levels, abscissa_name=self.name, abscissa_unit=self.unit,
             panels=(Panel(quantity="share", unit="-", lines=lines),),

@@ -15,7 +15,7 @@ from seacrane.inputs.checked import flag_of, number_of
 from seacrane.inputs.described import described
 from seacrane.inputs.keywords import named
 from seacrane.result import Result
-from seacrane.statistics.gaussian import THREE_HOURS
+from seacrane.statistics.estimate import THREE_HOURS
 from seacrane.statistics.record import FEWEST_VALUES, record_of, up_crossings, warn_of_repeat, warn_of_start
 from seacrane.statistics.record_extremes import RecordExtremes, record_extremes
 from seacrane.statistics.seeds import SeedExtremes, seed_extremes
@@ -87,15 +87,9 @@ def extremes(
     if isinstance(result, Result):
         (values, step), repeat = records[0], _repeat(result)
         return record_extremes(
-            values,
-            interval=step,
-            exposure=exposure,
-            tail=tail,
-            threshold=threshold,
-            static=static,
-            repeat=repeat,
-            **words,
-        )
+            values, interval=step, exposure=exposure, tail=tail, threshold=threshold, static=static,
+            repeat=repeat, **words,
+        )  # fmt: skip
     durations = [values.size * step for values, step in records]
     if max(durations) - min(durations) > EVEN * max(durations):
         raise SceneError(

@@ -1,7 +1,8 @@
-"""One record: checked values, up-crossings of the mean, and the crest between each two of them."""
+"""One record: checked values, up-crossings of its mean, the crest between each two, and its spectrum."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -9,45 +10,41 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.inputs.checked import numbers_of, positive_of
+from seacrane.statistics.estimate import TAILS
 from seacrane.warnings import RepeatingSeaWarning, StartTransientWarning
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 FEWEST_VALUES = 64
 ROUNDING = 1e-12  # of its size by which a constant may vary
+SEGMENTS = 15  # of a spectrum, half overlapping, where the record is long enough
 PARTS = 20  # of a record, of which the first fifth is compared with the rest
 CYCLES = 5.0  # that a part must hold at least
 UNLIKELY = 0.002  # probability, for each of mean and variance, of a warning without cause
 CLEAR_MEAN, CLEAR_SPREAD = 0.25, 0.1  # of the standard deviation: smaller changes are let pass
 
 
-def positive(what: str, value: Any) -> float:
-    """A number above zero, or a SceneError."""
-    number = number_of(what, value)
-    if not number > 0.0:
-        raise SceneError(f"{what}={number:g}: must be above zero")
-    return number
+def listed(what: str, given: Any, *, fewest: int, finite: str, varied: str) -> Array:
+    """One list of finite numbers that are not all equal, or a SceneError with what mends it."""
+    values = numbers_of(what, given)
+    if values.ndim != 1 or values.size < fewest:
+        raise SceneError(f"{what} of shape {values.shape}: give one list of at least {fewest}")
+    if not np.isfinite(values).all():
+        raise SceneError(f"{what}: not all are finite; {finite}")
+    if np.ptp(values) <= ROUNDING * np.abs(values).max():
+        raise SceneError(f"{what}: all are {values[0]:g}; {varied}")
+    return values
 
 
 def record_of(values: Any) -> Array:
-    """Values of a record that varies, or a SceneError.
-
-    Parameters
-    ----------
-    values : (n,) At least 64, finite, any unit.
-    """
-    record = numbers_of("values", values)
-    if record.ndim != 1 or record.size < FEWEST_VALUES:
-        raise SceneError(
-            f"values of shape {record.shape}: a record is one list of at least {FEWEST_VALUES} numbers"
-        )
-    if not np.isfinite(record).all():
-        raise SceneError("values: not all are finite; take a part of the record without gaps")
-    if np.ptp(record) <= ROUNDING * np.abs(record).max():
-        raise SceneError(f"values: all are {record[0]:g}; a record that does not vary has no extremes")
-    return record
+    """Values of a record that varies, at least 64, any unit, or a SceneError."""
+    return listed(
+        "values", values, fewest=FEWEST_VALUES, finite="take a part of the record without gaps",
+        varied="a record that does not vary has no extremes",
+    )  # fmt: skip
 
 
 def up_crossings(values: Array, level: float) -> Places:
@@ -59,16 +56,18 @@ def up_crossings(values: Array, level: float) -> Places:
 def crests(values: Array, level: float) -> Array:
     """Largest value between each two up-crossings of `level`, by the parabola through its neighbours.
 
-    Returns
-    -------
-    ndarray, shape (number of whole cycles,)
-        In the order of time; as heights above `level`.
+    One for each whole cycle, in the order of time, as heights above `level`.
     """
     starts = up_crossings(values, level)
     if starts.size < 2:
         return np.empty(0)
     tops = np.array([a + 1 + int(np.argmax(values[a + 1 : b + 1])) for a, b in pairwise(starts.tolist())])
     return np.asarray(_vertex(values, tops) - level)
+
+
+def highest_third(heights: Array) -> float:
+    """Mean of the highest third of crests."""
+    return float(np.sort(heights)[-max(1, heights.size // 3) :].mean())
 
 
 def _vertex(values: Array, tops: Places) -> Array:
@@ -83,15 +82,7 @@ def _vertex(values: Array, tops: Places) -> Array:
 def start_differs(values: Array, cycles: float) -> bool | None:
     """Whether the first fifth differs from the rest in mean or standard deviation, beyond chance.
 
-    Parameters
-    ----------
-    values : (n,)
-    cycles : Of the record, in number.
-
-    Returns
-    -------
-    bool or None
-        None where the record is too short to tell: fewer than 50 cycles.
+    None where the record is too short to tell: fewer than 50 cycles.
     """
     parts = PARTS if cycles >= CYCLES * PARTS else PARTS // 2
     if cycles < CYCLES * parts:
@@ -130,3 +121,101 @@ def warn_of_repeat(repeat: float | None, duration: float) -> None:
             f"{repeat:g} s; take more components, or placement='jittered'",
             RepeatingSeaWarning,
         )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SpectrumEstimate:
+    """One-sided spectrum of a record. Made by `spectrum_estimate`.
+
+    Attributes
+    ----------
+    omega : ndarray, shape (m,)
+        rad/s, evenly spaced from above zero.
+    density : ndarray, shape (m,)
+        Squared unit of the record times s/rad; its integral is the variance.
+    degrees_of_freedom : float
+        Of each density: half-overlapping Hann segments count by their correlation.
+    duration : float
+        Of the record, s.
+    """
+
+    omega: Array
+    density: Array
+    degrees_of_freedom: float
+    duration: float
+
+    __repr__ = brief
+
+    def moment(self, order: int) -> float:
+        """Integral of omega^order times density."""
+        return float(np.sum(self.omega**order * self.density) * self.omega[0])
+
+    @property
+    def std(self) -> float:
+        """Square root of the variance."""
+        return float(np.sqrt(self.moment(0)))
+
+    @property
+    def crossing_rate(self) -> float:
+        """Up-crossings of the mean by a Gaussian process, sqrt(m2 / m0) / 2 pi, 1/s."""
+        return float(np.sqrt(self.moment(2) / self.moment(0)) / (2.0 * np.pi))
+
+    @property
+    def bandwidth(self) -> float:
+        """Vanmarcke's sqrt(1 - m1^2 / (m0 m2)): 0 for one frequency, towards 1 for many."""
+        ratio = self.moment(1) ** 2 / (self.moment(0) * self.moment(2))
+        return float(np.sqrt(max(0.0, 1.0 - ratio)))
+
+    @property
+    def variance_degrees(self) -> float:
+        """Degrees of freedom of the variance of a Gaussian process: T m0^2 / (pi int S^2), and at least 1."""
+        square = float(np.sum(self.density**2) * self.omega[0]) / (1.0 + 2.0 / self.degrees_of_freedom)
+        return max(1.0, self.duration * self.moment(0) ** 2 / (np.pi * square))
+
+    def interval(self) -> tuple[Array, Array]:
+        """Bounds of the 95 % interval of every density, by chi-squared."""
+        low, high = by_chi_squared(self.degrees_of_freedom).tolist()
+        return self.density * low, self.density * high
+
+
+def by_chi_squared(degrees: float) -> Array:
+    """Ends (2,) of the 95 % interval of a variance, over its estimate with so many degrees of freedom."""
+    from scipy.stats import chi2
+
+    return np.asarray(degrees / chi2.ppf(TAILS[::-1], degrees))
+
+
+def spectrum_estimate(values: Any, *, interval: float, segments: int = SEGMENTS) -> SpectrumEstimate:
+    """Estimate the spectrum of a record by Welch's method: half-overlapping Hann segments.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        At even times, any unit.
+    interval : float
+        Between two values, s.
+    segments : int
+        How many, at least 1; fewer are taken where each would have fewer than 64 values.
+
+    Raises
+    ------
+    SceneError
+        For a record with fewer than 64 values, one that does not vary, or a number out of range.
+    """
+    from scipy.signal import welch
+
+    record, step = record_of(values), positive_of("interval", interval)
+    if not isinstance(segments, (int, np.integer)) or segments < 1:
+        raise SceneError(f"segments={segments!r}: give a whole number of at least 1")
+    length = min(record.size, max(FEWEST_VALUES, 2 * record.size // (int(segments) + 1)))
+    count = 1 + 2 * (record.size - length) // length
+    frequency, density = welch(record - record.mean(), fs=1.0 / step, nperseg=length, detrend=False)
+    return SpectrumEstimate(
+        omega=2.0 * np.pi * frequency[1:], density=density[1:] / (2.0 * np.pi),
+        degrees_of_freedom=_degrees(count), duration=record.size * step,
+    )  # fmt: skip
+
+
+def _degrees(count: int) -> float:
+    """2 K over 1 + 2 (1 - 1/K) / 36: neighbouring Hann segments that overlap by half correlate by 1/6."""
+    return 2.0 * count / (1.0 + 2.0 * (1.0 - 1.0 / count) / 36.0)

@@ -10,28 +10,40 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of
-from seacrane.plotting.table import Answer, Table
-from seacrane.statistics.estimate import CONFIDENCE, Estimate, Maximum, maxima_table
-from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
+from seacrane.inputs.checked import number_of, positive_of
+from seacrane.plotting.panel import Line, Panel, Sheet
+from seacrane.plotting.table import Table
+from seacrane.sea.crossings import expected_crossings
+from seacrane.statistics.estimate import (
+    THREE_HOURS,
+    Estimate,
+    Extremes,
+    Maximum,
+    gaussian_maximum,
+    maxima_table,
+)
 from seacrane.statistics.record import (
+    SpectrumEstimate,
+    by_chi_squared,
     crests,
-    positive,
+    highest_third,
     record_of,
+    spectrum_estimate,
     up_crossings,
     warn_of_repeat,
     warn_of_start,
 )
-from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
 from seacrane.statistics.tail import FEWEST_PEAKS, Tail, peaks_over_threshold
 from seacrane.warnings import PoorFitWarning
 
 Array = NDArray[np.float64]
+LEVELS = 200  # of a curve
+LOWEST = 0.03  # crossings in the exposure time that are drawn
 MOST_KURTOSIS = 3.0  # excess, of records whose largest value a Gaussian process may tell
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class RecordExtremes(Answer):
+class RecordExtremes(Extremes):
     """Statistics of one record. Made by `record_extremes` and `extremes`; prints as a table.
 
     Attributes
@@ -61,16 +73,11 @@ class RecordExtremes(Answer):
         From this tail.
     """
 
-    name: str
-    unit: str
-    duration: float
-    exposure: float
     mean: float
     std: float
     largest: float
     skewness: float
     kurtosis: float
-    static: float
     significant: float
     crossing_rate: float
     crests: Array
@@ -90,19 +97,33 @@ class RecordExtremes(Answer):
         """By peaks over the threshold; where these are too few, as if Gaussian with clumps."""
         return self.over_threshold or self.clumped
 
-    @property
-    def dynamic_factor(self) -> float:
-        """Most probable maximum over the static value."""
-        if self.static == 0.0:
-            raise SceneError("static=0: a dynamic factor needs a static value; give static=")
-        return self.maximum.mpm.value / self.static
-
     def exceedance(self, levels: Any) -> Array:
         """Share of the crests above levels."""
         above = self.crests.size - np.searchsorted(self.crests, np.asarray(levels, dtype=float), side="right")
         return np.asarray(above / self.crests.size)
 
-    __repr__ = Answer.__str__
+    def sheet(self) -> Sheet:
+        """Crossings over levels: one is left at the most probable maximum."""
+        top = max(self.largest, self.gaussian.p90.value, self.maximum.p90.value)
+        levels = np.linspace(self.mean, top, LEVELS)
+        counted = self.crests.size * self.exceedance(levels) * self.exposure / self.duration
+        clumped = _crossings(self, levels, self.spectrum.bandwidth)
+        lines = [
+            Line(label="crests counted", values=_frequent(counted)),
+            Line(label="Rayleigh", values=_frequent(_crossings(self, levels, None)), colour=1, style="--"),
+            Line(label="clumped, Vanmarcke", values=_frequent(clumped), colour=2, style="--"),
+        ]
+        if self.tail is not None:
+            above = np.where(levels >= self.tail.threshold, levels, np.nan)
+            fitted = _frequent(self.tail.crossings(above, self.exposure))
+            lines.append(Line(label="peaks over threshold", values=fitted, colour=3))
+        return Sheet(
+            title=f"{self.name}: crossings in {self.exposure:g} s",
+            caption="Up-crossings of levels above the mean. One is left at the most probable maximum.",
+            abscissa=levels, abscissa_name=self.name, abscissa_unit=self.unit, logarithmic=True,
+            panels=(Panel(quantity="crossings", unit="-", lines=tuple(lines)),),
+            marks={"most probable maximum": np.array([self.maximum.mpm.value])},
+        )  # fmt: skip
 
     def _shown(self) -> Table:
         title = (
@@ -123,6 +144,17 @@ class RecordExtremes(Answer):
             f"Threshold {self.tail.threshold:.4g} ({chosen}), {self.tail.peaks.size} clusters, "
             f"{self.tail.kind} tail, extremal index {self.tail.extremal_index:.2f}."
         )
+
+
+def _crossings(found: RecordExtremes, levels: Array, bandwidth: float | None) -> Array:
+    cycles = found.crossing_rate * found.exposure
+    reduced = (levels - found.mean) / found.std
+    return np.array([expected_crossings(one, cycles=cycles, bandwidth=bandwidth) for one in reduced.tolist()])
+
+
+def _frequent(crossings: Array) -> Array:
+    """Without what is too rare to draw."""
+    return np.where(crossings >= LOWEST, crossings, np.nan)
 
 
 def record_extremes(
@@ -169,7 +201,8 @@ def record_extremes(
     -----
     StartTransientWarning, RepeatingSeaWarning, PoorFitWarning
     """
-    record, step, asked = record_of(values), positive("interval", interval), positive("exposure", exposure)
+    record, step = record_of(values), positive_of("interval", interval)
+    asked = positive_of("exposure", exposure)
     duration, mean, std = record.size * step, float(record.mean()), float(record.std())
     crossings = up_crossings(record, mean).size
     heights = crests(record, mean)
@@ -189,12 +222,11 @@ def record_extremes(
     kurtosis = float(np.mean(reduced**4)) - 3.0
     if found is None and kurtosis > MOST_KURTOSIS:
         _refuse_or_warn_of_few(heights.size, kurtosis)
-    third = np.sort(heights)[-max(1, heights.size // 3) :]
     return RecordExtremes(
         name=name, unit=unit, duration=duration, exposure=asked, mean=mean, std=std,
         largest=float(record.max()),
         skewness=float(np.mean(reduced**3)), kurtosis=kurtosis,
-        static=mean if static is None else number_of("static", static), significant=float(third.mean()),
+        static=mean if static is None else number_of("static", static), significant=highest_third(heights),
         crossing_rate=rate, crests=np.sort(mean + heights), spectrum=spectrum,
         gaussian=_gaussian(mean, std, rate, asked, spectrum, None),
         clumped=_gaussian(mean, std, rate, asked, spectrum, max(spectrum.bandwidth, 1e-6)),
@@ -222,10 +254,7 @@ def _gaussian(
     mean: float, std: float, rate: float, exposure: float, spectrum: SpectrumEstimate, bandwidth: float | None
 ) -> Maximum:
     """The Gaussian maximum, with intervals from the scatter of the standard deviation."""
-    from scipy.stats import chi2
-
-    degrees, tails = spectrum.variance_degrees, (1.0 - CONFIDENCE) / 2.0
-    low, high = np.sqrt(degrees / chi2.ppf([1.0 - tails, tails], degrees)).tolist()
+    low, high = np.sqrt(by_chi_squared(spectrum.variance_degrees)).tolist()
     unit = gaussian_maximum(std=1.0, rate=rate, exposure=exposure, bandwidth=bandwidth)
 
     def scaled(one: Estimate) -> Estimate:

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of, numbers_of
-from seacrane.plotting.table import Answer, Table
-from seacrane.statistics.estimate import CONFIDENCE, EULER, P90_REDUCED, Estimate, Maximum, maxima_table
-from seacrane.statistics.record import positive
+from seacrane.inputs.checked import number_of, positive_of
+from seacrane.plotting.panel import Line, Panel, Sheet
+from seacrane.plotting.table import Table
+from seacrane.statistics.estimate import EULER, P90_REDUCED, TAILS, Estimate, Extremes, Maximum, maxima_table
+from seacrane.statistics.record import ROUNDING, listed
 from seacrane.warnings import FewSeedsWarning, PoorFitWarning
 
 Array = NDArray[np.float64]
@@ -22,7 +23,7 @@ FEWEST = 3
 FEW = 10  # below which the fit test finds nothing
 POOR = 0.05  # probability of a worse fit below which Gumbel's is not believed
 REDUCED = {"mpm": 0.0, "mean": EULER, "p90": P90_REDUCED}  # in one record
-ASKED = ("mpm", "mean", "p90")
+ASKED = tuple(REDUCED)
 NORMAL = 1.959964  # half width of the 95 % interval in standard deviations
 DRAWS, FEWEST_DRAWS, VALUES = 4000, 500, 2_000_000  # samples that a bootstrap draws; values in all of them
 BLOCK = 200_000  # values held at a time
@@ -31,16 +32,7 @@ STEPS = 60  # of Newton's iteration, which has converged long before
 
 
 def gumbel_fit(maxima: Array) -> tuple[Array, Array]:
-    """Location and scale of every row by maximum likelihood.
-
-    Parameters
-    ----------
-    maxima : (..., k) Rows whose values are not all equal.
-
-    Returns
-    -------
-    location, scale : ndarray, shape (...)
-    """
+    """Location and scale (...) of every row of maxima (..., k), not all equal, by maximum likelihood."""
     shifted = maxima - maxima.min(axis=-1, keepdims=True)
     mean = shifted.mean(axis=-1)
     scale = shifted.std(axis=-1) * np.sqrt(6.0) / np.pi
@@ -90,7 +82,7 @@ def standard_fits(count: int) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class SeedExtremes(Answer):
+class SeedExtremes(Extremes):
     """Statistics of the maxima of several seeds. Made by `seed_extremes` and `extremes`; prints as a table.
 
     Attributes
@@ -113,12 +105,7 @@ class SeedExtremes(Answer):
         The same from the ordered maxima alone; intervals by their ranks, without any distribution.
     """
 
-    name: str
-    unit: str
     maxima: Array
-    duration: float
-    exposure: float
-    static: float
     location: float
     scale: float
     fit_probability: float
@@ -129,13 +116,6 @@ class SeedExtremes(Answer):
     def maximum(self) -> Maximum:
         """By Gumbel's distribution."""
         return self.gumbel
-
-    @property
-    def dynamic_factor(self) -> float:
-        """Most probable maximum over the static value."""
-        if self.static == 0.0:
-            raise SceneError("static=0: a dynamic factor needs a static value; give static=")
-        return self.gumbel.mpm.value / self.static
 
     def relative_half_width(self, number: str = "mpm") -> float:
         """Half width of the 95 % interval over the dynamic part of "mpm", "mean" or "p90"."""
@@ -157,13 +137,30 @@ class SeedExtremes(Answer):
         int
             At least 3, by the scatter of maximum likelihood with many seeds.
         """
-        share = positive("half_width", half_width)
+        share = positive_of("half_width", half_width)
         estimate: Estimate = getattr(self.gumbel, _asked(number))
         reduced = REDUCED[number] + np.log(self.exposure / self.duration)
         one = self.scale * np.sqrt(_likelihood_variance(float(reduced)))
         return max(FEWEST, int(np.ceil((NORMAL * one / (share * abs(estimate.value - self.static))) ** 2)))
 
-    __repr__ = Answer.__str__
+    def sheet(self) -> Sheet:
+        """Maxima over Gumbel's reduced variable."""
+        count = self.maxima.size
+        reduced = -np.log(-np.log((np.arange(count) + 0.5) / count))
+        fitted = (self.maxima - self.location) / self.scale
+        lines = (
+            Line(label="seeds", values=reduced, style="o"),
+            Line(label="Gumbel, maximum likelihood", values=fitted, colour=1),
+        )
+        caption = (
+            "Gumbel's distribution is the straight line. F is the share of seeds with a smaller maximum."
+        )
+        return Sheet(
+            title=f"{self.name}: maxima of {count} seeds of {self.duration:g} s on Gumbel paper",
+            caption=caption, abscissa=self.maxima, abscissa_name=self.name, abscissa_unit=self.unit,
+            panels=(Panel(quantity="-ln(-ln F)", unit="-", lines=lines),),
+            marks={"most probable maximum of a record": np.array([self.location])},
+        )  # fmt: skip
 
     def _shown(self) -> Table:
         title = (
@@ -218,9 +215,12 @@ def seed_extremes(
     -----
     FewSeedsWarning, PoorFitWarning
     """
-    values, length = _maxima_of(maxima), positive("duration", duration)
-    asked = length if exposure is None else positive("exposure", exposure)
-    share = None if half_width is None else positive("half_width", half_width)
+    values = listed(
+        "maxima", maxima, fewest=FEWEST, finite="leave failed seeds out", varied="were the seeds different?"
+    )
+    values, length = np.sort(values), positive_of("duration", duration)
+    asked = length if exposure is None else positive_of("exposure", exposure)
+    share = None if half_width is None else positive_of("half_width", half_width)
     location, scale = (float(one) for one in gumbel_fit(values))
     worse = standard_fits(values.size)[2] > anderson_darling(values, np.array(location), np.array(scale))
     found = SeedExtremes(
@@ -232,19 +232,6 @@ def seed_extremes(
     )  # fmt: skip
     _judge(found, share, _asked(number))
     return found
-
-
-def _maxima_of(maxima: Any) -> Array:
-    values = numbers_of("maxima", maxima)
-    if values.ndim != 1 or values.size < FEWEST:
-        raise SceneError(
-            f"maxima of shape {values.shape}: give one list of at least {FEWEST}, one of each seed"
-        )
-    if not np.isfinite(values).all():
-        raise SceneError("maxima: not all are finite; leave failed seeds out")
-    if np.ptp(values) <= 1e-12 * np.abs(values).max():
-        raise SceneError(f"maxima: all are {values[0]:g}; were the seeds different?")
-    return np.sort(values)
 
 
 def _asked(number: str) -> str:
@@ -277,15 +264,19 @@ def _judge(found: SeedExtremes, share: float | None, number: str) -> None:
         )
 
 
-def gumbel_maximum_of(maxima: Array) -> Maximum:
-    """Statistics of finite maxima that are not all equal, in one record; warns of nothing.
-
-    Parameters
-    ----------
-    maxima : (k,) At least 3.
-    """
+def gumbel_maximum_of(maxima: Array, duration: float = 1.0, exposure: float = 1.0) -> Maximum:
+    """Of 3 finite maxima or more of records of a duration, in an exposure time (s); warns of nothing."""
+    if (same := _common(maxima)) is not None:
+        return Maximum(mpm=same, mean=same, p90=same, exposure=exposure)
     location, scale = (float(one) for one in gumbel_fit(np.sort(maxima)))
-    return _gumbel_maximum(maxima.size, location, scale, 1.0, 1.0)
+    return _gumbel_maximum(maxima.size, location, scale, duration, exposure)
+
+
+def _common(values: Array) -> Estimate | None:
+    """What all values are, where they are equal."""
+    one = float(values[0])
+    equal = np.ptp(values) <= ROUNDING * np.abs(values).max()
+    return Estimate(value=one, low=one, high=one) if equal else None
 
 
 def _likelihood_variance(reduced: float) -> float:
@@ -303,7 +294,7 @@ def _gumbel_maximum(count: int, location: float, scale: float, duration: float, 
     def estimate(reduced: float) -> Estimate:
         at = reduced + float(np.log(exposure / duration))
         pivot = (drawn_location + at * drawn_scale - at) / drawn_scale
-        low, high = np.quantile(pivot, [(1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0])
+        low, high = np.quantile(pivot, TAILS)
         value = location + at * scale
         return Estimate(value=value, low=float(value - scale * high), high=float(value - scale * low))
 
@@ -330,7 +321,9 @@ def mean_of(values: Array) -> Estimate:
     """The mean of independent values, with its interval by Student's t."""
     from scipy.stats import t
 
-    half = float(t.ppf((1.0 + CONFIDENCE) / 2.0, values.size - 1) * values.std(ddof=1)) / values.size**0.5
+    if (same := _common(values)) is not None:
+        return same
+    half = float(t.ppf(TAILS[1], values.size - 1) * values.std(ddof=1)) / values.size**0.5
     mean = float(values.mean())
     return Estimate(value=mean, low=mean - half, high=mean + half)
 
@@ -339,8 +332,8 @@ def _ordered(ascending: Array, share: float) -> Estimate:
     """A quantile, between those ordered values that enclose it with a probability of 95 %."""
     from scipy.stats import binom
 
-    below = int(binom.ppf((1.0 - CONFIDENCE) / 2.0, ascending.size, share))
-    above = int(binom.ppf((1.0 + CONFIDENCE) / 2.0, ascending.size, share)) + 1
+    below, above = (int(binom.ppf(tail, ascending.size, share)) for tail in TAILS)
+    above = min(above, ascending.size) + 1
     edged = np.concatenate([[-np.inf], ascending, [np.inf]])
     value = float(np.quantile(ascending, share, method="weibull"))
-    return Estimate(value=value, low=float(edged[below]), high=float(edged[min(above, ascending.size + 1)]))
+    return Estimate(value=value, low=float(edged[below]), high=float(edged[above]))

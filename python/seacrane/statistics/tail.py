@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
-from seacrane.statistics.estimate import CONFIDENCE, EULER, P90_COUNT, Estimate, Maximum
+from seacrane.statistics.estimate import EULER, P90_COUNT, TAILS, Estimate, Maximum
 
 Array = NDArray[np.float64]
 CANDIDATES = np.linspace(0.85, 0.98, 14)  # shares of the crests below a threshold that is tried
@@ -101,7 +101,7 @@ def _numbers(count: Array | float, scale: Array | float, shape: Array | float) -
 
 def _estimate(value: Array, draws: Array) -> Estimate:
     """The value and the interval in which the bootstrap's draws lie."""
-    low, high = np.quantile(draws, [(1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0])
+    low, high = np.quantile(draws, TAILS)
     return Estimate(value=float(value), low=float(low), high=float(high))
 
 
@@ -124,18 +124,9 @@ def peaks_over_threshold(
 ) -> Tail | None:
     """Fit the tail of the crests of one record.
 
-    Parameters
-    ----------
-    crests : (n,) One for each cycle, in the order of time, any unit.
-    duration : Of the record, s.
-    threshold : float, optional
-        By default the lowest of the 85 % to 98 % quantiles of the crests at which the fit is acceptable.
-    kind : "pareto" (default) or "exponential".
-
-    Returns
-    -------
-    Tail or None
-        None where fewer than 20 clusters lie above any threshold tried.
+    One (n,) for each cycle, in the order of time; its duration is in s. Without a threshold the lowest of the
+    85 % to 98 % quantiles of the crests is taken at which the fit is acceptable. None where fewer than 20
+    clusters lie above any threshold tried.
     """
     if kind not in ACCEPTED:
         raise SceneError(f"tail={shown(kind)}: choose from {', '.join(ACCEPTED)}")
