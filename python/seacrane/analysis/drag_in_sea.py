@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.frequency_domain import component_forces, excitation_of
-from seacrane.analysis.hulls_in_waves import rates_in_waves
+from seacrane.analysis.frequency_domain import component_forces, excitation_of, rates_in_waves
 from seacrane.analysis.linear_system import LinearModel
+from seacrane.analysis.modal_analysis import directions_of, quadrature_frequencies, weights_of
 from seacrane.analysis.parts_in_waves import PartsInWaves
-from seacrane.analysis.response_quadrature import directions_of, quadrature_frequencies, weights_of
 from seacrane.description.hydrodynamics import group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError

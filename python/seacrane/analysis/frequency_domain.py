@@ -9,16 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
-from seacrane.analysis.hulls_in_waves import rates_in_waves
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
+from seacrane.description.hydrodynamics import group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.encounter import encounter_frequency_at
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.frames import heading_of
 from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
 
@@ -230,3 +231,31 @@ def component_forces(sea: Waves) -> tuple[Array, dict[str, Complex]]:
         wave = np.array(components.amplitude) * np.exp(1j * phase)
         forces[vessel] = wave[:, None] * np.asarray(hull.transfer).reshape(-1, 6)
     return omega, forces
+
+
+def rates_in_waves(linear: LinearModel, database: HydroDatabase, omega: Array, direction: Array) -> Complex:
+    """Rates of x (k, n) per metre of waves of frequencies (k,), rad/s, directions (k,) from the vessel's x.
+
+    On the vessel and, where it is in a group, on all of that: the wave meets each at its place and heading at
+    the start, and has zero phase at the vessel's.
+    """
+    assert linear.vessel is not None
+    rates: Complex = database.force_at(omega, direction).reshape(-1, 6) @ linear.b.T
+    scene, group = linear.scene, group_of(linear.scene, linear.vessel)
+    here = scene.bodies[linear.vessel]
+    travels = direction + heading_of(here.quaternion)
+    for name in () if group is None else group.vessels:
+        body = scene.vessels[name].body
+        if body == linear.vessel:
+            continue
+        own, there = database_of(scene, body, "a motion in waves"), scene.bodies[body]
+        east, north = np.asarray(there.position)[:2] - np.asarray(here.position)[:2]
+        along = east * np.cos(travels) + north * np.sin(travels)
+        waves = _core.WaveComponents(
+            omega=omega, amplitude=np.ones(omega.size), phase=np.zeros(omega.size), direction=travels,
+            depth=own.depth,
+        )  # fmt: skip
+        phase = np.exp(-1j * np.array(waves.wavenumber) * along)
+        force = own.force_at(omega, travels - heading_of(there.quaternion)).reshape(-1, 6)
+        rates = rates + (phase[:, None] * force) @ linear.excited(body).b.T
+    return rates

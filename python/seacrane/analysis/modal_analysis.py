@@ -1,4 +1,4 @@
-"""Natural periods, damping ratios and mode shapes of a scene about rest, memory states included."""
+"""Natural periods, damping ratios and mode shapes about rest; frequencies over which a response is summed."""
 
 from __future__ import annotations
 
@@ -13,10 +13,13 @@ from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.stability import grows, growth_in_words
 from seacrane.description.description import Description
 from seacrane.inputs.brief import brief
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
 from seacrane.plotting.table import Table, table_of
+from seacrane.sea.spreading import Spreading
+from seacrane.warnings import UndampedModeWarning
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -31,6 +34,11 @@ HALF = 0.5  # of a neutral direction
 LEAST_SHARE = 0.01  # of a mode's energy
 REACH = 2.0  # ratio of a mode's frequency to the start
 PER_MODE = ("eigenvalues", "shapes", "energy_share", "mechanical_share", "state_vectors")
+UNDAMPED = 1e-6  # damping ratio below which the variance of a resonance has no meaning
+BROAD = 0.2  # damping ratio above which the even grid resolves a resonance
+GRID = 1500  # frequencies over a band
+GRID_OF_MODE = 120  # more on either side of each resonance
+DIRECTIONS = 48
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -280,3 +288,44 @@ def _without_neutral_positions(linear: LinearModel) -> Array:
     free[:dof, : dof - k] = complement
     free[dof:, dof - k :] = np.eye(size - dof)
     return free
+
+
+def quadrature_frequencies(linear: LinearModel, low: float, high: float) -> Array:
+    """Even over a band, rad/s, and about each resonance."""
+    omega = np.unique(np.concatenate([np.linspace(low, high, GRID), about_resonances(linear, low, high)]))
+    return omega[(omega >= low) & (omega <= high)]
+
+
+def directions_of(spreading: Spreading | None, main: float) -> tuple[Array, Array]:
+    """Directions (q,), rad, and their shares of the energy."""
+    if spreading is None:
+        return np.array([main]), np.ones(1)
+    angles, shares = spreading.quadrature(DIRECTIONS)
+    return np.asarray(main + angles), np.asarray(shares)
+
+
+def weights_of(omega: Array) -> Array:
+    """Weights of the trapezoidal rule."""
+    steps = np.diff(omega)
+    return np.asarray(0.5 * (np.append(steps, 0.0) + np.append(0.0, steps)))
+
+
+def about_resonances(linear: LinearModel, low: float, high: float) -> Array:
+    """Frequencies about each resonance, geometrically away from a tenth of its half width."""
+    modes = natural_modes(linear)
+    parts = [np.zeros(0)]
+    for i, value in enumerate(modes.eigenvalues):
+        if not low < value.imag < high or modes.damping_ratio[i] > BROAD:
+            continue
+        if modes.damping_ratio[i] < UNDAMPED:
+            warn_caller(
+                f"scene {linear.scene.name!r}: mode {modes.label(i)!r} at {value.imag:.4g} rad/s has a "
+                f"damping ratio of {modes.damping_ratio[i]:.2g}: the variance of its resonance has no "
+                "finite value; add damping",
+                UndampedModeWarning,
+            )
+            continue
+        width = abs(value.real)
+        away = np.geomspace(0.1 * width, max(0.5 * value.imag, width), GRID_OF_MODE)
+        parts.append(np.concatenate([value.imag - away, [value.imag], value.imag + away]))
+    return np.concatenate(parts)

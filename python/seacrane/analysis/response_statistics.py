@@ -11,17 +11,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.analysis.drag_in_sea import band_of, drag_in_sea
-from seacrane.analysis.frequency_domain import excitation_of, linear_of
-from seacrane.analysis.hulls_in_waves import rates_in_waves
+from seacrane.analysis.frequency_domain import excitation_of, linear_of, rates_in_waves
 from seacrane.analysis.linear_system import LinearModel
-from seacrane.analysis.parts_in_waves import PartsInWaves
-from seacrane.analysis.response_quadrature import (
+from seacrane.analysis.modal_analysis import (
     GRID,
     about_resonances,
     directions_of,
     quadrature_frequencies,
     weights_of,
 )
+from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.description import Description
 from seacrane.description.hydrodynamics import group_of
 from seacrane.errors import SceneError

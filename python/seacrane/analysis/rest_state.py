@@ -11,13 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.no_rest import most_turned, why_none
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
 from seacrane.analysis.relaxation import relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
-from seacrane.analysis.stability import tips_over, warn_of_rest
+from seacrane.analysis.stability import most_turned, tips_over, warn_of_rest, why_none
 from seacrane.analysis.taut_lines import has_masses, kept_lengths, tautened, unbounded, with_what_hangs
-from seacrane.analysis.water_levels import leveled
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
@@ -46,6 +44,8 @@ DAMPING = 0.03  # 1/m and 1/rad, of the accelerations that are left
 STAGE = 5.0  # s of the references between two rest states on the way to a later time
 MOST_STAGES = 200
 FOLLOW = 0.05  # s between projections on drivers
+HALVINGS = 60  # of a volume, until its last digit
+MOST_AIR = 1e3  # times the compartment, at one atmosphere
 
 
 def held(scene: Some, *, time: float = 0.0) -> Some:
@@ -306,3 +306,48 @@ def _found(model: _core.Model, time: float, values: Array, stiffness: Array) -> 
     parts = _core.initial_state(model).parts
     state = _core.State(time=time, values=values, inputs=np.zeros(model.slots), parts=parts)
     return _Search(state=state, values=values, tips=tips_over(stiffness))
+
+
+def leveled(scene: Description, model: _core.Model, *, time: float) -> Callable[[Array], Array]:
+    """Takes a state to that with the same poses in which no compartment takes or gives water.
+
+    What flows is the root of a head: Newton's method on it steps from one side to the other by as much. So
+    volumes go first, by bisection, with the air that is shut in above. One through whose openings nothing
+    flows stays.
+    """
+    waters = {name: load for name, load in scene.loads.items() if isinstance(load, _core.EntrappedWater)}
+    places = {name: place for name, _, place, *_ in model.load_states}
+    evaluator = _core.Evaluator(model)
+
+    def flow(values: Array, place: int, volume: float) -> float:
+        y = np.array(values)
+        y[place] = volume
+        return float(evaluator.derivative(time, y)[place])
+
+    def found(values: Array) -> Array:
+        out = np.array(values)
+        for name, water in waters.items():
+            whole, place = water.area * water.height, places[f"{name}.volume"]
+            out[place] = _settled(partial(flow, out, place), out[place], whole)
+            if water.air == "shut":
+                air = places[f"{name}.air"]
+                out[air] = _settled(partial(flow, out, air), out[air], MOST_AIR * whole)
+                out[place] = _settled(partial(flow, out, place), out[place], whole)
+        return out
+
+    return found if waters else np.array
+
+
+def _settled(flow: Callable[[float], float], volume: float, whole: float) -> float:
+    """The volume nearest to a first one at which the flow ends."""
+    now = flow(volume)
+    if now == 0.0:
+        return volume
+    flows, still = volume, whole if now > 0.0 else 0.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (flows + still)
+        if flow(middle) * now > 0.0:
+            flows = middle
+        else:
+            still = middle
+    return still

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.answers.hanging_rest import hanging_rest
 from seacrane.answers.rest_columns import AtRest, pulls_of
+from seacrane.answers.statics import hanging_rest
 from seacrane.answers.summary import summary
 from seacrane.description.description import Description
 from seacrane.description.lift_factors import LiftFactors

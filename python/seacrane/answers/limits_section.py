@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.answers.section import Section
 from seacrane.description.pick import Pick
 from seacrane.plotting.table import Verdict, table_of
 from seacrane.result import Result
@@ -190,7 +189,8 @@ def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judge
     return found
 
 
-def _html(result: Result) -> str:
+def limits(result: Result) -> str:
+    """A row for each limit."""
     rows = [(j.name, j.kind, j.bound, j.reached, Verdict(j.words, j.held)) for j in judged_bounds(result)]
     words = (
         "Coordinates are those at the outputs. Capacities of structure and wire are limit states: see the "
@@ -199,6 +199,3 @@ def _html(result: Result) -> str:
     return (
         table_of(("limit", "kind", "bound", "reached", "held?"), rows, remarks=[words]).html() if rows else ""
     )
-
-
-LIMITS: Section[Result] = Section("Limits", _html)

@@ -7,12 +7,10 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import Any
 
-from seacrane.answers.blocks import picture_block
-from seacrane.answers.checks import constraint_rows, counter_rows, energy_rows, side_by_side
-from seacrane.answers.measures import findings_of
+from seacrane.answers.checks import constraint_rows, counter_rows, energy_rows, findings_of, side_by_side
 from seacrane.answers.provenance_section import settings_block, versions_block
 from seacrane.answers.report import Report
-from seacrane.answers.section import Section, compose
+from seacrane.answers.section import Section, compose, picture_block
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.pictures.findings import Finding
 from seacrane.plotting.panel import Picture

@@ -10,7 +10,6 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
-from seacrane.answers.section import Section
 from seacrane.plotting.table import facts, table_of
 from seacrane.result import CHANNELS, Result
 
@@ -55,7 +54,8 @@ def _recorded(result: Result) -> str:
     return table_of(("channel", "dimensions", "unit", ""), rows).html()
 
 
-def _html(result: Result) -> str:
+def provenance(result: Result) -> str:
+    """Settings, what was recorded, and versions."""
     made = [
         ("seacrane that ran it", result.stats["seacrane_version"]),
         ("SHA-256 of the recorded numbers", digest(result)),
@@ -68,6 +68,3 @@ def _html(result: Result) -> str:
             f"<h3>Versions that made this page</h3>{versions_block()}",
         ]
     )
-
-
-PROVENANCE: Section[Result] = Section("Provenance", _html)

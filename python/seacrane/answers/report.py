@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
-from seacrane.answers.registry import SECTIONS
 from seacrane.answers.section import Section, compose
+from seacrane.answers.sections import SECTIONS
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.frames import AXES_NOTE

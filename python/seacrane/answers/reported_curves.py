@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.wet_parts import immersed_depths, immersed_parts, wet_names
-from seacrane.errors import FileFormatError
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.inputs.frames import AXES_NOTE, rotation_matrix
+from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.result import Result
+from seacrane.result.history import marks_of
 from seacrane.result.traces import NO_ENERGY, NO_MOTION, Bounded, Trace, beyond_rounding, traces
 from seacrane.run.hanging import swing_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 STANDARD_GRAVITY = 9.80665
@@ -290,3 +295,39 @@ def _place(result: Result, body: str, point: Sequence[float]) -> Array:
         return at
     turn = rotation_matrix(result.select("quaternion", body=body))
     return np.asarray(result.select("position", body=body) + turn @ at)
+
+
+def plot_summary(result: Result) -> Figure:
+    """Draw what `summary` tells in numbers, a panel for each kind and unit, with events and extremes marked.
+
+    Raises
+    ------
+    SceneError
+        If the run recorded nothing that a summary holds.
+    """
+    return draw(summary_sheet(result))
+
+
+def summary_sheet(result: Result) -> Sheet:
+    """The panels of `plot_summary` with their numbers."""
+    groups: dict[tuple[str, str], list[Curve]] = {}
+    for one in reported_curves(result):
+        groups.setdefault((one.kind, one.unit), []).append(one)
+    if not groups:
+        raise SceneError(
+            f"a result with {', '.join(result.channels) or 'no channels'} has no load and no motion to "
+            "draw; record link_tension, cylinder_force, position or vessel_motion"
+        )
+    panels = [
+        Panel(
+            quantity=kind, unit=unit,
+            lines=tuple(Line(label=one.label, values=one.values, colour=i) for i, one in enumerate(group)),
+        )
+        for (kind, unit), group in groups.items()
+    ]  # fmt: skip
+    return Sheet(
+        title=f"{result.stats['scene']}{' (interrupted)' if result.interrupted else ''}",
+        caption=f"Triangles mark the largest and the smallest value. {AXES_NOTE}",
+        abscissa=result.time, panels=tuple(panels), columns=2 if len(panels) > 3 else 1,
+        marks=marks_of(result), extremes=True,
+    )  # fmt: skip

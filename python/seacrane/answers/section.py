@@ -1,16 +1,22 @@
-"""A section of a report, and how sections make a page."""
+"""A section of a report, the parts that sections are made of, and how they make a page."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import base64
+import io
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 from string import Template
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from seacrane.errors import FileFormatError
 from seacrane.inputs.replaceable import GENERATOR
+from seacrane.plotting.panel import DOTS_PER_INCH, Picture
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Subject = TypeVar("Subject")
 PAGE = Template((files("seacrane") / "answers" / "page.html").read_text(encoding="utf-8"))
@@ -57,3 +63,41 @@ def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subj
     parts = [lead, *(_block(section, subject) for section in sections)]
     content = "\n".join(part for part in parts if part)
     return PAGE.substitute(title=escape(title), generator=GENERATOR, content=content)
+
+
+def embedded(data: bytes, title: str, caption: str) -> str:
+    """A PNG with a caption; its bytes become part of the page."""
+    coded, head = base64.b64encode(data).decode("ascii"), escape(title)
+    words = f"<figcaption><strong>{head}.</strong> {escape(caption)}</figcaption>"
+    return f'<figure><img alt="{head}" src="data:image/png;base64,{coded}">{words}</figure>'
+
+
+def drawn(figure: Figure, title: str, caption: str) -> str:
+    """A Matplotlib figure with a caption."""
+    image = io.BytesIO()
+    figure.savefig(image, format="png", dpi=DOTS_PER_INCH)
+    return embedded(image.getvalue(), title, caption)
+
+
+def picture_block(picture: Picture) -> str:
+    """A figure that is on disk.
+
+    Raises OSError if its image cannot be read.
+    """
+    source = "" if picture.data is None else f" Data: {picture.data.name}."
+    return embedded(picture.image.read_bytes(), picture.title, f"{picture.caption}{source}")
+
+
+def cards(values: Mapping[str, tuple[str, bool | None]]) -> str:
+    """Large numbers by what they are, each good, bad or neither."""
+    colour = {None: "", True: " good", False: " bad"}
+    boxes = "".join(
+        f'<div class="card{colour[good]}">{escape(name)}<strong>{escape(text)}</strong></div>'
+        for name, (text, good) in values.items()
+    )
+    return f'<div class="cards">{boxes}</div>'
+
+
+def note(text: str) -> str:
+    """A small remark."""
+    return f'<p class="note">{escape(text)}</p>'

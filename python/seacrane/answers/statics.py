@@ -14,16 +14,18 @@ from seacrane.analysis.crane_poses import crane_of, path_through, places_of, pos
 from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.reach import Reach, luffing
-from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of
-from seacrane.description.description import Description
+from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of, pulls_of
+from seacrane.description.description import Description, Some
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
-from seacrane.errors import SceneError
-from seacrane.inputs.caller import warn_caller
+from seacrane.description.waves import calm_water
+from seacrane.errors import SceneError, SeacraneError
+from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
 from seacrane.one_thread import one_thread
 from seacrane.plotting.table import Answer, Column, Table
+from seacrane.result import Result
 from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
 
@@ -302,3 +304,29 @@ def _where(pose: Pose) -> str:
     if not pose:
         return ""
     return f"at {', '.join(f'{name} {value:.4g}' for name, value in pose.items())} "
+
+
+def lifted(scene: Some) -> Some:
+    """The scene without seats: what stands on a deck hangs on its lines."""
+    seats = {name: load.joint for name, load in scene.loads.items() if getattr(load, "kind", "") == "seat"}
+    return scene.copy(
+        loads={name: load for name, load in scene.loads.items() if name not in seats},
+        joints={name: joint for name, joint in scene.joints.items() if name not in seats.values()},
+    )
+
+
+@one_thread
+def hanging_rest(scene: Some) -> AtRest:
+    """Its state at rest with every load off its deck, calm and held as at the start; SceneError for none."""
+    return next(resting(lifted(scene).copy(waves=calm_water(scene.waves)), None, [{}], None))
+
+
+def static_pulls(result: Result) -> dict[str, float] | str:
+    """Static load of each rod, wire and line, N, by the rows of a summary; or why none is known."""
+    try:
+        if result.scene is None:
+            return {}
+        with silently():  # the run told them
+            return {name: value for name, (_, value) in pulls_of(hanging_rest(result.scene)).items()}
+    except SeacraneError as error:
+        return str(error)

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.analysis.least_pulls import least_pulls
-from seacrane.answers.hanging_rest import static_pulls
 from seacrane.answers.reported_curves import SI_UNITS, Curve, reported_curves, si_factor
-from seacrane.answers.statics import Statics
+from seacrane.answers.statics import Statics, static_pulls
 from seacrane.description.rungs import RIGID
 from seacrane.description.suspension import ROD, suspensions
 from seacrane.description.wet_parts import wet_bodies

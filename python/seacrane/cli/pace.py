@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core, cases
-from seacrane.answers.measures import speed
+from seacrane.answers.checks import speed
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.kept import Kept
 from seacrane.run.lanes import INSTRUCTIONS, lanes_of, module_of

@@ -77,7 +77,7 @@ def _simulate(name: str) -> Result:
 
 
 def _pace(result: Result) -> str:
-    from seacrane.answers.measures import speed
+    from seacrane.answers.checks import speed
 
     fast = speed(result)
     pace = f", {fast:.0f} times real time" if fast is not None else ""

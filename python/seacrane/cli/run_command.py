@@ -64,7 +64,7 @@ def _require_no_span(arguments: argparse.Namespace) -> None:
 
 def told(result: Result) -> str:
     """All that is printed of a run."""
-    from seacrane.answers.lift_particulars import stage_table
+    from seacrane.answers.particulars import stage_table
     from seacrane.answers.summary import summary
 
     stages = f"\n{stage_table(result)}\n" if result.stages else ""
@@ -73,7 +73,7 @@ def told(result: Result) -> str:
 
 def costs(result: Result) -> str:
     """What a run cost and how well it kept its invariants, in a few lines."""
-    from seacrane.answers.measures import energy_closure, speed, worst
+    from seacrane.answers.checks import energy_closure, speed, worst
 
     stats = result.stats
     fast = speed(result)

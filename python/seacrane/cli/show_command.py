@@ -14,8 +14,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the summary; with --out, draw its curves. Of a study: tables and figures."""
     if Path(arguments.result).is_dir():
         return _study(arguments)
+    from seacrane.answers.reported_curves import plot_summary
     from seacrane.answers.summary import summary
-    from seacrane.answers.summary_figure import plot_summary
     from seacrane.plotting.panel import save_figure
     from seacrane.result import Result
 

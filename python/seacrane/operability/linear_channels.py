@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
+from seacrane.analysis.modal_analysis import quadrature_frequencies
 from seacrane.analysis.parts_in_waves import PartsInWaves
-from seacrane.analysis.response_quadrature import quadrature_frequencies
 from seacrane.analysis.rest_state import held
 from seacrane.description.databases import database_of
 from seacrane.description.waves import Waves

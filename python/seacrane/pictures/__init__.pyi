@@ -1,12 +1,12 @@
 """Pictures: quick overviews, the paper's figures, and the page in three dimensions."""
 
 from seacrane.pictures.overview import plot_overview as plot_overview
-from seacrane.answers.summary_figure import plot_summary as plot_summary
+from seacrane.answers.reported_curves import plot_summary as plot_summary
 from seacrane.pictures.plots import plot_reactions as plot_reactions
 from seacrane.pictures.plots import plot_spectrum as plot_spectrum
 from seacrane.pictures.plots import plot_track as plot_track
 from seacrane.pictures.pose import plot_scene as plot_scene
-from seacrane.answers.load_chart_figure import plot_load_chart as plot_load_chart
+from seacrane.answers.load_chart import plot_load_chart as plot_load_chart
 from seacrane.pictures.plots import plot_rao as plot_rao
 from seacrane.statistics.estimate import plot_extremes as plot_extremes
 from seacrane.operability.allowable_table import plot_allowable_hs as plot_allowable_hs

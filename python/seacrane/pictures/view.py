@@ -30,10 +30,9 @@ from seacrane.inputs.replaceable import GENERATOR, check_replaceable
 from seacrane.inputs.shown import shown
 from seacrane.pictures.animated_gltf import GENERATOR as GLTF_GENERATOR
 from seacrane.pictures.animated_gltf import gltf_of
-from seacrane.pictures.caption import caption, sea_components, without_sea
+from seacrane.pictures.caption import caption, forces_of, marks_of, sea_components, strip_of, without_sea
 from seacrane.pictures.drawing import Drawing, drawing_of
 from seacrane.pictures.drawn_bodies import Look
-from seacrane.pictures.marks import forces_of, marks_of, strip_of
 from seacrane.pictures.packing import Blob
 from seacrane.pictures.pose_curves import POSES, STEPS, Motion, linear_rows
 from seacrane.pictures.shapes import HULL, SLACK, TRACKS, WIRES, HullShape, MeshShape, body_colour

@@ -8,7 +8,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.inverse import at_rest, locked_at_rest
-from seacrane.analysis.rods import add_rod, ends_of, rod_forces, without_cylinders
+from seacrane.analysis.rest_on_oil import add_rod, ends_of, rod_forces, without_cylinders
 from seacrane.description import hydraulic_values as of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
