@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.crane_poses import path_through, places_of, posed
+from seacrane.analysis.crane_poses import path_through, places_in, posed
 from seacrane.analysis.inverse import drive_loads, hold_vessel
 from seacrane.analysis.rest_state import held, rest_from, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
@@ -126,7 +126,7 @@ def add_ballast(
         Where the weights on the vessel outweigh its restoring.
     """
     hull = _vessel(scene, vessel)
-    target = _target({"heel_deg": heel_deg, "trim_deg": trim_deg})
+    target = _target(heel_deg=heel_deg, trim_deg=trim_deg)
     name = name_of("ballast", name)
     kind = _Force(scene, hull, target) if tanks is None else _Tanks(scene, hull, target, tanks_of(tanks))
     found, attitude = _fitted(scene, hull, target, kind)
@@ -134,13 +134,14 @@ def add_ballast(
         add_force(scene, hull.body, name=f"{name} {key}".rstrip(), point=point, force=(0.0, 0.0, force))
         for key, (point, force) in kind.forces(found).items()
     )
-    told = kind.told(found, np.array([target.get(motion, attitude[motion]) for motion in ATTITUDE]))
+    heel, trim = (float(target.get(motion, attitude[motion])) for motion in ATTITUDE)
+    told = Ballast(vessel=hull.body, heel=heel, trim=trim, forces=forces, **kind.told(found))
     places: dict[str, Any] = {"the force": told.center}
     if tanks is not None:
         places = {f"tank {key!r}": tank.point for key, tank in tanks.items()}
     _warn_of_places(scene.bodies[hull.body], places, FAR if tanks is None else BESIDE)
     warn_of_capsize(scene)
-    return replace(told, forces=forces)
+    return told
 
 
 def _warn_of_places(hull: _core.Body, places: Mapping[str, Any], margin: float) -> None:
@@ -173,22 +174,18 @@ def _vessel(scene: Description, name: str | None) -> _core.VesselHydrodynamics:
     return floating[name] if name is not None else next(iter(floating.values()))
 
 
-def _angle(key: str, value: Any) -> float:
-    angle = number_of(f"ballast: {key}", value)
-    if not abs(angle) <= np.degrees(LARGEST):
-        raise SceneError(
-            f"ballast: {key} is {angle:g}; give an angle within {np.degrees(LARGEST):.0f} deg, as far as "
-            "linear restoring holds"
-        )
-    return angle
-
-
-def _target(given: Mapping[str, Any]) -> dict[str, float]:
+def _target(**given: Any) -> dict[str, float]:
     """rad, by the motions that are asked for."""
-    asked = zip(ATTITUDE, given.items(), strict=True)
-    found = {
-        motion: float(np.radians(_angle(key, value))) for motion, (key, value) in asked if value is not None
-    }
+    found = {}
+    for motion, (key, value) in zip(ATTITUDE, given.items(), strict=True):
+        angle = 0.0 if value is None else number_of(f"ballast: {key}", value)
+        if not abs(angle) <= np.degrees(LARGEST):
+            raise SceneError(
+                f"ballast: {key} is {angle:g}; give an angle within {np.degrees(LARGEST):.0f} deg, as far as "
+                "linear restoring holds"
+            )
+        if value is not None:
+            found[motion] = float(np.radians(angle))
     if not found:
         raise SceneError("ballast: heel_deg and trim_deg are None; ask for one of them")
     return found
@@ -204,14 +201,13 @@ class _Force:
     def __init__(
         self, scene: Description, vessel: _core.VesselHydrodynamics, target: Mapping[str, float]
     ) -> None:
-        self.body = vessel.body
         self.weight, center = weight_of(scene)
         if self.weight == 0.0:
             raise SceneError(
                 f"ballast: vessel {vessel.name!r} carries no body, so that one force has no size; give tanks"
             )
         hull = scene.bodies[vessel.body]
-        self.first = _turn(hull).T @ (center - hull.position)
+        self.first = rotation_matrix(hull.quaternion).T @ (center - hull.position)
         self.moments = self.weight * np.array([[0.0, 1.0], [-1.0, 0.0]])[_asked(target)]
 
     def solve(self, needed: Array) -> Array:
@@ -224,11 +220,8 @@ class _Force:
     def forces(self, found: Array) -> dict[str, tuple[Any, float]]:
         return {"": ((float(found[0]), float(found[1]), 0.0), self.weight)}
 
-    def told(self, found: Array, target: Array) -> Ballast:
-        return Ballast(
-            vessel=self.body, heel=float(target[0]), trim=float(target[1]), weight=-self.weight,
-            center=np.array([found[0], found[1], 0.0]),
-        )  # fmt: skip
+    def told(self, found: Array) -> dict[str, Any]:
+        return {"weight": -self.weight, "center": np.array([found[0], found[1], 0.0])}
 
 
 class _Tanks:
@@ -241,7 +234,7 @@ class _Tanks:
         target: Mapping[str, float],
         tanks: Mapping[str, Tank],
     ) -> None:
-        self.body, self.tanks, self.gravity = vessel.body, tanks, scene.gravity
+        self.tanks, self.gravity = tanks, scene.gravity
         turned = np.array([target.get(motion, 0.0) for motion in ATTITUDE])
         of_each = np.array([self._moments(vessel, turned, one) for one in tanks.values()])
         self.moments = of_each.T[_asked(target)]
@@ -265,14 +258,11 @@ class _Tanks:
         changes = zip(self.tanks.items(), found, strict=True)
         return {name: (tank.point, -float(kg) * self.gravity) for (name, tank), kg in changes}
 
-    def told(self, found: Array, target: Array) -> Ballast:
+    def told(self, found: Array) -> dict[str, Any]:
         changes = dict(zip(self.tanks, found.tolist(), strict=True))
         contents = {name: tank.content + changes[name] for name, tank in self.tanks.items()}
-        return Ballast(
-            vessel=self.body, heel=float(target[0]), trim=float(target[1]),
-            weight=float(np.sum(found)) * self.gravity, center=np.full(3, np.nan), contents=contents,
-            changes=changes,
-        )  # fmt: skip
+        weight = float(np.sum(found)) * self.gravity
+        return {"weight": weight, "center": np.full(3, np.nan), "contents": contents, "changes": changes}
 
 
 def _fitted(
@@ -306,7 +296,7 @@ def _moments_left(
     near: _core.State | None,
 ) -> tuple[Array, _core.State, dict[str, float]]:
     """What drives in these motions still carry at rest at the target, N m; that rest; its attitude."""
-    out = posed(scene.copy(orientation="quaternion"), _places(scene), {})
+    out = posed(scene.copy(orientation="quaternion"), places_in(scene), {})
     for i, (point, force) in enumerate(forces.values()):
         add_force(out, vessel.body, name=f"trial ballast {i}", point=point, force=(0.0, 0.0, force))
     angles = {motion: ("", "angle") for motion in target}
@@ -317,16 +307,4 @@ def _moments_left(
     names = [f"{vessel.body}.motion.{motion}" for motion in target]
     at = model.pose_index(list(model.bodies).index(vessel.body))
     attitude = dict(zip(ATTITUDE, heel_and_trim(np.asarray(state.values)[at + 3 : at + 7]), strict=True))
-    return drive_loads(model, names, state), state, attitude
-
-
-def _places(scene: Description) -> dict[str, tuple[str, str]]:
-    return {
-        f"{roles.prefix}{label}": place
-        for roles in scene.roles.values()
-        for label, place in places_of(roles).items()
-    }
-
-
-def _turn(body: _core.Body) -> Array:
-    return rotation_matrix(body.quaternion)
+    return drive_loads(model, names, state.time, np.array(state.values)), state, attitude

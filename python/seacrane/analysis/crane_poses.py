@@ -41,11 +41,17 @@ def crane_of(scene: Description, prefix: str | None) -> CraneRoles:
 def places_of(roles: CraneRoles) -> dict[str, Place]:
     """Joint and coordinate of the slew drive, as "slew", and of every luff and cylinder by its label."""
     found = {} if roles.slew is None else {"slew": roles.slew}
-    return (
-        found
-        | dict(roles.luffs)
-        | {label: (joint, "displacement") for label, joint in roles.cylinders.items()}
-    )
+    sliding = {label: (joint, "displacement") for label, joint in roles.cylinders.items()}
+    return found | dict(roles.luffs) | sliding
+
+
+def places_in(scene: Description) -> dict[str, Place]:
+    """Those of all cranes, with their prefixes."""
+    return {
+        f"{one.prefix}{label}": place
+        for one in scene.roles.values()
+        for label, place in places_of(one).items()
+    }
 
 
 def drive_name(place: Place) -> str:

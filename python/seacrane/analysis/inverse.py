@@ -5,7 +5,7 @@ Both prescribe coordinates by drivers and read their multipliers.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from typing import Any
 
 import numpy as np
@@ -83,16 +83,24 @@ def _drive(scene: Description, joint: str, motions: Mapping[str, _core.Curve]) -
         add_driver(scene, joint=joint, coordinate=motion, curve=curve, name=f"{joint}.{motion}")
 
 
-def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state: Array) -> Array:
-    """Loads of drivers at one state."""
-    if not names:
-        return np.zeros(0)
+def channels_at(model: _core.Model, channels: Set[str], time: float, values: Array) -> dict[str, Array]:
+    """Those of these channels that a model has, at one state."""
     run = _core.Simulation(
         model=model,
-        start=_core.State(time=time, values=state, inputs=np.zeros(model.slots)),
-        options=_core.RunOptions(integrator="rk4", output_times=[time], channels={"driver_force"}),
-    )
-    loads = run.channels()["driver_force"][0]
+        start=_core.State(time=time, values=values, inputs=np.zeros(model.slots)),
+        options=_core.RunOptions(
+            integrator="rk4", output_times=[time],
+            channels=channels & set(model.channel_names(defaults_only=False)),
+        ),
+    )  # fmt: skip
+    return {name: each[0] for name, each in run.channels().items() if name != "time"}
+
+
+def drive_loads(model: _core.Model, names: Sequence[str], time: float, values: Array) -> Array:
+    """Loads of drivers, by name, at one state."""
+    if not names:
+        return np.zeros(0)
+    loads = channels_at(model, {"driver_force"}, time, values)["driver_force"]
     drivers = [name for name, kind, _, _ in model.elements if kind == "driver"]
     return np.array([loads[drivers.index(name)] for name in names])
 
@@ -100,12 +108,7 @@ def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state
 def actuator_loads(scene: Description, held: Description, state: _core.State) -> Array:
     """Loads of the drivers that hold a scene's actuators, by actuator, at a state of the held scene."""
     names = [_driver_name(name) for name in scene.actuators]
-    return drive_loads(compile_scene(held), names, state)
-
-
-def drive_loads(model: _core.Model, names: Sequence[str], state: _core.State) -> Array:
-    """Loads of drivers, by name, at a state."""
-    return _multipliers(model, names, time=state.time, state=np.array(state.values))
+    return drive_loads(compile_scene(held), names, state.time, np.array(state.values))
 
 
 def _driver_name(actuator: str) -> str:
@@ -132,9 +135,14 @@ def driven(scene: Some, *, references: Mapping[str, _core.Curve] | None = None) 
         chosen[name] = curve
     out = scene.copy(actuators={}, loads=without_compensation(scene.loads))
     for name, actuator in scene.actuators.items():
-        place: Any = {"joint": actuator.joint, "coordinate": actuator.coordinate}
-        add_driver(out, **place, curve=chosen[name], name=_driver_name(name))
+        _drive_as(out, actuator, chosen[name])
     return out
+
+
+def _drive_as(scene: Description, actuator: _core.Actuator, curve: _core.Curve) -> None:
+    """Give a scene a driver in place of an actuator."""
+    place: Any = {"joint": actuator.joint, "coordinate": actuator.coordinate}
+    add_driver(scene, **place, curve=curve, name=_driver_name(actuator.name))
 
 
 def inverse_dynamics(
@@ -182,15 +190,12 @@ def inverse_dynamics(
             f"scene {scene.name!r}: {model.degrees_of_freedom} degree(s) of freedom are not prescribed; give "
             "body_motion for them, or simulate driven(scene)"
         )
-    names = [_driver_name(name) for name in scene.actuators]
-    names += [f"{body}.motion.{motion}" for body, curves in motions.items() for motion in curves]
-    labels = [
-        *scene.actuators,
-        *(f"{body}.{motion}" for body, curves in motions.items() for motion in curves),
-    ]
+    places = {name: _driver_name(name) for name in scene.actuators}
+    for body, curves in motions.items():
+        places |= {f"{body}.{motion}": f"{body}.motion.{motion}" for motion in curves}
     instants = np.atleast_1d(numbers_of("inverse dynamics: times", times))
-    rows = _follow(model, names, instants)
-    return {label: rows[:, i].copy() for i, label in enumerate(labels)}
+    rows = _follow(model, list(places.values()), instants)
+    return {label: rows[:, i].copy() for i, label in enumerate(places)}
 
 
 def _follow(model: _core.Model, names: Sequence[str], times: Array) -> Array:
@@ -207,7 +212,7 @@ def _follow(model: _core.Model, names: Sequence[str], times: Array) -> Array:
                 f"the prescribed motion cannot be assembled at t = {time:.6g} s: {residual:.3g} m or rad open"
             )
         now = float(time)
-        rows.append(_multipliers(model, names, time=now, state=state))
+        rows.append(drive_loads(model, names, now, state))
     return np.array(rows)
 
 
@@ -220,21 +225,17 @@ def reflected_inertia(scene: Description) -> dict[str, float]:
         By actuator name: kg (cylinders) or kg m2 (slew).
     """
     out = {}
-    for name in scene.actuators:
+    for name, actuator in scene.actuators.items():
         loads = []
         for acceleration in (0.0, 1.0):
             curve = _core.Curve.pieces(
                 starts=[0.0], coefficients=[[0.0, 0.0, 0.5 * acceleration, 0.0, 0.0, 0.0]]
             )
             held = locked(scene.copy())
-            held.drivers.pop(_driver_name(name))
-            actuator = scene.actuators[name]
-            place: Any = {"joint": actuator.joint, "coordinate": actuator.coordinate}
-            add_driver(held, **place, curve=curve, name=_driver_name(name))
+            del held.drivers[_driver_name(name)]
+            _drive_as(held, actuator, curve)
             model = compile_scene(held)
-            loads.append(
-                _multipliers(model, [_driver_name(name)], time=0.0, state=np.array(model.initial_state))[0]
-            )
+            loads.append(drive_loads(model, [_driver_name(name)], 0.0, np.array(model.initial_state))[0])
         out[name] = float(loads[1] - loads[0])
     return out
 

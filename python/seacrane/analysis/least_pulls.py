@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.analysis.inverse import channels_at
 from seacrane.analysis.rest_state import held, rest_states
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import COMPILED, GROUND, KINDS, Description
@@ -20,6 +21,7 @@ from seacrane.description.suspension import Rig, Suspension, least_weights, name
 from seacrane.description.wet_parts import immersed_parts, waters_in
 
 Array = NDArray[np.float64]
+TENSIONS = ("tension", "line_tension")
 
 
 @once_in_any_sea
@@ -118,14 +120,7 @@ def _hang(scene: Description, out: Description, one: Suspension, drop: Array) ->
 def _pulls(scene: Description, wanted: Sequence[Suspension]) -> dict[str, float]:
     """Load at the lower end of each at rest, N, by its `channel`."""
     state = next(rest_states(scene, times=[0.0]))
-    model = compile_scene(held(scene))
-    start = _core.State(time=0.0, values=state.values, inputs=np.zeros(model.slots))
-    known = {"tension", "line_tension"} & set(model.channel_names(defaults_only=False))
-    run = _core.Simulation(
-        model=model, start=start,
-        options=_core.RunOptions(integrator="rk4", output_times=[0.0], channels=known),
-    )  # fmt: skip
-    channels = run.channels()
-    pulls = np.concatenate([channels[name][0] for name in ("tension", "line_tension") if name in known])
+    told = channels_at(compile_scene(held(scene)), set(TENSIONS), 0.0, np.array(state.values))
+    pulls = np.concatenate([told[name] for name in TENSIONS if name in told])
     found = dict(zip(names_of_suspensions(scene), pulls.tolist(), strict=True))
     return {one.channel: one.falls * max(found[one.channel], 0.0) for one in wanted}

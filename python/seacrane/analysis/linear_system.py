@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -133,16 +133,13 @@ class LinearModel:
         rows = self.basis[6 * k : 6 * k + 6]
         floating = {vessel.body for vessel in self.scene.vessels.values()}
         start = np.zeros(3) if body in floating else np.asarray(self.scene.bodies[body].center_of_mass)
-        lever = self._rotation(k) @ (place - start)
+        at = self._terms.model.pose_index(k)
+        lever = rotation_matrix(np.array(self.state.values)[at + 3 : at + 7]) @ (place - start)
         out = np.zeros((6, len(self.a)))
         # dr + dtheta x lever
         out[:3, : self.degrees_of_freedom] = rows[:3] + np.cross(rows[3:].T, lever).T
         out[3:, : self.degrees_of_freedom] = rows[3:]
         return out
-
-    def _rotation(self, body: int) -> Array:
-        at = self._terms.model.pose_index(body)
-        return rotation_matrix(np.array(self.state.values)[at + 3 : at + 7])
 
     @one_thread
     def response(self, *, omega: ArrayLike, force: ArrayLike) -> Complex:
@@ -185,19 +182,11 @@ class LinearModel:
             return x
         load, motion = self._memory_loads()
         by_load = np.stack([resolvent.response(w, np.broadcast_to(each, x.shape)) for each in load.T], axis=2)
-        impedance = self._impedance(w)
+        impedance = block_diagonal([memory.impedance(w) for memory in self.memories])
         # x = x_0 - by_load Z y of the motions y of the vessels with memory, y = motion x.
         closed = np.eye(len(motion)) + motion @ by_load @ impedance
         y = np.linalg.solve(closed, (x @ motion.T)[..., None])
         return np.asarray(x - (by_load @ (impedance @ y))[..., 0])
-
-    def _impedance(self, omega: Array) -> Complex:
-        """The impedance of all vessels of `memories` (k, 6 m, 6 m), block diagonal."""
-        size = 6 * len(self.memories)
-        out = np.zeros((len(omega), size, size), dtype=complex)
-        for i, memory in enumerate(self.memories):
-            out[:, 6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = memory.impedance(omega)
-        return out
 
     def _memory_loads(self) -> tuple[Array, Array]:
         """Rates of x by loads on the vessels of `memories` (n, 6 m), and their motions by x (6 m, n)."""
@@ -214,9 +203,7 @@ class LinearModel:
     def yaw_axes(self) -> Array:
         """(6, 6) from the axes of wave loads, which follow the vessel's yaw, to inertial ones."""
         assert self.vessel is not None
-        model = self._terms.model
-        place = list(model.bodies).index(self.vessel)
-        return _yaw_axes(model, np.array(self.state.values), place, paper=model.paper_kinematics)
+        return _yaw_axes(self._terms.model, np.array(self.state.values), self.vessel)
 
     def motion_of(self, vessel: str) -> Array:
         """C (6, n): motion (m) of a vessel's origin and its rotation vector from x, in its yaw axes."""
@@ -241,12 +228,7 @@ class LinearModel:
             a[dof : 2 * dof, :dof] -= speeds[:, at] @ stiffness @ moved[at]
             a[dof : 2 * dof, dof : 2 * dof] -= speeds[:, at] @ damping @ moved[at]
             k = self.bodies.index(memory.body)
-            axes = _yaw_axes(
-                self._terms.model,
-                np.array(self.state.values),
-                k,
-                paper=self._terms.model.paper_kinematics,
-            )
+            axes = _yaw_axes(self._terms.model, np.array(self.state.values), memory.body)
             mass[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] += axes @ added[at, at] @ axes.T
         heavier = np.eye(dof) + speeds @ added @ moved
         a[dof : 2 * dof] = np.linalg.solve(heavier, a[dof : 2 * dof])
@@ -403,6 +385,16 @@ def linear_model(
     )
 
 
+def block_diagonal(blocks: Sequence[NDArray[Any]]) -> NDArray[Any]:
+    """Matrices (..., n, n) along the diagonal of one."""
+    each = np.array(blocks)
+    count, size = len(each), each.shape[-1]
+    out = np.zeros((*each.shape[1:-2], count * size, count * size), each.dtype)
+    for i, block in enumerate(each):
+        out[..., size * i : size * i + size, size * i : size * i + size] = block
+    return out
+
+
 def _excitation(model: _core.Model, values: Array, vessel: str, basis: Array, mass: Array) -> Array:
     """Accelerations of the coordinates per wave load on a vessel, (degrees of freedom, 6)."""
     return np.asarray(np.linalg.solve(basis.T @ mass @ basis, _along(model, values, vessel, basis).T))
@@ -411,8 +403,7 @@ def _excitation(model: _core.Model, values: Array, vessel: str, basis: Array, ma
 def _along(model: _core.Model, values: Array, vessel: str, basis: Array) -> Array:
     """Motion of a vessel in axes that follow its yaw per coordinate, (6, degrees of freedom)."""
     k = list(model.bodies).index(vessel)
-    axes = _yaw_axes(model, values, k, paper=model.paper_kinematics)
-    return np.asarray(axes.T @ basis[6 * k : 6 * k + 6])
+    return np.asarray(_yaw_axes(model, values, vessel).T @ basis[6 * k : 6 * k + 6])
 
 
 def _state_matrix(coordinates: ReducedCoordinates, poses: Array) -> tuple[Array, Array]:
@@ -446,12 +437,9 @@ def _require_rest(terms: Terms, values: Array) -> None:
             f"state {name!r}: changes by {rate:.3g} {unit}/s at the state to be linearised; pass it through "
             "seacrane.equilibrium first"
         )
-    moving = np.abs(values[terms.twists])
-    accelerating = np.abs(rates[: 6 * terms.bodies])
-    for what, unit, size in (
-        ("moves", "m/s or rad/s", moving),
-        ("accelerates", "m/s2 or rad/s2", accelerating),
-    ):
+    moving, accelerating = np.abs(values[terms.twists]), np.abs(rates[: 6 * terms.bodies])
+    found = (("moves", "m/s or rad/s", moving), ("accelerates", "m/s2 or rad/s2", accelerating))
+    for what, unit, size in found:
         worst = int(np.argmax(size))
         if size[worst] > REST:
             name = terms.model.bodies[worst // 6]
@@ -475,9 +463,9 @@ def _wave_body(scene: Description, wanted: str | None) -> str | None:
     return wanted
 
 
-def _yaw_axes(model: _core.Model, values: Array, body: int, *, paper: bool) -> Array:
+def _yaw_axes(model: _core.Model, values: Array, vessel: str) -> Array:
     """(6, 6) from axes that follow the vessel's yaw to inertial ones; the paper's loads are inertial."""
-    at = model.pose_index(body)
+    at = model.pose_index(list(model.bodies).index(vessel))
     r = rotation_matrix(values[at + 3 : at + 7])
-    yaw = 0.0 if paper else float(np.arctan2(r[1, 0], r[0, 0]))
+    yaw = 0.0 if model.paper_kinematics else float(np.arctan2(r[1, 0], r[0, 0]))
     return np.asarray(np.kron(np.eye(2), rotation_about_z(yaw)))

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.linear_system import LinearModel
+from seacrane.analysis.linear_system import LinearModel, block_diagonal
 from seacrane.analysis.reduced_coordinates import Terms
+from seacrane.analysis.taut_lines import pose_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import GROUND, Description
 from seacrane.description.loads import changed
@@ -135,14 +136,10 @@ def _place(linear: LinearModel, name: str, point: Any) -> tuple[Array, Array, Ar
     """Where a body's origin is at rest, m, its quaternion, and where a point of it is, m."""
     if name == GROUND:
         return np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), np.asarray(point)
-    body = linear.scene.bodies[name]
+    values = np.array(linear.state.values)
     at = linear.model.pose_index(linear.bodies.index(name))
-    pose = np.array(linear.state.values)[at : at + 7]
-    floating = {vessel.body for vessel in linear.scene.vessels.values()}
-    start = np.zeros(3) if name in floating else np.asarray(body.center_of_mass)
-    turn = rotation_matrix(pose[3:])
-    origin = pose[:3] - turn @ start
-    return origin, pose[3:], origin + turn @ np.asarray(point)
+    origin, turn = pose_of(linear.scene, linear.model, name, values)
+    return origin, values[at + 3 : at + 7], origin + turn @ np.asarray(point)
 
 
 def _part(linear: LinearModel, element: _core.ImmersedPart) -> WetPart | None:
@@ -244,7 +241,7 @@ class PartsInWaves:
         self.along = np.concatenate([np.zeros((0, dof)), *(part.along for part in self.parts)])
         reduced = linear.basis.T @ linear.mass @ linear.basis
         self._load = np.linalg.solve(reduced, self.along.T)
-        self._inertia = blocks([part.inertia for part in self.parts])
+        self._inertia = block_diagonal([part.inertia for part in self.parts])
 
     def __bool__(self) -> bool:
         return bool(self.parts)
@@ -300,7 +297,7 @@ class PartsInWaves:
         """The same with the drag of each part as damping, (3, 3), N s/m, inertial axes; in the model too."""
         linear, dof = self.linear, self.linear.degrees_of_freedom
         out, a = copy(self), linear.a.copy()
-        more = blocks(list(damping)) - self._damping()
+        more = block_diagonal(damping) - self._damping()
         a[dof : 2 * dof, dof : 2 * dof] -= self._load @ more @ self.along
         named = {part.name: each for part, each in zip(self.parts, damping, strict=True)}
         out.linear = replace(linear, a=a, drag_damping=named)
@@ -308,12 +305,4 @@ class PartsInWaves:
 
     def _damping(self) -> Array:
         known, none = self.linear.drag_damping, np.zeros((3, 3))
-        return blocks([known.get(part.name, none) for part in self.parts])
-
-
-def blocks(each: list[Array]) -> Array:
-    """Block diagonal (3 p, 3 p)."""
-    out = np.zeros((3 * len(each), 3 * len(each)))
-    for i, block in enumerate(each):
-        out[3 * i : 3 * i + 3, 3 * i : 3 * i + 3] = block
-    return out
+        return block_diagonal([known.get(part.name, none) for part in self.parts])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
@@ -182,18 +183,11 @@ class ReducedCoordinates:
 
         Exact; by central differences of fourth order for a model without an exact Jacobian.
         """
-        terms = self.terms
-        exact = self._along(terms.pose_directions(self.values, self.basis))
+        exact = self._along(self.terms.pose_directions(self.values, self.basis))
         if exact is not None:
             return exact
-        columns = []
-        for direction in self.basis.T:
-            near, far = (
-                self._difference(displacement=step * direction) / (2.0 * step)
-                for step in (POSE_STEP, 2.0 * POSE_STEP)
-            )
-            columns.append((4.0 * near - far) / 3.0)
-        return self._stacked(columns)
+        differences = self._differences("displacement", POSE_STEP)
+        return self._stacked([(4.0 * near - far) / 3.0 for near, far in differences])
 
     def twist_columns(self) -> Array:
         """d(accelerations, memory rates) / d(speeds).
@@ -206,21 +200,13 @@ class ReducedCoordinates:
         exact = self._along(directions)
         if exact is not None:
             return exact
-        columns = []
-        for direction in self.basis.T:
-            near, far = (
-                self._difference(twist=step * direction) / (2.0 * step)
-                for step in (TWIST_STEP, 2.0 * TWIST_STEP)
-            )
-            columns.append(2.0 * near - far)
-        return self._stacked(columns)
+        return self._stacked([2.0 * near - far for near, far in self._differences("twist", TWIST_STEP)])
 
     def memory_columns(self) -> Array:
         """d(accelerations, memory rates) / d(memory states), which is linear."""
         terms = self.terms
-        exact = None if self._exact is None else self._exact[:, terms.memory]
-        if exact is not None:
-            return exact
+        if self._exact is not None:
+            return self._exact[:, terms.memory]
         scale = np.array(terms.model.scale)
         columns = []
         for i in range(terms.memory.start, terms.memory.stop):
@@ -267,12 +253,19 @@ class ReducedCoordinates:
         both = np.hstack([self.pose_columns(), self.memory_columns()[:, last] * scales])
         return np.vstack([self.basis.T @ both[: 6 * self.terms.bodies], both[last] / scales[:, None]])
 
-    def _difference(self, *, displacement: Array | float = 0.0, twist: Array | float = 0.0) -> Array:
-        terms, y, still = self.terms, self.values, np.zeros(6 * self.terms.bodies)
-        move, speed = still + displacement, still + twist
-        high = terms.moved(y, displacement=move, twist=speed)
-        low = terms.moved(y, displacement=-move, twist=-speed)
-        return terms.rates(high) - terms.rates(low)
+    def _differences(self, what: str, step: float) -> Iterator[tuple[Array, Array]]:
+        """Central differences of the rates along each coordinate, by a step and by two."""
+        still = {"displacement": np.zeros(6 * self.terms.bodies), "twist": np.zeros(6 * self.terms.bodies)}
+        for direction in self.basis.T:
+            near, far = (
+                (self._rates(**still | {what: h * direction}) - self._rates(**still | {what: -h * direction}))
+                / (2.0 * h)
+                for h in (step, 2.0 * step)
+            )
+            yield near, far
+
+    def _rates(self, *, displacement: Array, twist: Array) -> Array:
+        return self.terms.rates(self.terms.moved(self.values, displacement=displacement, twist=twist))
 
     def _stacked(self, columns: list[Array]) -> Array:
         rows = 6 * self.terms.bodies + self.terms.model.memory_states

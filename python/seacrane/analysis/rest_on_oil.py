@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.analysis.inverse import channels_at
 from seacrane.analysis.taut_lines import pose_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
@@ -25,6 +26,7 @@ Array = NDArray[np.float64]
 STEP = 0.05  # m, of rods on their way to other lengths: projection takes only small steps
 Search = Callable[[Some, float, Array], _core.State]
 ENDS = ("first", "second", "first_point", "second_point")
+ROD = " held"  # after the name of a cylinder, that of its rod
 
 
 def rest_on_oil(scene: Some, time: float, values: Array, search: Search[Some]) -> _core.State:
@@ -149,26 +151,15 @@ def add_rod(scene: Description, given: Mapping[str, Any], length: float | None =
     if length is None:
         length = apart(scene, f"hydraulic cylinder {given['name']!r}", *ends)
     add_joint(
-        scene, kind="distance", name=_rod(given["name"]), first=given["first"], second=given["second"],
+        scene, kind="distance", name=f"{given['name']}{ROD}", first=given["first"], second=given["second"],
         point=first, second_point=second, length=length,
     )  # fmt: skip
 
 
 def rod_forces(scene: Description, model: _core.Model, state: _core.State) -> dict[str, float]:
     """N, positive pushes, of the rods in a scene at one of its states, by the cylinder."""
-    run = _core.Simulation(
-        model=model,
-        start=_core.State(time=state.time, values=state.values, inputs=np.zeros(model.slots)),
-        options=_core.RunOptions(integrator="rk4", output_times=[state.time], channels={"tension"}),
-    )
+    pulls = channels_at(model, {"tension"}, state.time, np.array(state.values))["tension"].tolist()
     ties = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
-    tension = dict(zip(ties, run.channels()["tension"][0].tolist(), strict=True))
-    return {_cylinder(name): -force for name, force in tension.items() if name == _rod(_cylinder(name))}
-
-
-def _rod(cylinder: str) -> str:
-    return f"{cylinder} held"
-
-
-def _cylinder(rod: str) -> str:
-    return rod.removesuffix(" held")
+    return {
+        name.removesuffix(ROD): -pull for name, pull in zip(ties, pulls, strict=True) if name.endswith(ROD)
+    }

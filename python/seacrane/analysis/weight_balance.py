@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.inverse import SIX, actuator_loads, at_rest, drive_loads, locked_at_rest
+from seacrane.analysis.inverse import SIX, actuator_loads, at_rest, channels_at, drive_loads, locked_at_rest
 from seacrane.analysis.rest_state import held, rest_states
 from seacrane.description.body_motion import position_of
 from seacrane.description.compilation import compile_scene
@@ -74,13 +74,13 @@ def balance(scene: Description) -> Balance:
         with parts in water, if there is no rest near.
     """
     still = locked_at_rest(scene)
-    state = _resting(still) if wet_bodies(scene) else _as_described(still)
+    state = next(rest_states(still, times=[0.0])) if wet_bodies(scene) else _as_described(still)
     still = held(still) if wet_bodies(scene) else still
     model = compile_scene(still)
     wrenches = {}
     for vessel in (one for one in scene.vessels.values() if one.floats):
         names = [f"{vessel.body}.motion.{motion}" for motion in SIX]
-        wrenches[vessel.body] = drive_loads(model, names, state)
+        wrenches[vessel.body] = drive_loads(model, names, state.time, np.array(state.values))
     weight, center = weight_of(scene)
     return Balance(
         vessel_wrenches=wrenches,
@@ -104,11 +104,6 @@ def _as_described(still: Description) -> _core.State:
     return _core.State(time=0.0, values=values, inputs=np.zeros(model.slots))
 
 
-def _resting(still: Description) -> _core.State:
-    """That in which what hangs in water is at rest, everything driven held."""
-    return next(rest_states(still, times=[0.0]))
-
-
 def weight_of(scene: Description) -> tuple[float, Array]:
     """Weight of all bodies that have weight but vessels, less what water carries, N; where it acts, m.
 
@@ -127,13 +122,10 @@ def weight_of(scene: Description) -> tuple[float, Array]:
 def _weight_in_water(scene: Description, heavy: Sequence[_core.Body], weights: Array) -> tuple[float, Array]:
     """Of the bodies, and of what water does to their parts where they rest."""
     still = held(locked_at_rest(scene))
-    state, model = _resting(still), compile_scene(still)
-    run = _core.Simulation(
-        model=model, start=_core.State(time=0.0, values=state.values, inputs=np.zeros(model.slots)),
-        options=_core.RunOptions(integrator="rk4", output_times=[0.0], channels=WET),
-    )  # fmt: skip
-    arrays = run.channels()
-    centers = np.array([position_of(scene, arrays, body.name, body.center_of_mass)[0] for body in heavy])
+    state, model = next(rest_states(still, times=[0.0])), compile_scene(still)
+    told = channels_at(model, WET, 0.0, np.array(state.values))
+    poses = {name: told[name][None] for name in ("position", "quaternion")}
+    centers = np.array([position_of(scene, poses, body.name, body.center_of_mass)[0] for body in heavy])
     force = np.array([0.0, 0.0, -float(weights.sum())])
     moment = np.cross(centers, np.outer(weights, [0.0, 0.0, -1.0])).sum(axis=0)
     on = {body.name for body in heavy}
@@ -141,9 +133,9 @@ def _weight_in_water(scene: Description, heavy: Sequence[_core.Body], weights: A
     for load in wet:
         if load.body in on:
             at = model.axes["load"].index(load.name)
-            push = arrays["load_force"][0, at]
-            origin = position_of(scene, arrays, load.body, (0.0, 0.0, 0.0))[0]
-            force, moment = force + push, moment + arrays["load_moment"][0, at] + np.cross(origin, push)
+            push = told["load_force"][at]
+            origin = position_of(scene, poses, load.body, (0.0, 0.0, 0.0))[0]
+            force, moment = force + push, moment + told["load_moment"][at] + np.cross(origin, push)
     weight = -float(force[2])
     place = np.array([moment[1], -moment[0]]) / weight  # of a downward force with that moment
     return weight, np.array([*place, np.average(centers[:, 2], weights=weights)])

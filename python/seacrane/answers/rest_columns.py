@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.analysis.crane_poses import drive_name
+from seacrane.analysis.inverse import channels_at
 from seacrane.analysis.reduced_coordinates import NEUTRAL, POSE, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import held
 from seacrane.description.compilation import compile_scene
@@ -48,13 +49,7 @@ class AtRest:
     def of(cls, scene: Description, state: _core.State) -> AtRest:
         """What holds of a posed scene and a state at rest of it."""
         model = compile_scene(held(scene, time=state.time))
-        known = set(model.channel_names(defaults_only=False))
-        run = _core.Simulation(
-            model=model,
-            start=_core.State(time=state.time, values=state.values, inputs=np.zeros(model.slots)),
-            options=_core.RunOptions(integrator="rk4", output_times=[state.time], channels=CHANNELS & known),
-        )
-        channels = {name: values[0] for name, values in run.channels().items() if name != "time"}
+        channels = channels_at(model, CHANNELS, state.time, np.array(state.values))
         return cls(scene=scene, model=model, state=state, channels=channels)
 
     def drive(self, joint: str, coordinate: str) -> float:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.analysis.crane_poses import crane_of, path_through, places_of, posed, values_of
+from seacrane.analysis.crane_poses import crane_of, path_through, places_in, places_of, posed, values_of
 from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.reach import Reach, luffing
@@ -200,11 +200,7 @@ def resting(
     luff: str | None,
 ) -> Iterator[AtRest]:
     """The scene at rest in each pose of a grid, by the names of its axes."""
-    places = {
-        f"{one.prefix}{label}": place
-        for one in scene.roles.values()
-        for label, place in places_of(one).items()
-    }
+    places = places_in(scene)
     poses = [] if roles is None else _strokes(scene, roles, grid, luff)
     path, times = path_through(places, poses) if poses else ({}, np.zeros(1))
     out = posed(scene.copy(orientation="quaternion"), places, path)
