@@ -13,7 +13,7 @@ from seacrane import _core
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
 from seacrane.description.hydrodynamics import group_of
-from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
+from seacrane.description.loads import changed
 from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import transformer
 from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
@@ -91,8 +91,7 @@ def without_memory(scene: Description, memories: tuple[FrequencyMemory, ...]) ->
         return scene
     out = scene.copy()
     for each in memories:
-        fields = out.vessels[each.vessel].__getstate__()
-        out.vessels[each.vessel] = VesselHydrodynamics(**{**fields, "memory": []})
+        out.vessels[each.vessel] = changed(out.vessels[each.vessel], memory=[])
     return out
 
 

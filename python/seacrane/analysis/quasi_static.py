@@ -113,13 +113,15 @@ def feed_forward(
     if instants.size < 2:
         raise SceneError("feed-forward: one time makes no curve; give two or more")
     chosen = {name: actuator.reference for name, actuator in scene.actuators.items()} | dict(references or {})
-    _check_rest(chosen, float(instants[0]))
-    if period is None:
-        _check_rest(chosen, float(instants[-1]))
-        ends = {name: _core.Curve.constant(value=float(load[-1])) for name, load in loads.items()}
-    else:
-        ends = {name: _first_harmonic(instants, load, period) for name, load in loads.items()}
-    return {name: _joined(instants, load, ends[name]) for name, load in loads.items()}
+    for time in instants[[0, -1] if period is None else [0]].tolist():
+        _check_rest(chosen, time)
+
+    def end(load: Array) -> _core.Curve:
+        if period is None:
+            return _core.Curve.constant(value=float(load[-1]))
+        return _first_harmonic(instants, load, period)
+
+    return {name: _joined(instants, load, end(load)) for name, load in loads.items()}
 
 
 def _check_rest(references: Mapping[str, _core.Curve], time: float) -> None:
@@ -146,12 +148,9 @@ def _first_harmonic(times: Array, load: Array, period: float) -> _core.Curve:
     columns = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
     mean, cosine, sine = np.linalg.lstsq(columns, load[last], rcond=None)[0]
     return _core.Curve.harmonic(
-        start_time=float(times[-1]),
-        offset=float(mean),
-        amplitude=float(np.hypot(cosine, sine)),
-        omega=omega,
-        phase=float(np.arctan2(-sine, cosine)),
-    )
+        start_time=float(times[-1]), offset=float(mean), amplitude=float(np.hypot(cosine, sine)),
+        omega=omega, phase=float(np.arctan2(-sine, cosine)),
+    )  # fmt: skip
 
 
 def _joined(times: Array, load: Array, end: _core.Curve) -> _core.Curve:
@@ -160,12 +159,9 @@ def _joined(times: Array, load: Array, end: _core.Curve) -> _core.Curve:
 
     value, rate, acceleration = end.evaluate([times[-1]])[0]
     through = np.append(load[:-1], value)
-    spline = make_interp_spline(
-        times, through, k=5, bc_type=([(1, 0.0), (2, 0.0)], [(1, rate), (2, acceleration)])
-    )
-    pieces = PPoly.from_spline(spline)
+    ends = ([(1, 0.0), (2, 0.0)], [(1, rate), (2, acceleration)])
+    pieces = PPoly.from_spline(make_interp_spline(times, through, k=5, bc_type=ends))
     kept = np.diff(pieces.x) > 0.0
-    curve = _core.Curve.pieces(
-        starts=pieces.x[:-1][kept].tolist(), coefficients=pieces.c[::-1].T[kept].tolist()
-    )
+    starts, coefficients = pieces.x[:-1][kept].tolist(), pieces.c[::-1].T[kept].tolist()
+    curve = _core.Curve.pieces(starts=starts, coefficients=coefficients)
     return curve.then(time=float(times[-1]), curve=end)

@@ -19,7 +19,7 @@ from seacrane.analysis.taut_lines import has_masses, kept_lengths, tautened, unb
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import changed, lines_of
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of
@@ -55,27 +55,20 @@ def held(scene: Some, *, time: float = 0.0) -> Some:
     """
     out = scene.copy(waves=calm_water(scene.waves), orientation="quaternion", baumgarte=0.0)
     for name, actuator in scene.actuators.items():
-        out.actuators[name] = _core.Actuator(
-            name=name, joint=actuator.joint, coordinate=actuator.coordinate,
-            stiffness=actuator.stiffness, damping=actuator.damping,
-            feed_forward=_frozen(actuator.feed_forward, time), reference=_frozen(actuator.reference, time),
-        )  # fmt: skip
+        still = {key: _frozen(getattr(actuator, key), time) for key in ("feed_forward", "reference")}
+        out.actuators[name] = changed(actuator, **still)
     for name, driver in scene.drivers.items():
         # The described pose belongs to the value at the start, so the held value takes over on the way.
         curve = _frozen(driver.curve, 0.0)
         if time > 0.0:
             curve = curve.then(time=0.5 * time, curve=_frozen(driver.curve, time))
-        out.drivers[name] = _core.Driver(
-            name=name, joint=driver.joint, coordinate=driver.coordinate, curve=curve
-        )
+        out.drivers[name] = changed(driver, curve=curve)
     for name, table in scene.force_tables.items():
         wrench = [float(np.interp(time, table.times, column)) for column in np.asarray(table.wrenches).T]
-        out.force_tables[name] = _core.ForceTable(
-            name=name, body=table.body, point=table.point, times=[0.0, 1.0], wrenches=np.array([wrench] * 2)
-        )
+        out.force_tables[name] = changed(table, times=[0.0, 1.0], wrenches=np.array([wrench] * 2))
     for name, line in lines_of(scene.loads).items():
-        held_curves = {key: _frozen(getattr(line, key), time) for key in ("length", "tension", "brake")}
-        out.loads[name] = _core.Line(**line.__getstate__() | held_curves | {"rate": 0.0})
+        still = {key: _frozen(getattr(line, key), time) for key in ("length", "tension", "brake")}
+        out.loads[name] = changed(line, **still, rate=0.0)
     return out
 
 
@@ -137,7 +130,7 @@ def rest_from(scene: Description, state: _core.State) -> _core.State:
 
 def led(scene: Description, state: _core.State, *, time: float) -> _core.State:
     """A state at rest with its poses led along the drivers of a scene to a later time (s), as of its own."""
-    return _core.State(**state.__getstate__() | {"values": _followed(scene, state, time)})
+    return changed(state, values=_followed(scene, state, time))
 
 
 def rest_states(scene: Description, *, times: Iterable[float]) -> Iterator[_core.State]:

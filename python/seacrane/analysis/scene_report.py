@@ -60,22 +60,16 @@ def scene_report(scene: Description) -> SceneReport:
     held = held_drives(scene)
     scene = with_holds(scene)
     model = compile_scene(scene)
-    report = SceneReport(
-        {
-            "size": _size(scene, model),
-            "elements": [*elements_of(scene), *_held(held)],
-            "merged": _merged(model),
-            "assembly": _assembly(scene, model),
-            "left out": _left_out(scene, model),
-            "cost": _cost(model),
-        }
-    )
-    if model.line_bounces:
-        report["lines"] = _bounces(model)
-    modes = _modes(model)
-    if modes:
-        report["modes"] = modes
-    return report
+    report = {
+        "size": _size(scene, model),
+        "elements": [*elements_of(scene), *_held(held)],
+        "merged": _merged(model),
+        "assembly": _assembly(scene, model),
+        "left out": _left_out(scene, model),
+        "cost": _cost(model),
+    }
+    asked = {"lines": _bounces(model), "modes": _modes(model)}
+    return SceneReport(report | {title: rows for title, rows in asked.items() if rows})
 
 
 def _size(scene: Description, model: _core.Model) -> Rows:
@@ -107,23 +101,22 @@ def _size(scene: Description, model: _core.Model) -> Rows:
 
 def elements_of(scene: Description) -> Rows:
     """Kinds of element that a scene holds, and the elements of each with what they act on."""
-    rows: Rows = [("bodies", list(scene.bodies))]
     kinds: dict[str, list[str]] = {}
     for name, joint in scene.joints.items():
         kinds.setdefault(joint.kind, []).append(f"{name} ({joint.first} to {joint.second})")
-    rows += [(f"{kind} joints", names) for kind, names in kinds.items()]
-    rows.append(("drivers", [f"{name} ({_place(driver)})" for name, driver in scene.drivers.items()]))
-    rows += _loads_by_kind(scene)
-    rows.append(("coefficients in water", sources_in_water(scene)))
-    given = given_vessels(scene)
-    floating = [f"{name} ({v.body})" for name, v in scene.vessels.items() if v.body not in given]
-    rows.append(("vessels", floating))
-    groups = [f"{name} ({', '.join(group.vessels)})" for name, group in scene.groups.items()]
-    rows.append(("vessels in one water", groups))
-    rows.append(("vessels of given motion", [f"{body} ({kind})" for body, kind in given.items()]))
-    rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
-    rows.append(("crane parts", _crane_parts(scene)))
-    return [(label, names) for label, names in rows if names]
+    given, vessels = given_vessels(scene), scene.vessels.items()
+    return _there([
+        ("bodies", list(scene.bodies)),
+        *((f"{kind} joints", names) for kind, names in kinds.items()),
+        ("drivers", [f"{name} ({_place(driver)})" for name, driver in scene.drivers.items()]),
+        *_loads_by_kind(scene),
+        ("coefficients in water", sources_in_water(scene)),
+        ("vessels", [f"{name} ({v.body})" for name, v in vessels if v.body not in given]),
+        ("vessels in one water", [f"{n} ({', '.join(group.vessels)})" for n, group in scene.groups.items()]),
+        ("vessels of given motion", [f"{body} ({kind})" for body, kind in given.items()]),
+        ("waves", [] if scene.waves is None else list(scene.waves.hulls)),
+        ("crane parts", _crane_parts(scene)),
+    ])  # fmt: skip
 
 
 def _held(found: Mapping[str, list[Drive]]) -> Rows:
@@ -157,10 +150,16 @@ def _place(element: Any) -> str:
 def _merged(model: _core.Model) -> Rows:
     """Bodies that runs step as one, and the elements between them that drop out of the equations."""
     merge = model.merge
-    rows: Rows = [(f"moves as one with {carrier}", names) for carrier, names in merge["bodies"].items()]
-    rows.append(("drivers that hold a joint still", merge["locked_by"]))
-    rows.append(("drivers whose coordinate is no unknown (recursive form)", model.tree["driven"]))
-    rows.append(("elements not stepped (reactions on output only)", merge["dropped"]))
+    return _there([
+        *((f"moves as one with {carrier}", names) for carrier, names in merge["bodies"].items()),
+        ("drivers that hold a joint still", merge["locked_by"]),
+        ("drivers whose coordinate is no unknown (recursive form)", model.tree["driven"]),
+        ("elements not stepped (reactions on output only)", merge["dropped"]),
+    ])  # fmt: skip
+
+
+def _there(rows: Rows) -> Rows:
+    """Without rows that hold nothing."""
     return [(label, names) for label, names in rows if names]
 
 
@@ -194,29 +193,25 @@ def _left_out(scene: Description, model: _core.Model) -> Rows:
     floating = floating_bodies(scene)
     weightless = [n for n, body in scene.bodies.items() if not body.gravity or n in floating]
     absent = {
-        "joints": scene.joints,
-        "drivers": scene.drivers,
-        "actuators": scene.actuators,
-        "vessels": scene.vessels,
+        **{kind: getattr(scene, kind) for kind in ("joints", "drivers", "actuators", "vessels")},
         "waves": scene.waves is not None,
         "fluid memory": model.memory_states or model.history_samples,
         "gravity": scene.gravity,
     }
-    rows: Rows = [("absent", [name for name, present in absent.items() if not present])]
-    rows.append(("bodies without weight of their own", [] if scene.gravity == 0.0 else weightless))
-    rows.append(
-        ("joints that constrain nothing", [name for name, _, count, _ in model.elements if count == 0])
-    )
     given = given_vessels(scene)
     afloat = {n: vessel for n, vessel in scene.vessels.items() if vessel.floats and vessel.body not in given}
     together = {name for group in scene.groups.values() if group.memory for name in group.vessels}
     no_memory = [name for name, vessel in afloat.items() if not vessel.memory and name not in together]
-    rows.append(("vessels without memory", no_memory))
     undamped = [name for name, v in afloat.items() if v.linear_damping[3, 3] + v.quadratic_damping[3] == 0.0]
-    rows.append(("vessels without viscous roll damping", undamped))
-    offered = model.channel_names(defaults_only=False)
-    rows.append(("channels on request only", [n for n in offered if n not in model.channel_names()]))
-    return [(label, names) for label, names in rows if names]
+    offered, usual = model.channel_names(defaults_only=False), model.channel_names()
+    return _there([
+        ("absent", [name for name, present in absent.items() if not present]),
+        ("bodies without weight of their own", [] if scene.gravity == 0.0 else weightless),
+        ("joints that constrain nothing", [name for name, _, count, _ in model.elements if count == 0]),
+        ("vessels without memory", no_memory),
+        ("vessels without viscous roll damping", undamped),
+        ("channels on request only", [name for name in offered if name not in usual]),
+    ])  # fmt: skip
 
 
 def _cost(model: _core.Model) -> Rows:
@@ -227,12 +222,9 @@ def _cost(model: _core.Model) -> Rows:
 
 def _bounces(model: _core.Model) -> Rows:
     """How each line lets bounce what hangs on it at the start, see docs/lines.md."""
+    words = "bounces in {:.4g} s, damped by {:.3g} % of critical, as {:.4g} kg on it"
     return [
-        (
-            name,
-            f"bounces in {2.0 * np.pi / omega:.4g} s, damped by {100.0 * ratio:.3g} % of critical, as "
-            f"{mass:.4g} kg on it",
-        )
+        (name, words.format(2.0 * np.pi / omega, 100.0 * ratio, mass))
         for name, (mass, omega, ratio) in model.line_bounces.items()
     ]
 

@@ -9,7 +9,7 @@ from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.line_path import Pose, laid
-from seacrane.description.loads import length_at, lines_of, states_of, winch_of, winches_of
+from seacrane.description.loads import changed, length_at, lines_of, states_of, winch_of, winches_of
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.frames import rotation_matrix
@@ -39,7 +39,7 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
             paid_out = places[f"{winch_of(line)}.length"]
             state[paid_out] = min(state[paid_out], path / (1.0 + STRAIN) / line.share)
         else:
-            out.loads[name] = _core.Line(**line.__getstate__() | {"length": path / (1.0 + STRAIN)})
+            out.loads[name] = changed(line, length=path / (1.0 + STRAIN))
     return (out, state) if found else None
 
 
@@ -75,7 +75,7 @@ def has_masses(scene: Description) -> bool:
 def unbounded(scene: Some) -> Some:
     """The scene with winches that hold a tension at any rate: one at its bound shows no stiffness."""
     wound = {
-        name: _core.Line(**line.__getstate__() | {"maximum_rate": NO_BOUND, "maximum_acceleration": NO_BOUND})
+        name: changed(line, maximum_rate=NO_BOUND, maximum_acceleration=NO_BOUND)
         for name, line in lines_of(scene.loads).items()
         if line.tension_gain > 0.0
     }
@@ -92,9 +92,8 @@ def slack_lines(scene: Description, model: _core.Model, values: Array) -> dict[s
     """By how much (m) lines are slack in a state."""
     found, known = {}, states_of(model, values)
     for name, line in lines_of(scene.loads).items():
-        slack = float(
-            length_at(line, 0.0, known) - laid(line, lambda body: pose_of(scene, model, body, values)).length
-        )
+        path = laid(line, lambda body: pose_of(scene, model, body, values)).length
+        slack = float(length_at(line, 0.0, known) - path)
         if slack > 0.0:
             found[name] = slack
     return found

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
 from seacrane.analysis.crane_poses import crane_of, values_of
 from seacrane.analysis.rest_state import rest_from
 from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.answers.statics import resting
 from seacrane.description.capacity import allowed_at
 from seacrane.description.description import Description
+from seacrane.description.loads import changed
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
@@ -275,9 +275,8 @@ class _Hook:
     def _values(self, mass: float) -> dict[str, float]:
         scene = self._at_rest.scene.copy()
         old = scene.bodies[self._body]
-        entries = dict(old.__getstate__())
-        entries |= {"mass": mass, "inertia": np.asarray(old.inertia) * (mass / old.mass)}
-        scene.bodies[self._body] = _core.Body(**entries)
+        inertia = np.asarray(old.inertia) * (mass / old.mass)
+        scene.bodies[self._body] = changed(old, mass=mass, inertia=inertia)
         told = columns_of(AtRest.of(scene, rest_from(scene, self._at_rest.state)))
         return {name: told[name][1] for name in self._bounds}
 
