@@ -44,15 +44,9 @@ COUNTERS = {
 Rows = list[tuple[str, Any]]
 CLOSED = 1e-6  # m or rad: joints that are closed to it are closed for any engineer
 BALANCED = 1e-3  # of the absolute work
-STATED = [
-    "wave_elevation",
-    "slew_angle",
-    "stroke",
-    "limit_force",
-    "coordinate",
-    "actuator_force",
-    "driver_force",
-]
+STATED = (
+    "wave_elevation", "slew_angle", "stroke", "limit_force", "coordinate", "actuator_force", "driver_force",
+)  # fmt: skip
 Statistics = tuple[Any, ...]  # title, unit, largest value, when (s), smallest, when, mean, standard deviation
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 PLANAR = ("surge", "sway", "yaw")  # motions that the summary leaves to the statistics
@@ -169,27 +163,23 @@ def _told(rows: Rows) -> Rows:
     return [(text, value) for text, value in rows if value is not None]
 
 
-def _judgement(good: bool | None, passed: str, failed: str) -> str:
-    return "" if good is None else f'<p class="{"good" if good else "bad"}">{passed if good else failed}</p>'
-
-
 def checked(result: Result) -> str:
     """Constraint errors and energy balance, and whether they are good enough."""
-    joints = _judgement(
-        joints_closed(result),
-        f"Joints stay closed within {CLOSED:g} m or rad.",
-        f"Joints open by more than {CLOSED:g} m or rad: do not use the numbers before this is understood.",
-    )
-    energy = _judgement(
-        energy_balanced(result),
-        f"Energy is balanced within {BALANCED:g} of the absolute work.",
-        f"Energy is off by more than {BALANCED:g} of the absolute work: tighten the tolerance and compare.",
-    )
     parts = [
-        ("Worst constraint errors", _told(constraint_rows(result)), joints),
-        ("Energy balance", _told(energy_rows(result)), energy),
-    ]
-    return "\n".join(f"<h3>{name}</h3>{facts(rows).html()}{words}" for name, rows, words in parts if rows)
+        ("Worst constraint errors", constraint_rows(result), joints_closed(result),
+         f"Joints stay closed within {CLOSED:g} m or rad.",
+         f"Joints open by more than {CLOSED:g} m or rad: do not use the numbers before this is understood."),
+        ("Energy balance", energy_rows(result), energy_balanced(result),
+         f"Energy is balanced within {BALANCED:g} of the absolute work.",
+         f"Energy is off by more than {BALANCED:g} of the absolute work: tighten the tolerance and compare."),
+    ]  # fmt: skip
+    found = []
+    for name, rows, good, passed, failed in parts:
+        if known := _told(rows):
+            kind, words = ("good", passed) if good else ("bad", failed)
+            judged = "" if good is None else f'<p class="{kind}">{words}</p>'
+            found.append(f"<h3>{name}</h3>{facts(known).html()}{judged}")
+    return "\n".join(found)
 
 
 def events(result: Result) -> str:

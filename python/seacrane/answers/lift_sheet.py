@@ -262,14 +262,11 @@ class _Sheet:
     def _slings(self) -> list[Suspension]:
         """What holds the load itself, below a block."""
         above = {one.suspension.name for one in self._hung}
+        hooks = {one.suspension.lower[0] for one in self._hung}  # from which no tagline comes
         return [
             one for one in suspensions(self._scene)
-            if one.lower[0] == self._factors.name and one.name not in above and self._bears(one)
+            if one.lower[0] == self._factors.name and one.name not in above and one.upper[0] in hooks
         ]  # fmt: skip
-
-    def _bears(self, one: Suspension) -> bool:
-        """A tagline is none: it does not come from the hook."""
-        return one.upper[0] in {hook.suspension.lower[0] for hook in self._hung}
 
     def _worst(self, *names: str) -> float:
         found = [corner[name][1] for corner in self._at_rest for name in names if name in corner]

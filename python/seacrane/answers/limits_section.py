@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -24,20 +24,16 @@ class Judged:
     name: str
     kind: str
     bound: str
-    reached: str
-    held: bool | None
     words: str
+    reached: str = ""
+    held: bool | None = None
 
 
 def judged_bounds(result: Result) -> list[Judged]:
     """Every limit of a scene: wires, stops, seats, ranges, and links that may only pull."""
     described = result.about.bounds
-    return [_judged(result, bound) for bound in described] + _links(result, described)
-
-
-def _judged(result: Result, bound: Mapping[str, Any]) -> Judged:
     judge = {"wire": _contact, "seat": _contact, "stop": _stop, "soft stop": _bounded, "range": _bounded}
-    return judge[bound["kind"]](result, bound)
+    return [judge[bound["kind"]](result, bound) for bound in described] + _links(result, described)
 
 
 def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
@@ -46,7 +42,8 @@ def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
     closed, opened = ("taut throughout", "slack") if wire else ("pressed throughout", "lifted off")
     mine = [event for event in result.events if event.name == name]
     count = sum(event.kind in ("release", "rebound") for event in mine)
-    starts_open = _force_at_start(result, name) == 0.0
+    force = _force(result, name)
+    starts_open = force is not None and float(force[0]) == 0.0
     fallen = sum(event.kind == "through" for event in mine)
     asked = _asked_for(result, mine)
     words = f"{opened} {_often(count)}" if count else f"{opened} at the start" if starts_open else closed
@@ -58,7 +55,7 @@ def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
         words += f", then through it {_often(fallen)}"
     return Judged(
         name=name, kind=str(bound["kind"]), bound="pulls only" if wire else "presses only",
-        reached=_forces(result, name), words=words,
+        reached="" if force is None else _newtons(_reached(result, "limit_force", limit=name)), words=words,
         held=not starts_open and (not count or (bool(asked) and count == 1 and not fallen)),
     )  # fmt: skip
 
@@ -80,19 +77,11 @@ def _often(count: int) -> str:
 
 def _stop(result: Result, bound: Mapping[str, Any]) -> Judged:
     base = _bounded(result, bound)
-    name = str(bound["name"])
-    hits = [
-        event
-        for event in result.events
-        if event.name.removesuffix(".minimum").removesuffix(".maximum") == name
-        and event.kind in ("contact", "rebound")
-    ]
-    words = (
-        f"hit {_often(len(hits))}, fastest {max(e.speed for e in hits):.3g} m/s or rad/s"
-        if hits
-        else "not hit"
-    )
-    return Judged(name=name, kind="stop", bound=base.bound, reached=base.reached, held=not hits, words=words)
+    ends = [base.name, f"{base.name}.minimum", f"{base.name}.maximum"]
+    hits = [one for one in result.events if one.name in ends and one.kind in ("contact", "rebound")]
+    fastest = max((hit.speed for hit in hits), default=0.0)
+    words = f"hit {_often(len(hits))}, fastest {fastest:.3g} m/s or rad/s" if hits else "not hit"
+    return replace(base, held=not hits, words=words)
 
 
 def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
@@ -101,22 +90,19 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
     factor, unit = shown_unit("rad" if angular else "m", [])
     low, high = (None if bound[end] is None else factor * bound[end] + 0.0 for end in ("minimum", "maximum"))
     limits = f"{'' if low is None else f'{low:.4g}'} to {'' if high is None else f'{high:.4g}'} {unit}"
+    told = Judged(
+        name=str(bound["name"]), kind=str(bound["kind"]), bound=limits, words="coordinate not recorded"
+    )
     values = _coordinate(result, bound["recorded"])
     if values is None:
-        return Judged(
-            name=str(bound["name"]), kind=str(bound["kind"]), bound=limits, reached="", held=None,
-            words="coordinate not recorded",
-        )  # fmt: skip
+        return told
     least, most = (_settled(float(factor * value)) for value in (values.min(), values.max()))
     beyond = max(-np.inf if low is None else low - least, -np.inf if high is None else most - high)
     held = beyond <= factor * (OVERSHOT if bound["kind"] == "range" else 0.0)
     words = f"held, {0.0 - beyond:.3g} {unit} left" if beyond <= 0.0 else f"{beyond:.3g} {unit} beyond"
     if held and beyond > 0.0:
         words = f"held, overshot by {beyond:.1g} {unit}"
-    return Judged(
-        name=str(bound["name"]), kind=str(bound["kind"]), bound=limits,
-        reached=f"{least:.4g} to {most:.4g} {unit}", held=bool(held), words=words,
-    )  # fmt: skip
+    return replace(told, reached=f"{least:.4g} to {most:.4g} {unit}", held=bool(held), words=words)
 
 
 def _settled(value: float) -> float:
@@ -147,17 +133,10 @@ def _force(result: Result, name: str) -> Any:
     return _finite(result.select("limit_force", limit=name))
 
 
-def _force_at_start(result: Result, name: str) -> float | None:
-    force = _force(result, name)
-    return None if force is None else float(force[0])
-
-
-def _forces(result: Result, name: str) -> str:
-    if _force(result, name) is None:
-        return ""
-    force = _reached(result, "limit_force", limit=name)
-    factor, unit = shown_unit("N", [force])
-    return f"{factor * force.min():.4g} to {factor * force.max():.4g} {unit}"
+def _newtons(values: Any) -> str:
+    """Least and largest of forces, in the unit in which they are read."""
+    factor, unit = shown_unit("N", [values])
+    return f"{factor * values.min():.4g} to {factor * values.max():.4g} {unit}"
 
 
 def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judged]:
@@ -172,20 +151,11 @@ def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judge
         tension = _reached(result, "tension", link=name)
         if tension is None:
             continue
-        factor, unit = shown_unit("N", [tension])
-        least, most = float(factor * tension.min()), float(factor * tension.max())
         pushed = tension.min() < -1e-9 * np.abs(tension).max()
-        words = "pushed: a wire would have gone slack" if pushed else "pulled throughout"
-        found.append(
-            Judged(
-                name=name,
-                kind="link",
-                bound="must pull",
-                reached=f"{least:.4g} to {most:.4g} {unit}",
-                held=not pushed,
-                words=words,
-            )
-        )
+        found.append(Judged(
+            name=name, kind="link", bound="must pull", reached=_newtons(tension), held=not pushed,
+            words="pushed: a wire would have gone slack" if pushed else "pulled throughout",
+        ))  # fmt: skip
     return found
 
 
@@ -196,6 +166,5 @@ def limits(result: Result) -> str:
         "Coordinates are those at the outputs. Capacities of structure and wire are limit states: see the "
         "summary."
     )
-    return (
-        table_of(("limit", "kind", "bound", "reached", "held?"), rows, remarks=[words]).html() if rows else ""
-    )
+    head = ("limit", "kind", "bound", "reached", "held?")
+    return table_of(head, rows, remarks=[words]).html() if rows else ""

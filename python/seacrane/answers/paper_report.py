@@ -49,18 +49,18 @@ def study_report(study: Study) -> Report:
 
     Raises OSError if the image of a picture cannot be read.
     """
-    paragraphs = [f"<p>{escape(text)}</p>" for text in (*study.summary, AXES_NOTE)]
+    paragraphs = [escape(text) for text in (*study.summary, AXES_NOTE)]
+    runs = [(escape(name), run) for name, run in study.runs.items()]
     paragraphs += [
-        f"<p><strong>Interrupted:</strong> run {escape(name)} ended at {run.time[-1]:g} s.</p>"
-        for name, run in study.runs.items()
-        if run.interrupted
-    ]
+        f"<strong>Interrupted:</strong> run {name} ended at {run.time[-1]:g} s."
+        for name, run in runs if run.interrupted
+    ]  # fmt: skip
     paragraphs += [
-        f"<p><strong>Out of range:</strong> run {escape(name)}: {escape(text)}.</p>"
-        for name, run in study.runs.items()
-        for text in findings_of(run)
-    ]
-    page = compose(title=study.title, lead="\n".join(paragraphs), sections=SECTIONS, subject=study)
+        f"<strong>Out of range:</strong> run {name}: {escape(text)}."
+        for name, run in runs for text in findings_of(run)
+    ]  # fmt: skip
+    lead = "\n".join(f"<p>{text}</p>" for text in paragraphs)
+    page = compose(title=study.title, lead=lead, sections=SECTIONS, subject=study)
     return Report(title=study.title, html=page)
 
 

@@ -60,11 +60,9 @@ def provenance(result: Result) -> str:
         ("seacrane that ran it", result.stats["seacrane_version"]),
         ("SHA-256 of the recorded numbers", digest(result)),
     ]
-    return "\n".join(
-        [
-            facts(made).html(),
-            f"<h3>Settings</h3>{settings_block(result)}",
-            f"<h3>Recorded channels</h3>{_recorded(result)}",
-            f"<h3>Versions that made this page</h3>{versions_block()}",
-        ]
-    )
+    parts = {
+        "Settings": settings_block(result),
+        "Recorded channels": _recorded(result),
+        "Versions that made this page": versions_block(),
+    }
+    return "\n".join([facts(made).html(), *(f"<h3>{name}</h3>{html}" for name, html in parts.items())])

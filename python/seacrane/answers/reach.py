@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.crane_poses import Place, path_through, places_of, posed
+from seacrane.analysis.crane_poses import path_through, places_of, posed
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_reach import tip_radius
 from seacrane.description.description import Description
@@ -20,6 +21,7 @@ from seacrane.inputs.frames import rotation_matrix
 Array = NDArray[np.float64]
 STEP = 0.25  # s of the path between two projections: 0.05 m
 CLOSE = 1e-10  # s of the path
+LOADS = ("loads", "point_forces", "springs", "force_tables", "function_forces")
 
 
 def luffing(scene: Description, roles: CraneRoles, luff: str | None) -> str:
@@ -48,10 +50,12 @@ class Reach:
     ) -> None:
         self._scene, self._roles, self._label = scene, roles, label
         places = places_of(roles)
-        low, high = self._range(places[label])
+        limits = [one for one in scene.ranges.values() if (one.joint, one.coordinate) == places[label]]
+        low, high = max(one.minimum for one in limits), min(one.maximum for one in limits)
         ends = [{**others, label: value} for value in (0.0, low, high)]
         path, times = path_through(places, ends)
-        led = posed(_bare(scene), places, path).copy(orientation="quaternion")
+        none: dict[str, Any] = {name: {} for name in LOADS}  # do not matter to where a tip is
+        led = posed(scene.copy(**none), places, path).copy(orientation="quaternion")
         for one in scene.roles.values():
             if one.structure is not None:  # upright: what the crane gives is told by the rest state
                 add_driver(led, joint=one.structure, curve=0.0)
@@ -88,10 +92,6 @@ class Reach:
     def _value(self, time: float) -> float:
         return float(self._low + self._rate * (time - self._begin))
 
-    def _range(self, place: Place) -> tuple[float, float]:
-        limits = [one for one in self._scene.ranges.values() if (one.joint, one.coordinate) == place]
-        return max(one.minimum for one in limits), min(one.maximum for one in limits)
-
     def _led(self, state: Array, start: float, end: float) -> Array:
         for time in np.linspace(start, end, int(np.ceil((end - start) / STEP)) + 1)[1:]:
             state = self._evaluator.project(float(time), state)
@@ -99,18 +99,9 @@ class Reach:
 
     def _radius(self, state: Array) -> float:
         poses = np.array(state[: 7 * len(self._scene.bodies)]).reshape(-1, 7)
-        return float(tip_radius(self._scene, self._roles, self._centres(poses), poses[:, 3:]))
-
-    def _centres(self, poses: Array) -> Array:
-        """Centres of mass: the state holds those of bodies, and the reference points of vessels."""
-        out = poses[:, :3].copy()
+        centres = poses[:, :3].copy()  # the state holds those of bodies, and the reference points of vessels
         floating = {vessel.body for vessel in self._scene.vessels.values()}
         for i, (name, body) in enumerate(self._scene.bodies.items()):
             if name in floating:
-                out[i] += rotation_matrix(poses[i, 3:]) @ body.center_of_mass
-        return out
-
-
-def _bare(scene: Description) -> Description:
-    """Without loads, which do not matter to where a tip is."""
-    return scene.copy(loads={}, point_forces={}, springs={}, force_tables={}, function_forces={})
+                centres[i] += rotation_matrix(poses[i, 3:]) @ body.center_of_mass
+        return float(tip_radius(self._scene, self._roles, centres, poses[:, 3:]))

@@ -14,7 +14,7 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.frames import AXES_NOTE, rotation_matrix
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.result import Result
-from seacrane.result.history import marks_of
+from seacrane.result.history import marks_of, title_of
 from seacrane.result.traces import NO_ENERGY, NO_MOTION, Bounded, Trace, beyond_rounding, traces
 from seacrane.run.hanging import swing_of
 
@@ -35,8 +35,10 @@ REPORTED = {"MN": (1e3, "kN"), "MN m": (1e3, "kN m")}
 TONNES = {"N": 1e-3, "kN": 1.0, "MN": 1e3}  # times the weight of 1 t, from a load in that unit
 POSES = ("position", "quaternion")
 CHANNELS = (*TENSIONS, *CRANE, *LEADS, GAPS, *POSES, "vessel_motion")  # of which the curves are made
-SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0)),
-      "kJ": 1e-3}  # fmt: skip
+SI = {  # of units of a summary: the SI unit, and from that to it
+    "kN": ("N", 1e-3), "kN m": ("N m", 1e-3), "t": ("N", 1e-3 / STANDARD_GRAVITY),
+    "deg": ("rad", float(np.degrees(1.0))), "kJ": ("J", 1e-3),
+}  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -111,7 +113,7 @@ def hook_loads(result: Result) -> list[Curve]:
 
 def _curves(result: Result) -> list[Curve]:
     held = set(result.channels)
-    hung = hung_in(result)
+    hung = result.about.hung
     shown = {name for one in hung for name in one["parts"]}
     loads = [name for name in (*TENSIONS, *CRANE) if name in held and SAME.get(name) not in held]
     links = set(result.coords[result.dims["tension"][1]]) if "tension" in held else set()
@@ -124,18 +126,14 @@ def _curves(result: Result) -> list[Curve]:
         and not (name == "link_tension" and shown)
         and not (name == "hook_load" and hung and _same(result, one))
     ]
-    leads = [
+    leads = [one for name in LEADS if name in held for one in beyond_rounding(traces(result, name))]
+    gaps = traces(result, GAPS) if GAPS in held else []
+    as_recorded = [
         Curve(kind=one.channel, label=one.label, unit=one.unit, **_scaled(1.0, one))
-        for name in LEADS
-        if name in held
-        for one in beyond_rounding(traces(result, name))
-    ]
-    gaps = [
-        Curve(kind=one.channel, label=one.label, unit=one.unit, **_scaled(1.0, one))
-        for one in (traces(result, GAPS) if GAPS in held else [])
+        for one in (*leads, *gaps)
     ]
     hoists = [curve for one in hung for curve in _hoist(result, one, hung)]
-    return [*hoists, *found, *_water(result), *_offsets(result), *leads, *gaps, *_motions(result)]
+    return [*hoists, *found, *_water(result), *_offsets(result), *as_recorded, *_motions(result)]
 
 
 def _hoist(result: Result, one: Mapping[str, Any], every: Sequence[Mapping[str, Any]]) -> list[Curve]:
@@ -158,7 +156,7 @@ def _hoist(result: Result, one: Mapping[str, Any], every: Sequence[Mapping[str, 
     return [
         Curve(kind=kind, label=label, unit=unit, **values, load=True, pulls=True, rung=one["rung"],
               suspension=name, of_one_fall=kind != HOOK, static=None if weight is None else
-              weight * si_factor(unit) / (1 if kind == HOOK else falls))
+              weight * in_si(unit)[1] / (1 if kind == HOOK else falls))
         for kind, unit, values, name, (weight, falls) in found
     ]  # fmt: skip
 
@@ -184,12 +182,9 @@ def _same(result: Result, hook: Trace) -> bool:
     return bool(np.allclose(load, pull, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(pull)), equal_nan=True))
 
 
-SI_UNITS = {"kN": "N", "kN m": "N m", "t": "N", "deg": "rad", "kJ": "J"}
-
-
-def si_factor(unit: str) -> float:
-    """From SI to a unit of a summary."""
-    return SI.get(unit, 1.0)
+def in_si(unit: str) -> tuple[str, float]:
+    """The SI unit of a unit of a summary, and the factor from that to it."""
+    return SI.get(unit, (unit, 1.0))
 
 
 def _load(result: Result, one: Trace) -> Curve:
@@ -203,7 +198,7 @@ def _load(result: Result, one: Trace) -> Curve:
         pulls=one.channel in TENSIONS,
         suspension=_suspension(result, one) if one.channel in TENSIONS else "",
         of_one_fall=one.channel == "line_tension",
-        static=None if static is None else static * si_factor(unit),
+        static=None if static is None else static * in_si(unit)[1],
     )  # fmt: skip
 
 
@@ -280,12 +275,9 @@ def hanging_vectors(result: Result) -> dict[str, Array]:
     """
     if not set(POSES) <= set(result.channels):
         return {}
-    return {one["load"]: _place(result, *one["to"]) - _place(result, *one["from"]) for one in hung_in(result)}
-
-
-def hung_in(result: Result) -> list[Mapping[str, Any]]:
-    """What hangs, as the run noted it."""
-    return list(result.about.hung)
+    return {
+        one["load"]: _place(result, *one["to"]) - _place(result, *one["from"]) for one in result.about.hung
+    }
 
 
 def _place(result: Result, body: str, point: Sequence[float]) -> Array:
@@ -305,11 +297,6 @@ def plot_summary(result: Result) -> Figure:
     SceneError
         If the run recorded nothing that a summary holds.
     """
-    return draw(summary_sheet(result))
-
-
-def summary_sheet(result: Result) -> Sheet:
-    """The panels of `plot_summary` with their numbers."""
     groups: dict[tuple[str, str], list[Curve]] = {}
     for one in reported_curves(result):
         groups.setdefault((one.kind, one.unit), []).append(one)
@@ -318,16 +305,13 @@ def summary_sheet(result: Result) -> Sheet:
             f"a result with {', '.join(result.channels) or 'no channels'} has no load and no motion to "
             "draw; record link_tension, cylinder_force, position or vessel_motion"
         )
-    panels = [
-        Panel(
-            quantity=kind, unit=unit,
-            lines=tuple(Line(label=one.label, values=one.values, colour=i) for i, one in enumerate(group)),
-        )
-        for (kind, unit), group in groups.items()
-    ]  # fmt: skip
-    return Sheet(
-        title=f"{result.stats['scene']}{' (interrupted)' if result.interrupted else ''}",
+    panels = []
+    for (kind, unit), group in groups.items():
+        lines = tuple(Line(label=one.label, values=one.values, colour=i) for i, one in enumerate(group))
+        panels.append(Panel(quantity=kind, unit=unit, lines=lines))
+    return draw(Sheet(
+        title=title_of(result),
         caption=f"Triangles mark the largest and the smallest value. {AXES_NOTE}",
         abscissa=result.time, panels=tuple(panels), columns=2 if len(panels) > 3 else 1,
         marks=marks_of(result), extremes=True,
-    )  # fmt: skip
+    ))  # fmt: skip

@@ -204,10 +204,7 @@ def heeling_stiffness(model: _core.Model, values: Array, time: float, body: str)
     forward = np.array([np.cos(heading), np.sin(heading), 0.0])
     turn = basis[6 * k + 3 : 6 * k + 6].T @ forward
     acceleration = np.linalg.solve(basis.T @ mass @ basis, turn)
-    u, size, vt = np.linalg.svd(-coordinates.stiffness())
-    fixed = size > NEUTRAL
-    moved = vt[fixed].T @ ((u.T @ acceleration)[fixed] / size[fixed])
-    heel = float(turn @ moved)
+    heel = float(turn @ _yielding(coordinates.stiffness(), acceleration))
     return 1.0 / heel if heel else float("inf")  # a ship whose motion is given does not heel
 
 
@@ -243,11 +240,15 @@ def hook_stiffness(
     ])  # fmt: skip
     down = free.T @ (basis.T @ _vertical(scene, model, values, names.index(body), point))
     acceleration = np.concatenate([np.linalg.solve(small, down), np.zeros(len(matrix) - dof)])
-    u, size, vt = np.linalg.svd(-reduced)
-    fixed = size > NEUTRAL
-    moved = vt[fixed].T @ ((u.T @ acceleration)[fixed] / size[fixed])
-    sag = float(down @ moved[: free.shape[1]])
+    sag = float(down @ _yielding(reduced, acceleration)[: free.shape[1]])
     return 1.0 / sag if sag > LEAST_SAG else np.inf
+
+
+def _yielding(stiffness: Array, acceleration: Array) -> Array:
+    """How far a stiffness (acceleration over coordinates) lets a load move what something brings back."""
+    u, size, vt = np.linalg.svd(-stiffness)
+    fixed = size > NEUTRAL
+    return np.asarray(vt[fixed].T @ ((u.T @ acceleration)[fixed] / size[fixed]))
 
 
 def _elastic(scene: Description, model: _core.Model, state: _core.State) -> tuple[_core.Model, Array]:

@@ -15,7 +15,7 @@ from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.reach import Reach, luffing
 from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of, pulls_of
-from seacrane.description.description import Description, Some
+from seacrane.description.description import Description
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.description.waves import calm_water
@@ -153,28 +153,22 @@ def statics(
     LargeHeelWarning
         Where a vessel heels or trims by more than 20 deg, beyond which restoring is not linear.
     """
-    axes, roles = _axes(slew, radius, coordinates), None
-    if axes:
-        roles = crane_of(scene, crane)
+    axes = _axes(slew, radius, coordinates)
+    roles = crane_of(scene, crane) if axes else None
     every = [np.atleast_1d(values) for values in axes.values()]
     grid = [dict(zip(axes, one, strict=True)) for one in itertools.product(*every)]
     shape = tuple(len(values) for values in axes.values() if np.ndim(values))
-    judge = RestJudge(scene)
+    judge = _RestJudge(scene)
     rows = [judge.seen(one, pose) for pose, one in zip(grid, resting(scene, roles, grid, luff), strict=True)]
     judge.warn()
     return Statics(
         scene=scene.name,
         poses=axes,
-        columns={name: _over(shape, [row[name][1] for row in rows]) for name in rows[0]},
+        columns={name: np.array([row[name][1] for row in rows]).reshape(shape)[()] + 0.0 for name in rows[0]},
         units={name: unit for name, (unit, _) in rows[0].items()},
         pose_units={name: _unit(roles, name) for name in axes},
         gravity=scene.gravity,
     )
-
-
-def _over(shape: tuple[int, ...], values: list[float]) -> Any:
-    """Values over a grid; one number where it has no axis."""
-    return np.array(values).reshape(shape)[()] + 0.0
 
 
 def _axes(slew: Any, radius: Any, coordinates: Mapping[str, Any] | None) -> dict[str, Any]:
@@ -241,8 +235,7 @@ def _strokes(
 
 def _require_range(scene: Description, place: tuple[str, str], label: str, value: float) -> None:
     for limit in scene.ranges.values():
-        outside = (limit.joint, limit.coordinate) == place and not limit.minimum <= value <= limit.maximum
-        if outside:
+        if (limit.joint, limit.coordinate) == place and not limit.minimum <= value <= limit.maximum:
             unit = "rad" if place[1] in ANGLES else "m"
             raise SceneError(
                 f"statics: {label} is {value:g} {unit}, outside its range of {limit.minimum:g} to "
@@ -250,7 +243,7 @@ def _require_range(scene: Description, place: tuple[str, str], label: str, value
             )
 
 
-class RestJudge:
+class _RestJudge:
     """Looks at rest states one after another, and tells the worst of them at the end."""
 
     def __init__(self, scene: Description) -> None:
@@ -260,10 +253,12 @@ class RestJudge:
 
     def seen(self, at_rest: AtRest, pose: Pose) -> Columns:
         """The columns of a state at rest."""
-        columns, where = columns_of(at_rest), _where(pose)
+        columns = columns_of(at_rest)
+        where = f"at {', '.join(f'{name} {value:.4g}' for name, value in pose.items())} " if pose else ""
         self._poses += 1
         grows = growing(at_rest.scene, at_rest.model, at_rest.state)
-        stability = [f"{name} {value:.3g} {unit}" for name, (unit, value) in columns.items() if _is_gm(name)]
+        gm = {name: told for name, told in columns.items() if name.split(" ")[0] == "GM"}
+        stability = [f"{name} {value:.3g} {unit}" for name, (unit, value) in gm.items()]
         if grows:
             self._falling.append((grows[0], f"{where}{', '.join(stability)}"))
         for name, (_, value) in columns.items():
@@ -292,29 +287,16 @@ class RestJudge:
             )
 
 
-def _is_gm(name: str) -> bool:
-    return name == "GM" or name.startswith("GM ")
-
-
-def _where(pose: Pose) -> str:
-    if not pose:
-        return ""
-    return f"at {', '.join(f'{name} {value:.4g}' for name, value in pose.items())} "
-
-
-def lifted(scene: Some) -> Some:
-    """The scene without seats: what stands on a deck hangs on its lines."""
+@one_thread
+def hanging_rest(scene: Description) -> AtRest:
+    """Its state at rest with every load off its deck, calm and held as at the start; SceneError for none."""
     seats = {name: load.joint for name, load in scene.loads.items() if getattr(load, "kind", "") == "seat"}
-    return scene.copy(
+    out = scene.copy(
         loads={name: load for name, load in scene.loads.items() if name not in seats},
         joints={name: joint for name, joint in scene.joints.items() if name not in seats.values()},
+        waves=calm_water(scene.waves),
     )
-
-
-@one_thread
-def hanging_rest(scene: Some) -> AtRest:
-    """Its state at rest with every load off its deck, calm and held as at the start; SceneError for none."""
-    return next(resting(lifted(scene).copy(waves=calm_water(scene.waves)), None, [{}], None))
+    return next(resting(out, None, [{}], None))
 
 
 def static_pulls(result: Result) -> dict[str, float] | str:

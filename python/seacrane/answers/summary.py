@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.analysis.least_pulls import least_pulls
-from seacrane.answers.reported_curves import SI_UNITS, Curve, reported_curves, si_factor
+from seacrane.answers.reported_curves import Curve, in_si, reported_curves
 from seacrane.answers.statics import Statics, static_pulls
 from seacrane.description.rungs import RIGID
 from seacrane.description.suspension import ROD, suspensions
@@ -141,7 +141,7 @@ class Summary(Rows[SummaryRow]):
 
     def _numbers(self, name: str, head: str | None = None) -> Column:
         """In SI units, and in the unit in which each row is printed."""
-        read = [si_factor(row.printed) * getattr(row, name) for row in self.rows]
+        read = [in_si(row.printed)[1] * getattr(row, name) for row in self.rows]
         return self.column(name, head=head, read=("", read), least=NOTHING)
 
     def _notes(self) -> list[str]:
@@ -197,25 +197,19 @@ def summary(
     if not isinstance(told, str):
         known = {name: told[name] for name in unknown if name in told} | known
     every = [
-        replace(one, static=known[one.name] * si_factor(one.unit) if one.name in known else one.static)
+        replace(one, static=known[one.name] * in_si(one.unit)[1] if one.name in known else one.static)
         for one in curves
     ]
     least = _least_pulls(result)
-    kept = [
-        replace(
-            one,
-            values=one.values[part],
-            bounds=(
-                inside(result, part, one.values, one.least),
-                inside(result, part, one.values, one.largest),
-            ),
-        )
-        for one in every
-    ]
-    rows = [_row(one, time, least) for one in kept]
+    kept = []
+    for one in every:
+        low, high = (inside(result, part, one.values, bound) for bound in (one.least, one.largest))
+        kept.append(replace(one, values=one.values[part], bounds=(low, high)))
+    restless = [f"No factor of what is starred: {told}."] if isinstance(told, str) else []
     return Summary(
-        scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]), rows=tuple(rows),
-        remarks=(*remarks_on(result, time, kept), *_restless(told), *([WET] if least else [])),
+        scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]),
+        rows=tuple(_row(one, time, least) for one in kept),
+        remarks=(*remarks_on(result, time, kept), *restless, *([WET] if least else [])),
         of_outputs=tuple(one.name for one in every if one.bounds is None), utilisation=result.utilisation,
         contacts=contact_loads(result),
     )  # fmt: skip
@@ -230,11 +224,6 @@ def _least_pulls(result: Result) -> dict[str, tuple[float, int]]:
         return {name: (pull, falls.get(name, 1)) for name, pull in least_pulls(result.scene).items()}
     except SeacraneError:  # what comes to no rest has no margin
         return {}
-
-
-def _restless(told: dict[str, float] | str) -> list[str]:
-    """Why loads that something else carries too have no factor."""
-    return [f"No factor of what is starred: {told}."] if isinstance(told, str) else []
 
 
 def _static(given: Statics | None) -> dict[str, float]:
@@ -258,9 +247,8 @@ def _part(result: Result, after: float | None, before: float | None) -> slice:
     """Outputs from `after` to `before`, both included."""
     first = result.time[0] if after is None else number_of("summary: after", after)
     last = result.time[-1] if before is None else number_of("summary: before", before)
-    part = slice(
-        int(np.searchsorted(result.time, first)), int(np.searchsorted(result.time, last, side="right"))
-    )
+    begin, end = (int(np.searchsorted(result.time, *one)) for one in ((first, "left"), (last, "right")))
+    part = slice(begin, end)
     if part.start >= part.stop:
         raise SceneError(
             f"summary: no output is between after = {first:g} and before = {last:g} s; the result has "
@@ -275,13 +263,13 @@ def _row(curve: Curve, time: Array, least: Mapping[str, tuple[float, int]]) -> S
     static = float(first if curve.static is None else curve.static)
     low, high = int(np.nanargmin(curve.least)), int(np.nanargmax(curve.largest))
     minimum, maximum = float(curve.least[low]), float(curve.largest[high])
-    per = si_factor(curve.unit)
+    unit, per = in_si(curve.unit)
     blind = known and curve.rung in BLIND and minimum < SLACK * static
     pull, falls = least.get(curve.suspension, (0.0, 1))
     over = pull * per / (falls if curve.of_one_fall else 1) or (static if known else 0.0)
     has_factor = curve.load and known and not blind
     return SummaryRow(
-        name=curve.name, unit=SI_UNITS.get(curve.unit, curve.unit), printed=curve.unit,
+        name=curve.name, unit=unit, printed=curve.unit,
         static=static / per, static_known=known,
         mean=float(np.nanmean(values)) / per, std=float(np.nanstd(values)) / per,
         minimum=minimum / per, minimum_at=float(time[low]),
