@@ -11,7 +11,7 @@ import numpy as np
 
 from seacrane import Curve, Scene, shipped_database, simulate, statics
 from seacrane.crane import Payload, load_crane
-from seacrane.plotting.figure import new_figure
+from seacrane.plotting.panel import new_figure
 
 crane = load_crane("service_arm_5t")
 print(f"{crane.data.name}: {crane.mass:.0f} kg, bodies {', '.join(crane.mass_properties)}")

@@ -11,7 +11,7 @@ import numpy as np
 
 from seacrane import Curve, Scene, simulate, statics
 from seacrane.crane import Payload, load_crane
-from seacrane.plotting.figure import new_figure
+from seacrane.plotting.panel import new_figure
 
 LOAD, START = 60e3, math.radians(45.0)  # kg, rad
 

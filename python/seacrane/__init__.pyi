@@ -45,7 +45,7 @@ from seacrane.run.until import Until as Until
 from seacrane.result.result import Result as Result
 from seacrane.answers.summary import summary as summary
 from seacrane.answers.report import report as report
-from seacrane.pictures.overview import plot_overview as plot_overview
+from seacrane.pictures.plots import plot_overview as plot_overview
 from seacrane.pictures.view import view as view
 from seacrane import result as result
 from seacrane import pictures as pictures

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane.answers.paper_report import Study, study_report
+from seacrane.answers.report import Study, study_report
 from seacrane.pictures import Finding, save_sheet
-from seacrane.pictures.overview import overview_sheet
+from seacrane.pictures.plots import overview_sheet
 from seacrane.result import Result
 
 SCENE = {"counts": [("bodies", 10), ("joints", 11)], "dropped": [("waves <0.1 %>", [3, 4.5])]}

@@ -26,7 +26,7 @@ from seacrane.pictures.drawing import drawing_of
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.pictures.pose_curves import LARGEST_ERROR, STEPS, motion_of
 from seacrane.pictures.shapes import BoxShape, equivalent_box, schematic_size
-from seacrane.pictures.wires import wires_of
+from seacrane.pictures.wheels import wires_of
 
 
 class Page:

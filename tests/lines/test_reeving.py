@@ -15,7 +15,7 @@ from scipy.interpolate import PchipInterpolator
 
 from seacrane import Scene, SceneError, SimulationError, equilibrium, simulate
 from seacrane.description.line_path import described_poses, laid
-from seacrane.pictures.wires import wires_of
+from seacrane.pictures.wheels import wires_of
 from seacrane.warnings import FleetAngleWarning, LineTableWarning
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ import jupytext
 import nbclient
 import pytest
 
-from seacrane.plotting.figure import new_figure
+from seacrane.plotting.panel import new_figure
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted((REPOSITORY / "notebooks").glob("*.md"))

@@ -9,7 +9,7 @@ from lift_examples import every_table
 from seacrane import Scene
 from seacrane.description.loads import LOAD_KINDS, kind_of
 from seacrane.hydro.readers.load import FORMATS
-from seacrane.pictures.wires import wires_of
+from seacrane.pictures.wheels import wires_of
 
 IN_NO_TEXT = {"function force"}  # the address of a C function
 ENDS = {"first", "second", "first_point", "second_point"}

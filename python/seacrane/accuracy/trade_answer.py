@@ -20,8 +20,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.shown import shown
-from seacrane.plotting.figure import new_figure
-from seacrane.plotting.panel import plain
+from seacrane.plotting.panel import new_figure, plain
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.run.method import DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE, Method
 

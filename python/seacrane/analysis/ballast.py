@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.crane_poses import path_through, places_in, posed
-from seacrane.analysis.inverse import drive_loads, hold_vessel
+from seacrane.analysis.inverse import drive_loads, hold_vessel, path_through, places_in, posed
 from seacrane.analysis.rest_state import held, rest_from, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.analysis.weight_balance import weight_of

@@ -141,15 +141,13 @@ def _of_database(
             f"{database.name!r} one of {mass:.6g} kg; give the database that the vessel was added from"
         )
     parts = database.additional
-    splines = [
-        CubicSpline(database.omega, table)
-        for table in (
-            database.added_mass + sum(part.added_mass for part in parts),
-            database.damping + sum(part.damping for part in parts),
-            np.broadcast_to(database.restoring, database.damping.shape)
-            + sum(part.restoring for part in parts),
-        )
-    ]
+    still = np.broadcast_to(database.restoring, database.damping.shape)
+    tables = (
+        database.added_mass + sum(part.added_mass for part in parts),
+        database.damping + sum(part.damping for part in parts),
+        still + sum(part.restoring for part in parts),
+    )
+    splines = [CubicSpline(database.omega, table) for table in tables]
     low, high = database.omega[[0, -1]]
     inertia, restoring = np.array(element.added_mass) - rest, np.array(element.restoring)
     known = scene.provenance.get(name)

@@ -211,9 +211,7 @@ def _modes_by_frequency(linear: LinearModel) -> NaturalModes:
             if all(abs(value - other.eigenvalues[i]) > SAME * abs(value) for other, i in found):
                 found.append((settled, at))
     found.sort(key=lambda each: abs(each[0].eigenvalues[each[1]]))
-    kept: dict[str, Any] = {
-        name: np.array([getattr(modes, name)[i] for modes, i in found]) for name in PER_MODE
-    }
+    kept: dict[str, Any] = {name: np.array([getattr(m, name)[i] for m, i in found]) for name in PER_MODE}
     return replace(slow, **kept) if found else slow
 
 
@@ -241,16 +239,14 @@ def _modes(linear: LinearModel) -> NaturalModes:
     mechanical = 2 * linear.degrees_of_freedom - linear.neutral.shape[1]
     share = participation[:mechanical].sum(axis=0) / participation.sum(axis=0)
     # Rounding splits double real eigenvalues into pairs with tiny imaginary parts.
-    oscillating = np.flatnonzero(values.imag > 1e-7 * np.maximum(np.abs(values), 1.0))
-    real = np.flatnonzero(np.abs(values.imag) <= 1e-7 * np.maximum(np.abs(values), 1.0))
+    least = 1e-7 * np.maximum(np.abs(values), 1.0)
+    oscillating, real = np.flatnonzero(values.imag > least), np.flatnonzero(np.abs(values.imag) <= least)
     order = oscillating[np.argsort(np.abs(values[oscillating]))]
     real = real[np.argsort(values.real[real])]
     bodies = len(linear.bodies)
     vectors, motion = _shapes(linear, free, values[order], right[:, order])
-    energy, real_energy = (
-        np.real(each.conj() * (each @ linear.mass.T))
-        for each in (motion, _shapes(linear, free, values[real], right[:, real])[1])
-    )
+    _, real_motion = _shapes(linear, free, values[real], right[:, real])
+    energy, real_energy = (np.real(each.conj() * (each @ linear.mass.T)) for each in (motion, real_motion))
     return NaturalModes(
         eigenvalues=np.asarray(values[order], dtype=complex),
         shapes=motion.reshape(len(order), bodies, 6),

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
-from seacrane.analysis.relaxation import relaxed
+from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest, relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
 from seacrane.analysis.stability import most_turned, tips_over, warn_of_rest, why_none
 from seacrane.analysis.taut_lines import has_masses, kept_lengths, tautened, unbounded, with_what_hangs
@@ -205,7 +204,8 @@ def _searched(scene: Description, model: _core.Model, time: float, values: Array
 
     Newton's method goes to any rest: to a load that stands on its hook as well as to one that hangs.
     """
-    led = partial(with_what_hangs, scene, model, least=LEAST_LED) if has_masses(scene) else _as_moved
+    hung: Callable[[Array, Array], Array] = partial(with_what_hangs, scene, model, least=LEAST_LED)
+    led = hung if has_masses(scene) else lambda _before, after: after
     level = leveled(scene, model, time=time)
     found = _search(model, time, values, led, level)
     if found.state is None or found.tips:
@@ -239,10 +239,6 @@ class _Search:
     state: _core.State | None
     values: Array
     tips: bool = False
-
-
-def _as_moved(_before: Array, after: Array) -> Array:
-    return after
 
 
 def _search(

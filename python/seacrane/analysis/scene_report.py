@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
 from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies, given_vessels
-from seacrane.description.holding import Drive, held_drives, with_holds
+from seacrane.description.holding import held_drives, with_holds
 from seacrane.description.loads import kind_of, named
 from seacrane.description.wet_parts import sources_in_water
 from seacrane.plotting.table import Table, facts
@@ -57,18 +56,26 @@ def scene_report(scene: Description) -> SceneReport:
 
     Raises SceneError if the scene does not compile.
     """
-    held = held_drives(scene)
+    still = [
+        f"{prefix}{label} ({joint})"
+        for prefix, drives in held_drives(scene).items() for label, joint, _ in drives
+    ]  # fmt: skip
     scene = with_holds(scene)
     model = compile_scene(scene)
     report = {
         "size": _size(scene, model),
-        "elements": [*elements_of(scene), *_held(held)],
+        "elements": [
+            *elements_of(scene),
+            *_there([("held where described, as nothing acts on them", still)]),
+        ],
         "merged": _merged(model),
         "assembly": _assembly(scene, model),
         "left out": _left_out(scene, model),
         "cost": _cost(model),
     }
-    asked = {"lines": _bounces(model), "modes": _modes(model)}
+    fastest = fastest_mode(model)
+    modes = [] if fastest is None else [("fastest_mode_per_s", fastest)]
+    asked = {"lines": _bounces(model), "modes": modes}
     return SceneReport(report | {title: rows for title, rows in asked.items() if rows})
 
 
@@ -117,12 +124,6 @@ def elements_of(scene: Description) -> Rows:
         ("waves", [] if scene.waves is None else list(scene.waves.hulls)),
         ("crane parts", _crane_parts(scene)),
     ])  # fmt: skip
-
-
-def _held(found: Mapping[str, list[Drive]]) -> Rows:
-    """Drives of cranes on which nothing acts, and which stand where they are described."""
-    held = [f"{prefix}{label} ({joint})" for prefix, drives in found.items() for label, joint, _ in drives]
-    return [("held where described, as nothing acts on them", held)] if held else []
 
 
 def _crane_parts(scene: Description) -> list[str]:
@@ -227,8 +228,3 @@ def _bounces(model: _core.Model) -> Rows:
         (name, words.format(2.0 * np.pi / omega, 100.0 * ratio, mass))
         for name, (mass, omega, ratio) in model.line_bounces.items()
     ]
-
-
-def _modes(model: _core.Model) -> Rows:
-    fastest = fastest_mode(model)
-    return [] if fastest is None else [("fastest_mode_per_s", fastest)]

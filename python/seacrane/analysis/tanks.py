@@ -97,16 +97,12 @@ def fills(tanks: Mapping[str, Tank], moments: Array, needed: Array) -> Array:
 
 
 def _require_room(tanks: Mapping[str, Tank], change: Array) -> None:
-    largest = max(tank.capacity for tank in tanks.values())
-    worst, over = "", OVER * largest
-    for (name, tank), kg in zip(tanks.items(), change, strict=True):
-        content = tank.content + kg
-        if max(content - tank.capacity, -content) > over:
-            worst, over = name, max(content - tank.capacity, -content)
-    if not worst:
+    contents = {name: one.content + float(kg) for (name, one), kg in zip(tanks.items(), change, strict=True)}
+    beyond = {name: max(content - tanks[name].capacity, -content) for name, content in contents.items()}
+    worst = max(beyond, key=lambda name: beyond[name])
+    if beyond[worst] <= OVER * max(tank.capacity for tank in tanks.values()):
         return
-    tank = tanks[worst]
-    content = tank.content + float(change[list(tanks).index(worst)])
+    tank, content = tanks[worst], contents[worst]
     if content > 0.0:
         what = f"would have to hold {content:.6g} kg, above its capacity of {tank.capacity:g} kg"
     else:

@@ -1,17 +1,21 @@
-"""Checks of a run, its pace and the statistics of its channels, and the tables that tell them."""
+"""Checks of a run, its pace, the statistics of its channels, their tables, and where its numbers are from."""
 
 from __future__ import annotations
 
+import hashlib
+import json
+import platform
 import re
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
+from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 
-from seacrane.pictures.overview import payload_bodies, resultants
+from seacrane.pictures.plots import payload_bodies, resultants
 from seacrane.plotting.table import facts, table_of
-from seacrane.result import Result
+from seacrane.result import CHANNELS, Result
 from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
 
 MOST_EVENTS = 200
@@ -56,6 +60,7 @@ SAME = {
     "actuator_force": ("cylinder_force", "slew_torque"),
     "driver_force": ("cylinder_force", "slew_torque"),
 }
+PACKAGES = ("seacrane", "numpy", "scipy", "matplotlib", "netCDF4", "xarray")
 
 
 def worst(result: Result, channel: str) -> float | None:
@@ -152,6 +157,11 @@ def counter_rows(result: Result) -> Rows:
     return [*found, ("times faster than real time", speed(result))]
 
 
+def headed(parts: Mapping[str, str]) -> str:
+    """Blocks of HTML below their headings."""
+    return "\n".join(f"<h3>{escape(name)}</h3>{html}" for name, html in parts.items())
+
+
 def side_by_side(runs: Mapping[str, Result], rows: Callable[[Result], Rows]) -> str:
     """One table of several runs; what none of them has is left out."""
     by_run = [dict(rows(run)) for run in runs.values()]
@@ -173,13 +183,12 @@ def checked(result: Result) -> str:
          f"Energy is balanced within {BALANCED:g} of the absolute work.",
          f"Energy is off by more than {BALANCED:g} of the absolute work: tighten the tolerance and compare."),
     ]  # fmt: skip
-    found = []
+    found = {}
     for name, rows, good, passed, failed in parts:
         if known := _told(rows):
             kind, words = ("good", passed) if good else ("bad", failed)
-            judged = "" if good is None else f'<p class="{kind}">{words}</p>'
-            found.append(f"<h3>{name}</h3>{facts(known).html()}{judged}")
-    return "\n".join(found)
+            found[name] = facts(known).html() + ("" if good is None else f'<p class="{kind}">{words}</p>')
+    return headed(found)
 
 
 def events(result: Result) -> str:
@@ -209,3 +218,55 @@ def warned(result: Result) -> str:
 def cost(result: Result) -> str:
     """What the run took."""
     return facts(_told(counter_rows(result))).html()
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python and of the packages a result depends on."""
+    found = {"python": platform.python_version(), "platform": f"{platform.system()} {platform.machine()}"}
+    for package in PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            found[package] = "not installed as a package"
+    return found
+
+
+def digest(result: Result) -> str:
+    """SHA-256 of the recorded numbers: equal digests are equal results, bit for bit."""
+    summed = hashlib.sha256(np.ascontiguousarray(result.time).tobytes())
+    for name in sorted(result.channels):
+        summed.update(name.encode())
+        summed.update(np.ascontiguousarray(result[name]).tobytes())
+    return summed.hexdigest()
+
+
+def settings_block(result: Result) -> str:
+    """All settings as the result states them."""
+    return f"<pre>{escape(json.dumps(dict(result.settings), indent=1, sort_keys=True))}</pre>"
+
+
+def versions_block() -> str:
+    """What made the page."""
+    return table_of(("package", "version"), versions().items()).html()
+
+
+def _recorded(result: Result) -> str:
+    rows = [
+        (name, ", ".join(result.dims[name]), CHANNELS[name].unit, CHANNELS[name].long_name)
+        for name in result.channels
+    ]
+    return table_of(("channel", "dimensions", "unit", ""), rows).html()
+
+
+def provenance(result: Result) -> str:
+    """Settings, what was recorded, and versions."""
+    made = [
+        ("seacrane that ran it", result.stats["seacrane_version"]),
+        ("SHA-256 of the recorded numbers", digest(result)),
+    ]
+    parts = {
+        "Settings": settings_block(result),
+        "Recorded channels": _recorded(result),
+        "Versions that made this page": versions_block(),
+    }
+    return f"{facts(made).html()}\n{headed(parts)}"

@@ -114,10 +114,8 @@ def _upright(result: Result, contact: _core.Contact, point: int, row: int) -> fl
     def pose(body: str) -> tuple[Array, Array]:
         if body == GROUND or result.scene is None:
             return np.zeros(3), np.eye(3)
-        centre, turned = (
-            np.asarray(result.select(key, body=body))[row] for key in ("position", "quaternion")
-        )
-        axes = rotation_matrix(turned)
+        centre = np.asarray(result.select("position", body=body))[row]
+        axes = rotation_matrix(np.asarray(result.select("quaternion", body=body))[row])
         return centre - axes @ np.asarray(result.scene.bodies[body].center_of_mass), axes
 
     return max(float(beside_surface(contact, point, pose)[1][2]), 0.0)
@@ -136,9 +134,7 @@ def _closed(result: Result, point: str, first: float) -> list[tuple[int, float, 
         elif closed:
             out.append((number, since, event.time, speed))
             closed = False
-    if closed:
-        out.append((number, since, float(time[-1]), speed))
-    return out
+    return [*out, (number, since, float(time[-1]), speed)] if closed else out
 
 
 def _of_hit(time: Array, press: Array, largest: Array, begin: float, end: float) -> tuple[float, float]:

@@ -93,7 +93,8 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
     told = Judged(
         name=str(bound["name"]), kind=str(bound["kind"]), bound=limits, words="coordinate not recorded"
     )
-    values = _coordinate(result, bound["recorded"])
+    known = bound["recorded"] is not None and "coordinate" in result.channels
+    values = _reached(result, "coordinate", joint_coordinate=bound["recorded"]) if known else None
     if values is None:
         return told
     least, most = (_settled(float(factor * value)) for value in (values.min(), values.max()))
@@ -108,12 +109,6 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
 def _settled(value: float) -> float:
     """Zero where it is so up to rounding, m or deg."""
     return 0.0 if abs(value) < NO_MOTION else value
-
-
-def _coordinate(result: Result, recorded: str | None) -> Any:
-    if recorded is None or "coordinate" not in result.channels:
-        return None
-    return _reached(result, "coordinate", joint_coordinate=recorded)
 
 
 def _finite(values: Any) -> Any:

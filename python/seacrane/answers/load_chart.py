@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.analysis.crane_poses import crane_of, values_of
+from seacrane.analysis.inverse import crane_of, values_of
 from seacrane.analysis.rest_state import rest_from
 from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.answers.statics import resting
@@ -192,19 +192,13 @@ def _bounds(limits: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
             low = -high
         if not low < high:
             raise SceneError(f"{what} is {shown(given)}; give a positive number, or lowest below highest")
-        found[_column(str(name))] = _in_si(what, str(name), low, high)
+        first, _, of = str(name).partition(" ")  # "heel_deg ship" is of the column "heel ship"
+        found[f"{first.removesuffix(DEGREES)} {of}".rstrip()] = _in_si(what, first, low, high)
     return found
 
 
-def _column(name: str) -> str:
-    """The column of a limit: "heel_deg ship" is of "heel ship"."""
-    what, _, of = name.partition(" ")
-    return f"{what.removesuffix(DEGREES)} {of}".rstrip()
-
-
-def _in_si(what: str, name: str, low: float, high: float) -> tuple[float, float]:
+def _in_si(what: str, first: str, low: float, high: float) -> tuple[float, float]:
     """Bounds of an angle in degrees as radians, and a word where those in radians look like degrees."""
-    first = name.split(" ")[0]
     if first.endswith(DEGREES):
         return math.radians(low), math.radians(high)
     if first in ANGLES:
@@ -296,18 +290,6 @@ def plot_load_chart(chart: LoadChart) -> Figure:
     """
     if not isinstance(chart, LoadChart):
         raise SceneError(f"chart is a {type(chart).__name__}; give what load_chart() returns")
-    return draw(load_chart_sheet(chart))
-
-
-def _limit_words(name: str, low: float, high: float) -> str:
-    """A limit in the units in which it is read; a mass or a force has no factor that a word would need."""
-    if name.split(" ")[0] in ANGLES:
-        return f"{name} {np.degrees(low):g} to {np.degrees(high):g} deg"
-    return f"{name} {low:g} to {high:g}"
-
-
-def load_chart_sheet(chart: LoadChart) -> Sheet:
-    """The panel of `plot_load_chart` with its numbers."""
     order = np.argsort(chart.radii)
     loads = np.where(np.isfinite(chart.allowable), chart.allowable / 1e3, np.nan)[:, order]
     if not np.isfinite(loads).any():
@@ -317,13 +299,19 @@ def load_chart_sheet(chart: LoadChart) -> Sheet:
         for i, (slew, row) in enumerate(zip(chart.slews, loads, strict=True))
     ]
     if chart.capacity is not None:
-        lines.append(
-            Line(label="table of the crane", values=chart.capacity[order] / 1e3, colour=6, style="--")
-        )
+        capacity = chart.capacity[order] / 1e3
+        lines.append(Line(label="table of the crane", values=capacity, colour=6, style="--"))
     limits = ", ".join(_limit_words(name, *bounds) for name, bounds in chart.limits.items())
-    return Sheet(
+    return draw(Sheet(
         title=f"{chart.scene}: allowable load at rest",
         caption=f"Limits: {limits or 'the table of the crane'}. No dynamic factor.",
         abscissa=chart.radii[order], abscissa_name="radius", abscissa_unit="m",
         panels=(Panel(quantity="allowable load", unit="t", lines=tuple(lines)),),
-    )  # fmt: skip
+    ))  # fmt: skip
+
+
+def _limit_words(name: str, low: float, high: float) -> str:
+    """A limit in the units in which it is read; a mass or a force has no factor that a word would need."""
+    if name.split(" ")[0] in ANGLES:
+        return f"{name} {np.degrees(low):g} to {np.degrees(high):g} deg"
+    return f"{name} {low:g} to {high:g}"

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.answers.reported_curves import POSES, Curve, hook_loads
+from seacrane.answers.reported_curves import POSES, hook_loads
 from seacrane.description.crane_reach import tip_radius
 from seacrane.description.description import GROUND, Description
 from seacrane.description.loads import lines_of
@@ -69,7 +69,7 @@ def lift_rows(result: Result) -> Rows:
     ]
     for one in hung:
         found += [("wire", _wire(scene, one)), ("load", _load(scene, one))]
-    found += [(f"{curve.name} [{curve.unit}]", _range(curve.values)) for curve in _hooks(result)]
+    found += [(f"{curve.name} [{curve.unit}]", _range(curve.values)) for curve in hook_loads(result)]
     return found + _in_water(scene)
 
 
@@ -86,7 +86,7 @@ def _in_water(scene: Description) -> Rows:
 
 def stage_table(result: Result) -> Table:
     """Stages as they were run, with the hook loads of each."""
-    hooks = _hooks(result)
+    hooks = hook_loads(result)
     head = ("stage", "from [s]", "to [s]", "ended by", *(f"{one.name} [{one.unit}]" for one in hooks))
     rows = []
     for span in result.stages:
@@ -95,10 +95,6 @@ def stage_table(result: Result) -> Table:
         rows.append((span.name, round(span.start, 2), round(span.end, 2), span.ended_by or "stopped", *loads))
     words = ["Of hook loads the least and the largest output of the stage."] if hooks else []
     return table_of(head, rows, remarks=words)
-
-
-def _hooks(result: Result) -> list[Curve]:
-    return [one for one in hook_loads(result) if np.isfinite(one.values).any()]
 
 
 def _range(values: Any) -> str:
@@ -158,10 +154,9 @@ def _load(scene: Description, hung: Hung) -> str:
     words = [f"{hung.load}, {_tonnes(body.mass)}"]
     if np.any(body.size):
         words.append(" x ".join(f"{edge:g}" for edge in body.size) + " m")
-    slings = [
-        one for one in suspensions(scene) if one.lower[0] == hung.load and one.name != hung.suspension.name
-    ]
-    words += [f"{len(slings)} slings"] if slings else []
+    below = [one.name for one in suspensions(scene) if one.lower[0] == hung.load]
+    slings = sum(name != hung.suspension.name for name in below)
+    words += [f"{slings} slings"] if slings else []
     rigging = None if hung.weight is None else hung.weight / scene.gravity - body.mass
     words += [f"block and rigging {_tonnes(rigging)}"] if rigging and rigging > 1e-6 * body.mass else []
     return ", ".join(words)
@@ -207,11 +202,6 @@ def _method(result: Result, settings: Mapping[str, Any]) -> Rows:
     return chosen + _rows(settings, METHOD) + stop + [("outputs", int(result.time.size))]
 
 
-def _notes(settings: Mapping[str, Any]) -> Rows:
-    notes = settings.get("notes", {})
-    return [(str(name), json.dumps(_plain(value))) for name, value in notes.items()]
-
-
 def particulars(result: Result) -> str:
     """The lift, the scene, its sea, the method, notes and stages."""
     settings = result.settings
@@ -220,7 +210,7 @@ def particulars(result: Result) -> str:
         "Scene": _scene(result, settings),
         "Sea": _rows(settings, SEA) + _rows(result.stats, STATED_SEA),
         "Method": _method(result, settings),
-        "Notes": _notes(settings),
+        "Notes": [(str(name), json.dumps(_plain(one))) for name, one in settings.get("notes", {}).items()],
     }
     blocks = [f"<div><h3>{name}</h3>{facts(rows).html()}</div>" for name, rows in groups.items() if rows]
     below = f"<h3>Stages</h3>{stage_table(result).html()}" if result.stages else ""

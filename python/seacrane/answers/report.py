@@ -3,21 +3,35 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
+from typing import Any
 
-from seacrane.answers.section import Section, compose
-from seacrane.answers.sections import SECTIONS
+from seacrane.answers.checks import (
+    constraint_rows,
+    counter_rows,
+    energy_rows,
+    findings_of,
+    headed,
+    settings_block,
+    side_by_side,
+    versions_block,
+)
+from seacrane.answers.sections import SECTIONS, Section, compose, picture_block
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.inputs.keywords import named
 from seacrane.inputs.replaceable import GENERATOR, check_replaceable
-from seacrane.plotting.table import Answer
+from seacrane.pictures.findings import Finding
+from seacrane.plotting.panel import Picture
+from seacrane.plotting.table import Answer, table_of
 from seacrane.result import Result
 
 HEIGHT = 640  # pixels of the frame in a notebook
+SceneReport = Mapping[str, Sequence[tuple[str, Any]]]
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -110,3 +124,74 @@ def report(result: Result, *, title: str | None = None, requires: Answer | None 
     needs = "" if requires is None else requires.html()
     sections = (*SECTIONS, Section[Result]("What the scene requires", lambda _: needs))
     return Report(title=heading, html=compose(title=heading, lead=lead, sections=sections, subject=result))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """Several runs that a report compares.
+
+    Attributes
+    ----------
+    title : Heading.
+    summary : What was computed, one paragraph each.
+    runs : mapping of str to Result
+        Runs by the names that heads of columns show.
+    pictures : Figures on disk; their images are embedded.
+    scene : mapping of str to sequence of (name, value)
+        What the compiled model holds, as ``scene.report()`` gives it.
+    findings : The paper's findings, measured.
+    """
+
+    title: str
+    runs: Mapping[str, Result]
+    summary: Sequence[str] = ()
+    pictures: Sequence[Picture] = ()
+    scene: SceneReport = field(default_factory=dict)
+    findings: Sequence[Finding] = ()
+
+
+def study_report(study: Study) -> Report:
+    """The page about several runs.
+
+    Raises OSError if the image of a picture cannot be read.
+    """
+    paragraphs = [escape(text) for text in (*study.summary, AXES_NOTE)]
+    runs = [(escape(name), run) for name, run in study.runs.items()]
+    paragraphs += [
+        f"<strong>Interrupted:</strong> run {name} ended at {run.time[-1]:g} s."
+        for name, run in runs if run.interrupted
+    ]  # fmt: skip
+    paragraphs += [
+        f"<strong>Out of range:</strong> run {name}: {escape(text)}."
+        for name, run in runs for text in findings_of(run)
+    ]  # fmt: skip
+    lead = "\n".join(f"<p>{text}</p>" for text in paragraphs)
+    page = compose(title=study.title, lead=lead, sections=OF_STUDY, subject=study)
+    return Report(title=study.title, html=page)
+
+
+def _findings(study: Study) -> str:
+    rows = [(item.finding, item.number, item.expected, item.verdict) for item in study.findings]
+    return table_of(("finding", "measured", "expected", "verdict"), rows).html() if rows else ""
+
+
+def _accuracy(study: Study) -> str:
+    told = {"Worst constraint errors": constraint_rows, "Energy balance": energy_rows}
+    return headed({name: side_by_side(study.runs, rows) for name, rows in told.items()})
+
+
+def _scene(study: Study) -> str:
+    return headed({name: table_of(("item", "value"), rows).html() for name, rows in study.scene.items()})
+
+
+OF_STUDY: tuple[Section[Study], ...] = (
+    Section("Findings", _findings),
+    Section("Figures", lambda study: "\n".join(map(picture_block, study.pictures))),
+    Section("Accuracy", _accuracy),
+    Section("Cost", lambda study: side_by_side(study.runs, counter_rows)),
+    Section("Scene", _scene),
+    Section(
+        "Settings", lambda study: headed({name: settings_block(run) for name, run in study.runs.items()})
+    ),
+    Section("Versions", lambda _: versions_block()),
+)

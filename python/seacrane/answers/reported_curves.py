@@ -106,9 +106,10 @@ def reported_curves(result: Result) -> list[Curve]:
 
 
 def hook_loads(result: Result) -> list[Curve]:
-    """Of what hangs on cranes, or else by itself: not those of slings and taglines beside them."""
+    """Those known of what hangs on cranes, or else by itself: not of slings and taglines beside them."""
     every = [one for one in reported_curves(result) if one.kind == HOOK]
-    return [one for one in every if one.rung] or every
+    wanted = [one for one in every if one.rung] or every
+    return [one for one in wanted if np.isfinite(one.values).any()]
 
 
 def _curves(result: Result) -> list[Curve]:

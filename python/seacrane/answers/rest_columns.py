@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
-from seacrane.analysis.crane_poses import drive_name
-from seacrane.analysis.inverse import channels_at
+from seacrane.analysis.inverse import channels_at, drive_name
 from seacrane.analysis.reduced_coordinates import NEUTRAL, POSE, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import held
 from seacrane.description.compilation import compile_scene

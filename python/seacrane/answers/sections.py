@@ -5,7 +5,14 @@ A new section is a function of a result that gives HTML, and a row of the list.
 
 from __future__ import annotations
 
-from dataclasses import replace
+import base64
+import io
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from html import escape
+from importlib.resources import files
+from string import Template
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,29 +24,31 @@ from seacrane.answers.checks import (
     events,
     findings_of,
     joints_closed,
+    provenance,
     statistics_of,
     warned,
 )
 from seacrane.answers.lift_sheet import UNVERIFIED, lift_sheet
 from seacrane.answers.limits_section import judged_bounds, limits
 from seacrane.answers.particulars import particulars
-from seacrane.answers.provenance_section import provenance
 from seacrane.answers.reported_curves import hook_loads
-from seacrane.answers.section import Section, cards, drawn, note
 from seacrane.answers.summary import summary
 from seacrane.description.suspension import hung_loads
-from seacrane.errors import SeacraneError
-from seacrane.pictures.overview import PANELS, overview_sheet, payload_bodies
-from seacrane.pictures.plots import draw_track
+from seacrane.errors import FileFormatError, SeacraneError
+from seacrane.inputs.replaceable import GENERATOR
+from seacrane.pictures.plots import PANELS, draw_track, overview_sheet, payload_bodies
 from seacrane.pictures.pose import outlined_skeleton, plot_scene
 from seacrane.pictures.pose_curves import POSES
 from seacrane.pictures.view import view
-from seacrane.plotting.panel import draw
+from seacrane.plotting.panel import DOTS_PER_INCH, Picture, draw
 from seacrane.plotting.table import table_of
 from seacrane.result import Result
 from seacrane.result.contact_loads import NO_CONTACTS, contact_loads
 from seacrane.result.history import history_sheet
 from seacrane.result.traces import Bounded, Trace, traces
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 Cards = dict[str, tuple[str, bool | None]]
@@ -58,6 +67,89 @@ LARGEST = {  # channels whose value farthest from zero is told at a glance
     "cylinder_force": "Largest cylinder force",
     "slew_torque": "Largest slew torque",
 }
+Subject = TypeVar("Subject")
+PAGE = Template((files("seacrane") / "answers" / "page.html").read_text(encoding="utf-8"))
+
+
+@dataclass(frozen=True)
+class Section(Generic[Subject]):
+    """One block of a page.
+
+    Attributes
+    ----------
+    title : Its heading.
+    html : Its content as HTML, in which all text of users is escaped; where there is none it is left out.
+    """
+
+    title: str
+    html: Callable[[Subject], str]
+
+
+def _block(section: Section[Subject], subject: Subject) -> str:
+    try:
+        content = section.html(subject)
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
+        raise FileFormatError(
+            f"section {section.title!r} cannot be made: {type(error).__name__}: {error}; the result holds "
+            "notes that no run writes"
+        ) from error
+    return f"<section><h2>{escape(section.title)}</h2>\n{content}</section>" if content else ""
+
+
+def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subject: Subject) -> str:
+    """A page as `page.html` lays it out, with everything inside: nothing outside it is needed.
+
+    Parameters
+    ----------
+    title : Heading, escaped here.
+    lead : HTML below it.
+    subject
+        What they are about.
+
+    Raises FileFormatError if a subject holds what its own program never writes, such as notes that are no
+    JSON.
+    """
+    parts = [lead, *(_block(section, subject) for section in sections)]
+    content = "\n".join(part for part in parts if part)
+    return PAGE.substitute(title=escape(title), generator=GENERATOR, content=content)
+
+
+def embedded(data: bytes, title: str, caption: str) -> str:
+    """A PNG with a caption; its bytes become part of the page."""
+    coded, head = base64.b64encode(data).decode("ascii"), escape(title)
+    words = f"<figcaption><strong>{head}.</strong> {escape(caption)}</figcaption>"
+    return f'<figure><img alt="{head}" src="data:image/png;base64,{coded}">{words}</figure>'
+
+
+def drawn(figure: Figure, title: str, caption: str) -> str:
+    """A Matplotlib figure with a caption."""
+    image = io.BytesIO()
+    figure.savefig(image, format="png", dpi=DOTS_PER_INCH)
+    return embedded(image.getvalue(), title, caption)
+
+
+def picture_block(picture: Picture) -> str:
+    """A figure that is on disk.
+
+    Raises OSError if its image cannot be read.
+    """
+    source = "" if picture.data is None else f" Data: {picture.data.name}."
+    return embedded(picture.image.read_bytes(), picture.title, f"{picture.caption}{source}")
+
+
+def cards(values: Mapping[str, tuple[str, bool | None]]) -> str:
+    """Large numbers by what they are, each good, bad or neither."""
+    colour = {None: "", True: " good", False: " bad"}
+    boxes = "".join(
+        f'<div class="card{colour[good]}">{escape(name)}<strong>{escape(text)}</strong></div>'
+        for name, (text, good) in values.items()
+    )
+    return f'<div class="cards">{boxes}</div>'
+
+
+def note(text: str) -> str:
+    """A small remark."""
+    return f'<p class="note">{escape(text)}</p>'
 
 
 def _glance(result: Result) -> str:
@@ -97,7 +189,7 @@ def _placed(result: Result, unit: str, values: Array, at: int) -> str:
 
 
 def _hook_loads(result: Result) -> Cards:
-    found = [one for one in hook_loads(result) if np.isfinite(one.values).any()]
+    found = hook_loads(result)
     if not found:
         return {}
     most = max(found, key=lambda one: float(np.nanmax(one.largest)))

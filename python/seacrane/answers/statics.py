@@ -10,17 +10,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.analysis.crane_poses import crane_of, path_through, places_in, places_of, posed, values_of
+from seacrane import _core
+from seacrane.analysis.inverse import crane_of, path_through, places_in, places_of, posed, values_of
 from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
-from seacrane.answers.reach import Reach, luffing
 from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of, pulls_of
+from seacrane.description.compilation import compile_scene
+from seacrane.description.crane_reach import tip_radius
 from seacrane.description.description import Description
+from seacrane.description.drives import add_driver
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import silently, warn_caller
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import angle_of
 from seacrane.one_thread import one_thread
@@ -34,6 +38,9 @@ NOTHING = 1e-8  # m, deg, kN, t: as printed
 HOOK = "hook load"  # printed in t
 Columns = dict[str, tuple[str, float]]
 Pose = Mapping[str, float]
+STEP = 0.25  # s of the path between two projections: 0.05 m
+CLOSE = 1e-10  # s of the path
+LOADS = ("loads", "point_forces", "springs", "force_tables", "function_forces")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -90,11 +97,6 @@ class Statics(Answer):
         elif name.startswith(HOOK_STIFFNESS):
             read = "mm/kN", 1e6 / values
         return Column(name=name, values=values, unit=self.units[name], read=read, least=NOTHING)
-
-
-def _unit(roles: CraneRoles | None, name: str) -> str:
-    place = None if roles is None else places_of(roles).get(name)
-    return "rad" if place is not None and place[1] in ANGLES else "m"
 
 
 @named
@@ -155,6 +157,7 @@ def statics(
     """
     axes = _axes(slew, radius, coordinates)
     roles = crane_of(scene, crane) if axes else None
+    places = {} if roles is None else places_of(roles)
     every = [np.atleast_1d(values) for values in axes.values()]
     grid = [dict(zip(axes, one, strict=True)) for one in itertools.product(*every)]
     shape = tuple(len(values) for values in axes.values() if np.ndim(values))
@@ -166,7 +169,7 @@ def statics(
         poses=axes,
         columns={name: np.array([row[name][1] for row in rows]).reshape(shape)[()] + 0.0 for name in rows[0]},
         units={name: unit for name, (unit, _) in rows[0].items()},
-        pose_units={name: _unit(roles, name) for name in axes},
+        pose_units={name: "rad" if places.get(name, ("", ""))[1] in ANGLES else "m" for name in axes},
         gravity=scene.gravity,
     )
 
@@ -308,3 +311,86 @@ def static_pulls(result: Result) -> dict[str, float] | str:
             return {name: value for name, (_, value) in pulls_of(hanging_rest(result.scene)).items()}
     except SeacraneError as error:
         return str(error)
+
+
+def luffing(scene: Description, roles: CraneRoles, luff: str | None) -> str:
+    """Label of the coordinate that changes the radius; SceneError where there is none."""
+    known = {label: place for label, place in places_of(roles).items() if label != "slew"}
+    label = next(iter(known), None) if luff is None else luff
+    if label is None or label not in known:
+        there = ", ".join(map(repr, known)) or "none"
+        raise SceneError(
+            f"luff is {luff!r}; name the cylinder or hinge that sets the radius; there are {there}"
+        )
+    joint, coordinate = known[label]
+    if not any((one.joint, one.coordinate) == (joint, coordinate) for one in scene.ranges.values()):
+        raise SceneError(
+            f"coordinate {label!r}: it has no range, within which a radius is looked for; give one by "
+            f"add_range(joint={joint!r}, minimum=..., maximum=...)"
+        )
+    return label
+
+
+class Reach:
+    """Radius of the tip over one stroke or luff, the other coordinates at values of their own."""
+
+    def __init__(
+        self, scene: Description, roles: CraneRoles, label: str, others: Mapping[str, float]
+    ) -> None:
+        self._scene, self._roles, self._label = scene, roles, label
+        places = places_of(roles)
+        limits = [one for one in scene.ranges.values() if (one.joint, one.coordinate) == places[label]]
+        low, high = max(one.minimum for one in limits), min(one.maximum for one in limits)
+        ends = [{**others, label: value} for value in (0.0, low, high)]
+        path, times = path_through(places, ends)
+        none: dict[str, Any] = {name: {} for name in LOADS}  # do not matter to where a tip is
+        led = posed(scene.copy(**none), places, path).copy(orientation="quaternion")
+        for one in scene.roles.values():
+            if one.structure is not None:  # upright: what the crane gives is told by the rest state
+                add_driver(led, joint=one.structure, curve=0.0)
+        self._model = compile_scene(led)
+        self._evaluator = _core.Evaluator(self._model)
+        self._low, self._begin, self._span = low, float(times[1]), float(times[2] - times[1])
+        self._rate = (high - low) / self._span
+        state = self._led(np.array(self._model.initial_state), 0.0, self._begin)
+        self._times = self._begin + np.linspace(0.0, self._span, int(np.ceil(self._span / STEP)) + 1)
+        self._states, self.radii = [state], [self._radius(state)]
+        for before, after in zip(self._times[:-1], self._times[1:], strict=True):
+            self._states.append(self._led(self._states[-1], float(before), float(after)))
+            self.radii.append(self._radius(self._states[-1]))
+
+    def stroke(self, radius: float) -> float:
+        """The stroke, from its described value, that is nearest to it and gives a radius (m)."""
+        from scipy.optimize import brentq
+
+        over = np.array(self.radii) - radius
+        crossed = np.flatnonzero((over[:-1] <= 0.0) != (over[1:] <= 0.0))
+        if not crossed.size:
+            raise SceneError(
+                f"radius {radius:g} m: {self._label!r} brings the tip from {min(self.radii):.4g} to "
+                f"{max(self.radii):.4g} m with the other coordinates as they are; give one between, or "
+                "another pose of these (coordinates=)"
+            )
+        i = int(min(crossed, key=lambda k: abs(self._value(float(self._times[k])))))
+
+        def off(time: float) -> float:
+            return self._radius(self._evaluator.project(time, self._states[i])) - radius
+
+        return self._value(brentq(off, self._times[i], self._times[i + 1], xtol=CLOSE))
+
+    def _value(self, time: float) -> float:
+        return float(self._low + self._rate * (time - self._begin))
+
+    def _led(self, state: Array, start: float, end: float) -> Array:
+        for time in np.linspace(start, end, int(np.ceil((end - start) / STEP)) + 1)[1:]:
+            state = self._evaluator.project(float(time), state)
+        return state
+
+    def _radius(self, state: Array) -> float:
+        poses = np.array(state[: 7 * len(self._scene.bodies)]).reshape(-1, 7)
+        centres = poses[:, :3].copy()  # the state holds those of bodies, and the reference points of vessels
+        floating = {vessel.body for vessel in self._scene.vessels.values()}
+        for i, (name, body) in enumerate(self._scene.bodies.items()):
+            if name in floating:
+                centres[i] += rotation_matrix(poses[i, 3:]) @ body.center_of_mass
+        return float(tip_radius(self._scene, self._roles, centres, poses[:, 3:]))

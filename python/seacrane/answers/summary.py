@@ -236,11 +236,11 @@ def _static(given: Statics | None) -> dict[str, float]:
         raise SceneError(
             f"summary: static is of {next(iter(given.columns.values())).size} poses; give statics of one"
         )
-    found = {}
-    for name, values in given.columns.items():
-        what, _, of = name.partition(" ")
-        found[f"{ATTITUDE.get(what, what)} {of}".rstrip()] = float(values.item())
-    return found
+    names = {name: name.partition(" ") for name in given.columns}
+    return {
+        f"{ATTITUDE.get(what, what)} {of}".rstrip(): float(given.columns[name].item())
+        for name, (what, _, of) in names.items()
+    }
 
 
 def _part(result: Result, after: float | None, before: float | None) -> slice:

@@ -97,7 +97,7 @@ def _write_report(
     folder: Path, runs: dict[str, Result], pictures: list[Picture], findings: list[Finding]
 ) -> Path:
     import seacrane.cases as cases
-    from seacrane.answers.paper_report import Study, study_report
+    from seacrane.answers.report import Study, study_report
 
     study = Study(
         title=TITLE,

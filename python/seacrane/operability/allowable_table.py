@@ -16,8 +16,7 @@ from seacrane.inputs.described import described
 from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import AlphaFactor
 from seacrane.operability.criterion import Criterion
-from seacrane.plotting.figure import new_figure
-from seacrane.plotting.panel import COLOURS
+from seacrane.plotting.panel import COLOURS, new_figure
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.sea.spectra import steepness_limit
 

@@ -16,8 +16,7 @@ from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.hindcast import Flags, WaveHindcast
-from seacrane.plotting.figure import new_figure
-from seacrane.plotting.panel import COLOURS
+from seacrane.plotting.panel import COLOURS, new_figure
 from seacrane.plotting.table import Answer, Column, Table
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 """Pictures: quick overviews, the paper's figures, and the page in three dimensions."""
 
-from seacrane.pictures.overview import plot_overview as plot_overview
+from seacrane.pictures.plots import plot_overview as plot_overview
 from seacrane.answers.reported_curves import plot_summary as plot_summary
 from seacrane.pictures.plots import plot_reactions as plot_reactions
 from seacrane.pictures.plots import plot_spectrum as plot_spectrum

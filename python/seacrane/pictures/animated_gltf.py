@@ -15,7 +15,7 @@ from seacrane.errors import SceneError
 from seacrane.pictures.drawing import Drawing
 from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.pose_curves import quaternion_rate
-from seacrane.pictures.shapes import HULL, WIRES, BoxShape, HullShape, MeshShape, TubeShape, body_colour, rgb
+from seacrane.pictures.shapes import HULL, WIRES, BoxShape, HullShape, MeshShape, Shape, body_colour, rgb
 from seacrane.pictures.wheels import turns
 from seacrane.version import __version__
 
@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 
 GENERATOR = '"generator":"seacrane '  # what the head of every model says
 UPRIGHT = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # z up becomes glTF's y up; quaternion x, y, z, w
+UP = np.array([0.0, 0.0, 1.0])
 SMALLEST = 1e-6  # m: shorter wires have no direction
 FLOAT, UNSIGNED = 5126, 5125
 VERTICES, INDICES = 34962, 34963
@@ -60,31 +61,22 @@ class _Model:
 
     def __init__(self, drawing: Drawing) -> None:
         self.drawing, self.motion = drawing, drawing.motion
-        self.nodes: list[dict[str, Any]] = [
-            {"name": drawing.title, "rotation": UPRIGHT, "children": []},
-        ]
+        self.nodes: list[dict[str, Any]] = [{"name": drawing.title, "rotation": UPRIGHT, "children": []}]
         self.materials: dict[str, int] = {}
         self.meshes: list[dict[str, Any]] = []
         self.channels: list[dict[str, Any]] = []
         self.samplers: list[dict[str, Any]] = []
-        self.glb = Glb(
-            {
-                "asset": {"version": "2.0", "generator": f"seacrane {__version__}"},
-                "scene": 0,
-                "scenes": [{"nodes": [0], "extras": {"start_s": self.motion.start}}],
-                "nodes": self.nodes,
-                "meshes": self.meshes,
-                "materials": [],
-                "accessors": [],
-                "bufferViews": [],
-            }
-        )
+        self.glb = Glb({
+            "asset": {"version": "2.0", "generator": f"seacrane {__version__}"},
+            "scene": 0,
+            "scenes": [{"nodes": [0], "extras": {"start_s": self.motion.start}}],
+            "nodes": self.nodes, "meshes": self.meshes, "materials": [], "accessors": [], "bufferViews": [],
+        })  # fmt: skip
         self.times = -1
         if len(self.motion.times) > 1:
             self.times = self.glb.add(self.motion.times - self.motion.start, bounds=True)
-            self.glb.document["animations"] = [
-                {"name": "run", "channels": self.channels, "samplers": self.samplers}
-            ]
+            run = {"name": "run", "channels": self.channels, "samplers": self.samplers}
+            self.glb.document["animations"] = [run]
 
     def bodies(self) -> None:
         """Every body with its shapes, at its centre of mass."""
@@ -113,9 +105,7 @@ class _Model:
         """Every wire as a bar of one metre along z, which is moved, turned and stretched."""
         drawing, motion = self.drawing, self.motion
         for wire in drawing.wires:
-            vertices, faces = tube(
-                np.zeros(3), np.array([0.0, 0.0, 1.0]), drawing.radius_of(wire), WIRE_SIDES
-            )
+            vertices, faces = tube(np.zeros(3), UP, drawing.radius_of(wire), WIRE_SIDES)
             bar = Surface(vertices=vertices, faces=faces, colour=WIRES[wire["kind"]])
             start, end = drawing.ends_of(wire, motion.position, motion.quaternion)
             length = np.maximum(np.linalg.norm(end - start, axis=1), SMALLEST)
@@ -152,9 +142,8 @@ class _Model:
             self.materials[colour] = len(self.materials)
             paint = {"baseColorFactor": [*map(_linear, rgb(colour)), 1.0], "metallicFactor": 0.0,
                      "roughnessFactor": 0.8}  # fmt: skip
-            self.glb.document["materials"].append(
-                {"name": colour, "pbrMetallicRoughness": paint, "doubleSided": True}
-            )
+            material = {"name": colour, "pbrMetallicRoughness": paint, "doubleSided": True}
+            self.glb.document["materials"].append(material)
         return self.materials[colour]
 
     def _cubic(self, node: int, path: str, values: Array, rates: Array) -> None:
@@ -166,9 +155,8 @@ class _Model:
         if self.times < 0:
             return
         self.channels.append({"sampler": len(self.samplers), "target": {"node": node, "path": path}})
-        self.samplers.append(
-            {"input": self.times, "output": self.glb.add(values), "interpolation": interpolation}
-        )
+        sampler = {"input": self.times, "output": self.glb.add(values), "interpolation": interpolation}
+        self.samplers.append(sampler)
 
 
 def _used(surface: Surface) -> Surface:
@@ -193,7 +181,7 @@ def _from_z(direction: Array) -> Array:
     """
     from scipy.spatial.transform import Rotation
 
-    first = Rotation.from_quat(_shortest(np.array([0.0, 0.0, 1.0]), direction[:1])[0])
+    first = Rotation.from_quat(_shortest(UP, direction[:1])[0])
     turn = (Rotation.from_quat(_shortest(direction[0], direction)) * first).as_quat()
     flips = np.where(np.sum(turn[1:] * turn[:-1], axis=1) < 0.0, -1.0, 1.0)
     return np.asarray(turn * np.cumprod(np.concatenate([[1.0], flips]))[:, None])
@@ -275,7 +263,7 @@ def surfaces_of(look: Look, number: int) -> list[Surface]:
     return found
 
 
-def _part(shape: TubeShape | BoxShape | MeshShape, role: str, number: int) -> Surface:
+def _part(shape: Shape, role: str, number: int) -> Surface:
     if isinstance(shape, MeshShape):
         vertices, faces = shape.vertices, shape.faces
     elif isinstance(shape, BoxShape):

@@ -17,9 +17,8 @@ from seacrane.description.wet_parts import wet_bodies
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.pictures.drawn_bodies import Look
-from seacrane.pictures.packing import Blob
-from seacrane.pictures.pose_curves import Motion, linear_rows
-from seacrane.pictures.wires import end_of
+from seacrane.pictures.pose_curves import Blob, Motion, linear_rows
+from seacrane.pictures.wheels import end_of
 from seacrane.result import Result
 from seacrane.result.contact_loads import contact_loads
 from seacrane.result.history import wanted_traces
@@ -42,11 +41,8 @@ def caption(
     scene: Description, result: Result | None, motion: Motion, looks: Mapping[str, Look]
 ) -> list[tuple[str, str]]:
     """Rows of what and its words; rows without words are left out."""
-    rows = [
-        ("scene hash", scene_digest(scene)[:12]),
-        ("left out", _left_out(result)),
-        ("sea", sea_words(scene)),
-    ]
+    left_out = "" if result is None or result.scene is None else str(result.stats.get(NOT_KEPT, ""))
+    rows = [("scene hash", scene_digest(scene)[:12]), ("left out", left_out), ("sea", _sea_words(scene))]
     seed = None if scene.waves is None else scene.waves.provenance.seed
     rows += [("seed", str(seed))] if seed is not None else []
     rows += _run_rows(result, motion) if result is not None else [("run", "none: the scene at its start")]
@@ -55,29 +51,16 @@ def caption(
     return [(what, words) for what, words in rows if words]
 
 
-def _left_out(result: Result | None) -> str:
-    """What of the scene its file does not hold."""
-    return "" if result is None or result.scene is None else str(result.stats.get(NOT_KEPT, ""))
-
-
 def _run_rows(result: Result, motion: Motion) -> list[tuple[str, str]]:
     distance, angle = motion.error
     stopped = ", interrupted" if result.interrupted else ""
-    return [
-        (
-            "run",
-            f"{motion.start:g} to {motion.end:g} s{stopped}, seacrane {result.stats['seacrane_version']}",
-        ),
-        ("method", _method(result)),
-        ("accuracy", _accuracy(result)),
-        ("energy balance", _energy(result)),
-        ("contacts", _contacts(result)),
-        (
-            "shown",
-            f"{1.0 / motion.interval:.3g} poses a second, cubic between them: within {1e3 * distance:.2g} mm "
-            f"and {np.degrees(angle):.2g} deg of the run",
-        ),
-    ]
+    run = f"{motion.start:g} to {motion.end:g} s{stopped}, seacrane {result.stats['seacrane_version']}"
+    shown = (
+        f"{1.0 / motion.interval:.3g} poses a second, cubic between them: within {1e3 * distance:.2g} mm "
+        f"and {np.degrees(angle):.2g} deg of the run"
+    )
+    told = {"method": _method, "accuracy": _accuracy, "energy balance": _energy, "contacts": _contacts}
+    return [("run", run), *((what, words(result)) for what, words in told.items()), ("shown", shown)]
 
 
 def _method(result: Result) -> str:
@@ -128,11 +111,11 @@ def _drawn(looks: Mapping[str, Look]) -> str:
     for name, look in looks.items():
         if look.note:
             by_note.setdefault(look.note, []).append(name)
-    return "; ".join(f"{_few(names)}: {note}" for note, names in by_note.items())
-
-
-def _few(names: list[str]) -> str:
-    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+    few = {
+        note: ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+        for note, names in by_note.items()
+    }
+    return "; ".join(f"{names}: {note}" for note, names in few.items())
 
 
 def sea_components(scene: Description) -> Array:
@@ -154,7 +137,7 @@ def without_sea(scene: Description) -> bool:
     return scene.waves is None and not scene.vessels and not wet_bodies(scene)
 
 
-def sea_words(scene: Description) -> str:
+def _sea_words(scene: Description) -> str:
     """The sea in words, for the caption."""
     if scene.waves is None:
         return "" if without_sea(scene) else "calm water"
@@ -173,18 +156,13 @@ def marks_of(scene: Description, result: Result | None, bodies: Sequence[str]) -
     stages = [] if result is None else [[span.name, span.start, span.end] for span in result.stages]
     points = {
         name: end_of(scene, bodies, one.body, one.point)
-        for name, one in scene.points.items()
-        if one.body in scene.bodies
-    }
+        for name, one in scene.points.items() if one.body in scene.bodies
+    }  # fmt: skip
     clearances = [
-        {
-            "name": name,
-            "points": [points[point] for point in one.points if point in points],
-            "at": end_of(scene, bodies, one.body, one.center),
-            "size": list(one.size),
-        }
+        {"name": name, "points": [points[point] for point in one.points if point in points],
+         "at": end_of(scene, bodies, one.body, one.center), "size": list(one.size)}
         for name, one in scene.clearances.items()
-    ]
+    ]  # fmt: skip
     named = [{"name": name, "at": at} for name, at in points.items()]
     return {"stages": stages, "points": named, "clearances": [one for one in clearances if one["points"]]}
 

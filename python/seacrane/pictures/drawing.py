@@ -22,8 +22,7 @@ from seacrane.inputs.frames import quaternion_of, rotation_matrix
 from seacrane.inputs.shown import shown
 from seacrane.pictures.drawn_bodies import Look, looks
 from seacrane.pictures.pose_curves import Motion, motion_of
-from seacrane.pictures.wheels import Wheel, surfaces_of_contacts, wheels_of
-from seacrane.pictures.wires import end_of, wires_of
+from seacrane.pictures.wheels import Wheel, end_of, surfaces_of_contacts, wheels_of, wires_of
 from seacrane.result import Result
 from seacrane.result.kept_scene import NOT_KEPT
 
@@ -199,11 +198,6 @@ def absences(result: Result | None) -> dict[str, Spans]:
         if event.kind == "connection":
             spans = found.setdefault(event.name, [[start, beyond]])
             spans[-1][1] = event.time
-        elif event.kind == "release" and _is_of_a_stage(result, event.time):
-            found.setdefault(event.name, []).append([event.time, beyond])
+        elif event.kind == "release" and any(span.start == event.time for span in result.stages):
+            found.setdefault(event.name, []).append([event.time, beyond])  # limits have such events too
     return found
-
-
-def _is_of_a_stage(result: Result, time: float) -> bool:
-    """Whether a stage begins then: limits have events of that kind too."""
-    return any(span.start == time for span in result.stages)

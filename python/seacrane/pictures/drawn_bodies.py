@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Set
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -42,14 +42,9 @@ SMALLEST = 0.02  # edge of a box over the scene's extent
 SHIPPED = "hull_115"
 LARGEST_HULL = 100_000  # panels: more make a page that browsers choke on
 COLOURS = {
-    "tower": "tower",
-    "pedestal": "tower",
-    "main_barrel": "barrel",
-    "main_rod": "rod",
-    "knuckle_barrel": "barrel",
-    "knuckle_rod": "rod",
-    "barrel": "barrel",
-    "rod": "rod",
+    **dict.fromkeys(("tower", "pedestal"), "tower"),
+    **dict.fromkeys(("barrel", "main_barrel", "knuckle_barrel"), "barrel"),
+    **dict.fromkeys(("rod", "main_rod", "knuckle_rod"), "rod"),
 }
 
 
@@ -152,13 +147,11 @@ def _by_meshes(scene: Description, name: str, role: str) -> Look:
     centre = np.asarray(scene.bodies[name].center_of_mass, dtype=float)
     shapes: list[Shape] = []
     for mesh in scene.meshes.values():
-        if mesh.body == name:
-            points = mesh.vertices - centre
-            shapes.append(
-                HullShape(vertices=points, faces=mesh.faces, waterline=-float(centre[2]))
-                if role == "vessel"
-                else MeshShape(vertices=points, faces=mesh.faces, colour=_part(scene, name, role))
-            )
+        given = {"vertices": mesh.vertices - centre, "faces": mesh.faces}
+        if mesh.body == name and role == "vessel":
+            shapes.append(HullShape(**given, waterline=-float(centre[2])))
+        elif mesh.body == name:
+            shapes.append(MeshShape(**given, colour=_part(scene, name, role)))
     return Look(role=role, shapes=shapes)
 
 
@@ -193,11 +186,8 @@ def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
         tubes: list[Shape] = list(framework(points, SLENDER * span))
         return Look(role=role, shapes=[*tubes, *wet], note=f"bars between its joints{more}")
     box = equivalent_box(body.mass, np.asarray(body.inertia))
-    size = np.maximum(box.size, SMALLEST * extent)
-    return Look(
-        role=role, shapes=[BoxShape(centre=box.centre, axes=box.axes, size=size), *wet],
-        note=f"the uniform box with its mass and inertia{more}",
-    )  # fmt: skip
+    box = replace(box, size=np.maximum(box.size, SMALLEST * extent))
+    return Look(role=role, shapes=[box, *wet], note=f"the uniform box with its mass and inertia{more}")
 
 
 def body_points(scene: Description, name: str) -> list[Array]:
@@ -217,13 +207,10 @@ def body_points(scene: Description, name: str) -> list[Array]:
 
 def _extent(scene: Description) -> float:
     """How far the described bodies and their joints lie apart, m; 1 for a single point."""
-    points = [np.asarray(body.position).reshape(3) for body in scene.bodies.values()]
-    points += [
-        np.asarray(joint.first_frame.point).reshape(3) for joint in scene.joints.values()
-        if joint.first not in scene.bodies
-    ]  # fmt: skip
-    points += [np.asarray(scene.bodies[name].position).reshape(3) + point
-               for name in scene.bodies for point in body_points(scene, name)]  # fmt: skip
+    joints = scene.joints.values()
+    points = [np.asarray(one.first_frame.point) for one in joints if one.first not in scene.bodies]
+    for name, body in scene.bodies.items():
+        points += [np.asarray(body.position) + point for point in (np.zeros(3), *body_points(scene, name))]
     spread = float(np.ptp(np.array(points), axis=0).max()) if points else 0.0
     return spread or 1.0
 

@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 OSCILLATION_START, OSCILLATION_PERIOD = 50.0, 5.0
 CLEAR_CHANGE = 0.1  # share of a motion's own size from which a change counts as clear
 TRANSLATIONS, ROTATIONS = MOTIONS[:3], MOTIONS[3:]
+ANGLES = (*ROTATIONS, "slew angle")
+STYLES = ("-", "--")  # of the lines of a panel
 MEMORY = {"with memory": "vessel", "without memory": "vessel_without_memory"}
 PAYLOAD = {"case 1, no payload": "case1", "case 2, payload": "case2"}
 OSCILLATION = {"case 1": "case1", "case 3, cylinders oscillate": "case3"}
@@ -51,80 +53,58 @@ class PaperRuns:
 
 
 def motion_of(result: Result, motion: str) -> Array:
-    """One vessel motion in the units of the figures.
-
-    Parameters
-    ----------
-    result : Result
-        A run with a vessel.
-    motion : str
-        surge, sway, heave, roll, pitch or yaw.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        m for surge, sway and heave; degrees for roll, pitch and yaw.
-    """
+    """One of the vessel's six motions (n,) in the units of the figures, m or degrees."""
     values = result.select("vessel_motion", motion=motion)
     return np.rad2deg(values) if motion in ROTATIONS else values
 
 
-def motion_panel(motion: str, runs: Sequence[tuple[str, Result]]) -> Panel:
-    """One motion of several labelled runs."""
-    styles = ("-", "--", "-.", ":")
-    lines = tuple(
-        Line(label=label, values=motion_of(run, motion), colour=i, style=styles[i % len(styles)])
-        for i, (label, run) in enumerate(runs)
-    )
-    return Panel(quantity=motion, unit="deg" if motion in ROTATIONS else "m", lines=lines)
-
-
 def _motions(number: int, runs: PaperRuns) -> Sheet:
     """A figure of the vessel's motions in several runs."""
-    title, text, motions, pairs = OF_MOTIONS[number]
-    runs_of = [(label, getattr(runs, name)) for label, name in pairs.items()]
-    return Sheet(
-        title=f"Figure {number}: {title}",
-        caption=text,
-        abscissa=runs_of[0][1].time,
-        panels=tuple(motion_panel(motion, runs_of) for motion in motions),
-        columns=2 if len(motions) == 6 else 1,
+    title, caption, motions, pairs = OF_MOTIONS[number]
+    of = {label: getattr(runs, name) for label, name in pairs.items()}
+    curves = {motion: {label: motion_of(run, motion) for label, run in of.items()} for motion in motions}
+    columns = 2 if len(motions) == 6 else 1
+    return _sheet(
+        f"Figure {number}: {title}", caption, getattr(runs, next(iter(pairs.values()))), curves, columns
     )
+
+
+def _sheet(
+    title: str, caption: str, run: Result, curves: Mapping[str, Mapping[str, Array]], columns: int = 1
+) -> Sheet:
+    """Labelled curves by what they are, over the time of a run; angles are those that end in a rotation."""
+    panels = []
+    for quantity, by_label in curves.items():
+        lines = tuple(
+            Line(label=label, values=values, colour=i, style=STYLES[i])
+            for i, (label, values) in enumerate(by_label.items())
+        )
+        panels.append(Panel(quantity=quantity, unit="deg" if quantity in ANGLES else "m", lines=lines))
+    return Sheet(title=title, caption=caption, abscissa=run.time, panels=tuple(panels), columns=columns)
 
 
 def figure_7(runs: PaperRuns) -> Sheet:
     """Both strokes and the slew angle of case 3."""
     case3 = runs.case3
-    panels = [
-        Panel(
-            quantity=f"stroke {number}",
-            unit="m",
-            lines=(Line(label="", values=case3.select("stroke", cylinder=name)),),
-        )
+    curves = {
+        f"stroke {number}": {"": case3.select("stroke", cylinder=name)}
         for number, name in enumerate(case3.coords["cylinder"], 1)
-    ]
-    slew = Line(label="", values=np.rad2deg(case3["slew_angle"]))
-    panels.append(Panel(quantity="slew angle", unit="deg", lines=(slew,)))
-    return Sheet(
-        title="Figure 7: cylinder strokes and slew angle, case 3",
-        caption="Strokes of the main (1) and knuckle (2) cylinder, and the slew angle of king against tower, "
-        "the paper's difference of phi_z between bodies 2 and 1.",
-        abscissa=case3.time,
-        panels=tuple(panels),
+    }
+    caption = (
+        "Strokes of the main (1) and knuckle (2) cylinder, and the slew angle of king against tower, "
+        "the paper's difference of phi_z between bodies 2 and 1."
     )
+    curves["slew angle"] = {"": np.rad2deg(case3["slew_angle"])}
+    return _sheet("Figure 7: cylinder strokes and slew angle, case 3", caption, case3, curves)
 
 
 def figure_10(runs: PaperRuns) -> Sheet:
     """Heave of case 3 minus heave of case 1."""
     require_same_times(runs.case3, runs.case1)
     difference = motion_of(runs.case3, "heave") - motion_of(runs.case1, "heave")
-    line = Line(label="", values=difference)
-    return Sheet(
-        title="Figure 10: heave of case 3 minus heave of case 1",
-        caption="What the oscillating cylinders add to the heave.",
-        abscissa=runs.case1.time,
-        panels=(Panel(quantity="heave, case 3 - case 1", unit="m", lines=(line,)),),
-    )
+    title = "Figure 10: heave of case 3 minus heave of case 1"
+    caption = "What the oscillating cylinders add to the heave."
+    return _sheet(title, caption, runs.case1, {"heave, case 3 - case 1": {"": difference}})
 
 
 def require_same_times(first: Result, second: Result) -> None:
@@ -197,8 +177,9 @@ class Finding:
     verdict: str
 
 
-def _verdict(agrees: bool) -> str:
-    return "reproduced" if agrees else "not reproduced"
+def _found(finding: str, number: str, expected: str, *, agrees: bool) -> Finding:
+    verdict = "reproduced" if agrees else "not reproduced"
+    return Finding(finding=finding, number=number, expected=expected, verdict=verdict)
 
 
 def _rms(values: Array) -> float:
@@ -254,24 +235,24 @@ def memory_effect(runs: PaperRuns) -> Finding:
         size = _rms(with_memory)
         if size > 0:
             changes[motion] = _rms(motion_of(runs.vessel_without_memory, motion) - with_memory) / size
-    return Finding(
-        finding="Fluid memory changes the vessel's response clearly",
-        number="rms change over rms: " + ", ".join(f"{m} {100 * c:.0f} %" for m, c in changes.items()),
-        expected=f"largest above {100 * CLEAR_CHANGE:.0f} %",
-        verdict=_verdict(max(changes.values(), default=0.0) > CLEAR_CHANGE),
+    return _found(
+        "Fluid memory changes the vessel's response clearly",
+        "rms change over rms: " + ", ".join(f"{m} {100 * c:.0f} %" for m, c in changes.items()),
+        f"largest above {100 * CLEAR_CHANGE:.0f} %",
+        agrees=max(changes.values(), default=0.0) > CLEAR_CHANGE,
     )
 
 
 def memory_cost(runs: PaperRuns) -> Finding:
     """What the memory states cost (the paper calls it significant)."""
+    names = {"states": "states", "evaluations": "evaluations", "wall_s": "time on this machine"}
     ratio = {
-        name: float(runs.vessel.stats[name]) / float(runs.vessel_without_memory.stats[name])
-        for name in ("states", "evaluations", "wall_s")
+        words: float(runs.vessel.stats[name]) / float(runs.vessel_without_memory.stats[name])
+        for name, words in names.items()
     }
     return Finding(
         finding="Leaving memory out is cheaper",
-        number=f"with over without memory: states x {ratio['states']:.2f}, "
-        f"evaluations x {ratio['evaluations']:.2f}, time on this machine x {ratio['wall_s']:.2f}",
+        number="with over without memory: " + ", ".join(f"{words} x {r:.2f}" for words, r in ratio.items()),
         expected="the paper says significantly slower with memory; no number",
         verdict="measured",
     )
@@ -281,25 +262,23 @@ def roll_shows_most(before: Result, after: Result, what: str, where: str) -> Fin
     """Which rotation of the vessel an addition changes most."""
     require_same_times(before, after)
     change = {m: _rms(motion_of(after, m) - motion_of(before, m)) for m in ("roll", "pitch", "yaw")}
-    return Finding(
-        finding=f"{what} shows most in roll ({where})",
-        number="rms change " + ", ".join(f"{motion} {value:.3g} deg" for motion, value in change.items()),
-        expected="roll largest of the three rotations",
-        verdict=_verdict(change["roll"] == max(change.values()) > 0),
-    )
+    return _found(
+        f"{what} shows most in roll ({where})",
+        "rms change " + ", ".join(f"{motion} {value:.3g} deg" for motion, value in change.items()),
+        "roll largest of the three rotations", agrees=change["roll"] == max(change.values()) > 0,
+    )  # fmt: skip
 
 
 def mean_heel(runs: PaperRuns) -> Finding:
     """Mean heel after the swing-out, against the vessel alone."""
     alone = mean_after(runs.vessel, "roll", OSCILLATION_START)
     heel = [mean_after(run, "roll", OSCILLATION_START) - alone for run in (runs.case1, runs.case2)]
-    return Finding(
-        finding="The swing-out changes the mean heel, with payload more than without",
-        number=f"case 1 {heel[0]:+.3f} deg, case 2 {heel[1]:+.3f} deg, against the vessel alone",
-        expected="to port, case 2 beyond case 1",
-        # The crane moves out to port: port down is a negative roll about x forward.
-        verdict=_verdict(heel[1] < heel[0] < 0),
-    )
+    # The crane moves out to port: port down is a negative roll about x forward.
+    return _found(
+        "The swing-out changes the mean heel, with payload more than without",
+        f"case 1 {heel[0]:+.3f} deg, case 2 {heel[1]:+.3f} deg, against the vessel alone",
+        "to port, case 2 beyond case 1", agrees=heel[1] < heel[0] < 0,
+    )  # fmt: skip
 
 
 def yaw_at_slew_stop(runs: PaperRuns) -> Finding:
@@ -309,36 +288,29 @@ def yaw_at_slew_stop(runs: PaperRuns) -> Finding:
     rate = np.gradient(motion_of(runs.case1, "yaw") - motion_of(runs.vessel, "yaw"), time)
     moving = float(np.mean(rate[(time >= 0.5 * stop) & (time <= 0.9 * stop)]))
     stopped = float(np.mean(rate[(time >= stop) & (time <= 1.4 * stop)]))
-    return Finding(
-        finding="Yaw reacts when the slew stops",
-        number=f"mean yaw rate {moving:+.4f} deg/s late in the slew, {stopped:+.4f} deg/s after {stop:.1f} s",
-        expected="changes by more than half of its value when the slew stops",
-        verdict=_verdict(abs(stopped - moving) > 0.5 * max(abs(moving), abs(stopped)) > 0),
+    return _found(
+        "Yaw reacts when the slew stops",
+        f"mean yaw rate {moving:+.4f} deg/s late in the slew, {stopped:+.4f} deg/s after {stop:.1f} s",
+        "changes by more than half of its value when the slew stops",
+        agrees=abs(stopped - moving) > 0.5 * max(abs(moving), abs(stopped)) > 0,
     )
 
 
 def oscillation(runs: PaperRuns) -> Finding:
     """The 5 s component that case 3 adds to case 1, in each motion."""
     require_same_times(runs.case3, runs.case1)
-    added = {
-        motion: amplitude_at(
-            runs.case1.time,
-            motion_of(runs.case3, motion) - motion_of(runs.case1, motion),
-            period=OSCILLATION_PERIOD,
-            start=OSCILLATION_START,
-        )
-        for motion in MOTIONS
-    }
-    units = dict.fromkeys(MOTIONS[:3], "m") | dict.fromkeys(MOTIONS[3:], "deg")
+    time, asked = runs.case1.time, {"period": OSCILLATION_PERIOD, "start": OSCILLATION_START}
+    change = {m: motion_of(runs.case3, m) - motion_of(runs.case1, m) for m in MOTIONS}
+    added = {motion: amplitude_at(time, values, **asked) for motion, values in change.items()}
+    units = dict.fromkeys(TRANSLATIONS, "m") | dict.fromkeys(ROTATIONS, "deg")
     clear = all(added[motion] > 0 for motion in ("sway", "heave", "roll"))
-    rotations = added["roll"] == max(added[motion] for motion in MOTIONS[3:])
-    return Finding(
-        finding="Case 3's 5 s oscillation shows in sway, roll and heave, hardly in surge",
-        number="5 s amplitude " + ", ".join(f"{m} {a:.2g} {units[m]}" for m, a in added.items()),
-        expected="surge below a quarter of sway; sway the largest translation, roll the largest rotation",
-        verdict=_verdict(
-            clear and rotations and added["surge"] < 0.25 * added["sway"] and added["sway"] > added["heave"]
-        ),
+    rotations = added["roll"] == max(added[motion] for motion in ROTATIONS)
+    sway = added["surge"] < 0.25 * added["sway"] and added["sway"] > added["heave"]
+    return _found(
+        "Case 3's 5 s oscillation shows in sway, roll and heave, hardly in surge",
+        "5 s amplitude " + ", ".join(f"{m} {a:.2g} {units[m]}" for m, a in added.items()),
+        "surge below a quarter of sway; sway the largest translation, roll the largest rotation",
+        agrees=clear and rotations and sway,
     )
 
 

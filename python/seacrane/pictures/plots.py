@@ -1,8 +1,9 @@
-"""One picture of a run by one call: histories, spectra, tracks, reactions; and the RAOs of a scene."""
+"""One picture of a run by one call: overview, histories, spectra, tracks, reactions; RAOs of a scene."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,12 +12,21 @@ from numpy.typing import NDArray
 from seacrane.analysis.frequency_domain import excitation_of, linear_of, motion_rao
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import AXES_NOTE, MOTIONS
-from seacrane.pictures.overview import payload_bodies, resultants
-from seacrane.plotting.figure import new_figure
-from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
+from seacrane.inputs.keywords import named
+from seacrane.plotting.panel import (
+    COLOURS,
+    MOST_NAMED,
+    Line,
+    Panel,
+    Sheet,
+    draw,
+    new_figure,
+    plain,
+    write_note,
+)
 from seacrane.result import Result
-from seacrane.result.history import marks_of, panels_of, title_of, wanted_traces
-from seacrane.result.traces import Trace
+from seacrane.result.history import axes_note, marks_of, panels_of, title_of, wanted_traces
+from seacrane.result.traces import Trace, beyond_rounding, shown_unit, traces
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -31,6 +41,105 @@ RESOLVED = 100.0  # s: shorter segments are not taken where the record is longer
 SHOWN = 0.999  # of the variance of every curve is drawn
 VIEWS = ((0, 1, "from above"), (0, 2, "from starboard"), (1, 2, "from ahead"))
 HEADINGS_DEG = (0.0, 45.0, 90.0, 135.0, 180.0)
+Panels = list[tuple[str, list[Trace]]]
+
+
+def resultants(result: Result, channel: str) -> list[Trace]:
+    """Magnitudes of a channel's vectors, by what they belong to."""
+    size = np.linalg.norm(result[channel], axis=-1)
+    names = result.coords[result.dims[channel][1]]
+    units = {"reaction_force": "N", "reaction_moment": "N m"}
+    factor, unit = shown_unit(units[channel], [size])
+    return [
+        Trace(channel=channel, names=(name,), unit=unit, values=factor * size[:, i])
+        for i, name in enumerate(names)
+    ]
+
+
+def payload_bodies(result: Result) -> list[str]:
+    """What hangs on a link or wire, as the run noted it."""
+    bodies = str(result.stats.get("payload", "")).splitlines()
+    return [body for body in bodies if body in result.coords.get("body", ())]
+
+
+def _vessels(result: Result) -> Panels:
+    names = result.coords.get("vessel", ())
+    several = [(name, traces(result, "vessel_motion", vessel=name)) for name in names]
+    return several or [("vessel", traces(result, "vessel_motion"))]
+
+
+def _payload(result: Result) -> Panels:
+    return [(f"{body} position", traces(result, "position", body=body)) for body in payload_bodies(result)]
+
+
+def _channel(name: str) -> Callable[[Result], Panels]:
+    return lambda result: [(name.replace("_", " "), traces(result, name))]
+
+
+# Which channel brings which panels; a channel the run has not is left out of the picture.
+PANELS: dict[str, Callable[[Result], Panels]] = {
+    "vessel_motion": _vessels,
+    "wave_elevation": _channel("wave_elevation"),
+    "position": _payload,
+    **{
+        name: _channel(name)
+        for name in ("slew_angle", "stroke", "cylinder_force", "link_tension", "line_tension", "limit_force")
+    },
+    "reaction_force": lambda result: [("joint force", resultants(result, "reaction_force"))],
+    "energy_balance": _channel("energy_balance"),
+}
+
+
+OWNERS = {"vessel_motion": "vessel", "position": "body"}  # dimensions that a panel's title names
+
+
+def overview_sheet(result: Result) -> Sheet:
+    """The panels of `plot_overview` with their numbers."""
+    panels = _panels(result, beyond_rounding) or _panels(result, list)
+    if not panels:
+        held = ", ".join(result.channels) or "no channels"
+        raise ValueError(f"a result with {held} has nothing to plot")
+    return Sheet(
+        title=title_of(result),
+        caption=f"What was recorded; triangles mark the largest and the smallest value. {AXES_NOTE}",
+        abscissa=result.time, panels=tuple(panels), columns=2 if len(panels) > 3 else 1,
+        marks=marks_of(result), extremes=True,
+    )  # fmt: skip
+
+
+def _panels(result: Result, chosen: Callable[[list[Trace]], list[Trace]]) -> list[Panel]:
+    return [
+        panel
+        for name, make in PANELS.items()
+        if name in result.channels
+        for quantity, found in make(result)
+        for panel in panels_of(quantity, chosen(found), skip=int(OWNERS.get(name) in result.dims[name]))
+    ]
+
+
+@named
+def plot_overview(result: Result) -> Figure:
+    """Draw what a run recorded: motions, waves, payload, crane, forces and energy balance.
+
+    What is zero up to rounding is left out, as the sway of a ship in head seas. Events of limits are marked,
+    and the largest and the smallest value of every panel.
+
+    Parameters
+    ----------
+    result : Result
+        Any run.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        ``figure.savefig(path)`` writes it; a notebook shows it. Our axes: x forward, y to port, z up.
+
+    Raises
+    ------
+    ValueError
+        If the run recorded nothing that is plotted.
+    """
+    return draw(overview_sheet(result), note=axes_note(result, result.channels))
 
 
 def plot_spectrum(result: Result, *channels: str, after: float = 0.0, **names: str) -> Figure:
@@ -69,28 +178,18 @@ def spectrum_sheet(result: Result, *channels: str, after: float = 0.0, **names: 
     count = kept.stop - kept.start
     length = min(count, max(2 * count // (SEGMENTS + 1), round(RESOLVED / step), FEWEST_OUTPUTS))
     spectra = {
-        (channel, one): welch(one.values[kept], 1.0 / step, nperseg=length)
+        channel: [welch(one.values[kept], 1.0 / step, nperseg=length) for one in every]
         for channel, every in found.items()
-        for one in every
     }
-    omega = 2.0 * np.pi * next(iter(spectra.values()))[0]
-    last = _last_shown([density for _, density in spectra.values()])
-    omega = omega[:last]
-    panels = [
-        panel
-        for channel in found
-        for panel in panels_of(
-            f"S, {channel.replace('_', ' ')}",
-            [
-                Trace(
-                    channel=channel, names=one.names, unit=_squared(one.unit),
-                    values=density[:last] / (2.0 * np.pi),
-                )
-                for (of, one), (_, density) in spectra.items()
-                if of == channel
-            ],
-        )
-    ]  # fmt: skip
+    frequency = next(iter(spectra.values()))[0][0]
+    last = _last_shown([density for every in spectra.values() for _, density in every])
+    omega, panels = 2.0 * np.pi * frequency[:last], []
+    for channel, every in found.items():
+        densities = [
+            replace(one, unit=_squared(one.unit), values=density[:last] / (2.0 * np.pi), bounds=None)
+            for one, (_, density) in zip(every, spectra[channel], strict=True)
+        ]
+        panels += panels_of(f"S, {channel.replace('_', ' ')}", densities)
     return Sheet(
         title=f"{title_of(result)}: spectra from {result.time[kept][0]:g} s on",
         caption="One-sided densities; the area below a curve is the variance about the mean.",
@@ -154,11 +253,7 @@ def draw_track(result: Result, *bodies: str) -> Figure:
     if "position" not in result.channels:
         raise SceneError("channel 'position' is not in this result; record it to draw tracks")
     chosen = bodies or tuple(payload_bodies(result)) or result.coords["body"]
-    for body in chosen:
-        if body not in result.coords["body"]:
-            raise SceneError(
-                f"body {body!r} is not in this result; it holds {', '.join(result.coords['body'])}"
-            )
+    _require_there(result, "body", chosen)
     figure = new_figure(figsize=(12.0, 4.6), layout="constrained")
     for cell, (across, up, view) in zip(figure.subplots(1, 3), VIEWS, strict=True):
         for i, body in enumerate(chosen):
@@ -193,30 +288,25 @@ def plot_reactions(result: Result, *joints: str) -> Figure:
     SceneError
         For a joint that is not in the result, or a result without reactions.
     """
-    return draw(reaction_sheet(result, *joints))
-
-
-def reaction_sheet(result: Result, *joints: str) -> Sheet:
-    """The panels of `plot_reactions` with their numbers."""
     held = [name for name in ("reaction_force", "reaction_moment") if name in result.channels]
     if not held:
         raise SceneError("channel 'reaction_force' is not in this result; record it to draw reactions")
-    for joint in joints:
-        if joint not in result.coords["joint"]:
-            known = ", ".join(result.coords["joint"])
-            raise SceneError(f"joint {joint!r} is not in this result; it holds {known}")
-    panels = [
-        panel
-        for name in held
-        for panel in panels_of(
-            name.replace("_", " "),
-            [one for one in resultants(result, name) if not joints or one.names[0] in joints],
-        )
-    ]
-    return Sheet(
+    _require_there(result, "joint", joints)
+    panels = []
+    for name in held:
+        asked = [one for one in resultants(result, name) if not joints or one.names[0] in joints]
+        panels += panels_of(name.replace("_", " "), asked)
+    return draw(Sheet(
         title=f"{title_of(result)}: reactions", caption="Sizes of what each joint exerts on its second body.",
         abscissa=result.time, panels=tuple(panels), marks=marks_of(result), extremes=True,
-    )  # fmt: skip
+    ))  # fmt: skip
+
+
+def _require_there(result: Result, kind: str, names: Iterable[str]) -> None:
+    for name in names:
+        if name not in result.coords[kind]:
+            known = ", ".join(result.coords[kind])
+            raise SceneError(f"{kind} {name!r} is not in this result; it holds {known}")
 
 
 def plot_rao(
@@ -263,22 +353,17 @@ def rao_sheet(
     heading = np.deg2rad(np.asarray(directions_deg, dtype=float))
     motion = np.abs(motion_rao(linear, omega=frequency, direction=heading[:, None], body=body, point=point))
     motion[..., 3:] = np.rad2deg(motion[..., 3:])
-    rotations = ("about x", "about y", "about z")
-    panels = tuple(
-        Panel(
-            quantity=name,
-            unit="m/m" if i < 3 else "deg/m",
-            lines=tuple(
-                Line(label=f"{angle:g} deg", values=motion[j, :, i], colour=j)
-                for j, angle in enumerate(directions_deg)
-            ),
+    panels = []
+    for i, name in enumerate(("x", "y", "z", "about x", "about y", "about z")):
+        lines = tuple(
+            Line(label=f"{angle:g} deg", values=motion[j, :, i], colour=j)
+            for j, angle in enumerate(directions_deg)
         )
-        for i, name in enumerate(("x", "y", "z", *rotations))
-    )
+        panels.append(Panel(quantity=name, unit="m/m" if i < 3 else "deg/m", lines=lines))
     return Sheet(
         title=f"Motion of {body} per metre of wave amplitude",
         caption=f"Linear response about rest; {', '.join(MOTIONS)} of a body that heads along x. The angle "
         "is the direction the waves travel to, 0 following.",
-        abscissa=frequency, abscissa_name="omega", abscissa_unit="rad/s", panels=panels, columns=2,
+        abscissa=frequency, abscissa_name="omega", abscissa_unit="rad/s", panels=tuple(panels), columns=2,
         shaded=database.trusted_band,
     )  # fmt: skip

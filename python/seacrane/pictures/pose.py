@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.plotting.figure import new_figure
-from seacrane.plotting.panel import COLOURS, MOST_NAMED, Picture, plain, save_figure, save_table
+from seacrane.plotting.panel import COLOURS, MOST_NAMED, Picture, new_figure, plain, save_figure, save_table
 from seacrane.result import Result
 
 if TYPE_CHECKING:
@@ -27,19 +26,13 @@ VIEW = {"elev": 20, "azim": 120}  # from port and a little aft
 
 
 def hull_lines(
-    *,
-    length: float = 115.0,
-    beam: float = 25.0,
-    bottom: float = -6.4,
-    deck: float = 10.0,
+    *, length: float = 115.0, beam: float = 25.0, bottom: float = -6.4, deck: float = 10.0
 ) -> list[Array]:
     """Deck and bottom outline of a ship with a pointed bow, about {0} on the waterline amidships, m."""
     half, side, bow = length / 2, beam / 2, 0.15 * length
     plan = np.array([(-half, -side), (half - bow, -side), (half, 0), (half - bow, side), (-half, side)])
-    outlines = [
-        np.column_stack([np.vstack([plan, plan[:1]]), np.full(len(plan) + 1, level)])
-        for level in (deck, bottom)
-    ]
+    closed = np.vstack([plan, plan[:1]])
+    outlines = [np.column_stack([closed, np.full(len(closed), level)]) for level in (deck, bottom)]
     uprights = [np.array([(x, y, bottom), (x, y, deck)]) for x, y in plan]
     return [*outlines, *uprights]
 
@@ -62,12 +55,6 @@ def outlined_skeleton(result: Result) -> dict[str, list[Array]]:
     bodies = result.about.outline.get("bodies", {})
     found = {name: _outlined(bodies[name]) for name in bodies if name in result.coords["body"]}
     return {name: lines for name, lines in found.items() if lines}
-
-
-def ships_of(result: Result) -> list[str]:
-    """Bodies that are drawn as ships."""
-    bodies = result.about.outline.get("bodies", {})
-    return [name for name, about in bodies.items() if "ship" in about] or [HULL]
 
 
 def _outlined(about: Mapping[str, Any]) -> list[Array]:
@@ -149,7 +136,8 @@ def _draw_poses(result: Result, title: str) -> Figure:
             "and quaternion"
         )
     figure = new_figure(figsize=(13.0, 5.6))
-    ships = ships_of(result)
+    bodies = result.about.outline.get("bodies", {})
+    ships = [name for name, about in bodies.items() if "ship" in about] or [HULL]
     payloads = str(result.stats.get("payload", "")).splitlines()
     own = {**dict.fromkeys(ships, "0.45"), **dict.fromkeys(payloads, "#8B0000")}
     drawn = {index: list(posed_lines(result, skeleton, index)) for index in (0, -1)}

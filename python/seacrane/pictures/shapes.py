@@ -91,20 +91,6 @@ class BoxShape:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class HullShape:
-    """Triangles `faces` (m, 3) of `vertices` (n, 3), m, with the still waterline at height `waterline`."""
-
-    vertices: Array
-    faces: NDArray[np.intp]
-    waterline: float
-
-    @property
-    def points(self) -> Array:
-        """(n, 3)."""
-        return self.vertices
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
 class MeshShape:
     """Triangles `faces` (m, 3) of `vertices` (n, 3), m, of one colour."""
 
@@ -118,7 +104,14 @@ class MeshShape:
         return self.vertices
 
 
-Shape = TubeShape | BoxShape | HullShape | MeshShape
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HullShape(MeshShape):
+    """With the still waterline at height `waterline`, m, and the colours of a hull."""
+
+    waterline: float
+
+
+Shape = TubeShape | BoxShape | MeshShape
 
 
 def plain(values: Any) -> list[float]:
@@ -168,9 +161,8 @@ def hull_shape(hull: Hull, deck: float, center_of_mass: Array) -> HullShape:
     """The panels of a hull (body axes from the body's origin) and topsides straight up to a deck at height
     `deck`, m."""
     panels = np.asarray(hull.panels)
-    triangles = np.concatenate([panels[:, [0, 1, 2]], panels[:, [0, 2, 3]]])
     x, half = _waterline(panels)
-    soup = np.concatenate([triangles, _topsides(x, half, deck)]) - center_of_mass
+    soup = np.concatenate([_halved(panels), _topsides(x, half, deck)]) - center_of_mass
     return _hull_of(soup, -float(center_of_mass[2]))
 
 
@@ -223,9 +215,8 @@ def _sides(x: Array, half: Array, low: float, high: float) -> Array:
     port = np.column_stack([x, half])
     outline = np.concatenate([port, port[::-1] * np.array([1.0, -1.0])])
     a, b = outline, np.roll(outline, -1, axis=0)
-    corners = [
-        np.column_stack([p, np.full(len(p), z)]) for p, z in ((a, low), (b, low), (b, high), (a, high))
-    ]
+    around = ((a, low), (b, low), (b, high), (a, high))
+    corners = [np.column_stack([p, np.full(len(p), z)]) for p, z in around]
     return _halved(np.stack(corners, axis=1))
 
 
@@ -242,9 +233,7 @@ def _halved(quads: Array) -> Array:
 def _hull_of(triangles: Array, waterline: float) -> HullShape:
     vertices, faces = np.unique(np.round(triangles.reshape(-1, 3), 4), axis=0, return_inverse=True)
     indices = faces.reshape(-1, 3)
-    flat = (
-        (indices[:, 0] == indices[:, 1]) | (indices[:, 1] == indices[:, 2]) | (indices[:, 2] == indices[:, 0])
-    )
+    flat = (indices == np.roll(indices, -1, axis=1)).any(axis=1)
     return HullShape(vertices=vertices, faces=indices[~flat], waterline=waterline)
 
 

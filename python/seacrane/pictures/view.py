@@ -30,14 +30,20 @@ from seacrane.inputs.replaceable import GENERATOR, check_replaceable
 from seacrane.inputs.shown import shown
 from seacrane.pictures.animated_gltf import GENERATOR as GLTF_GENERATOR
 from seacrane.pictures.animated_gltf import gltf_of
-from seacrane.pictures.caption import caption, forces_of, marks_of, sea_components, strip_of, without_sea
+from seacrane.pictures.caption import (
+    FINENESS,
+    caption,
+    forces_of,
+    marks_of,
+    sea_components,
+    strip_of,
+    without_sea,
+)
 from seacrane.pictures.drawing import Drawing, drawing_of
 from seacrane.pictures.drawn_bodies import Look
-from seacrane.pictures.packing import Blob
-from seacrane.pictures.pose_curves import POSES, STEPS, Motion, linear_rows
+from seacrane.pictures.pose_curves import POSES, STEPS, Blob, Motion, linear_rows
 from seacrane.pictures.shapes import HULL, SLACK, TRACKS, WIRES, HullShape, MeshShape, body_colour
-from seacrane.pictures.wheels import Wheel
-from seacrane.pictures.wires import end_of
+from seacrane.pictures.wheels import Wheel, end_of
 from seacrane.result import Result
 from seacrane.scene.scene import Scene
 
@@ -47,7 +53,6 @@ ANGLE_STEP = 1e-3  # rad, of a drum
 SLOT = re.compile(r"@@(\w+)@@")
 INSIDE_SCRIPT = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
 Array = NDArray[np.float64]
-FINENESS = 2.0**-14  # step of a force over the largest of its group
 Arrow = tuple[str, str, list[float], Array]  # name, group, point of application, force over the outputs
 
 
@@ -206,19 +211,22 @@ def _motion_data(motion: Motion, blob: Blob) -> dict[str, Any]:
     return {"start": motion.start, "interval": motion.interval, **series}
 
 
-def _mesh(shape: HullShape | MeshShape, blob: Blob) -> dict[str, Any]:
+def _mesh(shape: MeshShape, blob: Blob) -> dict[str, Any]:
     return {"vertices": blob.floats(shape.vertices), "faces": blob.whole(shape.faces)}
 
 
 def _body_data(name: str, number: int, look: Look, blob: Blob) -> dict[str, Any]:
-    shapes = []
+    shapes: list[dict[str, Any]] = []
     for shape in look.shapes:
+        own = {"colour": body_colour(shape.colour, look.role, number)}
         if isinstance(shape, HullShape):
-            told = {"kind": "hull", "waterline": shape.waterline, "colours": HULL, **_mesh(shape, blob)}
-            shapes.append(told)
-            continue
-        told = {"kind": "mesh", **_mesh(shape, blob)} if isinstance(shape, MeshShape) else shape.data()
-        shapes.append(told | {"colour": body_colour(shape.colour, look.role, number)})
+            shapes.append(
+                {"kind": "hull", "waterline": shape.waterline, "colours": HULL, **_mesh(shape, blob)}
+            )
+        elif isinstance(shape, MeshShape):
+            shapes.append({"kind": "mesh", **_mesh(shape, blob), **own})
+        else:
+            shapes.append(shape.data() | own)
     return {"name": name, "role": look.role, "shapes": shapes}
 
 
@@ -241,14 +249,8 @@ def page(*, title: str, caption: Sequence[tuple[str, str]], data: Mapping[str, A
         Its arrays, base64.
     """
     rows = "".join(f"<tr><th>{escape(what)}</th><td>{escape(words)}</td></tr>" for what, words in caption)
-    filled = {
-        "title": escape(title),
-        "style": _asset("page.css"),
-        "caption": rows,
-        "data": json_text(data),
-        "blob": blob,
-        "script": script(),
-    }
+    filled = {"title": escape(title), "style": _asset("page.css"), "caption": rows, "data": json_text(data),
+              "blob": blob, "script": script()}  # fmt: skip
     return SLOT.sub(lambda slot: filled[slot[1]], _asset("page.html"))
 
 
@@ -260,9 +262,8 @@ def json_text(data: Any) -> str:
 
 def script() -> str:
     """The bundle, with what would end its element escaped."""
-    return re.sub(r"</(script)", r"<\\/\1", _asset("viewer.js"), flags=re.IGNORECASE).replace(
-        "<!--", "<\\!--"
-    )
+    escaped = re.sub(r"</(script)", r"<\\/\1", _asset("viewer.js"), flags=re.IGNORECASE)
+    return escaped.replace("<!--", "<\\!--")
 
 
 @cache

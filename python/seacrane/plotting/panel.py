@@ -8,6 +8,8 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,14 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.inputs.atomic import atomic_write
-from seacrane.plotting.figure import new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
-
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
 SHADE = "#EEF3F8"
 NOTE_COLOUR = "0.35"
@@ -33,6 +33,24 @@ MOST_NAMED = 24  # lines that a legend lists: a longer one would hide the figure
 LONGEST_LABEL = 25  # letters that fit beside a panel in one line
 FEW_LINES = 3  # up to which a panel has room for its extremes in words
 DOTS_PER_INCH = 130
+
+
+def new_figure(**given: Any) -> Figure:
+    """A figure of no window and no global state, which a notebook shows as the last expression of a cell.
+
+    Notebooks know how to show figures once pyplot has been loaded; this one tells it by itself.
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(**given)
+    figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]
+    return figure
+
+
+def _png(figure: Figure) -> bytes:
+    target = BytesIO()
+    figure.savefig(target, format="png", bbox_inches="tight")
+    return target.getvalue()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,11 +85,9 @@ class Panel:
         )
         low = np.unravel_index(int(np.nanargmin(least)), least.shape)
         high = np.unravel_index(int(np.nanargmax(largest)), largest.shape)
-        return (int(low[0]), int(low[1]), float(least[low])), (
-            int(high[0]),
-            int(high[1]),
-            float(largest[high]),
-        )
+        ends = ((low, least), (high, largest))
+        first, last = ((int(at[0]), int(at[1]), float(values[at])) for at, values in ends)
+        return first, last
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,8 +196,7 @@ def draw(sheet: Sheet, *, note: str = "") -> Figure:
     for cell in cells[len(sheet.panels) :]:
         cell.set_visible(False)
     for column in grid.T:
-        lowest = [cell for cell in column if cell.get_visible()][-1:]
-        for cell in lowest:
+        for cell in [cell for cell in column if cell.get_visible()][-1:]:
             cell.set_xlabel(f"{sheet.abscissa_name} [{sheet.abscissa_unit}]")
             cell.tick_params(labelbottom=True)
     handles = _shared_handles(cells[0], sheet.marks, every=shared and any(labels[0]))
@@ -242,10 +257,10 @@ def _mark_extremes(cell: Axes, panel: Panel, sheet: Sheet) -> None:
         cell.plot(place, value, marker, color=colour, markersize=5, clip_on=False, zorder=4)
         words.insert(0, f"{word} {value:.4g} at {place:.4g} {sheet.abscissa_unit}")
     if len(panel.lines) <= FEW_LINES:
-        place_of_text: dict[str, Any] = {"xy": (0.0, 1.0), "xycoords": "axes fraction"}
         cell.annotate(
-            ", ".join(words), xytext=(0, 3), textcoords="offset points", fontsize=6.5, **place_of_text
-        )
+            ", ".join(words), xy=(0.0, 1.0), xycoords="axes fraction", xytext=(0, 3),
+            textcoords="offset points", fontsize=6.5,
+        )  # fmt: skip
 
 
 def _mark_places(cell: Axes, marks: Mapping[str, Array]) -> None:

@@ -27,8 +27,6 @@ READ: dict[str, tuple[float, str]] = {
     "N m": (1e-3, "kN m"),
     "Pa": (1e-5, "bar"),
 }
-
-
 NOTEBOOK = (  # whose own style would set texts to the right
     ".seacrane td, .seacrane th, .seacrane caption { text-align: left; } "
     ".seacrane td:first-child { white-space: nowrap; } .seacrane td.number { text-align: right; }"

@@ -1,4 +1,4 @@
-// The numbers of the page: see seacrane/pictures/packing.py.
+// The numbers of the page: see seacrane/pictures/pose_curves.py.
 
 export async function gunzip(base64) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
