@@ -17,13 +17,13 @@ from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
 from seacrane import Lift, Method, Outputs, Result, Scene, cases, simulate
 from seacrane.cli import main
 from seacrane.crane.load_crane import SHIPPED
-from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.lift.build import times_of
 from seacrane.lift.lift import LIFTS
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import TABLES
+from seacrane.scene.file import scene_digest
 from seacrane.sea import SeaState, WaveSystem, cos_2s, jonswap
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -12,9 +12,9 @@ from seacrane import _core
 from seacrane.analysis.inverse import driven
 from seacrane.description.crane_parts import luffing_ropes
 from seacrane.description.description import Description, Some
-from seacrane.description.drives import add_driver
+from seacrane.description.elements import add_driver
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
-from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.places import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError

@@ -15,7 +15,7 @@ from seacrane.analysis.hulls_in_waves import rates_in_waves
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.response_quadrature import directions_of, quadrature_frequencies, weights_of
-from seacrane.description.hydrodynamics import group_of
+from seacrane.description.given import group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_on_grid

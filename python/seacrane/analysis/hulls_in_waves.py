@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.description.databases import database_of
-from seacrane.description.hydrodynamics import group_of
+from seacrane.description.given import group_of
 from seacrane.inputs.frames import heading_of
 
 if TYPE_CHECKING:

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import GROUND, Description, Some
-from seacrane.description.drives import add_driver
+from seacrane.description.elements import add_driver, add_joint
 from seacrane.description.given import given_at_rest, given_vessels
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
-from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Description, Some
+from seacrane.description.elements import add_joint
 from seacrane.description.holding import decided
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
 from seacrane.description.places import ORIGIN, apart, placed
 

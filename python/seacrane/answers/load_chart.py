@@ -16,9 +16,8 @@ from seacrane.analysis.crane_poses import crane_of, values_of
 from seacrane.analysis.rest_state import rest_from
 from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.answers.statics import resting
-from seacrane.description.capacity import allowed_at
 from seacrane.description.description import Description
-from seacrane.description.roles import CraneRoles
+from seacrane.description.roles import CraneRoles, allowed_at
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.keywords import named

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.crane_poses import Place, path_through, places_of, posed
 from seacrane.description.compilation import compile_scene
-from seacrane.description.crane_reach import tip_radius
+from seacrane.description.crane_parts import tip_radius
 from seacrane.description.description import Description
-from seacrane.description.drives import add_driver
+from seacrane.description.elements import add_driver
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix

@@ -16,7 +16,7 @@ from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.reach import Reach, luffing
 from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of
 from seacrane.description.description import Description
-from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.places import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller

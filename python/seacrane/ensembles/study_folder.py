@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
-from seacrane.description.file import scene_digest
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members
 from seacrane.ensembles.study import Stages, Study
@@ -28,6 +27,7 @@ from seacrane.inputs.json_text import json_of
 from seacrane.inputs.sole_writer import claim, opened
 from seacrane.inputs.whole_file import read_whole
 from seacrane.run.stage import Stage
+from seacrane.scene.file import scene_digest
 from seacrane.scene.scene import Scene
 from seacrane.version import __version__
 

@@ -10,7 +10,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
 from seacrane.crane import Crane, Payload, load_crane
-from seacrane.description import hydraulic_values
+from seacrane.description import hydraulic_cylinders
 from seacrane.description.channels import CHANNELS, OWN, unit_of
 from seacrane.description.databases import source_of
 from seacrane.description.description import coordinate_of
@@ -45,7 +45,7 @@ _MADE: Mapping[str, Callable[..., Any]] = {
     "tip": lambda body, point: (body, point),
     "history": MotionHistory,
     "raos": lambda **table: _raos(**table),
-    **hydraulic_values.VALUES,
+    **hydraulic_cylinders.VALUES,
     **heave.VALUES,
 }
 

@@ -12,7 +12,7 @@ from seacrane.description.curves import spline_curve
 from seacrane.errors import SceneError
 from seacrane.lift.keys import into_si
 from seacrane.lift.tables import CURVES
-from seacrane.scene.gusts import gust_curve
+from seacrane.scene.wind_current import gust_curve
 
 Scale = Callable[[Any], Any]
 LONGEST_GUST = 1e7  # s times components: fourteen hours of the usual 200

@@ -7,7 +7,7 @@ from typing import Any
 
 from seacrane.description.description import coordinate_of
 from seacrane.description.holding import with_holds
-from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.places import ANGLES
 from seacrane.errors import SceneError
 from seacrane.lift.build import refused_at
 from seacrane.lift.calls import require_unit_of_channel

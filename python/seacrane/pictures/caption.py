@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.description import Description
-from seacrane.description.file import scene_digest
 from seacrane.description.loads import lines_of
 from seacrane.description.wet_parts import wet_bodies
 from seacrane.pictures.drawn_bodies import Look
@@ -16,6 +15,7 @@ from seacrane.pictures.pose_curves import Motion
 from seacrane.result import Result
 from seacrane.result.contact_loads import contact_loads
 from seacrane.result.kept_scene import NOT_KEPT
+from seacrane.scene.file import scene_digest
 
 AXES = "x forward, y to port, z up, about the origin of the inertial frame; m, s"
 REAL_WIRES = "as thick as steel ropes of their EA, EA = 40 GPa times the square of the diameter"

@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from seacrane import _core
 from seacrane.description.databases import require_alike
 from seacrane.description.description import ELEMENTS, KINDS, Description
 from seacrane.description.loads import named
-from seacrane.description.own_channels import picks
-from seacrane.description.range import Range
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
+from seacrane.scene.own_channels import picks
 
-EDITED = (
-    *ELEMENTS,
-    "recorded",
-    "ranges",
-    "limit_states",
-    "clearances",
-    "relatives",
-    "channels",
-    "meshes",
-)  # tables of what has a name of its own
+UNNAMED = ("roles", "provenance", "ratings", "lift_factors")  # tables by the names of other elements
+REFERRING: Mapping[str, tuple[tuple[str, str], ...]] = {  # who names one, and in which word
+    "bodies": (("meshes", "body"), ("clearances", "body"), ("relatives", "axes")),
+    "points": (("clearances", "points"), ("relatives", "point"), ("relatives", "to")),
+    "joints": (("ranges", "joint"),),
+    "vessels": (("groups", "vessels"),),
+}
+EDITED = tuple(key for key in KINDS if key not in UNNAMED)
 
 
 def replace_element(scene: Description, name: str, /, *, kind: str | None = None, **changes: Any) -> Any:
@@ -116,34 +113,21 @@ def _table_of(scene: Description, name: str, kind: str | None) -> str:
 
 def _users(scene: Description, key: str, name: str) -> Iterator[str]:
     """What refers to a body, a joint or a vessel, such as "joint 'link'"."""
-    role = {"bodies": "body", "joints": "joint"}.get(key)
-    for table in (*ELEMENTS, "ranges"):
-        for other, element in getattr(scene, table).items():
-            names = [element.joint] if isinstance(element, Range) else named(element, role or "")
-            if role and name in names and (table != "ranges" or role == "joint"):
+    role = {"bodies": "body", "joints": "joint"}.get(key, "nothing")
+    for table in ELEMENTS:
+        of_table = getattr(scene, table).items()
+        yield from (f"{KINDS[table]} {other!r}" for other, one in of_table if name in named(one, role))
+    for table, word in REFERRING.get(key, ()):
+        for other, one in getattr(scene, table).items():
+            held = getattr(one, word)
+            if name in ([held] if isinstance(held, str) else held):
                 yield f"{KINDS[table]} {other!r}"
-    if key == "bodies":
-        yield from (f"mesh {mesh.name!r}" for mesh in scene.meshes.values() if mesh.body == name)
-    if key in ("bodies", "points"):
-        gaps = scene.clearances.values()
-        yield from (
-            f"clearance {gap.name!r}"
-            for gap in gaps
-            if name in (gap.points if key == "points" else (gap.body,))
-        )
-        yield from (
-            f"relative {one.name!r}"
-            for one in scene.relatives.values()
-            if name in ((one.point, one.to) if key == "points" else (one.axes,))
-        )
+    if key == "joints":
+        yield from (f"recorded coordinate {r!r}" for r, (joint, _) in scene.recorded.items() if joint == name)
     dim = {"bodies": "body", "points": "point"}.get(key)
     for channel, curves in picks(scene).items():
         if dim and any(pick.names.get(dim) == name for pick in curves):
             yield f"channel {channel!r}"
-    if key == "joints":
-        yield from (f"recorded coordinate {r!r}" for r, (joint, _) in scene.recorded.items() if joint == name)
-    if key == "vessels":
-        yield from (f"group {group.name!r}" for group in scene.groups.values() if name in group.vessels)
     body = {"bodies": name, "vessels": getattr(scene.vessels.get(name), "body", None)}.get(key)
     if scene.waves is not None and body in scene.waves.hulls:
         yield "the waves on it (scene.waves)"

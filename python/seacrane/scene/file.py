@@ -11,52 +11,90 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, TypeVar
 
 from seacrane import _core
-from seacrane.description.bodies import add_body
-from seacrane.description.clearances import Clearance, add_clearance
-from seacrane.description.crane_parts import add_roles
 from seacrane.description.databases import databases_from_node, databases_to_data
-from seacrane.description.description import Description
-from seacrane.description.drives import add_actuator, add_driver
-from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
-from seacrane.description.forces import add_load
+from seacrane.description.description import SETTINGS, Description
+from seacrane.description.elements import add_actuator, add_driver, add_joint, add_load
 from seacrane.description.holding import free_drives
-from seacrane.description.hydrodynamics import add_group, add_hydrodynamics
-from seacrane.description.joints import add_joint
-from seacrane.description.lift_factors import LiftFactors, add_lift_factors
-from seacrane.description.limit_state import LimitState
-from seacrane.description.limit_states import add_limit_state
+from seacrane.description.limit_state import LimitState, Range
 from seacrane.description.loads import LOAD_KINDS, kind_of
-from seacrane.description.meshes import mesh_from_node, mesh_to_data
-from seacrane.description.own_channels import OwnChannel, add_channel
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.range import Range
-from seacrane.description.ratings import Rating, note_rating, rating_of
-from seacrane.description.recorded import add_point, add_range, record_coordinate
-from seacrane.description.relatives import Relative, add_relative
 from seacrane.description.roles import CraneRoles
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.description.waves import Waves
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.file_version import FILE_VERSION, require_file_version
+from seacrane.inputs.json_text import json_of
+from seacrane.inputs.looks_like import looks_like
 from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import arguments, notes_from_node, plain_data, value_of
+from seacrane.inputs.shown import shown
+from seacrane.inputs.whole_file import read_whole
+from seacrane.scene.afloat import add_group, add_hydrodynamics
+from seacrane.scene.bodies import add_body, mesh_from_node, mesh_to_data
+from seacrane.scene.lift_factors import LiftFactors, Rating, add_lift_factors, note_rating, rating_of
+from seacrane.scene.own_channels import OwnChannel, add_channel
+from seacrane.scene.recorded import (
+    Clearance,
+    Relative,
+    add_clearance,
+    add_limit_state,
+    add_point,
+    add_range,
+    add_relative,
+    record_coordinate,
+)
+from seacrane.scene.roles import add_roles
 
+LARGEST_FILE = 32 * 2**20  # bytes
 FORMAT = "seacrane scene"
+UNMOVING = (
+    "notes", "provenance", "limit_states", "clearances", "ratings", "lift_factors", "meshes",
+)  # tables  # fmt: skip
+_FIELDS = tuple(one.name for one in fields(Description) if one.name != "function_forces")
+Some = TypeVar("Some", bound=Description)
+
+
+def read_scene_file(path: Path) -> bytes:
+    """Its bytes; FileFormatError where it is too large, or plainly something else."""
+    data = read_whole(path, LARGEST_FILE, "no scene file is")
+    if not re.match(rb"\s*\{", data):
+        raise FileFormatError(
+            f"{path.name}: is {looks_like(path, data)}, no scene file, which is JSON as Scene.save writes it"
+        )
+    return data
+
+
+def parsed(data: bytes, place: str) -> Any:
+    """The document in the bytes of a scene file; raises FileFormatError with the line."""
+    if len(data) > LARGEST_FILE:
+        raise FileFormatError(f"{place}: has {len(data)} bytes, above {LARGEST_FILE}; no scene has")
+    return json_of(data, place, object_pairs_hook=_unique, parse_constant=_no_constant)
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    out = dict(pairs)
+    if len(out) != len(pairs):
+        counts = Counter(key for key, _ in pairs)
+        twice = next(key for key, count in counts.items() if count > 1)
+        raise ValueError(f"key {shown(twice)} occurs twice in one object; remove one")
+    return out
+
+
+def _no_constant(name: str) -> Any:
+    raise ValueError(f"{name} is not a number; give a finite one")
 
 
 def _add_rating(scene: Description, **entries: Any) -> None:
     note_rating(scene, rating_of(**entries))
-
-
-def _add_lift_factors(scene: Description, name: str, **entries: Any) -> None:
-    add_lift_factors(scene, name, **entries)
 
 
 _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what it holds, and how it is added
@@ -77,31 +115,15 @@ _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what i
     "relatives": (Relative, add_relative),
     "channels": (OwnChannel, add_channel),
     "ratings": (Rating, _add_rating),
-    "lift_factors": (LiftFactors, _add_lift_factors),
+    "lift_factors": (LiftFactors, add_lift_factors),
 }
-UNMOVING = (
-    "notes", "provenance", "limit_states", "clearances", "ratings", "lift_factors", "meshes",
-)  # tables  # fmt: skip
-_SETTINGS = ("gravity", "baumgarte", "length_scale")
-_FIELDS = tuple(one.name for one in fields(Description) if one.name != "function_forces")
-Some = TypeVar("Some", bound=Description)
 
 
 def save_scene(scene: Description, path: str | os.PathLike[str]) -> None:
-    """Write a scene to a file, complete or not at all.
+    """Write a scene to a file, complete or not at all; an old one is replaced.
 
-    Parameters
-    ----------
-    path : path-like
-        Replaced if it exists; its folder must exist.
-
-    Raises
-    ------
-    SceneError
-        If the scene holds a C function, a number that is not finite or a note that is not plain data, or is
-        too large to be read back.
-    OSError
-        If the file cannot be written.
+    Raises SceneError for a C function, a number that is not finite, a note that is no plain data, or a scene
+    that is too large to be read back; OSError if the file cannot be written.
     """
     if scene.function_forces:
         raise SceneError(
@@ -130,26 +152,10 @@ def save_scene(scene: Description, path: str | os.PathLike[str]) -> None:
 
 
 def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
-    """Read what `save_scene` wrote into an empty scene; values and names are as they were, to the last bit.
+    """Read what `save_scene` wrote into an empty scene, which is returned; all is as it was, to the last bit.
 
-    Parameters
-    ----------
-    path : path-like
-    scene : Empty.
-
-    Returns
-    -------
-    Scene
-        The same. Not compiled: what only the whole scene shows (loops that do not close) comes with
-        `Scene.compile`.
-
-    Raises
-    ------
-    FileFormatError
-        Naming the file and the line (malformed JSON) or the entry (a value that is missing, unknown, of the
-        wrong type or out of range).
-    OSError
-        If the file cannot be read.
+    Raises FileFormatError with the line of malformed JSON, or the entry that is missing, unknown or makes no
+    sense; OSError if the file cannot be read. What only the whole scene shows comes with `Scene.compile`.
     """
     return scene_from_bytes(read_scene_file(Path(path)), Path(path).name, scene)
 
@@ -181,7 +187,7 @@ def scene_digest(scene: Description) -> str:
 
 def _scene(root: Node, scene: Some) -> Some:
     scene.name, scene.orientation = root.at("name").text(), root.at("orientation").text()
-    scene.gravity, scene.baumgarte, scene.length_scale = (root.at(key).number() for key in _SETTINGS)
+    scene.gravity, scene.baumgarte, scene.length_scale = (root.at(key).number() for key in SETTINGS)
     for kind in _ADD:
         for node in root.at(kind).items():
             _add(scene, kind, node)
@@ -213,7 +219,7 @@ def described(scene: Description) -> dict[str, Any]:
 
 def _elements(scene: Description) -> dict[str, Any]:
     """All but the databases of its vessels, on which no motion depends."""
-    held = vars(scene) | {key: float(getattr(scene, key)) for key in _SETTINGS}
+    held = vars(scene) | {key: float(getattr(scene, key)) for key in SETTINGS}
     held |= {key: [*held[key].values()] for key in (*_ADD, "roles")}
     made = {
         "loads": [{"kind": kind_of(one), **_load_entries(one)} for one in held["loads"]],
@@ -238,6 +244,8 @@ def _add(scene: Description, kind: str, node: Node) -> None:
     else:
         rest, parameters = _parameters(node) if kind == "joints" else (node, {})
         given = arguments(described_as, rest) | parameters
+    if kind == "lift_factors":
+        given["load"] = given.pop("name")
     with node.scene_errors():
         if add is add_load and kind != "loads":
             given = {"element": described_as(**given)}

@@ -7,16 +7,25 @@ from difflib import get_close_matches
 
 from seacrane.description.channels import CHANNELS, COUNTED_ON, OWN, unit_of
 from seacrane.description.description import Description, insert
-from seacrane.description.dimensions import UNITS, Dimension, unit_text
-from seacrane.description.expression import Curve, Number, Program, dimension_of, parsed, worked_out
-from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.expression import (
+    UNITS,
+    Curve,
+    Dimension,
+    Number,
+    Program,
+    dimension_of,
+    parsed,
+    unit_text,
+    worked_out,
+)
 from seacrane.description.pick import Pick, pick_of
-from seacrane.description.recorded import record_coordinate
+from seacrane.description.places import ANGLES
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, text_of
 from seacrane.inputs.keywords import taken
 from seacrane.inputs.plain_data import DERIVED
 from seacrane.inputs.shown import shown
+from seacrane.scene.recorded import record_coordinate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,10 +86,8 @@ def add_channel(
         return _dimension(scene, what, picked(scene, what, step))
 
     found = worked_out(program, leaf, lambda call, values: dimension_of(what, call, values))
-    added: OwnChannel = insert(
-        "channel", scene.channels, OwnChannel(name=label, expression=text, unit=unit_text(found))
-    )
-    return added
+    channel = OwnChannel(name=label, expression=text, unit=unit_text(found))
+    return insert("channel", scene.channels, channel)
 
 
 def programs(scene: Description) -> dict[str, Program]:

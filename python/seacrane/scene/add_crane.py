@@ -16,21 +16,17 @@ from seacrane.crane.load_crane import load_crane
 from seacrane.crane.parts import BodyRecord, CraneParts, JointRecord
 from seacrane.crane.payload import Payload
 from seacrane.crane.structure import FAR, STRUCTURE, UP, Lean, leaning
-from seacrane.description.bodies import add_body
-from seacrane.description.crane_parts import add_roles
-from seacrane.description.damping import add_air_drag, add_pendulum_damping
 from seacrane.description.description import Description
-from seacrane.description.drives import add_driver
-from seacrane.description.forces import add_spring
-from seacrane.description.joints import add_joint
-from seacrane.description.luffing_rope import LuffingRope
-from seacrane.description.meshes import add_mesh
-from seacrane.description.recorded import add_range, record_coordinate
-from seacrane.description.roles import CraneRoles
+from seacrane.description.elements import add_driver, add_joint, add_spring
+from seacrane.description.roles import CraneRoles, LuffingRope
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, number_of, positive_of, text_of
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.inputs.shown import shown
+from seacrane.scene.bodies import add_body, add_mesh
+from seacrane.scene.recorded import add_range, record_coordinate
+from seacrane.scene.roles import add_roles
+from seacrane.scene.wind_current import damp_load
 
 Array = npt.NDArray[np.float64]
 PAYLOAD = "payload"
@@ -159,27 +155,25 @@ def add_crane(
     if lean is not None and stiffness is not None:
         frame.add_lean(lean, stiffness, load, prefix + STRUCTURE, names)
     if payload is not None and damped:
-        _damp(scene, payload, tip, names[PAYLOAD])
+        damp_load(
+            scene, names[PAYLOAD], payload.size, tip, ratio=payload.swing_damping_ratio,
+            drag=payload.drag_coefficient,
+        )  # fmt: skip
     led = [joint for joint in parts.drives if joint not in {parts.cylinders[label] for label in oil}]
     for joint in led if is_held else ():
         add_driver(scene, joint=prefix + joint, curve=0.0)
     for joint in parts.drives:
         record_coordinate(scene, prefix + joint)
     return add_roles(
-        scene,
-        prefix=prefix,
-        slew=None if parts.slew is None else prefix + parts.slew,
+        scene, prefix=prefix, slew=None if parts.slew is None else prefix + parts.slew,
         cylinders={label: prefix + name for label, name in parts.cylinders.items()},
-        link=None if payload is None else f"{prefix}link",
-        tip=None if payload is not None else tip,
-        capacity=parts.capacity,
-        areas=parts.areas,
+        link=None if payload is None else f"{prefix}link", tip=None if payload is not None else tip,
+        capacity=parts.capacity, areas=parts.areas,
         luffs={label: prefix + name for label, name in parts.luffs.items()},
         ropes={rope.luff: frame.rope(rope, prefix, names) for rope in parts.ropes},
-        held=is_held is not False,
-        design_factor=design_factor,
+        held=is_held is not False, design_factor=design_factor,
         structure=None if lean is None else prefix + STRUCTURE,
-    )
+    )  # fmt: skip
 
 
 def _place(
@@ -216,27 +210,6 @@ def _draw(scene: Description, mesh: MeshData, body: str, prefix: str, parts: Cra
         )
 
 
-def _damp(scene: Description, payload: Payload, tip: tuple[str, Vector], body: str) -> None:
-    length, breadth, height = payload.size
-    if payload.swing_damping_ratio > 0.0:
-        add_pendulum_damping(
-            scene,
-            name=f"{body} swing",
-            first=tip[0],
-            first_point=tip[1],
-            second=body,
-            ratio=payload.swing_damping_ratio,
-        )
-    if payload.drag_coefficient > 0.0:
-        add_air_drag(
-            scene,
-            body=body,
-            frontal_area=breadth * height,
-            lateral_area=length * height,
-            drag_coefficient=payload.drag_coefficient,
-        )
-
-
 class _Frame:
     """The frame of a base, in which a crane is described, in a scene."""
 
@@ -250,14 +223,10 @@ class _Frame:
 
     def add_body(self, body: BodyRecord, name: str) -> None:
         add_body(
-            self.scene,
-            name=name,
-            mass=body.mass,
-            inertia=body.inertia,
-            center_of_mass=body.center_of_mass,
+            self.scene, name=name, mass=body.mass, inertia=body.inertia, center_of_mass=body.center_of_mass,
             position=self.origin + self.to_inertial @ body.position,
             quaternion=quaternion_product(self.turn, body.quaternion),
-        )
+        )  # fmt: skip
 
     def add_joint(self, joint: JointRecord, name: str, first: str, second: str) -> None:
         given: dict[str, Any] = {key: getattr(joint, key) for key in (*POINTS, *AXES, "length")}

@@ -1,4 +1,4 @@
-"""The factors of a lift's calculation sheet, each with its source."""
+"""What ropes break at, and the factors of a lift's calculation sheet, each with its source."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seacrane.description.description import Description, insert
+from seacrane.description.description import Description, insert, require
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, shaped_of, text_of, vector_of
 from seacrane.inputs.read_only import ReadOnly
@@ -22,29 +22,50 @@ AT_LEAST_ONE = ("weight_contingency", "dynamic_factor", "sling_safety_factor", "
 
 
 @dataclass(frozen=True, kw_only=True)
+class Rating:
+    """What a line, a sling or the whole of a line with mass breaks at, as `Scene.add_line` takes it."""
+
+    name: str
+    breaking_load: float
+    safety_factor: float | None = None
+
+
+def rating_of(name: str, breaking_load: float | None, safety_factor: float | None) -> Rating | None:
+    """What a line breaks at; None where no breaking load is given.
+
+    Raises
+    ------
+    SceneError
+        For a breaking load that is not positive, and a safety factor below 1 or without one.
+    """
+    what = f"line {name!r}"
+    if breaking_load is None:
+        if safety_factor is not None:
+            raise SceneError(f"{what}: has a safety_factor and no breaking_load; give it in N")
+        return None
+    load = positive_of(f"{what}: breaking_load", breaking_load, "N")
+    if safety_factor is not None and not number_of(f"{what}: safety_factor", safety_factor) >= 1.0:
+        raise SceneError(
+            f"{what}: safety_factor is {safety_factor:g}; give breaking load over largest tension, 1 or more"
+        )
+    factor = None if safety_factor is None else float(safety_factor)
+    return Rating(name=name, breaking_load=load, safety_factor=factor)
+
+
+def note_rating(scene: Description, rating: Rating | None) -> None:
+    """Keep what a line breaks at, where it is known."""
+    if rating is not None:
+        scene.ratings[rating.name] = rating
+
+
+@dataclass(frozen=True, kw_only=True)
 class LiftFactors:
-    """What a lift is calculated with beside its scene. Made by `Scene.add_lift_factors`.
+    """What a lift is calculated with beside its scene: the words of `Scene.add_lift_factors`.
 
     Attributes
     ----------
     name : str
         Of the load, a body.
-    weight_contingency : float
-        Design weight over the weight as described.
-    center_of_gravity : (float, float, float)
-        By how much it may be off to either side, along the body's axes, m: its envelope is a box.
-    skew_load : tuple of float
-        SKL: force in a sling over that of statics; one for all, or one for each sling in their order.
-    dynamic_factor : float or None
-        Dynamic factor, in place of the one that a run gives.
-    sling_safety_factor, shackle_safety_factor : float or None
-        Least breaking load over largest force.
-    shackle_breaking_load : float or None
-        Of the shackle at each sling, N.
-    alpha : float
-        Operational over design wave height, above 0 to 1.
-    sources : mapping of str to str
-        Where each of these is from, by its name: standard, edition and table, or "weighed".
     """
 
     name: str
@@ -116,13 +137,11 @@ def add_lift_factors(
     SceneError
         For a load that is not there, a factor out of range, a source of something else.
     """
-    what = f"lift factors of {text_of('lift factors: load', load)!r}"
-    if load not in scene.bodies:
-        known = ", ".join(map(repr, scene.bodies)) or "none"
-        raise SceneError(f"{what}: there is no body {load!r}; add it first, the bodies are {known}")
-    given = (weight_contingency, dynamic_factor, sling_safety_factor, shackle_safety_factor)
-    for key, value in zip(AT_LEAST_ONE, given, strict=True):
-        _factor(what, key, value)
+    given: dict[str, Any] = {key: one for key, one in locals().items() if key not in ("scene", "load")}
+    what = f"lift factors of {load!r}"
+    require(scene, "lift factors", "load", load)
+    for key in AT_LEAST_ONE:
+        _factor(what, key, given[key])
     if shackle_breaking_load is not None:
         positive_of(f"{what}: shackle_breaking_load", shackle_breaking_load, "N")
     if not 0.0 < number_of(f"{what}: alpha", alpha) <= 1.0:
@@ -133,14 +152,9 @@ def add_lift_factors(
     x, y, z = np.abs(shaped_of(f"{what}: center_of_gravity", center_of_gravity, (3,))).tolist()
     if not all(map(math.isfinite, (x, y, z))):
         raise SceneError(f"{what}: center_of_gravity is {shown(center_of_gravity)}; give finite numbers, m")
-    factors = LiftFactors(
-        name=load, weight_contingency=weight_contingency, center_of_gravity=(x, y, z),
-        skew_load=tuple(skews), dynamic_factor=dynamic_factor, sling_safety_factor=sling_safety_factor,
-        shackle_safety_factor=shackle_safety_factor, shackle_breaking_load=shackle_breaking_load,
-        alpha=float(alpha), sources=_sources(what, sources or {}),
-    )  # fmt: skip
-    added: LiftFactors = insert("lift factors", scene.lift_factors, factors)
-    return added
+    given |= {"center_of_gravity": (x, y, z), "skew_load": tuple(skews), "alpha": float(alpha)}
+    factors = LiftFactors(name=load, **given | {"sources": _sources(what, sources or {})})
+    return insert("lift factors", scene.lift_factors, factors)
 
 
 def _factor(what: str, key: str, value: Any) -> None:

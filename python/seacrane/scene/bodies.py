@@ -1,4 +1,4 @@
-"""Meshes that bodies are drawn by. They are looks alone: nothing that moves reads them."""
+"""Bodies of a scene, and meshes that they are drawn by: looks alone, nothing that moves reads them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import base64
 import binascii
 import os
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,19 +14,122 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.description import Description, insert
+from seacrane.description.description import Description, insert, require
+from seacrane.description.places import on_body, placed
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.checked import name_of, number_of, numbers_of, text_of
-from seacrane.inputs.mesh_files import read_gltf, read_stl
+from seacrane.inputs.checked import name_of, number_of, numbers_of, shaped_of
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.mesh_files import MOST_TRIANGLES, READERS
 from seacrane.inputs.node import Node
+from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int64]
-
-MOST_TRIANGLES = 200_000  # of all meshes of a body together: pages stay a few MB
 LARGEST, FARTHEST = 1000.0, 1e5  # m: of a mesh, and from the body's origin
-READERS = {".stl": read_stl, ".glb": read_gltf, ".gltf": read_gltf}
+
+
+def add_body(
+    scene: Description,
+    name: str,
+    *,
+    mass: float,
+    inertia: Any = None,
+    center_of_mass: Any = (0.0, 0.0, 0.0),
+    position: Any = (0.0, 0.0, 0.0),
+    quaternion: Any = (1.0, 0.0, 0.0, 0.0),
+    velocity: Any = (0.0, 0.0, 0.0),
+    angular_velocity: Any = (0.0, 0.0, 0.0),
+    gravity: bool = True,
+    size: Any = None,
+    below: str | None = None,
+    drop: float = 0.0,
+) -> _core.Body:
+    """Add a rigid body.
+
+    Parameters
+    ----------
+    mass : float
+        kg.
+    inertia : array_like, shape (3,) or (3, 3), optional
+        About the centre of mass in body axes, kg m2; three values are the diagonal. Default: that of a solid
+        box of `size`, ``mass / 12 * (y**2 + z**2, z**2 + x**2, x**2 + y**2)``.
+    center_of_mass : array_like, shape (3,)
+        From the body origin in body axes, m.
+    position, quaternion : array_like
+        Start pose of the body origin in the inertial frame; quaternion (w, x, y, z), body to inertial.
+    velocity, angular_velocity : array_like, shape (3,)
+        Of the body origin at the start, inertial axes, m/s and rad/s.
+    gravity : bool
+        Whether weight acts on it. The body of a vessel never gets weight: its restoring carries it.
+    size : array_like, shape (3,), optional
+        Edges (x, y, z) of the box that it is, m, about its centre of mass along body axes.
+    below : str, optional
+        In place of a position, a point such as "tip", as `place_of` takes it: the top of the box, or the
+        origin of a body without a size, is straight below it.
+    drop : float
+        From there down, m.
+
+    Raises
+    ------
+    SceneError
+        For a duplicate name, a value that is not of that shape, neither inertia nor size, or a place given
+        twice; other values are checked at compile().
+
+    Warns
+    -----
+    MassUnitWarning
+        A box lighter than foam, or heavier than any metal.
+    """
+    given = {key: one for key, one in locals().items() if key not in ("scene", "below", "drop")}
+    what = f"body {name_of('body', name)!r}"
+    edges = np.zeros(3) if size is None else shaped_of(f"{what}: size", size, (3,))
+    if below is not None:
+        middle = shaped_of(f"{what}: center_of_mass", center_of_mass, (3,))
+        top = np.add(middle, (0.0, 0.0, 0.5 * edges[2])) if edges.any() else edges
+        given["position"] = _below(scene, what, below, drop, position, quaternion, top)
+    elif drop:
+        raise SceneError(f"{what}: drop is {drop:g} m, below nothing; give below=, or leave drop out")
+    given |= {
+        "size": edges,
+        "inertia": _box(what, mass, edges) if inertia is None else _tensor(what, inertia),
+    }
+    body = insert("body", scene.bodies, _core.Body(**given))
+    if edges.any():
+        warn_of_density(what, body.mass, float(np.prod(edges)))
+    return body
+
+
+def _below(
+    scene: Description, what: str, point: str, drop: float, position: Any, quaternion: Any, top: Array
+) -> Array:
+    """The origin of a body whose `top`, in its coordinates, is straight below a named point, m."""
+    if np.any(np.asarray(position)):
+        raise SceneError(f"{what}: has a position and below; give one of them")
+    turned = rotation_matrix(shaped_of(f"{what}: quaternion", quaternion, (4,)))
+    under = placed(scene, *on_body(scene, f"{what}: below", point, (0.0, 0.0, 0.0)))
+    return np.asarray(under - (0.0, 0.0, number_of(f"{what}: drop", drop)) - turned @ top)
+
+
+def _tensor(what: str, inertia: Any) -> Array:
+    """Shape (3, 3), of a tensor or of its diagonal."""
+    tensor = numbers_of(f"{what}: inertia", inertia)
+    if tensor.shape not in ((3,), (3, 3)):
+        raise SceneError(
+            f"{what}: inertia has shape {tensor.shape}; give its diagonal, shape (3,), or all of it, (3, 3)"
+        )
+    return np.diag(tensor) if tensor.shape == (3,) else tensor
+
+
+def _box(what: str, mass: Any, edges: Array) -> Array:
+    """The inertia of a solid box, about its centre."""
+    if not edges.any():
+        raise SceneError(
+            f"{what}: has neither inertia nor size; give size=(x, y, z), m, of the solid box that it is, or "
+            "inertia=(Ixx, Iyy, Izz), kg m2, about its centre of mass"
+        )
+    x, y, z = edges**2
+    return np.diag([y + z, z + x, x + y]) * (number_of(f"{what}: mass", mass) / 12.0)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,7 +167,7 @@ class Mesh:
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:  # arrays come back from a pickle writeable
-        return _mesh_of, (self.name, self.body, self.vertices, self.faces)
+        return partial(Mesh, name=self.name, body=self.body, vertices=self.vertices, faces=self.faces), ()
 
 
 def add_mesh(
@@ -108,19 +212,12 @@ def add_mesh(
     FileFormatError
         For a file that is damaged, too large, or of another kind; without trimesh (`seacrane[mesh]`).
     """
-    if text_of("mesh: body", body) not in scene.bodies:
-        known = ", ".join(map(repr, scene.bodies)) or "none"
-        raise SceneError(f"mesh: body is {shown(body)}; the scene has {known}")
+    require(scene, "mesh", "body", body)
     what = f"mesh {name_of('mesh', name, body)!r}"
     points, triangles = _given(what, file, vertices, faces)
     points = _placed(what, points, triangles, scale, frame)
     mesh = _mesh(scene, name or body, body, points, triangles)
-    inserted: Mesh = insert("mesh", scene.meshes, mesh)
-    return inserted
-
-
-def _mesh_of(name: str, body: str, vertices: Array, faces: Faces) -> Mesh:
-    return Mesh(name=name, body=body, vertices=vertices, faces=faces)
+    return insert("mesh", scene.meshes, mesh)
 
 
 def _given(what: str, file: Any, vertices: Any, faces: Any) -> tuple[Array, Faces]:

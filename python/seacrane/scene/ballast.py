@@ -17,7 +17,7 @@ from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.analysis.weight_balance import weight_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
-from seacrane.description.forces import add_force
+from seacrane.description.elements import add_force
 from seacrane.description.given import given_vessels
 from seacrane.description.outline import ship_size
 from seacrane.errors import SceneError
@@ -235,12 +235,9 @@ class _Tanks:
     """The contents of tanks: the unknowns are their changes, kg."""
 
     def __init__(
-        self,
-        scene: Description,
-        vessel: _core.VesselHydrodynamics,
-        target: Mapping[str, float],
+        self, scene: Description, vessel: _core.VesselHydrodynamics, target: Mapping[str, float],
         tanks: Mapping[str, Tank],
-    ) -> None:
+    ) -> None:  # fmt: skip
         self.body, self.tanks, self.gravity = vessel.body, tanks, scene.gravity
         turned = np.array([target.get(motion, 0.0) for motion in ATTITUDE])
         of_each = np.array([self._moments(vessel, turned, one) for one in tanks.values()])
@@ -299,12 +296,9 @@ def _fitted(
 
 
 def _moments_left(
-    scene: Description,
-    vessel: _core.VesselHydrodynamics,
-    target: Mapping[str, float],
-    forces: Mapping[str, tuple[Any, float]],
-    near: _core.State | None,
-) -> tuple[Array, _core.State, dict[str, float]]:
+    scene: Description, vessel: _core.VesselHydrodynamics, target: Mapping[str, float],
+    forces: Mapping[str, tuple[Any, float]], near: _core.State | None,
+) -> tuple[Array, _core.State, dict[str, float]]:  # fmt: skip
     """What drives in these motions still carry at rest at the target, N m; that rest; its attitude."""
     out = posed(scene.copy(orientation="quaternion"), _places(scene), {})
     for i, (point, force) in enumerate(forces.values()):
