@@ -192,16 +192,18 @@ def _check_units(what: str, settings: dict[str, Any]) -> None:
     for key in ("rated_flow", "rated_flow_rod"):
         flow = number_of(f"{what}: {key}", settings.get(key, 0.0))
         if flow > FASTEST * full > 0.0:
-            raise SceneError(
-                f"{what}: {key} is {flow:g} m3/s, which moves the piston by {flow / full:.3g} m/s; give "
-                f"m3/s: {flow:g} l/min are {flow / 6e4:.3g}"
+            raise SceneError.of(
+                f"{what}: {key}",
+                f"is {flow:g} m3/s, which moves the piston by {flow / full:.3g} m/s; give "
+                f"m3/s: {flow:g} l/min are {flow / 6e4:.3g}",
             )
     for key in ("hose_volume", "hose_volume_rod"):
         volume = number_of(f"{what}: {key}", settings[key])
         if volume > LARGEST_HOSE * full * stroke > 0.0:
-            raise SceneError(
-                f"{what}: {key} is {volume:g} m3, and the piston sweeps {full * stroke:.3g} m3; give m3: "
-                f"{volume:g} l are {1e-3 * volume:.3g}"
+            raise SceneError.of(
+                f"{what}: {key}",
+                f"is {volume:g} m3, and the piston sweeps {full * stroke:.3g} m3; give m3: {volume:g} l are "
+                f"{1e-3 * volume:.3g}",
             )
 
 

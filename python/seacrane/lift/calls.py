@@ -18,10 +18,10 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.lift.check_keys import SHIPPED
 from seacrane.lift.curve_text import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import LEFT, Table
+from seacrane.lift.vessel_keys import SHIPPED
 from seacrane.scene import heave
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
@@ -99,9 +99,10 @@ def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, An
     if angular != (coordinate in ANGLES):
         right = [one for one, unit in key.spellings.items() if (unit != straight) != angular]
         kinds = ("an angle", "a displacement")
-        raise SceneError(
-            f"{spelling} is of {kinds[not angular]}, and {coordinate!r} of joint {joint!r} is "
-            f"{kinds[angular]}; give {' or '.join(right)}"
+        raise SceneError.of(
+            spelling,
+            f"is of {kinds[not angular]}, and {coordinate!r} of joint {joint!r} is "
+            f"{kinds[angular]}; give {' or '.join(right)}",
         )
 
 
@@ -200,11 +201,11 @@ class Caller:
     def _database(self, file: str, speed: float | None = None, depth: float | None = None) -> HydroDatabase:
         """Read once."""
         if file in SHIPPED and speed is not None:
-            raise SceneError(
-                f"vessel: speed is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
+            raise SceneError.of(
+                "vessel: speed", f"is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
             )
         if file in SHIPPED and depth is not None and np.isfinite(depth):
-            raise SceneError(f"vessel: depth is {depth:g} m, and {file} is of deep water; leave it out")
+            raise SceneError.of("vessel: depth", f"is {depth:g} m, and {file} is of deep water; leave it out")
         key = (file, speed, depth)
         if key not in self.read:
             shipped = file in SHIPPED
@@ -220,7 +221,8 @@ class Caller:
             given["sea"] = SeaState(systems=[_system(one) for one in systems], **depth)
         for key in SEA_OF_SYSTEMS:
             if key in given:
-                raise SceneError(f"sea: {key} is given without systems, whose sea is as deep as the database")
+                text = "is given without systems, whose sea is as deep as the database"
+                raise SceneError.of(f"sea: {key}", text)
         scene.add_sea(**given)
 
 
@@ -232,7 +234,7 @@ def _tanks(given: Keywords) -> Keywords:
     for table in given["tanks"]:
         name = table["name"]
         if name in tanks:
-            raise SceneError(f"ballast: tanks has {name!r} twice; names of tanks must differ")
+            raise SceneError.of("ballast: tanks", f"has {name!r} twice; names of tanks must differ")
         tanks[name] = Tank(**{key: value for key, value in table.items() if key != "name"})
     return {"tanks": tanks}
 

@@ -21,7 +21,8 @@ from seacrane.ensembles.study_folder import study_in
 from seacrane.ensembles.targets import Certainty, known, targets_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
-from seacrane.lift.study_file import StudyFile
+from seacrane.lift.lift import Lift
+from seacrane.lift.study import Study
 from seacrane.lift.study_run import FILE, MEMBERS
 from seacrane.plotting.table import table_of
 from seacrane.statistics.estimate import Estimate
@@ -163,29 +164,30 @@ def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
         If no member has been run.
     """
     path = Path(folder)
-    if not (path / FILE).is_file():
+    study = Lift.load(path / FILE).study if (path / FILE).is_file() else None
+    if study is None:
         raise SceneError(f"{path} is no folder of a study; give the DIR of `seacrane study --out DIR`")
-    file, done = StudyFile.load(path / FILE), Ensemble.load(path / MEMBERS)
+    done = Ensemble.load(path / MEMBERS)
     length = study_in(path / MEMBERS)["identity"]["t_end"]
     failure = done.dataset.failure.to_numpy()
     left = int((failure == "not run").sum())
     if left == failure.size:
         raise SceneError(f"{path}: no member has been run yet; run `seacrane study` with it")
-    scalar = [name for name in file.keep if name in done.dataset and _single(done.dataset[name], done)]
+    scalar = [name for name in study.keep if name in done.dataset and _single(done.dataset[name], done)]
     return ShownStudy(
         members=failure.size,
         failed=len(done.failures),
         not_run=left,
-        tables=tuple(_told(name, file, done, length) for name in scalar),
-        not_told=tuple(name for name in file.keep if name not in scalar),
+        tables=tuple(_told(name, study, done, length) for name in scalar),
+        not_told=tuple(name for name in study.keep if name not in scalar),
         failures=tuple(dict.fromkeys(done.failures.values())),
-        certainty=tuple(_certainty(file, done)),
+        certainty=tuple(_certainty(study, done)),
     )
 
 
-def _certainty(file: StudyFile, done: Ensemble) -> Iterator[Certainty]:
+def _certainty(study: Study, done: Ensemble) -> Iterator[Certainty]:
     """How narrowly the statistics of `until` are known so far."""
-    for target in targets_of(file.until, file.keep) if file.until else ():
+    for target in targets_of(study.until, study.keep) if study.until else ():
         if target.variable not in done.dataset:
             continue
         lost = _cells(_failed(done), done)
@@ -212,14 +214,14 @@ def _single(variable: xarray.DataArray, done: Ensemble) -> bool:
     return set(map(str, variable.dims)) == set(done.members.shape)
 
 
-def _told(name: str, file: StudyFile, done: Ensemble, length: float | None) -> Told:
+def _told(name: str, study: Study, done: Ensemble, length: float | None) -> Told:
     """`length` is that of the runs, s; None of lifts in stages, where an extreme is that of one lift."""
-    what = file.keep[name]
+    what = study.keep[name]
     variable = done.dataset[name]
     seeds = "seed" in variable.dims
     sign = {"maximum": 1.0, "minimum": -1.0}.get(what.what) if seeds else None
     span = None if length is None else length - getattr(what, "after", 0.0)
-    exposure = span if file.exposure is None else file.exposure
+    exposure = span if study.exposure is None else study.exposure
     cells = tuple(
         Cell(
             parameters=parameters,

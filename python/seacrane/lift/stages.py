@@ -13,7 +13,6 @@ from seacrane.lift.build import refused_at
 from seacrane.lift.calls import require_unit_of_channel
 from seacrane.lift.check_keys import Entry
 from seacrane.lift.curve_text import curve_from
-from seacrane.lift.document import Document
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.stage_keys import STAGE, WAITS
 from seacrane.run.commands import HOLE, Command, targets
@@ -33,31 +32,31 @@ OF_LOADS = {
 }  # fmt: skip
 
 
-def stages_of(document: Document, entries: Iterable[Entry]) -> tuple[Stage, ...]:
+def stages_of(entries: Iterable[Entry]) -> tuple[Stage, ...]:
     """The stages, as far as they make sense by themselves.
 
     Raises FileFormatError with the line of the table.
     """
     made = []
     for entry in _tables(entries):
-        with refused_at(document, entry):
+        with refused_at(entry):
             made.append(_stage(entry))
     return tuple(made)
 
 
-def check_stages(document: Document, entries: Sequence[Entry], scene: Scene, stages: Any) -> None:
+def check_stages(entries: Sequence[Entry], scene: Scene, stages: Any) -> None:
     """Raise FileFormatError for stages that do not fit the scene or one another."""
     if not stages:
         return
     for entry in _tables(entries):
-        with refused_at(document, entry):
+        with refused_at(entry):
             for command in entry.values.get("commands", ()):
                 _require_unit_of_target(scene, command)
     try:
         checked_stages(scene, stages)
     except SceneError as error:
-        told = next((one for one in _tables(entries) if one.values["name"] == error.name), None)
-        document.fail(("stage",) if told is None else told.path, str(error))
+        tables = _tables(entries)
+        next((one for one in tables if one.values["name"] == error.name), tables[0]).fail(str(error))
 
 
 def _tables(entries: Iterable[Entry]) -> list[Entry]:

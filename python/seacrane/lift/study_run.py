@@ -10,12 +10,9 @@ from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.other_sea import WORDS, require_same_sea
 from seacrane.ensembles.study import Source, require_paths, stage_paths
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.drafts import is_draft
-from seacrane.inputs.whole_file import read_whole
-from seacrane.lift.document import LARGEST_FILE
 from seacrane.lift.lift import Lift
-from seacrane.lift.study_file import StudyFile
+from seacrane.lift.study import Study
 from seacrane.lift.varied_keys import KeyPlace, LiftScenes, keys_in, with_keys
 
 FILE, MEMBERS = "study.toml", "members"
@@ -28,44 +25,45 @@ def run_study(
     executor: Executor | None = None,
     progress: bool = False,
 ) -> Ensemble:
-    """Run a study file; what is in its folder is not run again.
+    """Run the study of a lift file; what is in its folder is not run again.
 
     Parameters
     ----------
-    path : Of the study file.
-    folder : Made if absent. It will hold a copy of the file, and the members as they come.
+    path : Of a lift file with a [study].
+    folder : Made if absent. It will hold the lift, complete, and the members as they come.
     executor : concurrent.futures.Executor, optional
     progress : Show a bar with the time left.
 
     Raises
     ------
     FileFormatError
-        With the line, for what is wrong in the study or its lift.
+        With the line, for what is wrong in the file or the lift that it names.
     SceneError
-        If the folder is that of another study, or of something else.
+        If there is no [study], or the folder is that of another study, or of something else.
     SimulationError, WorkerVersionError, OSError
         As of `ensemble`; what came back before is kept.
     """
-    study, target = StudyFile.load(path), Path(folder)
-    lift = study.lift()
-    t_end, start, method, outputs = study.settings(lift)
-    source = _source(study, lift)
-    text = read_whole(Path(path), LARGEST_FILE, "no study file is")
-    _claim(target, text)
+    lift, target = Lift.load(path), Path(folder)
+    if lift.study is None:
+        raise SceneError(f"{Path(path).name} has no [study]; `seacrane run` runs it once")
+    source = _source(lift, lift.study)
+    _claim(target)
+    if not (target / FILE).exists():
+        lift.save(target / FILE)
     done = ensemble(
-        source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy or lift.accuracy,
-        stages=lift.stages, start=start, t_end=None if lift.stages else t_end, method=method, outputs=outputs,
-        executor=executor, store=target / MEMBERS, progress=progress,
+        source, over=lift.study.over, keep=lift.study.keep, until=lift.study.until, accuracy=lift.accuracy,
+        stages=lift.stages, start=lift.start, t_end=None if lift.stages else lift.t_end, method=lift.method,
+        outputs=lift.outputs, executor=executor, store=target / MEMBERS, progress=progress,
     )  # fmt: skip
-    _write(target / FILE, text)
+    lift.save(target / FILE)
     return done
 
 
-def _source(study: StudyFile, lift: Lift) -> Source:
+def _source(lift: Lift, study: Study) -> Source:
     """The scene of the lift, or what makes scenes where keys of the lift vary."""
     scene = lift.scene()
-    study.require_accuracy(scene, staged=bool(lift.stages))
-    tables, axes = lift.tables, study.members.axes
+    tables = {name: table for name, table in lift.tables.items() if name != "study"}
+    axes = study.members.axes
     keys, of_stages = keys_in(tables), stage_paths(lift.stages)
     for name, values in axes.items():
         try:
@@ -86,20 +84,10 @@ def _source(study: StudyFile, lift: Lift) -> Source:
     return LiftScenes(tables, varied)
 
 
-def _claim(folder: Path, text: bytes) -> None:
+def _claim(folder: Path) -> None:
     """Make the folder, or refuse one of something else."""
     if folder.exists() and not folder.is_dir():
         raise SceneError(f"{folder} is a file; give the name of a folder")
     folder.mkdir(parents=True, exist_ok=True)
-    if (folder / FILE).exists():
-        return
-    if any(not is_draft(one) for one in folder.iterdir()):
+    if not (folder / FILE).exists() and any(not is_draft(one) for one in folder.iterdir()):
         raise SceneError(f"{folder} holds something else than a study; give another folder")
-    _write(folder / FILE, text)
-
-
-def _write(path: Path, text: bytes) -> None:
-    if path.exists() and read_whole(path, LARGEST_FILE, "no study file is") == text:
-        return
-    with atomic_write(path) as draft:
-        draft.write_bytes(text)

@@ -18,6 +18,7 @@ from seacrane.inputs.values import entries_of
 from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
+from seacrane.lift.study_keys import STUDY
 from seacrane.lift.vessel_keys import part_keys, sea_keys, vessel_keys
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -418,6 +419,10 @@ _ALL = (
     Table(
         name="outputs", several=False, text=_summary(Outputs),
         keys=keys_of(Outputs, more={"dt_out": TIME, "channels": {"type": "texts"}}),
+    ),
+    Table(
+        name="study", several=False, keys=STUDY,
+        text="Many runs of the lift: what varies, what each leaves, and when it is enough.",
     ),
     Table(
         name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",

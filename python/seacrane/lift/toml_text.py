@@ -11,7 +11,6 @@ from seacrane.errors import SceneError
 from seacrane.lift.document import FORMAT, VERSION
 
 WIDTH = 100  # characters of a line of keys; longer tables get a heading
-WHOLE = 1e15  # numbers below are written without a point where they have no fraction
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:
@@ -69,8 +68,6 @@ def toml_value(value: Any) -> str:
             return str(value).lower()
         case str():
             return _text(value)
-        case float() if value.is_integer() and abs(value) < WHOLE and str(value) != "-0.0":
-            return str(int(value))
         case int() | float():
             return repr(value)
         case list():

@@ -17,7 +17,14 @@ from seacrane.lift.lift import Lift
 from seacrane.lift.tables import TABLES
 from seacrane.scene.scene import Scene
 
-OF_NO_SCENE = ("run", "method", "outputs", "stage", "notes")  # tables that vary nothing that is built
+OF_NO_SCENE = (
+    "run",
+    "method",
+    "outputs",
+    "stage",
+    "study",
+    "notes",
+)  # tables that vary nothing that is built
 SINGLE = ("number", "whole", "text", "flag", "curve")  # types of keys that hold one value, or may
 MOST_HELD = 32  # scenes of a process
 
