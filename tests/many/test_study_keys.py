@@ -11,8 +11,7 @@ from lift_examples import ON_DECK
 
 from seacrane import Lift, SceneError, simulate
 from seacrane.lift.lift import LIFTS
-from seacrane.lift.study_run import run_study
-from seacrane.lift.varied_keys import keys_in, with_keys
+from seacrane.lift.study_run import keys_in, run_study, with_keys
 
 BALANCED = """format = "seacrane lift"
 version = 2

@@ -20,8 +20,7 @@ from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members
 from seacrane.ensembles.study import Stages, Study
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.drafts import is_draft, remove_all
+from seacrane.inputs.atomic import atomic_write, is_draft, remove_all
 from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 from seacrane.inputs.json_text import json_of
 from seacrane.inputs.sole_writer import claim, opened

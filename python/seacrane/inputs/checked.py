@@ -14,6 +14,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
+FEW = 2000  # numbers, which are looked at one by one sooner than they are added
 
 
 def text_of(what: str, value: Any, usual: str = "") -> str:
@@ -164,3 +165,12 @@ def curve_of(what: str, value: Any) -> _core.Curve:
     if not np.isfinite(number):
         raise SceneError.of(what, f"is {number}; give a finite number or a curve")
     return _core.Curve.constant(value=number)
+
+
+def is_finite(array: NDArray[Any]) -> bool:
+    """A finite sum has finite terms; one that is not may be too large."""
+    if array.size > FEW:
+        with np.errstate(over="ignore", invalid="ignore"):
+            if np.isfinite(array.sum()):
+                return True
+    return bool(np.isfinite(array).all())

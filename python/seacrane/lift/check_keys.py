@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
 
 from seacrane.accuracy.choice import CHOSEN
 from seacrane.errors import SceneError
@@ -26,6 +26,7 @@ from seacrane.lift.text_lines import Place
 LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
 AS_NEAR = 0.1  # "see" is as near to "scene" as to "sea"
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
+Number = TypeVar("Number", int, float)
 BOUNDS: Mapping[str, tuple[Callable[[float, float], bool], str]] = {
     "minimum": (operator.ge, "from"), "exclusiveMinimum": (operator.gt, "above"),
     "maximum": (operator.le, "up to"), "exclusiveMaximum": (operator.lt, "below"),
@@ -275,7 +276,7 @@ def _number(node: Node, key: Key, bounds: Mapping[str, float]) -> float:
     return _bounded(node, bounds, node.number())
 
 
-def _bounded(node: Node, bounds: Mapping[str, float], number: Any) -> Any:
+def _bounded(node: Node, bounds: Mapping[str, float], number: Number) -> Number:
     """The number, which keeps the bounds of its key."""
     if not all(BOUNDS[word][0](number, bound) for word, bound in bounds.items()):
         node.fail(
