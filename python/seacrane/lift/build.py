@@ -31,17 +31,6 @@ MOST_TIMES = 10_000  # each takes a rest state
 WHOLE = 1e-6  # of an interval
 
 
-def scene_of(entries: Sequence[Entry]) -> Scene:
-    """The scene that the tables of a lift describe.
-
-    Raises
-    ------
-    FileFormatError
-        With the line of the table that the scene refuses, or of the key where that is clear.
-    """
-    return _Build(entries).scene()
-
-
 def made(entries: Sequence[Entry], table: str, make: Callable[..., Made]) -> Made:
     """What a table that occurs once describes; with defaults where it does not. Raises FileFormatError."""
     one = only(entries, table)
@@ -51,14 +40,18 @@ def made(entries: Sequence[Entry], table: str, make: Callable[..., Made]) -> Mad
         return make(**keywords(one.table.keys, one.values))
 
 
-class _Build:
-    """Builds one lift: first without control, which takes a scene to compute, then with it."""
+class SceneBuild:
+    """Builds one scene: first without control, which takes a scene to compute, then with it."""
 
     def __init__(self, entries: Sequence[Entry]) -> None:
         self.entries, self.caller = entries, Caller()
 
     def scene(self) -> Scene:
-        """With every command controlled."""
+        """The scene that the tables describe, with every command controlled.
+
+        Raises FileFormatError with the line of the table that the scene refuses, or of the key where that is
+        known.
+        """
         scene, start = self._started()
         commands = [entry for entry in self.entries if entry.table.name == "command"]
         control = only(self.entries, "control")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import inspect
+import json
 import os
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -15,14 +17,13 @@ from seacrane.accuracy.quantities import limits_of, quantities_of
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.keywords import named
-from seacrane.lift.build import made, refused_at, scene_of
+from seacrane.lift.build import SceneBuild, made, refused_at
 from seacrane.lift.check_keys import Entry, entries_of, only, plain, shipped_lift
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
 from seacrane.lift.keys import Key
 from seacrane.lift.stages import check_stages, stages_of
 from seacrane.lift.study import Study, study_of
 from seacrane.lift.study_keys import LIFTS
-from seacrane.lift.toml_text import toml_text
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -30,6 +31,7 @@ from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 
+WIDTH = 100  # characters of a line of keys; longer tables get a heading
 T_END = float(inspect.signature(simulate).parameters["t_end"].default)
 
 
@@ -139,7 +141,7 @@ class Lift:
             With the line of the table that a scene refuses, or whose file cannot be read, and of a stage
             that does not fit the scene.
         """
-        scene = scene_of(self._entries)
+        scene = SceneBuild(self._entries).scene()
         check_stages(self._entries, scene, self.stages)
         self._check_accuracy(scene)
         return scene
@@ -235,3 +237,68 @@ def _path_from(folder: Path, path: str) -> str:
         return Path(os.path.relpath(path, folder)).as_posix()
     except ValueError:  # on another drive
         return path
+
+
+def toml_text(tables: Mapping[str, Any]) -> str:
+    """Format, version, then the tables.
+
+    Raises SceneError for a value that TOML has no word for.
+    """
+    lines = [f'format = "{FORMAT}"', f"version = {VERSION}"]
+    for name, given in tables.items():
+        lines += _sections(name, given)
+    return "\n".join(lines) + "\n"
+
+
+def _sections(heading: str, given: Any) -> Iterator[str]:
+    """A table, or each of a list of tables, under its heading."""
+    if isinstance(given, list):
+        for one in given:
+            yield from _section(f"[[{heading}]]", heading, one)
+    else:
+        yield from _section(f"[{heading}]", heading, given)
+
+
+def _section(title: str, heading: str, table: Mapping[str, Any]) -> Iterator[str]:
+    yield from ("", title)
+    below = {}
+    for key, value in table.items():
+        line = f"{_key(key)} = {toml_value(value)}"
+        rows = [f"    {toml_value(one)}," for one in value] if _is_tables(value) else []
+        if len(line) <= WIDTH or not (rows or isinstance(value, Mapping)):
+            yield line
+        elif rows and max(map(len, rows)) <= WIDTH:
+            yield from (f"{_key(key)} = [", *rows, "]")
+        else:
+            below[key] = value
+    for key, value in below.items():
+        yield from _sections(f"{heading}.{_key(key)}", value)
+
+
+def _is_tables(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
+
+
+def _key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _text(name)
+
+
+def _text(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def toml_value(value: Any) -> str:
+    """A value as TOML writes it; raises SceneError where it has no word."""
+    match value:
+        case bool():
+            return str(value).lower()
+        case str():
+            return _text(value)
+        case int() | float():
+            return repr(value)
+        case list():
+            return f"[{', '.join(map(toml_value, value))}]"
+        case Mapping():
+            pairs = ", ".join(f"{_key(key)} = {toml_value(one)}" for key, one in value.items())
+            return f"{{ {pairs} }}" if pairs else "{}"
+    raise SceneError(f"lift: TOML has no word for {value!r}; leave it out")

@@ -84,7 +84,7 @@ def _condition(table: Mapping[str, Any], values: Keywords) -> Condition:
         if bounds:
             raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")
         return Until.contact(values[kind]) if kind == "contact" else Until.release(values[kind])
-    require_unit_of_channel(UNTIL, table, LIMITED.get(kind, values[kind]), names)
+    require_unit_of_channel(UNTIL, table, LIMITED.get(kind, str(values[kind])), names)
     if kind == "channel":
         return Until.channel(values[kind], **bounds, **names)
     if kind == "clear":
