@@ -51,7 +51,22 @@ class SeacraneError(Exception):
 
 
 class SceneError(SeacraneError, ValueError):
-    """A scene, or one of its elements, contradicts itself or holds a value out of range."""
+    """A scene, or one of its elements, contradicts itself or holds a value out of range.
+
+    Attributes
+    ----------
+    about : tuple of str
+        Element and keyword of the value that it is about, where what raised it says so; else empty.
+    """
+
+    about: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, value: str, text: str) -> SceneError:
+        """About a value, by what it is called, such as "line 'hoist': points[1]"; the message begins so."""
+        error = cls(f"{value} {text}")
+        error.about = tuple(part.partition("[")[0] for part in value.split(": "))
+        return error
 
 
 class KeywordError(SceneError, TypeError):

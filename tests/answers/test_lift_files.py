@@ -17,17 +17,20 @@ from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
 from seacrane import Lift, Method, Outputs, Result, Scene, cases, simulate
 from seacrane.cli import main
 from seacrane.crane.load_crane import SHIPPED
-from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.lift.build import times_of
 from seacrane.lift.lift import LIFTS
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import TABLES
+from seacrane.scene.file import scene_digest
 from seacrane.sea import SeaState, WaveSystem, cos_2s, jonswap
 
 ROOT = Path(__file__).resolve().parents[2]
-EXAMPLE = (ROOT / "examples" / "lifts" / "box_over_the_side.toml").read_text(encoding="utf-8")
+EXAMPLE, STUDY = (
+    (ROOT / "examples" / "lifts" / f"{name}.toml").read_text(encoding="utf-8")
+    for name in ("box_over_the_side", "case2_study")
+)
 
 
 def lift_of(text: str, folder: Path, name: str = "my_lift.toml") -> Lift:
@@ -108,9 +111,9 @@ def test_the_sea_of_several_systems(tmp_path: Path) -> None:
     assert lift_of(HEAD + SYSTEMS, tmp_path).scene() == scene
 
 
-@pytest.mark.parametrize("name", [*LIFTS, "pendulum", "every table", "example"])
+@pytest.mark.parametrize("name", [*LIFTS, "pendulum", "every table", "example", "study"])
 def test_written_and_read_again_it_is_equal(name: str, tmp_path: Path) -> None:
-    texts = {"pendulum": PENDULUM, "every table": EVERY_TABLE, "example": EXAMPLE}
+    texts = {"pendulum": PENDULUM, "every table": EVERY_TABLE, "example": EXAMPLE, "study": STUDY}
     lift = Lift.shipped(name) if name in LIFTS else lift_of(texts[name], tmp_path)
     lift.save(tmp_path / "again.toml")
     again = Lift.load(tmp_path / "again.toml")
@@ -196,7 +199,11 @@ ONE, TWO = '{ kind = "constant", value = 1 }', '{ kind = "constant", value = 2 }
 MISTAKES = [
     ("[crane.payload]\nmass_t = 3", 4, "mass_t .*nearest: mass_kg"), ("\n[crain]", 4, "nearest: crane"),
     ("[crane]\nslew_deg = 3\nslew_rad = 1", 4, "slew_"), ('[sea]\nhs_m = "two"', 4, "hs_m .*'two'"),
-    ("[sea]\nseed = 1.5", 4, "whole"), ("[crane]\nfoot_m = [1, 2]", 4, "foot_m.* 3"),
+    ("[sea]\nseed = 1.5", 4, "whole"), ("[sea]\nhs_m = 2\ntp_s = -1", 5, "tp_s .*above 0"),
+    ("[study.over]\nhs = 2", 4, "hs .*list"), ("[study]\nkep = [1]", 4, "nearest: keep"),
+    ('[[study.keep]]\nname = "a"\nafter = 2', 5, "nearest: after_s"),
+    ("[[study.keep]]\nname = 'a'\nchannel = 'b'\n[study.design]\nranges.hs = [1]", 7, "hs"),
+    ("[crane]\nfoot_m = [1, 2]", 4, "foot_m.* 3"),
     ('[[body]]\nname = "a"', 3, r"body\]\] 1 .*mass_kg"), ('[sea]\nspectrum = "jonswop"', 4, "jonswap"),
     ("[[run]]\nt_end_s = 1", 3, r"\[run\]"), (DRIVEN + 'curve_m = { kind = "gust" }', 5, "constant"),
     (f"{DRIVEN}curve_m = [\n{ONE},\n{TWO},\n]", 7, r"driver\.curve_m\]\] 2 .*from_s"),
@@ -219,7 +226,6 @@ BUILT = [
         "joint 'pin' .*stiffness_N_m_per_rad",
     ),
     (ARM.replace("reference_deg", "reference_m"), "reference_m", "reference_rad or reference_deg"),
-    (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
     (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "systems"), (ARM, "[control]", "times"),
     (
         ARM.replace("damping_ratio", 'feed_forward = "none"\nperiod_s = 5\ndamping_ratio'), "period_s",
@@ -263,7 +269,14 @@ def test_the_schema_is_current_and_agrees_with_the_reader() -> None:
     for path in paths:
         mark = path.read_text(encoding="utf-8").splitlines()[0]
         assert (path.parent / mark.removeprefix("#:schema ")).resolve() == schema_path().resolve()
-    for one in (*(path.read_text(encoding="utf-8") for path in paths), PENDULUM, EVERY_TABLE, ARM, EXAMPLE):
+    for one in (
+        *(path.read_text(encoding="utf-8") for path in paths),
+        PENDULUM,
+        EVERY_TABLE,
+        ARM,
+        EXAMPLE,
+        STUDY,
+    ):
         check.validate(tomllib.loads(one))
     for text, *_ in MISTAKES:
         assert list(check.iter_errors(tomllib.loads(HEAD + text))), text

@@ -1,27 +1,21 @@
-"""Study files: read with line numbers, run, killed, resumed, refused and shown."""
+"""The [study] of lift files: read with line numbers, run, killed, resumed, refused and shown."""
 
 from __future__ import annotations
 
-import json
 import signal
 import subprocess
 import sys
 import time
-import tomllib
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
-from seacrane import FileFormatError, Kept, Lift, SceneError, ensemble
+from seacrane import FileFormatError, Kept, Lift, Method, SceneError, ensemble
 from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble
-from seacrane.lift.schema import schema_path
 from seacrane.lift.shown_study import shown_study
-from seacrane.lift.study_file import StudyFile
 from seacrane.lift.study_run import MEMBERS, run_study
-from seacrane.lift.study_schema import study_schema, study_schema_text
 
 LIFT = """format = "seacrane lift"; version = 2
 
@@ -31,20 +25,23 @@ database = "hull_115"; memory = "none"
 [sea]
 seed = 7; hs_m = 1.5; tp_s = 8; count = 20
 """.replace("; ", "\n")
-STUDY = """format = "seacrane study"; version = 2; lift = "ship.toml"
+STUDY = """format = "seacrane lift"; version = 2
 
-[over]
+[study]
+lift = "ship.toml"
+
+[study.over]
 seed = { first = 1, count = 40 }; hs = [1, 2.0]
 
-[[keep]]
+[[study.keep]]
 name = "heave"; channel = "position"; what = "maximum"; names = { body = "vessel", axis = "z" }
 after_s = 2
 
-[[keep]]
+[[study.keep]]
 name = "deepest"; channel = "position"; what = "minimum"; names = { body = "vessel", axis = "z" }
 after_s = 2
 
-[until]
+[study.until]
 heave.mpm = 0.25
 
 [run]
@@ -109,13 +106,13 @@ def test_show_prints_tables_and_draws(ran: Path, capsys: pytest.CaptureFixture[s
 
 def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = STUDY.replace("hs = [1, 2.0]\n", "").replace("heave.mpm = 0.25", "heave.mpm = 0.9")
-    text += "[statistics]\nexposure_s = 60\n"
+    text = text.replace("[study]\n", "[study]\nexposure_s = 60\n")
     study.write_text(text)
     assert main(command(study, "one")) == 0
     assert "heave-gumbel.png" in capsys.readouterr().out
-    over = text[text.index("[over]") : text.index("[[keep]]")]
-    design = "[design]\ncount = 6\nranges = { hs = [1, 2], bodies.vessel.mass = [1e7, 1.1e7] }\n\n"
-    study.write_text(text.replace(over, design).replace("[until]\nheave.mpm = 0.9\n", ""))
+    over = text[text.index("[study.over]") : text.index("[[study.keep]]")]
+    design = "[study.design]\ncount = 6\nranges = { hs = [1, 2], bodies.vessel.mass = [1e7, 1.1e7] }\n\n"
+    study.write_text(text.replace(over, design).replace("[study.until]\nheave.mpm = 0.9\n", ""))
     assert main(command(study, "design")) == 0
     assert "heave-over-bodies.vessel.mass.png" in capsys.readouterr().out
 
@@ -176,27 +173,34 @@ def test_the_folder_of_another_study(study: Path, ran: Path, capsys: pytest.Capt
 
 
 def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
-    tables = (
-        LIFT.split("version = 2\n")[1].replace("[vessel]", "[lift.vessel]").replace("[sea]", "[lift.sea]")
-    )
-    study.write_text(STUDY.replace('lift = "ship.toml"\n', "") + tables)
-    again = run_study(study, ran)
-    assert again.dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
+    """And the folder of a study holds such a file."""
+    study.write_text(STUDY.replace('lift = "ship.toml"\n', "") + LIFT.split("version = 2\n")[1])
+    assert Lift.load(study) == Lift.load(ran / "study.toml")
+    for file in (study, ran / "study.toml"):
+        again = run_study(file, ran)
+        assert again.dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
 
 
 BAD = [
-    ("version = 2", "version = 3", "heave.toml line 2: version is 3"), ('lift = "ship.toml"', "", "lift"),
-    ("[over]", "[ovr]", "line 5: ovr .*nearest: over"), ("hs =", "hss =", "line 7: .*'hss'; nearest: 'hs'"),
-    ("hs = [1, 2.0]", "hs = [1, 1]", "line 5: over: hs has 1 twice"),
+    ('"ship.toml"', '"sheep.toml"', "heave.toml line 5: lift is .*sheep"),
+    ('"ship.toml"', '"heave.toml"', "line 5: lift is heave.toml, a study"),
+    ("[study.over]", "[study.ovr]", "line 7: ovr .*nearest: over"),
+    ("hs =", "hss =", "line 9: .*'hss'; nearest: 'hs'"), ("hs = [1, 2.0]", "hs = 3", "line 9: hs .* list"),
+    ("hs = [1, 2.0]", "hs = [1, 1]", "line 7: .*over: hs has 1 twice"),
     ("[1, 2.0]", "{ first = 1, last = 2, count = 1000000000 }", "40000000000 members"),
-    ("count = 40", "count = 10", "line 23: until: seed"),
-    ('what = "maximum"', 'what = "biggest"', "line 12: what .*'biggest'"),
-    ('name = "deepest"', 'name = "heave"', "line 17: .*'heave'"),
+    ("count = 40", "count = 10", "line 25: .*until: seed"),
+    ("count = 40", "count = 0", "line 8: count .* 0;"),
+    ("first = 1,", "first = 1.5,", "line 8: first is 1.5"),
+    ('what = "maximum"', 'what = "biggest"', "line 14: what .*'biggest'"),
+    ('name = "deepest"', 'name = "heave"', "line 18: .*'heave'"),
     ('name = "deepest"', 'name = "member"', "keep: .*'member'"),
-    ("heave.mpm = 0.25", "heave.p95 = 0.25", "line 24: until: heave.p95"),
-    ("heave.mpm = 0.25", "heeve.mpm = 0.25", "line 24: until: .*'heeve'"),
-    ("t_end_s", "t_end", "line 27: t_end .*nearest: t_end_s"),
-    ("[over]", "[design]\ncount = 3\n[over]", "either"),
+    ("heave.mpm = 0.25", "heave.p95 = 0.25", "line 26: .*until: heave.p95"),
+    ("heave.mpm = 0.25", "heeve.mpm = 0.25", "line 26: .*until: .*'heeve'"),
+    ("t_end_s", "t_end", "line 29: t_end .*nearest: t_end_s"),
+    ("t_end_s = 8", "accuracy.rol = 1e-3", "line 31: .*rtol=0.01 is given too"),
+    ("[study.over]", "[study.design]\ncount = 3\nranges.hs = [1, 2]\n[study.over]", "line 4: .*either"),
+    (STUDY[STUDY.index("[study.over]") : STUDY.index("[[study.keep]]")], "", "line 4: .*either"),
+    (STUDY[STUDY.index("[study]") : STUDY.index("[run]")], "", "has no .study"),
 ]  # fmt: skip
 
 
@@ -209,20 +213,19 @@ def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, stud
     assert not (study.parent / "out").exists()
 
 
-def test_members_and_bounds_are_read_without_the_lift(study: Path) -> None:
-    (study.parent / "ship.toml").write_text(LIFT.replace("hs_m", "hs"))
-    with pytest.raises(FileFormatError, match=r"ship\.toml line 10: hs "):
-        run_study(study, study.parent / "out")
-    read = StudyFile.load(study)
-    assert (len(read.members), read.until) == (80, {"heave.mpm": 0.25})
-    assert np.array_equal(list(read.over["seed"]), np.arange(1, 41))
-
-
-def test_the_schema_is_current_and_knows_the_study() -> None:
-    assert schema_path("study").read_text(encoding="utf-8") == study_schema_text()
-    jsonschema = pytest.importorskip("jsonschema", reason="needs the package 'jsonschema'")
-    jsonschema.Draft7Validator.check_schema(study_schema())
-    check = jsonschema.Draft7Validator(json.loads(study_schema_text()))
-    assert not list(check.iter_errors(tomllib.loads(STUDY)))
-    for old, new in (("[over]", "[ovr]"), ("after_s", "after"), ("0.25", "2")):
-        assert list(check.iter_errors(tomllib.loads(STUDY.replace(old, new, 1)))), old
+def test_tables_of_the_study_stand_before_those_of_its_lift(study: Path) -> None:
+    """A mistake in the lift is told by its own line; an accuracy chooses what the lift says of the method."""
+    ship = study.parent / "ship.toml"
+    ship.write_text(LIFT + '[run]\nstart = "rest"\nt_end_s = 99\n[method]\nintegrator = "rk4"\ndt_s = 0.1\n')
+    lift = Lift.load(study)
+    assert (lift.start, lift.t_end, lift.method) == ("rest", 8.0, Method(rtol=1e-2))
+    study.write_text(STUDY.replace("[method]\nrtol = 1e-2", "accuracy.rol = 1e-3"))
+    assert Lift.load(study).method == Method()
+    with pytest.raises(FileFormatError, match=r"^heave\.toml line 31: .*'rol'"):
+        Lift.load(study).scene()
+    ship.write_text(LIFT.replace("hs_m", "hs"))
+    with pytest.raises(FileFormatError, match=r"^ship\.toml line 10: hs "):
+        Lift.load(study)
+    ship.write_text(LIFT.replace("count = 20", "count = 0"))
+    with pytest.raises(FileFormatError, match=r"^ship\.toml line 8: .*count"):
+        Lift.load(study).scene()

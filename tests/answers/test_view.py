@@ -17,7 +17,6 @@ from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 
 from seacrane import Scene, SceneError, cases, simulate, view
 from seacrane.crane import load_crane
-from seacrane.description.file import scene_digest
 from seacrane.hydro import shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import rotation_matrix
@@ -27,6 +26,7 @@ from seacrane.pictures.drawn_bodies import looks
 from seacrane.pictures.pose_curves import LARGEST_ERROR, STEPS, motion_of
 from seacrane.pictures.shapes import BoxShape, equivalent_box, schematic_size
 from seacrane.pictures.wheels import wires_of
+from seacrane.scene.file import scene_digest
 
 
 class Page:

@@ -16,7 +16,7 @@ from scipy.integrate import simpson
 from scipy.optimize import brentq
 
 from seacrane import Curve, SceneError, _core, natural_modes, simulate
-from seacrane.description.hydraulic_values import VALUES
+from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.inputs.values import entries_of
 from seacrane.scene import Accumulator, Chamber, Counterbalance, Oil, Piston, Relief, Rupture, Valve
 

@@ -29,7 +29,6 @@ from seacrane.inputs.mesh_files import read_gltf
 from seacrane.inputs.netcdf_limits import LARGEST_DATABASE as LARGEST
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.state import load_state
-from seacrane.lift.study_file import StudyFile
 from seacrane.result import Result
 from seacrane.statistics import MeasuredSeries
 
@@ -162,13 +161,6 @@ def _lift(path: Path) -> Any:
             scene.compile()
 
 
-def _study(path: Path) -> Any:
-    """A study that is read has its members and its lift, which may be another file."""
-    study = StudyFile.load(path)
-    study.settings(study.lift())
-    return [len(study.members), *(study.until or {}).values()]
-
-
 def _measured(path: Path) -> Any:
     """The arguments of `MeasuredWaves` as JSON; what is no such object is refused here."""
     try:
@@ -230,7 +222,7 @@ _VERES = _under(_HYDRO, "veres veres_files veres_hydrostatics text_records")
 _WAMIT = _under(_HYDRO, "wamit wamit_control wamit_listing wamit_tables")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
 _RECORDED = (*_under("series", "series_file reading clock mending"), "scene/recorded_motion.py")
-_LIFT = _under("lift", "document text_lines check_keys curve_text")
+_LIFT = _under("lift", "document text_lines check_keys study")
 _JOINTED = _under("crane", "load_crane check")
 _URDF = _under("crane", "urdf urdf_values urdf_visuals")
 _SHAPE, _SEEN = (FileFormatError, ValueError), (FileFormatError, SceneError)
@@ -278,7 +270,6 @@ _ALL = [
     Target("gltf-bytes", "gltf", "box.glb", _of(read_gltf, most=1000), ("inputs/mesh_files.py",), None),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
-    Target("study", "study", "study.toml", _study, ("lift/study_file.py",)),
     Target("crane", "crane", "crane.toml", _crane, _under("crane", "file_table knuckle_boom")),
     Target("jointed", "jointed", "crane.toml", _crane, _JOINTED),
     Target("urdf", "urdf", "crane.urdf", _urdf, _URDF),

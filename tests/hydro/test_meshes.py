@@ -19,11 +19,11 @@ from scipy.spatial.transform import Rotation
 from test_view import Page
 
 from seacrane import FileFormatError, Frame, Lift, Result, Scene, SceneError, cases, simulate, view
-from seacrane.description import meshes
-from seacrane.description.file import scene_digest
 from seacrane.inputs.mesh_files import read_gltf
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.pictures.shapes import HullShape, MeshShape
+from seacrane.scene import bodies
+from seacrane.scene.file import scene_digest
 
 CORNERS = np.array([[x, y, z] for x in (0, 2) for y in (0, 3) for z in (0, 1)], dtype=float)
 FACES = np.array(
@@ -158,7 +158,7 @@ def test_a_lift_names_the_file(tmp_path: Path) -> None:
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [
-    ({**BOX, "body": "bal"}, "body is 'bal'"), ({**BOX, "file": "box.stl"}, "give file, or"),
+    ({**BOX, "body": "bal"}, "body 'bal'"), ({**BOX, "file": "box.stl"}, "give file, or"),
     ({"file": "box.step"}, "'box.step'; give .stl"), ({**BOX, "scale": -1.0}, "scale is -1"),
     ({**BOX, "vertices": 1e3 * CORNERS}, "3000 m large, above 1000 m; if it is in mm give scale=0.001"),
     ({**BOX, "frame": Frame(point=(1e6, 0, 0))}, "100000"), ({**BOX, "vertices": CORNERS * np.nan}, "finite"),
@@ -178,7 +178,7 @@ def test_a_mesh_keeps_its_body_and_what_makes_none_is_refused(monkeypatch: pytes
     scene.add_mesh(body="ball", name="look", **BOX)
     with pytest.raises(SceneError, match="body 'ball': mesh 'look'"):
         scene.remove("ball")
-    monkeypatch.setattr(meshes, "MOST_TRIANGLES", 20)
+    monkeypatch.setattr(bodies, "MOST_TRIANGLES", 20)
     with pytest.raises(SceneError, match="body 'ball' to 24 triangles, above 20"):
         scene.add_mesh(body="ball", name="more", **BOX)
     scene.remove("look")

@@ -13,9 +13,9 @@ from line_scenes import add_led
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SceneError, _core, simulate
-from seacrane.description.forces import add_load
+from seacrane.description.elements import add_load
 from seacrane.result import heavy_line_tension
-from seacrane.scene.chain_shape import Chain
+from seacrane.scene.heavy_line import Chain
 
 Array = NDArray[np.float64]
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-10}

@@ -136,12 +136,10 @@ def test_stages_run_until(by: str) -> None:
 
 
 UNITS = {"EA": "EA_N", "mass_per_length": "mass_per_length_kg_per_m", "block_mass": "block_mass_kg"}
-STUDY = """format = "seacrane study"
-version = 2
-lift = "lift.toml"
-over = { "stages.up.duration" = [0.1, 0.2] }
-keep = [{ name = "peak", channel = "hook_load[stage=up]", what = "maximum" }]
-"""
+STUDY: dict[str, Any] = {
+    "over": {"stages.up.duration": [0.1, 0.2]},
+    "keep": [{"name": "peak", "channel": "hook_load[stage=up]", "what": "maximum"}],
+}
 
 
 def in_file(given: dict[str, Any]) -> dict[str, Any]:
@@ -153,15 +151,14 @@ def test_a_study_file_of_its_stages_runs(by: str, tmp_path: Path) -> None:
     told: dict[str, Any] = {
         "scene": {"name": "hung"}, "method": {"integrator": "rk4", "dt_s": 5e-4},
         "outputs": {"dt_out_s": 0.02}, "crane": [{"base": "ground"}],
-        "stage": [{"name": one.name, "duration_s": 0.1} for one in STAGES],
+        "stage": [{"name": one.name, "duration_s": 0.1} for one in STAGES], "study": STUDY,
     }  # fmt: skip
     if by == "rod":
         told["crane"][0]["payload_mass_kg"] = MASS
     else:
         told["hoist"] = {"load": "payload", "mass_kg": MASS, "size_m": list(SIZE)} | in_file(LIFTS[by])
     Lift(told).save(tmp_path / "lift.toml")
-    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
-    found = run_study(tmp_path / "study.toml", tmp_path / "out")
+    found = run_study(tmp_path / "lift.toml", tmp_path / "out")
     assert not found.failures and np.isfinite(found.dataset.peak).all()
     assert is_documented("stages in study files")
 

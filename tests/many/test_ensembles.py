@@ -15,10 +15,10 @@ from ensemble_studies import KEEP, SWING, dies_once, drifting_hull, fails_in_the
 
 from seacrane import Kept, SceneError, SimulationError, ensemble, simulate
 from seacrane.cases import vessel
-from seacrane.description.file import described
 from seacrane.ensembles import Ensemble, LatinHypercube
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.errors import WorkerVersionError
+from seacrane.scene.file import described
 from seacrane.warnings import AccuracyNotHeldWarning
 
 GRID = {"start": [1.0, 2.0, 3.0], "mass": [2.0, 5.0]}

@@ -12,11 +12,11 @@ from ensemble_studies import drifting_hull
 
 import seacrane as sc
 from seacrane import needs
-from seacrane.description.file import scene_digest
 from seacrane.hydro import two_barges
 from seacrane.needs import Choice, Loss, choices_of, in_one_piece, missing_from
 from seacrane.needs.required import least_of
 from seacrane.scene import Pump, Valve
+from seacrane.scene.file import scene_digest
 from seacrane.water import BoxPart
 
 LENGTH, RATIO, G = 5.0, 0.02, 9.80665

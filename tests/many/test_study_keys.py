@@ -11,8 +11,7 @@ from lift_examples import ON_DECK
 
 from seacrane import Lift, SceneError, simulate
 from seacrane.lift.lift import LIFTS
-from seacrane.lift.study_run import run_study
-from seacrane.lift.varied_keys import keys_in, with_keys
+from seacrane.lift.study_run import keys_in, run_study, with_keys
 
 BALANCED = """format = "seacrane lift"
 version = 2
@@ -26,12 +25,13 @@ foot_m = [33, 10, 10]
 payload = { mass_kg = 20e3, size_m = [4, 4, 3], link_length_m = 8 }
 held = true
 """
-STUDY = """format = "seacrane study"
+STUDY = """format = "seacrane lift"
 version = 2
+run = { t_end_s = 2 }
+[study]
 lift = "held.toml"
 over = { "crane.payload.mass_kg" = [20e3, 100e3], seed = [7, 8] }
-run = { t_end_s = 2 }
-[[keep]]
+[[study.keep]]
 name = "heave"
 channel = "position"
 names = { body = "vessel", axis = "z" }
@@ -104,12 +104,9 @@ def test_paths_go_by_names_numbers_and_units() -> None:
 
 @pytest.mark.warns("ThroughSeatWarning")
 def test_a_study_file_of_a_lift_in_stages(tmp_path: Path) -> None:
-    (tmp_path / "my_lift.toml").write_text(ON_DECK)
-    head = STUDY.replace("held.toml", "my_lift.toml").partition("over")[0]
-    over = 'over = { "stages.lift off.commands.hoist.rate" = [-0.1] }'
-    (tmp_path / "study.toml").write_text(
-        f'{head}{over}\n[[keep]]\nname = "lifted"\nchannel = "stage[lift off].end"\n'
-    )
+    over = '[study.over]\n"stages.lift off.commands.hoist.rate" = [-0.1]\n'
+    keep = '[[study.keep]]\nname = "lifted"\nchannel = "stage[lift off].end"\n'
+    (tmp_path / "study.toml").write_text(f"{ON_DECK}{over}{keep}")
     done = run_study(tmp_path / "study.toml", tmp_path / "out").dataset
     (tmp_path / "other.toml").write_text(ON_DECK.replace("m_per_s = -0.05", "m_per_s = -0.1"))
     run = Lift.load(tmp_path / "other.toml").simulate()

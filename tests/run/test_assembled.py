@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Scene
-from seacrane.description.assembled import LARGEST_MOVE, LARGEST_TURN, moves
+from seacrane.description.compilation import LARGEST_MOVE, LARGEST_TURN, moves
 from seacrane.warnings import AssemblyWarning
 
 ARM = 20.0  # m, hinge to the centre of the boom

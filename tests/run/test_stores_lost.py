@@ -18,8 +18,7 @@ from killed_stores import KINDS, STORMS
 
 from seacrane import FileFormatError, SceneError, ensemble
 from seacrane.ensembles import Ensemble
-from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.drafts import draft_of
+from seacrane.inputs.atomic import atomic_write, draft_of
 from seacrane.warnings import LostMembersWarning
 
 GIVEN = {"source": pendulum, "over": {"start": [1.0, 2.0, 3.0]}, **SWING}
@@ -112,7 +111,7 @@ def test_a_store_that_was_killed_as_it_was_made_goes_on(tmp_path: Path, whole: E
 
 
 def test_drafts_are_removed_once_their_process_is_gone(tmp_path: Path) -> None:
-    script = "import os, sys; from seacrane.inputs.drafts import draft_of; from pathlib import Path\n"
+    script = "import os, sys; from seacrane.inputs.atomic import draft_of; from pathlib import Path\n"
     script += "draft_of(Path(sys.argv[1])).write_text('half'); os._exit(9)"
     target = tmp_path / "run.nc"
     for _ in range(2):

@@ -19,12 +19,12 @@ from seacrane import Kept, Result, Run, Scene, Stage, Until, _core, cases, ensem
 from seacrane.analysis import linear_model
 from seacrane.description.channels import CHANNELS, DERIVED, FIXED, NAMED, OWN
 from seacrane.description.expression import DEEPEST, LONGEST
-from seacrane.description.file import scene_digest
 from seacrane.description.pick import Pick, column_name, pick_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import shipped_database
 from seacrane.operability import Criterion
 from seacrane.operability.linear_channels import linear_channels
+from seacrane.scene.file import scene_digest
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")

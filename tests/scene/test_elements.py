@@ -18,11 +18,11 @@ from numpy.testing import assert_allclose
 from test_scene_file import every_kind
 
 from seacrane import Scene, SceneError, _core
-from seacrane.description.file import described as written
-from seacrane.description.file import scene_from_bytes
 from seacrane.description.loads import LOAD_KINDS, bodies_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs.plain_data import INFINITE
+from seacrane.scene.file import described as written
+from seacrane.scene.file import scene_from_bytes
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")

@@ -1,4 +1,4 @@
-"""Every public keyword and every key of lift and study files has the spelling of docs/conventions.md."""
+"""Every public keyword and every key of lift files has the spelling of docs/conventions.md."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pytest
 
 import seacrane
 from seacrane.lift.keys import Key
-from seacrane.lift.study_keys import DESIGN, KEEP, RANGE, STATISTICS
+from seacrane.lift.study_keys import RANGE
 from seacrane.lift.tables import TABLES
 
 
@@ -64,8 +64,7 @@ def keys_in(path: str, keys: Iterable[Key]) -> Iterator[tuple[str, str]]:
 
 def words() -> list[tuple[str, str]]:
     tables = {table.name: table.keys for table in TABLES.values()}
-    study = {"keep": KEEP, "over": RANGE, "design": DESIGN, "statistics": STATISTICS}
-    files = [word for name, keys in {**tables, **study}.items() for word in keys_in(name, keys)]
+    files = [word for name, keys in {**tables, "over": RANGE}.items() for word in keys_in(name, keys)]
     return [*public(seacrane), *files]
 
 
@@ -74,7 +73,7 @@ def test_no_public_keyword_or_key_has_a_spelling_that_the_table_replaces(
 ) -> None:
     """A place of the last column that no longer holds its word is taken out of the table."""
     found = words()
-    seen = {"Scene.add_line(length=)", "simulate(t_end=)", "[stage.until] minimum", "[keep] names"}
+    seen = {"Scene.add_line(length=)", "simulate(t_end=)", "[stage.until] minimum", "[study.keep] names"}
     assert seen <= {place for place, _ in found} and len(found) > 1000
     assert {"where", "above", "max_*", "heading", "rho"} <= set(refused)
     assert replaced("motion_rao(heading=)", "heading", refused)

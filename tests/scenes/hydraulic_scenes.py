@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import Curve, Scene
-from seacrane.description.hydraulic_values import VALUES
+from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.inputs.values import flat
 from seacrane.scene import Chamber, Oil, Piston, Pump, Valve
 

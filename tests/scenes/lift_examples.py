@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
-from seacrane.description.hydraulic_values import VALUES
+from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.lift.tables import TABLES
 from seacrane.scene import gust_curve, heave, spline_curve
 from seacrane.water import BoxPart, Opening, SpherePart

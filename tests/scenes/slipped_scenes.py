@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import Curve, Scene, _core
-from seacrane.description.forces import add_load
+from seacrane.description.elements import add_load
 from seacrane.description.waves import Waves
 from seacrane.water import BoxPart
 

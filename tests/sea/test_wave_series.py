@@ -11,8 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Run, Scene, _core, cases, simulate
-from seacrane.description.compilation import drift_table, wave_table
-from seacrane.description.wave_selection import kept_components, without_negligible
+from seacrane.description.compilation import drift_table, kept_components, wave_table, without_negligible
 from seacrane.description.waves import ByHeading
 from seacrane.hydro import shipped_database
 from seacrane.scene import HullLoads, Waves

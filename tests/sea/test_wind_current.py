@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from seacrane import Curve, FlowCoefficients, Scene, SceneError, _core, simulate
 from seacrane.analysis import Evaluator
 from seacrane.scene import gust_curve
-from seacrane.scene.gusts import npd_spectrum
+from seacrane.scene.wind_current import npd_spectrum
 from seacrane.sea import jonswap, realise_waves
 from seacrane.warnings import DoubleCountedDampingWarning
 

@@ -21,7 +21,7 @@ from seacrane import (
 )
 from seacrane.analysis import response_summed
 from seacrane.crane import Payload
-from seacrane.description.sum_of_cosines import ramp_of
+from seacrane.description.curves import ramp_of
 from seacrane.hydro import shipped_database, two_barges
 from seacrane.warnings import AngleUnitWarning
 

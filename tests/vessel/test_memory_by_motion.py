@@ -12,7 +12,6 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Lift, Scene, cases, load_database, motion_rao, simulate
-from seacrane.description.file import scene_digest
 from seacrane.hydro import (
     HydroDatabase,
     MemoryModel,
@@ -28,6 +27,7 @@ from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.fit import LIMIT
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.hydro.vessel.memory_stability import largest_growth_rate
+from seacrane.scene.file import scene_digest
 from seacrane.sea import jonswap
 from seacrane.warnings import MemoryFitWarning
 

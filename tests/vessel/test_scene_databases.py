@@ -29,10 +29,10 @@ from seacrane import (
     simulate,
 )
 from seacrane.description.databases import without_databases
-from seacrane.description.file import scene_digest
 from seacrane.hydro import HydroDatabase, VesselHydrodynamics, fit_memory
 from seacrane.hydro.data.hydro_data import AdditionalMatrices
 from seacrane.hydro.data.packed import packed
+from seacrane.scene.file import scene_digest
 
 DRIFTING = drifting_hull()
 SEA: dict[str, Any] = {"hs": 1.0, "tp": 8.0, "direction_deg": 150.0, "count": 30}

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, simulate
-from seacrane.description.forces import add_load
+from seacrane.description.elements import add_load
 from seacrane.run import Run
 from seacrane.scene import Waves
 from seacrane.sea import Current

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, _core, natural_modes, simulate
-from seacrane.description.forces import add_load
+from seacrane.description.elements import add_load
 from seacrane.result import heavy_line_tension
 from seacrane.sea import Current
 

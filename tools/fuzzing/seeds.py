@@ -25,9 +25,9 @@ from test_scene_file import every_kind
 
 from seacrane import Result, Scene, cases, shipped_database, simulate
 from seacrane.crane.load_crane import SHIPPED
-from seacrane.description.file import described
 from seacrane.hydro import HydroDatabase, motion_response
 from seacrane.hydro.data.drift_coefficients import DriftCoefficients
+from seacrane.scene.file import described
 
 
 def put(target: str, name: str, content: bytes | str) -> None:

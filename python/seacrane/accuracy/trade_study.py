@@ -27,7 +27,6 @@ from seacrane.analysis.drag_in_sea import drag_in_components
 from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.crane_parts import hooks, payloads
-from seacrane.description.file import scene_digest
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.frames import heading_of, rotation_matrix
@@ -38,6 +37,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
 from seacrane.run.stage import Stage
 from seacrane.run.start import Start
+from seacrane.scene.file import scene_digest
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
 from seacrane.version import __version__

@@ -14,7 +14,7 @@ from seacrane.analysis.frequency_domain import component_forces, excitation_of, 
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.modal_analysis import directions_of, quadrature_frequencies, weights_of
 from seacrane.analysis.parts_in_waves import PartsInWaves
-from seacrane.description.hydrodynamics import group_of
+from seacrane.description.given import group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_on_grid

@@ -13,8 +13,7 @@ from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
-from seacrane.description.given import given_vessels
-from seacrane.description.hydrodynamics import group_of
+from seacrane.description.given import given_vessels, group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.encounter import encounter_frequency_at

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
-from seacrane.description.hydrodynamics import group_of
+from seacrane.description.given import group_of
 from seacrane.description.loads import changed
 from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import transformer

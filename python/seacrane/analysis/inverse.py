@@ -15,12 +15,11 @@ from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import luffing_ropes
 from seacrane.description.description import GROUND, Description, Some
-from seacrane.description.drives import add_driver
+from seacrane.description.elements import add_driver, add_joint
 from seacrane.description.given import given_at_rest, given_vessels
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
-from seacrane.description.joint_coordinates import ANGLES
-from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
+from seacrane.description.places import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError

@@ -13,7 +13,7 @@ from seacrane.analysis.inverse import channels_at
 from seacrane.analysis.rest_state import held, rest_states
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import COMPILED, GROUND, KINDS, Description
-from seacrane.description.joints import add_joint
+from seacrane.description.elements import add_joint
 from seacrane.description.loads import bodies_of, changed, lines_of, path_of
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.places import place_of

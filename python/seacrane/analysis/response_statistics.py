@@ -22,7 +22,7 @@ from seacrane.analysis.modal_analysis import (
 )
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.description import Description
-from seacrane.description.hydrodynamics import group_of
+from seacrane.description.given import group_of
 from seacrane.errors import SceneError
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table

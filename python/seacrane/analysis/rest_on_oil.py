@@ -13,9 +13,9 @@ from seacrane.analysis.inverse import channels_at
 from seacrane.analysis.taut_lines import pose_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
+from seacrane.description.elements import add_joint
 from seacrane.description.holding import decided
 from seacrane.description.hydraulic_cylinders import holding_pressures, hydraulic_cylinders
-from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
 from seacrane.description.places import ORIGIN, apart, placed
 from seacrane.errors import SceneError

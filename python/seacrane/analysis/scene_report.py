@@ -8,8 +8,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.linearise import fastest_mode
-from seacrane.description.assembled import moves
-from seacrane.description.compilation import compile_scene
+from seacrane.description.compilation import compile_scene, moves
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
 from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies, given_vessels

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import SIX, actuator_loads, at_rest, channels_at, drive_loads, locked_at_rest
 from seacrane.analysis.rest_state import held, rest_states
-from seacrane.description.body_motion import position_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
-from seacrane.description.forces import add_force
+from seacrane.description.elements import add_force
 from seacrane.description.given import floating_bodies, given_vessels
-from seacrane.description.places import place_of
+from seacrane.description.places import place_of, position_of
 from seacrane.description.wet_parts import immersed_parts, waters_in, wet_bodies
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.contact_places import beside_surface
 from seacrane.description.description import GROUND
-from seacrane.description.welded import borne_mass
+from seacrane.description.given import beside_surface, borne_mass
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result

@@ -13,15 +13,14 @@ from seacrane.answers.rest_columns import AtRest, pulls_of
 from seacrane.answers.statics import hanging_rest
 from seacrane.answers.summary import summary
 from seacrane.description.description import Description
-from seacrane.description.lift_factors import LiftFactors
 from seacrane.description.loads import changed
-from seacrane.description.ratings import Rating
 from seacrane.description.suspension import Hung, Suspension, hung_loads, suspensions
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.plotting.table import Rows, Table, Verdict, read_as
 from seacrane.result import Result
+from seacrane.scene.lift_factors import LiftFactors, Rating
 
 Array = NDArray[np.float64]
 UNVERIFIED = "unverified"

@@ -15,10 +15,9 @@ from seacrane.analysis.inverse import crane_of, values_of
 from seacrane.analysis.rest_state import rest_from
 from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.answers.statics import resting
-from seacrane.description.capacity import allowed_at
 from seacrane.description.description import Description
 from seacrane.description.loads import changed
-from seacrane.description.roles import CraneRoles
+from seacrane.description.roles import CraneRoles, allowed_at
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.keywords import named

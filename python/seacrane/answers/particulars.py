@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seacrane.answers.reported_curves import POSES, hook_loads
-from seacrane.description.crane_reach import tip_radius
+from seacrane.description.crane_parts import tip_radius
 from seacrane.description.description import GROUND, Description
 from seacrane.description.loads import lines_of
 from seacrane.description.roles import CraneRoles
@@ -17,7 +17,7 @@ from seacrane.description.suspension import Hung, hung_loads, suspensions
 from seacrane.description.wet_parts import displaced_volume, immersed_parts, sources_in_water, waters_in
 from seacrane.plotting.table import Table, facts, format_value, table_of
 from seacrane.result import Result
-from seacrane.scene.lines import NO_BOUND, STRONGEST
+from seacrane.scene.rigging import NO_BOUND, STRONGEST
 
 Rows = list[tuple[str, Any]]
 SEA = {

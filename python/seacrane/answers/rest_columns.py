@@ -14,13 +14,18 @@ from seacrane.analysis.inverse import channels_at, drive_name
 from seacrane.analysis.reduced_coordinates import NEUTRAL, POSE, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import held
 from seacrane.description.compilation import compile_scene
-from seacrane.description.crane_parts import cylinders, luffing_ropes, luffs, piston_areas, slews
-from seacrane.description.crane_reach import placed, tip_radius
-from seacrane.description.cylinder_areas import pressure
+from seacrane.description.crane_parts import (
+    cylinders,
+    luffing_ropes,
+    luffs,
+    piston_areas,
+    placed,
+    slews,
+    tip_radius,
+)
 from seacrane.description.description import Description
 from seacrane.description.loads import changed, lines_of
-from seacrane.description.luffing_rope import LuffingRope, lengthening
-from seacrane.description.roles import CraneRoles
+from seacrane.description.roles import CraneRoles, LuffingRope, lengthening, pressure
 from seacrane.description.rungs import ELASTIC, RIGID
 from seacrane.description.suspension import ROD, Suspension, hung_loads, names_of_suspensions
 from seacrane.inputs.frames import heading_of, heel_and_trim, rotation_matrix

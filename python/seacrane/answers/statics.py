@@ -16,10 +16,10 @@ from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of, pulls_of
 from seacrane.description.compilation import compile_scene
-from seacrane.description.crane_reach import tip_radius
+from seacrane.description.crane_parts import tip_radius
 from seacrane.description.description import Description
-from seacrane.description.drives import add_driver
-from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.elements import add_driver
+from seacrane.description.places import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError, SeacraneError

@@ -153,9 +153,9 @@ def _add_show(commands: Any) -> None:
 
 
 def _add_study(commands: Any) -> None:
-    text = "run a study file: many runs of a lift, and what they tell; a call that was stopped goes on"
+    text = "run the study of a lift: many runs, and what they tell; a call that was stopped goes on"
     study = commands.add_parser("study", help=text, description=text)
-    study.add_argument("study", metavar="STUDY.toml", help="a lift, what varies, what is kept; data only")
+    study.add_argument("study", metavar="LIFT.toml", help="a lift with a [study]; data only")
     study.add_argument("--out", metavar="DIR", required=True, help="folder of the study; made if absent")
     study.add_argument("--workers", metavar="N", type=int, help="processes to run in; default: this one")
     study.add_argument("--dask", metavar="ADDRESS", help="scheduler of a Dask cluster to run on")
@@ -206,7 +206,6 @@ def _add_trade(commands: Any) -> None:
 def _add_schema(commands: Any) -> None:
     text = "print the JSON Schema of lift files, with which editors complete and check them"
     schema = commands.add_parser("schema", help=text, description=text)
-    schema.add_argument("--study", action="store_true", help="that of study files")
     schema.add_argument("--path", action="store_true", help="print where the installed copy is instead")
 
 

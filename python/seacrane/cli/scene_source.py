@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import tell
 
 if TYPE_CHECKING:
     from seacrane.run.method import Method
@@ -83,6 +84,8 @@ def _lift(path: Path) -> Source:
     from seacrane.lift.lift import Lift
 
     lift = Lift.load(path)
+    if lift.study is not None:
+        tell(f"{path.name} has a [study], whose runs `seacrane study` makes; this is of the lift itself")
     return Source(
         name=path.stem, scene=lift.scene(), t_end=None if lift.stages else lift.t_end, method=lift.method,
         outputs=lift.outputs, stages=lift.stages, start=lift.start, accuracy=lift.accuracy,

@@ -50,8 +50,7 @@ def _study(arguments: argparse.Namespace) -> int:
 
 def show_study(study: str, out: str | None) -> None:
     """Print the tables of a study, and write them and their figures into a folder, by default its own."""
-    from seacrane.lift.shown_study import shown_study
-    from seacrane.lift.study_figures import study_sheets
+    from seacrane.lift.shown_study import shown_study, study_sheets
     from seacrane.plotting.panel import draw, save_figure, save_table
 
     shown = shown_study(study)

@@ -7,7 +7,7 @@ from seacrane.crane.crane import Crane as Crane
 from seacrane.crane.data import CraneData as CraneData
 from seacrane.crane.data import BodyData as BodyData
 from seacrane.crane.data import JointData as JointData
-from seacrane.crane.add_crane import FOOT as FOOT
+from seacrane.scene.add_crane import FOOT as FOOT
 from seacrane.crane.parts import CraneParts as CraneParts
 from seacrane.crane.parts import BodyRecord as BodyRecord
 from seacrane.crane.parts import JointRecord as JointRecord

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.crane.mass_properties import MassProperties, Member
-from seacrane.description.capacity import Capacity
-from seacrane.description.cylinder_areas import Areas
+from seacrane.description.roles import Areas, Capacity
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 

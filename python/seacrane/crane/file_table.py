@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
-from seacrane.description.capacity import Capacity, capacity_of
-from seacrane.description.cylinder_areas import Areas, areas_of
-from seacrane.description.hydraulic_values import VALUES
+from seacrane.description.hydraulic_cylinders import VALUES
+from seacrane.description.roles import Areas, Capacity, areas_of, capacity_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole

@@ -18,7 +18,7 @@ from seacrane.crane.file_table import FileTable, read_text, root_of
 from seacrane.crane.knuckle_boom import knuckle_boom
 from seacrane.crane.mass_properties import MassProperties, Point, combine
 from seacrane.crane.urdf import read_urdf
-from seacrane.description.cylinder_areas import Areas
+from seacrane.description.roles import Areas
 from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import shown
 

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.crane.data import MeshData, RopeData
-from seacrane.description.capacity import Capacity
-from seacrane.description.cylinder_areas import Areas
+from seacrane.description.roles import Areas, Capacity
 
 Array = NDArray[np.float64]
 

@@ -9,10 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from seacrane.crane.parts import BodyRecord, JointRecord
-from seacrane.description.damping import BOX_DRAG, SWING_RATIO
 from seacrane.inputs.checked import not_negative_of, positive_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import warn_of_density
+
+SWING_RATIO = 0.005  # of critical damping of a swinging load: an estimate
+BOX_DRAG = 1.05  # C_D of a cube with a face to the flow: Hoerner, Fluid-Dynamic Drag (1965)
 
 Array = npt.NDArray[np.float64]
 Vector = tuple[float, float, float]

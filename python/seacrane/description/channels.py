@@ -8,9 +8,18 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 
 from seacrane import _core
+
+_DRIVE = "actuator_force driver_force hydraulic_force"
+_POSE = "position quaternion"
+_MOTION = "position quaternion velocity angular_velocity"
+_PULL = f"tension line_tension end_tension {_POSE}"
+COUNTED_ON = ("energy_balance", "impact_loss")  # each run of stages counts from its own start
+LEAST, LARGEST = "_least", "_largest"  # what files call extremes, behind the channel's name
+OWN = "own"  # expressions of other channels
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,25 +59,15 @@ class Channel:
 
 def _core_channel(channel: _core.Channel) -> Channel:
     return Channel(
-        dims=("time", *channel.dims),
-        dims_of_several=("time", *channel.dims_of_several),
-        unit=channel.unit,
-        long_name=channel.text,
-        by_default=channel.by_default,
-        has_extremes=channel.has_extremes,
-    )
+        dims=("time", *channel.dims), dims_of_several=("time", *channel.dims_of_several), unit=channel.unit,
+        long_name=channel.text, by_default=channel.by_default, has_extremes=channel.has_extremes,
+    )  # fmt: skip
 
 
 def _derived(
-    dims: str,
-    unit: str,
-    long_name: str,
-    made_of: str,
-    *,
-    several: str = "",
-    turns: bool = False,
+    dims: str, unit: str, made_of: str, long_name: str, *, several: str = "", turns: bool = False,
     by_default: bool = True,
-) -> Channel:
+) -> Channel:  # fmt: skip
     own = dims.split()
     return Channel(
         dims=("time", *own), dims_of_several=("time", *several.split(), *own), unit=unit, long_name=long_name,
@@ -76,139 +75,59 @@ def _derived(
     )  # fmt: skip
 
 
-_DRIVE = "actuator_force driver_force hydraulic_force"
-_POSE = "position quaternion"
-_MOTION = "position quaternion velocity angular_velocity"
+_asked = partial(_derived, by_default=False)
 
-DERIVED: Mapping[str, Channel] = MappingProxyType(
-    {
-        "stroke": _derived("cylinder", "m", "cylinder stroke, extension positive", "coordinate"),
-        "stroke_rate": _derived("cylinder", "m/s", "rate of the cylinder stroke", "coordinate_rate"),
-        "cylinder_force": _derived(
-            "cylinder", "N", "actuator force of the cylinder, positive pushes", _DRIVE
-        ),
-        "cylinder_pressure": _derived(
-            "piston",
-            "Pa",
-            "pressure in the loaded chamber of the cylinder, the rod side's negative",
-            _DRIVE,
-        ),
-        "slew_angle": _derived(
-            "", "rad", "slew angle of the crane", "coordinate", several="slew", turns=True
-        ),
-        "slew_torque": _derived("", "N m", "actuator torque of the slew drive", _DRIVE, several="slew"),
-        "link_tension": _derived(
-            "", "N", "tension of the link between crane tip and payload", "tension", several="hook"
-        ),
-        "hook_load": _derived(
-            "suspension",
-            "N",
-            "load on the lower end of a link, a wire or a line, all its falls together",
-            f"tension line_tension end_tension {_POSE}",
-        ),
-        "clearance": _derived("gap", "m", "distance of points from a box, negative inside", _POSE),
-        "relative_position": _derived("pair axis", "m", "of a named point over another", _POSE),
-        "relative_velocity": _derived("pair axis", "m/s", "rate of the relative position", _MOTION),
-        "heel": _derived(
-            "body",
-            "rad",
-            "yaw-pitch-roll angle about the body's own x axis; positive lifts its port side",
-            "quaternion",
-            by_default=False,
-        ),
-        "trim": _derived(
-            "body",
-            "rad",
-            "its angle about the y axis after yaw; positive lowers the body's bow",
-            "quaternion",
-            by_default=False,
-        ),
-        "yaw": _derived(
-            "body",
-            "rad",
-            "its angle about the vertical, within half a turn; positive turns the bow to port",
-            "quaternion",
-            by_default=False,
-        ),
-        "hook_speed": _derived(
-            "suspension",
-            "m/s",
-            "vertical velocity of the lower end of a link, a wire or a line, positive up",
-            _MOTION,
-            by_default=False,
-        ),
-        "slack_margin": _derived(
-            "weighed",
-            "1",
-            "load on the lower end over the least static one there, that under water where parts in water "
-            "hang; slack at zero",
-            f"tension line_tension end_tension {_POSE}",
-            by_default=False,
-        ),
-        "sling_angle": _derived(
-            "suspension",
-            "rad",
-            "angle of the last straight part of a link, a wire or a line above the horizontal",
-            _POSE,
-            by_default=False,
-        ),
-        "utilisation": _derived(
-            "",
-            "1",
-            "hook load over what the crane's table allows at this radius, times its design factor",
-            f"tension line_tension end_tension {_POSE}",
-            several="hook",
-            by_default=False,
-        ),
-        "immersed_depth": _derived(
-            "immersed",
-            "m",
-            "depth below still water of the lowest point of a body's parts in water, and of each of them",
-            _POSE,
-            by_default=False,
-        ),
-        "wire_paid_out": _derived(
-            "winch",
-            "m",
-            "unstretched length of the line over the one described",
-            "line_unstretched_length",
-            by_default=False,
-        ),
-        "wire_spare": _derived(
-            "winch",
-            "m",
-            "length that the winch may still haul in, down to its minimum length",
-            "line_unstretched_length",
-            by_default=False,
-        ),
-        "own": _derived("expression", "SI", "channel of one's own, in the unit of its expression", ""),
-        "tip_velocity": _derived(
-            "axis", "m/s", "velocity of the crane tip, inertial frame", _MOTION, several="tip"
-        ),
-        "swing": _derived(
-            "",
-            "rad",
-            "angle of the load from straight below the crane's tip",
-            _POSE,
-            several="hook",
-            by_default=False,
-        ),
-        "offlead": _derived(
-            "",
-            "rad",
-            "angle of link or line below the tip from the vertical, away from the crane positive",
-            _POSE,
-            several="hook",
-        ),
-        "sidelead": _derived(
-            "",
-            "rad",
-            "angle of link or line below the tip from the vertical across the boom, to its left positive",
-            _POSE,
-            several="hook",
-        ),
-    }
-)
+DERIVED: Mapping[str, Channel] = MappingProxyType({
+    "stroke": _derived("cylinder", "m", "coordinate", "cylinder stroke, extension positive"),
+    "stroke_rate": _derived("cylinder", "m/s", "coordinate_rate", "rate of the cylinder stroke"),
+    "cylinder_force": _derived("cylinder", "N", _DRIVE,
+        "actuator force of the cylinder, positive pushes"),
+    "cylinder_pressure": _derived("piston", "Pa", _DRIVE,
+        "pressure in the loaded chamber of the cylinder, the rod side's negative"),
+    "slew_angle": _derived("", "rad", "coordinate",
+        "slew angle of the crane", several="slew", turns=True),
+    "slew_torque": _derived("", "N m", _DRIVE, "actuator torque of the slew drive", several="slew"),
+    "link_tension": _derived("", "N", "tension",
+        "tension of the link between crane tip and payload", several="hook"),
+    "hook_load": _derived("suspension", "N", _PULL,
+        "load on the lower end of a link, a wire or a line, all its falls together"),
+    "clearance": _derived("gap", "m", _POSE, "distance of points from a box, negative inside"),
+    "relative_position": _derived("pair axis", "m", _POSE, "of a named point over another"),
+    "relative_velocity": _derived("pair axis", "m/s", _MOTION, "rate of the relative position"),
+    "heel": _asked("body", "rad", "quaternion",
+        "yaw-pitch-roll angle about the body's own x axis; positive lifts its port side"),
+    "trim": _asked("body", "rad", "quaternion",
+        "its angle about the y axis after yaw; positive lowers the body's bow"),
+    "yaw": _asked("body", "rad", "quaternion",
+        "its angle about the vertical, within half a turn; positive turns the bow to port"),
+    "hook_speed": _asked("suspension", "m/s", _MOTION,
+        "vertical velocity of the lower end of a link, a wire or a line, positive up"),
+    "slack_margin": _asked("weighed", "1", _PULL,
+        "load on the lower end over the least static one there, that under water where parts in water "
+        "hang; slack at zero"),
+    "sling_angle": _asked("suspension", "rad", _POSE,
+        "angle of the last straight part of a link, a wire or a line above the horizontal"),
+    "utilisation": _asked("", "1", _PULL,
+        "hook load over what the crane's table allows at this radius, times its design factor",
+        several="hook"),
+    "immersed_depth": _asked("immersed", "m", _POSE,
+        "depth below still water of the lowest point of a body's parts in water, and of each of them"),
+    "wire_paid_out": _asked("winch", "m", "line_unstretched_length",
+        "unstretched length of the line over the one described"),
+    "wire_spare": _asked("winch", "m", "line_unstretched_length",
+        "length that the winch may still haul in, down to its minimum length"),
+    "own": _derived("expression", "SI", "", "channel of one's own, in the unit of its expression"),
+    "tip_velocity": _derived("axis", "m/s", _MOTION,
+        "velocity of the crane tip, inertial frame", several="tip"),
+    "swing": _asked("", "rad", _POSE,
+        "angle of the load from straight below the crane's tip", several="hook"),
+    "offlead": _derived("", "rad", _POSE,
+        "angle of link or line below the tip from the vertical, away from the crane positive",
+        several="hook"),
+    "sidelead": _derived("", "rad", _POSE,
+        "angle of link or line below the tip from the vertical across the boom, to its left positive",
+        several="hook"),
+})  # fmt: skip
 
 CHANNELS: Mapping[str, Channel] = MappingProxyType(
     {**{channel.name: _core_channel(channel) for channel in _core.channels()}, **DERIVED}
@@ -220,9 +139,6 @@ FIXED: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 # Dimensions whose names belong to the scene.
 NAMED = frozenset(dim for channel in CHANNELS.values() for dim in channel.dims_of_several[1:]) - set(FIXED)
-COUNTED_ON = ("energy_balance", "impact_loss")  # each run of stages counts from its own start
-LEAST, LARGEST = "_least", "_largest"  # what files call extremes, behind the channel's name
-OWN = "own"  # expressions of other channels
 AXES, MOTIONS = FIXED["axis"], FIXED["motion"]
 
 

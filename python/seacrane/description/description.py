@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn, Protocol, TypeVar
 
 from seacrane import _core
-from seacrane.description.limit_state import LimitState
+from seacrane.description.limit_state import LimitState, Range
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.range import Range
 from seacrane.description.roles import CraneRoles
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
+from seacrane.inputs.shown import listed
 
 GROUND = "ground"
 STANDARD_GRAVITY = 9.80665
@@ -49,9 +49,20 @@ KINDS: Mapping[str, str] = {
     "meshes": "mesh",
 }
 ELEMENTS = tuple(COMPILED)
+SETTINGS = ("gravity", "baumgarte", "length_scale")
 LOADS = tuple(key for key, kind in COMPILED.items() if kind in (*_core.LOAD_KINDS, "load"))
 ANSWERS = "_answers"  # attribute: what was worked out of a scene, see `once`
 Element = TypeVar("Element")
+
+
+class Named(Protocol):
+    """An element of a scene."""
+
+    @property
+    def name(self) -> str: ...
+
+
+AnyNamed = TypeVar("AnyNamed", bound=Named)
 
 
 @dataclass(kw_only=True, eq=False, repr=False)
@@ -64,18 +75,10 @@ class Description:
     ----------
     recorded : dict of str to (str, str)
         Joint and coordinate that are recorded under a name.
-    ranges : dict of str to Range
-    limit_states : dict of str to LimitState
-    clearances : dict of str to Clearance
-        Distances of points from boxes, which are recorded.
-    relatives : dict of str to Relative
-        Points whose motion over others is recorded.
-    channels : dict of str to OwnChannel
-        Expressions of channels, which are recorded.
-    ratings : dict of str to Rating
-        What lines and slings break at.
-    lift_factors : dict of str to LiftFactors
-        By loads, what their lifts are calculated with beside the scene.
+    ranges, limit_states, clearances, relatives, channels : dict of str to Range, LimitState and so on
+        What `Scene.add_range`, `add_limit_state` and so on returned.
+    ratings, lift_factors : dict of str to Rating, LiftFactors
+        What lines and slings break at; by loads, what their lifts are calculated with beside the scene.
     roles : dict of str to CraneRoles
         By the prefix of each crane's names.
     provenance : dict of str to VesselProvenance
@@ -159,7 +162,7 @@ class Description:
         return [element for key in LOADS for element in getattr(self, key).values()]
 
 
-def insert(kind: str, table: dict[str, Any], element: Any) -> Any:
+def insert(kind: str, table: dict[str, Any], element: AnyNamed) -> AnyNamed:
     """Put an element into its table and return it; SceneError where the name is taken."""
     if element.name in table:
         held = table[element.name]
@@ -173,10 +176,23 @@ def insert(kind: str, table: dict[str, Any], element: Any) -> Any:
     return element
 
 
+def require(
+    scene: Description, what: str, key: str, name: str, table: str = "bodies", *, ground: bool = False
+) -> str:
+    """The name that a keyword gives to an element of a table, or "ground" where it may be that.
+
+    Raises SceneError where the scene has no such element.
+    """
+    held = getattr(scene, table)
+    if text_of(f"{what}: {key}", name) not in held and not (ground and name == GROUND):
+        known = listed([*held]) or "none"
+        raise SceneError(f"{what}: there is no {KINDS[table]} {name!r}; add it first, the scene has {known}")
+    return name
+
+
 def coordinate_of(scene: Description, kind: str, joint: str, coordinate: str | None) -> str:
     """A coordinate of a joint, by default its usual one; SceneError where there is no such joint."""
-    if text_of(f"{kind}: joint", joint) not in scene.joints:
-        raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
+    require(scene, kind, "joint", joint, "joints")
     about = _core.joint_kinds().get(scene.joints[joint].kind)
     usual = about.usual if about and about.usual else "displacement"
     return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate, usual)

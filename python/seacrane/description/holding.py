@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from seacrane import _core
 from seacrane.description.description import Description, Some
-from seacrane.description.drives import add_driver
+from seacrane.description.elements import add_driver
 from seacrane.description.loads import named, springs_of
 from seacrane.description.once import once, once_in_any_sea, sharing
 from seacrane.description.roles import CraneRoles

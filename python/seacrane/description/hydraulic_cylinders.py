@@ -1,4 +1,4 @@
-"""Hydraulic cylinders: what a description leaves out is filled in from where and how they stand."""
+"""Hydraulic cylinders: what they are made of, and what follows from where and how they stand."""
 
 from __future__ import annotations
 
@@ -7,21 +7,128 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.description.description import Description, Some
-from seacrane.description.drives import add_actuator
-from seacrane.description.forces import add_load
+from seacrane.description.elements import add_actuator, put_load
 from seacrane.description.holding import decided
-from seacrane.description.hydraulic_values import VALUES
 from seacrane.description.places import ORIGIN, apart
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, text_of
-from seacrane.inputs.values import flat
+from seacrane.inputs.values import flat, value
 
+NEVER = 1e7  # s
 HOSE = 0.05  # of the swept volume, where no hose volume is given
 BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
 ATMOSPHERE = 1e5  # Pa
 NEAR = 1e-6  # m
 FASTEST = 100.0  # m/s, of a piston: a flow that moves it faster is in other units
 LARGEST_HOSE = 100.0  # times the swept volume, likewise
+
+
+@value(_core.HydraulicCylinder)
+class Chamber:
+    """The full side or the rod side of a cylinder.
+
+    Without a pressure it has that which holds the scene at rest as described, a tenth of the pump's where it
+    carries nothing. Without a hose volume it has 5 % of the swept volume.
+    """
+
+    pressure: float | None = None  # Pa
+    hose_volume: float | None = None  # m3
+
+
+@value(_core.HydraulicCylinder, "oil", "modulus", "density")
+class Oil:
+    """Oil, and what gives with it. Where it boils is an event, and a `BoilingOilWarning`."""
+
+    modulus: float = 1.5e9  # Pa
+    hose_modulus: float = 1.5e8  # Pa
+    cylinder_modulus: float = 3.15e10  # Pa
+    density: float = 870.0  # kg/m3
+    air: float = 0.0
+    vapour_pressure: float = 2e3  # Pa
+    refuse_void: bool = False
+
+
+@value(_core.HydraulicCylinder)
+class Valve:
+    """The valve whose spool opens the way from pump and to tank; without a rated flow there is none."""
+
+    rated_flow: float = 0.0  # m3/s
+    rated_flow_rod: float = 0.0  # m3/s
+    rated_drop: float = 3.5e6  # Pa
+    laminar_drop: float = 2e5  # Pa
+    overlap: float = 0.0
+    spool_lag: float = 4.547e-3  # s
+    gain: float = 0.0  # 1/m
+    rate_gain: float = 0.0  # s/m
+
+
+@value(_core.HydraulicCylinder, "pump", "pressure", "check")
+class Pump:
+    """Where oil comes from, and goes to."""
+
+    pressure: float = 0.0  # Pa
+    tank_pressure: float = 1e5  # Pa
+    makeup_flow: float = 0.0  # m3/s
+    check: bool = False
+
+
+@value(_core.HydraulicCylinder, "relief")
+class Relief:
+    """Relief valves."""
+
+    pressure: float = 0.0  # Pa
+    pressure_rod: float = 0.0  # Pa
+    flow: float = 0.0  # m3/s
+    override: float = 1e6  # Pa
+
+
+@value(_core.HydraulicCylinder, "counterbalance", "pressure", "pressure_rod", "flow", "range")
+class Counterbalance:
+    """Load-holding valves."""
+
+    pressure: float = 0.0  # Pa
+    pressure_rod: float = 0.0  # Pa
+    flow: float = 0.0  # m3/s
+    range: float = 5e6  # Pa
+    pilot_ratio: float = 4.0
+
+
+@value(_core.HydraulicCylinder, "accumulator")
+class Accumulator:
+    """A gas accumulator on the full side."""
+
+    volume: float = 0.0  # m3
+    pressure: float = 0.0  # Pa
+    flow: float = 0.0  # m3/s
+    exponent: float = 1.4
+
+
+@value(_core.HydraulicCylinder)
+class Piston:
+    """What a piston and its seals do."""
+
+    viscous_friction: float = 0.0  # N s/m
+    friction: float = 0.0  # N
+    friction_speed: float = 0.01  # m/s
+    internal_leakage: float = 0.0  # m3/s/Pa
+    external_leakage: float = 0.0  # m3/s/Pa
+    stop_stiffness: float = 1e9  # N/m
+
+
+@value(_core.HydraulicCylinder, "rupture", "time", "area", rod_side="rod_side_ruptures")
+class Rupture:
+    """A hose that bursts."""
+
+    time: float = NEVER  # s
+    area: float = 0.0  # m2
+    rod_side: bool = False
+    discharge_coefficient: float = 0.6
+
+
+VALUES: dict[str, type[Any]] = {
+    "chamber": Chamber, "rod_chamber": Chamber, "oil": Oil, "valve": Valve, "pump": Pump, "relief": Relief,
+    "counterbalance": Counterbalance, "accumulator": Accumulator, "piston": Piston, "rupture": Rupture,
+}  # fmt: skip
 
 
 def hydraulic_cylinders(scene: Description) -> dict[str, _core.HydraulicCylinder]:
@@ -76,8 +183,7 @@ def place_cylinder(
     _check_units(what, settings)
     if not {"pressure", "pressure_rod"} <= settings.keys():
         settings |= _pressures(what, holding(), settings)
-    added: _core.HydraulicCylinder = add_load(scene, _core.HydraulicCylinder(**settings))
-    return added
+    return put_load(scene, _core.HydraulicCylinder(**settings))
 
 
 def _check_units(what: str, settings: dict[str, Any]) -> None:
@@ -86,16 +192,18 @@ def _check_units(what: str, settings: dict[str, Any]) -> None:
     for key in ("rated_flow", "rated_flow_rod"):
         flow = number_of(f"{what}: {key}", settings.get(key, 0.0))
         if flow > FASTEST * full > 0.0:
-            raise SceneError(
-                f"{what}: {key} is {flow:g} m3/s, which moves the piston by {flow / full:.3g} m/s; give "
-                f"m3/s: {flow:g} l/min are {flow / 6e4:.3g}"
+            raise SceneError.of(
+                f"{what}: {key}",
+                f"is {flow:g} m3/s, which moves the piston by {flow / full:.3g} m/s; give "
+                f"m3/s: {flow:g} l/min are {flow / 6e4:.3g}",
             )
     for key in ("hose_volume", "hose_volume_rod"):
         volume = number_of(f"{what}: {key}", settings[key])
         if volume > LARGEST_HOSE * full * stroke > 0.0:
-            raise SceneError(
-                f"{what}: {key} is {volume:g} m3, and the piston sweeps {full * stroke:.3g} m3; give m3: "
-                f"{volume:g} l are {1e-3 * volume:.3g}"
+            raise SceneError.of(
+                f"{what}: {key}",
+                f"is {volume:g} m3, and the piston sweeps {full * stroke:.3g} m3; give m3: {volume:g} l are "
+                f"{1e-3 * volume:.3g}",
             )
 
 

@@ -1,4 +1,4 @@
-"""What a recorded channel may reach."""
+"""Where a joint coordinate is meant to stay, and what a recorded channel may reach."""
 
 from __future__ import annotations
 
@@ -6,6 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from seacrane.inputs.read_only import ReadOnly
+
+
+@dataclass(frozen=True, kw_only=True)
+class Range:
+    """Where a joint coordinate is meant to stay, m or rad, such as a cylinder's stroke."""
+
+    name: str
+    joint: str
+    coordinate: str
+    minimum: float
+    maximum: float
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -143,6 +143,11 @@ def path_of(line: _core.Line) -> list[tuple[str, Any]]:
     return list(zip(line.bodies, line.points, strict=True))
 
 
+def joint_ends(joint: _core.Joint) -> tuple[tuple[str, Any], tuple[str, Any]]:
+    """Body and point (m, its coordinates) of both sides of a joint."""
+    return (joint.first, joint.first_frame.point), (joint.second, joint.second_frame.point)
+
+
 def bodies_of(element: Any, joints: Mapping[str, _core.Joint]) -> list[str]:
     """The bodies that an element concerns: those it names, and those of the joints it names."""
     held = [joints[name] for name in named(element, "joint") if name in joints]

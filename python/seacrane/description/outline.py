@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,8 @@ from seacrane import _core
 from seacrane.description.crane_parts import tips
 from seacrane.description.description import GROUND, Description
 from seacrane.description.given import floating_bodies, given_vessels, shown_size
-from seacrane.description.loads import lines_of, path_of, springs_of
-from seacrane.description.range import Range
+from seacrane.description.limit_state import Range
+from seacrane.description.loads import joint_ends, lines_of, path_of, springs_of
 from seacrane.description.suspension import hung_loads
 
 Array = NDArray[np.float64]
@@ -36,25 +36,17 @@ def outline_of(scene: Description) -> dict[str, Any]:
     bodies = {name: _about(body, ship=name in ships) for name, body in scene.bodies.items()}
     for name in given_vessels(scene):
         bodies[name]["ship"] |= dict(zip(("length", "breadth"), shown_size(scene, name), strict=False))
-    links = []
-    for joint in scene.joints.values():
-        ends = _ends(scene, joint.first, joint.first_frame.point, joint.second, joint.second_frame.point)
-        for name, point in ends:
-            if name in bodies and point not in bodies[name]["points"]:
-                bodies[name]["points"].append(point)
-        if joint.kind == "distance":
-            links.append([*ends[0], *ends[1]])
-    for tip in tips(scene).values():
-        name, point = tip[0], _relative(scene, *tip)
-        if point not in bodies[name]["points"]:
+    joined = {name: joint_ends(one) for name, one in scene.joints.items()}
+    for name, end in [*chain.from_iterable(joined.values()), *tips(scene).values()]:
+        point = _relative(scene, name, end)
+        if name in bodies and point not in bodies[name]["points"]:
             bodies[name]["points"].append(point)
+    spans = [ends for name, ends in joined.items() if scene.joints[name].kind == "distance"]
     for _, spring in springs_of(scene.springs, scene.loads):
-        ends = _ends(scene, spring.first, spring.first_point, spring.second, spring.second_point)
-        links.append([*ends[0], *ends[1]])
+        spans.append(((spring.first, spring.first_point), (spring.second, spring.second_point)))
     for line in lines_of(scene.loads).values():
-        for start, end in pairwise(path_of(line)):
-            ends = _ends(scene, *start, *end)
-            links.append([*ends[0], *ends[1]])
+        spans += pairwise(path_of(line))
+    links = [[name for body, end in ends for name in (body, _relative(scene, body, end))] for ends in spans]
     return {"bodies": bodies, "links": links}
 
 
@@ -93,12 +85,6 @@ def _about(body: _core.Body, *, ship: bool) -> dict[str, Any]:
     length, breadth = ship_size(body)
     origin = (-np.asarray(body.center_of_mass)).tolist()
     return {"points": [], "ship": {"length": length, "breadth": breadth, "origin": origin}}
-
-
-def _ends(
-    scene: Description, first: str, first_point: Any, second: str, second_point: Any
-) -> tuple[tuple[str, list[float]], tuple[str, list[float]]]:
-    return (first, _relative(scene, first, first_point)), (second, _relative(scene, second, second_point))
 
 
 def _relative(scene: Description, body: str, point: Any) -> list[float]:

@@ -77,12 +77,9 @@ class Pick:
 
 
 def pick_of(
-    what: str,
-    channel: str | Pick,
-    names: Mapping[str, str] | None = None,
-    *,
+    what: str, channel: str | Pick, names: Mapping[str, str] | None = None, *,
     held: Collection[str] | None = None,
-) -> Pick:
+) -> Pick:  # fmt: skip
     """A selector as a value, from its text or from a channel with names.
 
     Parameters

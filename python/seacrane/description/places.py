@@ -1,26 +1,36 @@
-"""Where points of bodies are as a scene describes them."""
+"""Where points of bodies and joints are as described, and how they move in what the core records."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from seacrane.description.description import GROUND, Description
+from seacrane import _core
+from seacrane.description.description import GROUND, Description, require
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of, text_of
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.frames import cross, euler_matrix, rotation_matrix
+
+if TYPE_CHECKING:
+    from seacrane.description.description import Description
 
 ORIGIN = (0.0, 0.0, 0.0)
+Array = NDArray[np.float64]
+POSE = ("position", "quaternion")
+MOTION = (*POSE, "velocity", "angular_velocity")
+Pose = tuple[Array, Array]
+AXES = {"displacement": 2, "x": 0, "y": 1, "z": 2}
+ANGLES = ("angle", "roll", "pitch", "yaw")
 
 
 def apart(scene: Description, what: str, *ends: tuple[str, Any]) -> float:
     """Distance of two points of bodies as described, m; SceneError for a body that is not there."""
-    for body, _ in ends:
-        if body != GROUND and body not in scene.bodies:
-            raise SceneError(f"{what}: there is no body {body!r}; add it first")
-    first, second = (placed(scene, *end) for end in ends)
+    first, second = (
+        placed(scene, require(scene, what, "body", body, ground=True), point) for body, point in ends
+    )
     return float(np.linalg.norm(second - first))
 
 
@@ -80,3 +90,91 @@ def placed(scene: Description, body: str, point: Any) -> NDArray[np.float64]:
         return local
     held = scene.bodies[body]
     return np.asarray(np.asarray(held.position) + rotation_matrix(held.quaternion) @ local)
+
+
+def position_of(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
+    """The position of a point of a body, or of the ground, inertial frame, m, shape (time, 3)."""
+    if body not in scene.bodies:  # the ground
+        return np.broadcast_to(np.asarray(point, float), (len(arrays["position"]), 3)).copy()
+    return np.asarray(arrays["position"][:, place_in(scene, body)] + _lever(scene, arrays, body, point))
+
+
+def velocity_of(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
+    """The velocity of a point of a body, or of the ground, inertial frame, m/s, shape (time, 3)."""
+    if body not in scene.bodies:
+        return np.zeros((len(arrays["position"]), 3))
+    place = place_in(scene, body)
+    turning = cross(arrays["angular_velocity"][:, place], _lever(scene, arrays, body, point))
+    return np.asarray(arrays["velocity"][:, place] + turning)
+
+
+def relative_motion(
+    scene: Description, arrays: Mapping[str, Array], point: str, to: str, axes: str, *, velocity: bool
+) -> Array:
+    """Motion of a named point over another along the axes of a body, m; its rate, m/s; shape (time, 3)."""
+    ends = [scene.points[name] for name in (point, to)]
+    over, below = (position_of(scene, arrays, one.body, one.point) for one in ends)
+    told = over - below
+    if velocity:
+        fast, slow = (velocity_of(scene, arrays, one.body, one.point) for one in ends)
+        rate = fast - slow
+        if axes in scene.bodies:
+            rate -= cross(arrays["angular_velocity"][:, place_in(scene, axes)], told)
+        told = rate
+    if axes not in scene.bodies:
+        return np.asarray(told)
+    turn = rotation_matrix(arrays["quaternion"][:, place_in(scene, axes)])
+    return np.asarray((told[:, None, :] @ turn)[:, 0])
+
+
+def place_in(scene: Description, body: str) -> int:
+    """The column of a body in the core's channels of bodies."""
+    return list(scene.bodies).index(body)
+
+
+def _lever(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
+    """From the centre of mass of a body to a point of it, inertial frame, m."""
+    in_body = np.asarray(point, float) - np.asarray(scene.bodies[body].center_of_mass)
+    turn = arrays["quaternion"][:, place_in(scene, body)]
+    w, axis = turn[:, :1], turn[:, 1:]
+    across = cross(axis, in_body)
+    return np.asarray(in_body + 2.0 * (w * across + cross(axis, across)))
+
+
+def wrapped(angle: Array) -> Array:
+    """The same directions between -pi and pi."""
+    return angle - 2.0 * np.pi * np.floor(angle / (2.0 * np.pi) + 0.5)
+
+
+def coordinate_at(scene: Description, joint: str, coordinate: str, pose: Callable[[str], Pose]) -> Array:
+    """Values (n,) of a joint coordinate, m or rad; `pose` tells centre of mass and rotation of a body."""
+    described = scene.joints[joint]
+    point_a, a = _side(scene, described.first, described.first_frame, pose)
+    point_b, b = _side(scene, described.second, described.second_frame, pose)
+    if coordinate in AXES:
+        return np.asarray(np.sum(a[..., :, AXES[coordinate]] * (point_b - point_a), axis=-1))
+    between = np.swapaxes(a, -1, -2) @ b
+    if coordinate == "roll":
+        return np.arctan2(between[..., 2, 1], between[..., 2, 2])
+    if coordinate == "pitch":
+        return np.arcsin(np.clip(-between[..., 2, 0], -1.0, 1.0))
+    return np.arctan2(between[..., 1, 0], between[..., 0, 0])
+
+
+def _side(scene: Description, body: str, frame: _core.Frame, pose: Callable[[str], Pose]) -> Pose:
+    """The joint's point (n, 3) and axes (n, 3, 3) on a body, inertial frame."""
+    if body not in scene.bodies:
+        return frame.point[None], frame.axes[None]
+    centre, turn = pose(body)
+    return centre + turn @ (frame.point - scene.bodies[body].center_of_mass), turn @ frame.axes
+
+
+def start_pose(scene: Description, model: _core.Model, body: str) -> Pose:
+    """Centre of mass (1, 3) and rotation (1, 3, 3) of a body at the assembled start."""
+    index = list(scene.bodies).index(body)
+    size = model.twist_index(0) // len(scene.bodies)
+    values = np.asarray(model.initial_state)[size * index : size * (index + 1)]
+    turn = rotation_matrix(values[3:]) if size == 7 else euler_matrix(values[3:])
+    floating = any(vessel.body == body for vessel in scene.vessels.values())
+    lever = scene.bodies[body].center_of_mass if floating else np.zeros(3)
+    return (values[:3] + turn @ lever)[None], turn[None]

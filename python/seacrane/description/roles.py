@@ -1,52 +1,126 @@
-"""The parts of a crane by the work they do: its slew drive, cylinders, link, payload and tip."""
+"""The parts of a crane by the work they do: slew drive, cylinders, ropes, link, payload, tip and capacity."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
-from seacrane.description.capacity import Capacity
-from seacrane.description.cylinder_areas import Areas
-from seacrane.description.luffing_rope import LuffingRope
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of, rows_of, shaped_of
 from seacrane.inputs.read_only import ReadOnly
+from seacrane.inputs.shown import shown
 
+Array = NDArray[np.float64]
+LARGEST_FACTOR = 10.0
+Capacity = tuple[tuple[float, float], ...]  # radius, m, and load, kg
+Areas = tuple[float, float]  # full side and rod side, m2
 Vector = tuple[float, float, float]
+Block = tuple[str, Vector]
+
+
+def capacity_of(what: str, given: Any) -> Capacity:
+    """Rows of radius and load, the radii increasing; SceneError for anything else."""
+    rows = rows_of(f"{what}: capacity", given, 2)
+    if not np.all(np.isfinite(rows)) or np.any(rows <= 0.0) or np.any(np.diff(rows[:, 0]) <= 0.0):
+        raise SceneError(
+            f"{what}: capacity is {rows.tolist()}; give rows of radius (m, increasing) and load (kg), all "
+            "above zero"
+        )
+    return tuple((float(radius), float(load)) for radius, load in rows)
+
+
+def design_factor_of(what: str, given: Any) -> float:
+    """The dynamic factor that a table contains; SceneError below 1."""
+    factor = number_of(f"{what}: design_factor", given)
+    if not 1.0 <= factor <= LARGEST_FACTOR:
+        raise SceneError(
+            f"{what}: design_factor is {factor:g}; give the dynamic factor that the capacity contains, from "
+            f"1 to {LARGEST_FACTOR:g}"
+        )
+    return factor
+
+
+def allowed_at(capacity: Capacity, radius: ArrayLike) -> Array:
+    """Loads (kg) at radii: linear between rows, that of the first below it, none beyond the last."""
+    radii, loads = zip(*capacity, strict=True)
+    return np.asarray(np.interp(np.asarray(radius, dtype=float), radii, loads, right=0.0))
+
+
+def areas_of(what: str, given: Any) -> Areas:
+    """Full side and rod side of a piston, m2; SceneError for what is no cylinder."""
+    full, ring = (float(value) for value in shaped_of(f"{what}: areas", given, (2,)))
+    if not (np.isfinite(full) and 0.0 < ring <= full):
+        raise SceneError(
+            f"{what}: areas are {full:g} and {ring:g} m2; give the full side and then the rod side, which is "
+            "above zero and not larger"
+        )
+    return full, ring
+
+
+def areas_by_label(what: str, given: Any, cylinders: Mapping[str, str]) -> dict[str, Areas]:
+    """Areas by the labels of cylinders."""
+    if not isinstance(given, Mapping):
+        raise SceneError(f"{what}: areas are {shown(given)}; give {{label: (full side, rod side)}}, m2")
+    for label in given:
+        if label not in cylinders:
+            raise SceneError(
+                f"{what}: areas are given of cylinder {label!r}; the cylinders are "
+                f"{', '.join(map(repr, cylinders)) or 'none'}"
+            )
+    return {label: areas_of(f"{what}: cylinder {label!r}", pair) for label, pair in given.items()}
+
+
+def pressure(force: ArrayLike, areas: Areas) -> Array:
+    """Pressure (Pa) over the other chamber's, of the chamber that carries a force (N; positive pushes).
+
+    Positive: on the full side. Negative: on the rod side. The other chamber counts as relieved.
+    """
+    loads = np.asarray(force, dtype=float)
+    return np.asarray(np.where(loads >= 0.0, loads / areas[0], loads / areas[1]))
+
+
+@dataclass(frozen=True, kw_only=True)
+class LuffingRope:
+    """A rope of several falls between blocks on both sides of a hinge.
+
+    Attributes
+    ----------
+    name : Of the line that stands for it once it is one, see `Scene.add_luffing_rope`.
+    falls : Parts of rope between the blocks; all carry the same tension.
+    EA : Axial stiffness of one fall, N.
+    first, second : (str, (float, float, float))
+        Body and point in its coordinates, m; the second one moves with the hinge.
+    """
+
+    name: str
+    falls: int
+    EA: float
+    first: Block
+    second: Block
+
+
+def lengthening(hinge: Array, axis: Array, first: Array, second: Array) -> float:
+    """Rate of the distance between the blocks per rate of the hinge's angle, m/rad.
+
+    Parameters
+    ----------
+    hinge, axis, first, second : ndarray, shape (3,)
+        A point of the hinge, its unit vector, and both blocks; one frame, m.
+    """
+    along = (second - first) / np.linalg.norm(second - first)
+    return float(along @ np.cross(axis, second - hinge))
 
 
 @dataclass(frozen=True, kw_only=True)
 class CraneRoles:
     """Which elements of a scene are the parts of one crane. Channels, figures and studies read it.
 
-    Attributes
-    ----------
-    prefix : str
-        Begins every label, such as "aft main" of the cylinder "main"; it tells cranes of a scene apart.
-    slew : (str, str) or None
-        Joint and coordinate of the slew drive.
-    cylinders : mapping of str to str
-        Sliding joint of every cylinder, by its label without the prefix.
-    luffs : mapping of str to (str, str)
-        Joint and coordinate of every hinge that raises and lowers the jib, by its label.
-    ropes : mapping of str to LuffingRope
-        That hold hinges, by the hinge's label.
-    link : str or None
-        Distance joint from the tip to the payload.
-    line : str or None
-        In its place, the line from the tip on which the payload hangs, by itself or below a block.
-    payload : str or None
-        Body that hangs on either.
-    tip : (str, (float, float, float)) or None
-        Body that carries the tip, and the tip in its coordinates, m.
-    capacity : tuple of (float, float)
-        Largest allowable load (kg) over the radius of the tip from the slew axis (m); empty: none is known.
-    areas : mapping of str to (float, float)
-        Full side and rod side of the piston, m2, by the cylinder's label, where they are known.
-    held : bool
-        Whether a drive on which nothing acts when the scene is compiled is held as it is described.
-    design_factor : float
-        Dynamic factor that the capacity contains: a hook load may be that many times its weight.
-    structure : str or None
-        Joint and spring, of one name, by which the crane leans, where it gives.
+    Its attributes are the words of `Scene.add_roles`, as they were given or found: labels are without the
+    prefix, a drive is a joint and its coordinate, and what is not known is None or empty.
     """
 
     prefix: str = ""
@@ -65,7 +139,5 @@ class CraneRoles:
     structure: str | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "cylinders", ReadOnly(self.cylinders))
-        object.__setattr__(self, "areas", ReadOnly(self.areas))
-        object.__setattr__(self, "luffs", ReadOnly(self.luffs))
-        object.__setattr__(self, "ropes", ReadOnly(self.ropes))
+        for name in ("cylinders", "areas", "luffs", "ropes"):
+            object.__setattr__(self, name, ReadOnly(getattr(self, name)))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from seacrane.description.given import floating_bodies
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.loads import lines_of, path_of, springs_of, whole_of
+from seacrane.description.loads import joint_ends, lines_of, path_of, springs_of, whole_of
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.rungs import RIGID, WITH_MASS
 from seacrane.description.wet_parts import buoyancy_of, water_in, wet_bodies
@@ -111,23 +111,19 @@ def names_of_suspensions(scene: Description) -> Sequence[str]:
 def lower_ends(scene: Description) -> list[Place]:
     """Where each of `names_of_suspensions` ends: of a line the last of its points on what hangs."""
     joints = [joint for joint in scene.joints.values() if joint.kind == "distance"]
-    ends = [(joint.second, _point(joint.second_frame.point)) for joint in joints]
+    ends = [_place(joint_ends(joint)[1]) for joint in joints]
     for line in lines_of(scene.loads).values():
         hooked = hooked_body(line)
-        ends.append([(body, _point(point)) for body, point in path_of(line) if body == hooked][-1])
+        ends.append([_place(end) for end in path_of(line) if end[0] == hooked][-1])
     return ends
 
 
 @once_in_any_sea
 def weights_on(scene: Description) -> Mapping[str, tuple[float, int]]:
     """Weight (N) on every suspension that alone carries it, and on how many falls, by its `channel`."""
-    ties, found = _ties_of(scene), {}
-    for one in suspensions(scene):
-        weight = ties.weight(one)
-        if weight is not None:
-            found[one.channel] = (weight, one.falls)
-            found[one.top] = (weight + ties.weight_of(_inside(scene, one)), one.falls)
-    return found
+    ties = _ties_of(scene)
+    held = [(one, ties.weight(one) or 0.0) for one in suspensions(scene)]
+    return {end: (weight, one.falls) for one, own in held for end, weight in _ends(scene, one, own)}
 
 
 @once_in_any_sea
@@ -144,13 +140,16 @@ def least_weights(scene: Description) -> Mapping[str, float]:
     The lesser of two: in air, with compartments empty, and with all parts in water, compartments full. None
     of what floats.
     """
-    ties, found = _ties_of(scene), {}
-    for one in suspensions(scene):
-        left = _least_weight(scene, ties.below(one))
-        if left > 0.0:
-            found[one.channel] = left
-            found[one.top] = left + ties.weight_of(_inside(scene, one))
-    return found
+    ties = _ties_of(scene)
+    held = [(one, _least_weight(scene, ties.below(one))) for one in suspensions(scene)]
+    return {end: weight for one, own in held for end, weight in _ends(scene, one, own)}
+
+
+def _ends(scene: Description, one: Suspension, weight: float) -> Iterator[tuple[str, float]]:
+    """Channels of the lower and the upper end, with the weights (N) there; none without a weight."""
+    if weight > 0.0:
+        yield one.channel, weight
+        yield one.top, weight + _ties_of(scene).weight_of(_inside(scene, one))
 
 
 def _least_weight(scene: Description, bodies: Sequence[str]) -> float:
@@ -201,22 +200,16 @@ def _wet_suspensions(scene: Description) -> set[str]:
 @once_in_any_sea
 def line_weights(scene: Description) -> Mapping[str, tuple[float, int]]:
     """`weights_on` the lines without mass that stretch, by the name of the line."""
-    ties, found = _ties_of(scene), {}
-    for one in suspensions(scene):
-        weight = None if one.rung in (ROD, RIGID, WITH_MASS) else ties.weight(one)
-        if weight is not None:
-            found[one.name] = (weight, one.falls)
-    return found
+    stretching = [one for one in suspensions(scene) if one.rung not in (ROD, RIGID, WITH_MASS)]
+    held = [(one, _ties_of(scene).weight(one)) for one in stretching]
+    return {one.name: (weight, one.falls) for one, weight in held if weight is not None}
 
 
 @once_in_any_sea
 def bodies_below(scene: Description) -> Sequence[tuple[Suspension, Sequence[str]]]:
     """What hangs on each suspension and on nothing else, its own masses too; the uppermost one first."""
-    ties, found = _ties_of(scene), []
-    for one in suspensions(scene):
-        below = ties.below(one)
-        if below:
-            found.append((one, [*below, *sorted(_inside(scene, one))]))
+    held = [(one, _ties_of(scene).below(one)) for one in suspensions(scene)]
+    found = [(one, [*below, *sorted(_inside(scene, one))]) for one, below in held if below]
     return sorted(found, key=lambda pair: -len(pair[1]))
 
 
@@ -243,8 +236,7 @@ def hooked_body(line: Any) -> str:
 
 
 def _of_joint(name: str, joint: _core.Joint, rung: str) -> Suspension:
-    first = (joint.first, _point(joint.first_frame.point))
-    second = (joint.second, _point(joint.second_frame.point))
+    first, second = map(_place, joint_ends(joint))
     return Suspension(
         name=name, channel=name, top=name, rung=rung, first=first, upper=first, lower=second, falls=1,
         parts=frozenset([name]),
@@ -258,16 +250,11 @@ def _of_lines(name: str, segments: Mapping[str, _core.Line], joints: Iterable[st
     spans = [pair for pair in pairwise(path) if (pair[0][0] == hooked) != (pair[1][0] == hooked)]
     upper, lower = sorted(spans[-1], key=lambda end: end[0] == hooked)
     return Suspension(
-        name=name,
-        channel=_beside(lowest, joints),
-        top=_beside(highest, joints),
+        name=name, channel=_beside(lowest, joints), top=_beside(highest, joints),
         rung=WITH_MASS if len(segments) > 1 or name != lowest else last.rung,
-        first=_place(path_of(highest_line)[0]),
-        upper=_place(upper),
-        lower=_place(lower),
-        falls=len(spans),
+        first=_place(path_of(highest_line)[0]), upper=_place(upper), lower=_place(lower), falls=len(spans),
         parts=frozenset(segments),
-    )
+    )  # fmt: skip
 
 
 def _inside(scene: Description, one: Suspension) -> set[str]:
@@ -374,14 +361,9 @@ def _lowest(scene: Description, one: Suspension, every: Sequence[Suspension], be
 
 
 def _hung(
-    scene: Description,
-    label: str,
-    crane: CraneRoles | None,
-    one: Suspension,
-    load: str,
-    every: Sequence[Suspension],
-    weight: float | None,
-) -> Hung:
+    scene: Description, label: str, crane: CraneRoles | None, one: Suspension, load: str,
+    every: Sequence[Suspension], weight: float | None,
+) -> Hung:  # fmt: skip
     """With the middle of the points by which the load is held."""
     points = [one.lower[1]] if one.lower[0] == load else list(_held_at(scene, load, every))
     middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True)) or (0.0, 0.0, 0.0)

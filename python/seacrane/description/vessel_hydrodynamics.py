@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from seacrane import _core
@@ -38,7 +39,7 @@ class VesselHydrodynamics(_core.VesselHydrodynamics):
         return super().__getstate__() | {"database": self._database}
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _made, (self.__getstate__(),)
+        return partial(VesselHydrodynamics, **self.__getstate__()), ()
 
     def __copy__(self) -> VesselHydrodynamics:
         return self
@@ -51,10 +52,6 @@ class VesselHydrodynamics(_core.VesselHydrodynamics):
         return same if same is not True else alike(self.database, getattr(other, "database", None))
 
     __hash__ = _core.VesselHydrodynamics.__hash__
-
-
-def _made(entries: dict[str, Any]) -> VesselHydrodynamics:
-    return VesselHydrodynamics(**entries)
 
 
 def alike(one: Source | None, other: Source | None) -> bool:

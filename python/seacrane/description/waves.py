@@ -11,19 +11,46 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.provenance import SeaProvenance
-from seacrane.description.wave_grid import grid_of
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import finite_of, not_negative_of
 from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 from seacrane.sea.current import Current
 from seacrane.warnings import RepeatingSeaWarning
 
 Array = NDArray[np.float64]
+OFF_GRID = 1e-9  # of a step: a phase of 6e-9 rad at the end of the period
+FINEST = 8  # parts of the smallest distance between frequencies that a step may be
+LARGEST_NUMBER = 2**18  # of a component on the grid: a week of waves, 100 MB of knots
 STRETCHING = ("wheeler", "none")
 EVALUATIONS = ("table", "exact", "fft")
+
+
+def grid_of(omega: Array) -> tuple[float, NDArray[np.int64]]:
+    """The widest step (rad/s) of which all frequencies (n,), rad/s, are multiples, and the multiples (n,).
+
+    The sea repeats after 2 pi / step. Raises ValueError if the frequencies are on no such grid.
+    """
+    distinct = np.unique(omega)
+    distance = np.diff(distinct)
+    # Frequencies that differ by rounding only are one.
+    distance = distance[distance > 1e-9 * distinct[-1]]
+    widest = float(distance.min()) if distance.size else float(distinct[0])
+    for parts in range(1, FINEST + 1):
+        step = widest / parts
+        number = np.rint(omega / step)
+        if number.max() > LARGEST_NUMBER or number.min() < 1.0:
+            continue
+        # The least-squares step removes the rounding of the smallest distance.
+        step = float(number @ omega / (number @ number))
+        if np.abs(omega / step - number).max() < OFF_GRID:
+            return step, number.astype(np.int64)
+    raise ValueError(
+        "evaluation 'fft' needs frequencies that are multiples of one step; realise the sea with "
+        "placement='uniform', or choose evaluation='table'"
+    )
 
 
 class _ReadOnly:
@@ -104,14 +131,8 @@ class HullLoads(_ReadOnly):
         return "mean" if self.force_by_heading is None else "slow" if self.cutoff else "actual"
 
     def __post_init__(self) -> None:
-        if not np.isfinite(number_of("waves: heading", self.heading)):
-            raise SceneError(f"waves: heading is {self.heading}; give a finite number, rad")
-        cutoff = number_of("waves: cutoff", self.cutoff)
-        if not (np.isfinite(cutoff) and cutoff >= 0.0):
-            raise SceneError(
-                f"waves: cutoff is {self.cutoff} rad/s; give the frequency below which a motion is slow, or 0"
-            )
-        if cutoff and self.force_by_heading is None:
+        finite_of("waves: heading", self.heading, "rad")
+        if not_negative_of("waves: cutoff", self.cutoff, "rad/s") and self.force_by_heading is None:
             raise SceneError(
                 f"waves: cutoff is {self.cutoff} rad/s and there is no force_by_heading; loads at one place "
                 "have no slow position, take phase='slow' in add_sea, or cutoff=0"
@@ -235,13 +256,9 @@ class Waves(_ReadOnly):
         """The sea alone."""
         flow: dict[str, Any] = {} if self.current is None else {"current": self.current.core()}
         return _core.WaveComponents(
-            omega=self.omega,
-            amplitude=self.amplitude,
-            phase=self.phase,
-            direction=self.direction,
-            depth=self.depth,
-            **flow,
-        )
+            omega=self.omega, amplitude=self.amplitude, phase=self.phase, direction=self.direction,
+            depth=self.depth, **flow,
+        )  # fmt: skip
 
     def field(self) -> _core.SeaField:
         """What moving points see of the sea."""

@@ -16,18 +16,17 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
-from seacrane.description.file import scene_digest
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members
 from seacrane.ensembles.study import Stages, Study
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.drafts import is_draft, remove_all
+from seacrane.inputs.atomic import atomic_write, is_draft, remove_all
 from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 from seacrane.inputs.json_text import json_of
 from seacrane.inputs.sole_writer import claim, opened
 from seacrane.inputs.whole_file import read_whole
 from seacrane.run.stage import Stage
+from seacrane.scene.file import scene_digest
 from seacrane.scene.scene import Scene
 from seacrane.version import __version__
 

@@ -14,6 +14,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
+FEW = 2000  # numbers, which are looked at one by one sooner than they are added
 
 
 def text_of(what: str, value: Any, usual: str = "") -> str:
@@ -21,7 +22,7 @@ def text_of(what: str, value: Any, usual: str = "") -> str:
     if value is None or (isinstance(value, str) and not value):
         value = usual or value
     if not isinstance(value, str) or not value.isprintable():
-        raise SceneError(f"{what} is {shown(value)}; give a name, a printable text")
+        raise SceneError.of(what, f"is {shown(value)}; give a name, a printable text")
     return str(value)
 
 
@@ -29,24 +30,24 @@ def name_of(kind: str, value: Any, usual: str = "") -> str:
     """A printable text that is not empty; None and the empty text stand for the usual one."""
     name = text_of(f"{kind}: name", value, usual)
     if not name:
-        raise SceneError(f"{kind}: name is empty; give every element a name")
+        raise SceneError.of(f"{kind}: name", "is empty; give every element a name")
     return name
 
 
 def texts_of(what: str, value: Any) -> list[str]:
     """A list of printable texts."""
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
-        raise SceneError(f"{what} is {shown(value)}; give a list of texts")
+        raise SceneError.of(what, f"is {shown(value)}; give a list of texts")
     texts = list(value)
     if not all(isinstance(text, str) for text in texts):
-        raise SceneError(f"{what} is {shown(value)}; give a list of texts")
+        raise SceneError.of(what, f"is {shown(value)}; give a list of texts")
     return [text_of(f"{what}[{i}]", text) for i, text in enumerate(texts)]
 
 
 def flag_of(what: str, value: Any) -> bool:
     """A truth value, nothing that merely counts as one."""
     if not isinstance(value, (bool, np.bool_)):
-        raise SceneError(f"{what} is {shown(value)}; give True or False")
+        raise SceneError.of(what, f"is {shown(value)}; give True or False")
     return bool(value)
 
 
@@ -54,13 +55,15 @@ def number_of(what: str, value: Any) -> float:
     """A float; not a text that reads like one, nor a row of one number."""
     if getattr(value, "ndim", 0):
         kind, shape = type(value).__name__, getattr(value, "shape", "")
-        raise SceneError(f"{what} is a {kind} of shape {shape}; give a number: one of its values, not a row")
+        raise SceneError.of(
+            what, f"is a {kind} of shape {shape}; give a number: one of its values, not a row"
+        )
     try:
         if isinstance(value, (str, bytes)):
             raise TypeError
         return float(value)
     except (TypeError, ValueError, OverflowError) as error:
-        raise SceneError(f"{what} is {shown(value)}; give a number") from error
+        raise SceneError.of(what, f"is {shown(value)}; give a number") from error
 
 
 def finite_of(what: str, value: Any, unit: str = "") -> float:
@@ -81,7 +84,7 @@ def not_negative_of(what: str, value: Any, unit: str = "") -> float:
 def _within(what: str, value: Any, unit: str, least: float, fix: str) -> float:
     number = number_of(what, value)
     if not (math.isfinite(number) and number >= least):
-        raise SceneError(f"{what} is {number}{unit and f' {unit}'}; {fix}")
+        raise SceneError.of(what, f"is {number}{unit and f' {unit}'}; {fix}")
     return number
 
 
@@ -89,7 +92,7 @@ def vector_of(what: str, value: Any) -> list[float]:
     """A list of floats from a one-dimensional array_like."""
     array = numbers_of(what, value)
     if array.ndim != 1:
-        raise SceneError(f"{what} has shape {array.shape}; give one row of numbers")
+        raise SceneError.of(what, f"has shape {array.shape}; give one row of numbers")
     return [float(v) for v in array]
 
 
@@ -102,7 +105,7 @@ def numbers_of(what: str, value: Any) -> Array:
             raise TypeError
         return np.asarray(array, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
-        raise SceneError(f"{what} is {shown(value)}; give numbers") from error
+        raise SceneError.of(what, f"is {shown(value)}; give numbers") from error
 
 
 def require_unmasked(what: str, value: Any) -> None:
@@ -110,9 +113,10 @@ def require_unmasked(what: str, value: Any) -> None:
     if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
         mask = np.ma.getmaskarray(value)
         place = ", ".join(str(int(i)) for i in np.argwhere(mask)[0])
-        raise SceneError(
-            f"{what} has {int(mask.sum())} masked values, the first at [{place}]; leave such samples out, or "
-            "fill them by seacrane.statistics.interpolated(time, values)"
+        raise SceneError.of(
+            what,
+            f"has {int(mask.sum())} masked values, the first at [{place}]; leave such samples out, or "
+            "fill them by seacrane.statistics.interpolated(time, values)",
         )
 
 
@@ -124,7 +128,7 @@ def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:
     """An array of floats of one shape."""
     array = numbers_of(what, value)
     if array.shape != shape:
-        raise SceneError(f"{what} has shape {array.shape}; give {shape}")
+        raise SceneError.of(what, f"has shape {array.shape}; give {shape}")
     return array
 
 
@@ -133,7 +137,7 @@ def rows_of(what: str, value: Any, width: int) -> Array:
     array = numbers_of(what, value)
     array = array.reshape(0, width) if array.shape == (0,) else array
     if array.ndim != 2 or array.shape[1] != width:
-        raise SceneError(f"{what} has shape {array.shape}; give (n, {width})")
+        raise SceneError.of(what, f"has shape {array.shape}; give (n, {width})")
     return array
 
 
@@ -142,14 +146,14 @@ def matrix_of(what: str, value: Any) -> Array:
     array = numbers_of(what, value)
     array = array.reshape(0, 0) if array.shape == (0,) else array
     if array.ndim != 2:
-        raise SceneError(f"{what} has shape {array.shape}; give rows of numbers")
+        raise SceneError.of(what, f"has shape {array.shape}; give rows of numbers")
     return array
 
 
 def address_of(what: str, value: Any) -> int:
     """The address of a C function."""
     if not isinstance(value, int) or not 0 < value < 2**64:
-        raise SceneError(f"{what} is {value!r}; give the address of a C function")
+        raise SceneError.of(what, f"is {value!r}; give the address of a C function")
     return value
 
 
@@ -159,5 +163,14 @@ def curve_of(what: str, value: Any) -> _core.Curve:
         return value
     number = number_of(what, value)
     if not np.isfinite(number):
-        raise SceneError(f"{what} is {number}; give a finite number or a curve")
+        raise SceneError.of(what, f"is {number}; give a finite number or a curve")
     return _core.Curve.constant(value=number)
+
+
+def is_finite(array: NDArray[Any]) -> bool:
+    """A finite sum has finite terms; one that is not may be too large."""
+    if array.size > FEW:
+        with np.errstate(over="ignore", invalid="ignore"):
+            if np.isfinite(array.sum()):
+                return True
+    return bool(np.isfinite(array).all())

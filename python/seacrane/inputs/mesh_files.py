@@ -23,6 +23,7 @@ from seacrane.inputs.whole_file import read_whole
 FloatArray = NDArray[np.float64]
 
 STL_HEADER, STL_RECORD, MOST_SOLIDS = 84, 50, 1000  # bytes
+MOST_TRIANGLES = 200_000  # of all meshes of a body together: pages stay a few MB
 VERTEX = re.compile(rb"vertex(?:[ \t]+\S+){3}[ \t\r]*\n")
 MAGIC, LARGEST_TEXT, MOST_NODES = b"glTF", 32 * 2**20, 20_000
 TRIANGLES, OTHER_SURFACES = 4, (5, 6)
@@ -246,3 +247,6 @@ def _placed(loaded: dict[str, Any]) -> Iterator[tuple[FloatArray, FloatArray, ND
             if len(faces) and not 0 <= faces.min() <= faces.max() < len(points):
                 raise ValueError("indices are none of its vertices")
             yield place[node["frame_to"]], points.astype(float), faces
+
+
+READERS = {".stl": read_stl, ".glb": read_gltf, ".gltf": read_gltf}

@@ -21,7 +21,6 @@ from seacrane.errors import FileFormatError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 from seacrane.inputs.shown import shown
-from seacrane.inputs.state_parts import require_parts
 
 Array = NDArray[np.float64]
 MAGIC = b"seacrane state\n"
@@ -224,3 +223,17 @@ def _state(header: dict[str, Any], arrays: dict[str, Array]) -> _core.State:
 def _one(values: Array) -> float:
     (value,) = values
     return float(value)
+
+
+def require_parts(path: Path, parts: list[str], model: _core.Model) -> None:
+    """Raise FileFormatError where a file's `State.parts` are those of another model; none: not known."""
+    own = _core.initial_state(model).parts
+    if not parts or parts == own:
+        return
+    count = max(len(parts), len(own))
+    padded = [[*some, *["nothing more"] * (count - len(some))] for some in (parts, own)]
+    there, here = next(pair for pair in zip(*padded, strict=True) if pair[0] != pair[1])
+    raise FileFormatError(
+        f"{path}: is the state of another scene: it holds {there[:80]} where the scene has {here}; give a "
+        "state of this scene"
+    )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
@@ -16,60 +15,48 @@ from seacrane.analysis.weight_balance import Balance, balance, balance_by_force
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import untold
 from seacrane.lift.calls import Caller, Keywords, keywords
-from seacrane.lift.check_keys import Entry, plain
-from seacrane.lift.document import Document
+from seacrane.lift.check_keys import Entry, only, plain, titled
 from seacrane.lift.keys import Key
 from seacrane.lift.text_lines import Place
 from seacrane.scene.scene import Scene
 
 LAST = ("heave_compensation",)  # what refers to commands
 NO_CALLS = (
-    "scene", "run", "method", "outputs", "ballast", "balance", "control", "command", "stage", "notes", *LAST
+    "scene", "run", "method", "outputs", "ballast", "balance", "control", "command", "stage", "study",
+    "notes", *LAST,
 )  # fmt: skip
 GAINS = ("stiffness", "damping")
-ABOUT = "(?:is|are|has|have|holds)"  # follows the name of what a message is about
 Made = TypeVar("Made")
 MOST_TIMES = 10_000  # each takes a rest state
 WHOLE = 1e-6  # of an interval
 
 
-def scene_of(document: Document, entries: Sequence[Entry]) -> Scene:
-    """The scene that the tables of a lift describe.
-
-    Raises
-    ------
-    FileFormatError
-        With the line of the table that the scene refuses, or of the key where that is clear.
-    """
-    return _Build(document, entries).scene()
-
-
-def made(document: Document, entries: Sequence[Entry], table: str, make: Callable[..., Made]) -> Made:
+def made(entries: Sequence[Entry], table: str, make: Callable[..., Made]) -> Made:
     """What a table that occurs once describes; with defaults where it does not. Raises FileFormatError."""
-    one = _only(entries, table)
+    one = only(entries, table)
     if one is None:
         return make()
-    with refused_at(document, one):
+    with refused_at(one):
         return make(**keywords(one.table.keys, one.values))
 
 
-def _only(entries: Sequence[Entry], table: str) -> Entry | None:
-    return next((entry for entry in entries if entry.table.name == table), None)
+class SceneBuild:
+    """Builds one scene: first without control, which takes a scene to compute, then with it."""
 
-
-class _Build:
-    """Builds one lift: first without control, which takes a scene to compute, then with it."""
-
-    def __init__(self, document: Document, entries: Sequence[Entry]) -> None:
-        self.document, self.entries, self.caller = document, entries, Caller()
+    def __init__(self, entries: Sequence[Entry]) -> None:
+        self.entries, self.caller = entries, Caller()
 
     def scene(self) -> Scene:
-        """With every command controlled."""
+        """The scene that the tables describe, with every command controlled.
+
+        Raises FileFormatError with the line of the table that the scene refuses, or of the key where that is
+        known.
+        """
         scene, start = self._started()
         commands = [entry for entry in self.entries if entry.table.name == "command"]
-        control = _only(self.entries, "control")
+        control = only(self.entries, "control")
         if commands and control is None:
-            self.document.fail(commands[0].path, f"{commands[0].title} has no [control] to follow; add it")
+            commands[0].fail(f"{commands[0].title} has no [control] to follow; add it")
         if control is not None:
             self._control(scene, control, commands, start)
         return scene
@@ -77,19 +64,19 @@ class _Build:
     @untold()
     def _started(self, *, at_rest: bool = False) -> tuple[Scene, Balance | None]:
         """The scene with its commands not yet controlled, and what balances it where [balance] says so."""
-        scene = made(self.document, self.entries, "scene", Scene)
+        scene = made(self.entries, "scene", Scene)
         for entry in _in_order(self.entries):
             if entry.table.name not in NO_CALLS:
-                with refused_at(self.document, entry):
+                with refused_at(entry):
                     self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
         for entry in self.entries:
             if entry.table.name == "command":
-                with refused_at(self.document, entry):
+                with refused_at(entry):
                     given = keywords(entry.table.keys, entry.values, scene)
                     scene.add_actuator(**{key: value for key, value in given.items() if key != "reference"})
         for entry in self.entries:
             if entry.table.name in LAST:
-                with refused_at(self.document, entry):
+                with refused_at(entry):
                     self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
         for entry in self.entries:
             if entry.table.name == "notes":
@@ -98,17 +85,17 @@ class _Build:
 
     def _ballasted(self, scene: Scene, *, at_rest: bool) -> Balance | None:
         """Add ballast, once drives hold the scene; what [balance] balances."""
-        balanced = _only(self.entries, "balance")
+        balanced = only(self.entries, "balance")
         for entry in self.entries:
             if entry.table.name != "ballast":
                 continue
             if balanced is not None:
-                self.document.fail(balanced.path, "[balance] stands beside [ballast]; leave one out")
-            with refused_at(self.document, entry):
+                balanced.fail("[balance] stands beside [ballast]; leave one out")
+            with refused_at(entry):
                 self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
         if balanced is None:
             return None
-        with refused_at(self.document, balanced):
+        with refused_at(balanced):
             return balance_by_force(scene, body=balanced.values["vessel"])
 
     def _control(
@@ -116,12 +103,10 @@ class _Build:
     ) -> None:
         """Give every command gains and feed-forward, in place of an actuator without."""
         if not commands:
-            self.document.fail(
-                control.path, "[control] has no [[command]] to control; add one, or leave it out"
-            )
+            control.fail("[control] has no [[command]] to control; add one, or leave it out")
         given = [keywords(entry.table.keys, entry.values, scene) for entry in commands]
         references = {str(one.get("name", one["joint"])): _curve(one.get("reference", 0.0)) for one in given}
-        with refused_at(self.document, control):
+        with refused_at(control):
             settings = keywords(control.table.keys, control.values)
             tuned_at = settings.pop("tuned_at", None)
             tuning = scene if tuned_at is None else self._tuning(tuned_at, given)
@@ -140,7 +125,7 @@ class _Build:
         scene = Scene(name="tuning")
         for entry in self.entries:
             if entry.table.name == "crane":
-                with refused_at(self.document, entry):
+                with refused_at(entry):
                     self.caller.crane(scene, entry.table, entry.values, {"base": "ground"} | pose)
         for given in commands:
             scene.add_actuator(**{key: value for key, value in given.items() if key != "reference"})
@@ -156,31 +141,37 @@ def _in_order(entries: Sequence[Entry]) -> list[Entry]:
 
 
 @contextlib.contextmanager
-def refused_at(document: Document, entry: Entry) -> Iterator[None]:
-    """What is refused inside the block is refused at this table of the file."""
+def refused_at(entry: Entry, *inside: str | int) -> Iterator[None]:
+    """What is refused within the block is refused at this table of the file, or at what is inside."""
     try:
         yield
     except (SceneError, FileFormatError, TypeError) as error:
         if isinstance(error, FileFormatError) and error.placed:
             raise
-        about = _about(entry.path, entry.table.keys, entry.values, str(error))
-        document.fail(entry.path if about is None else about, f"{entry.title}: {error}")
+        title = titled((*entry.path, *inside)) if inside else entry.title
+        about = getattr(error, "about", ())
+        path = inside or _about(entry.table.keys, entry.values, about)
+        entry.fail(f"{title}: {error}", *path)
 
 
-def _about(path: Place, keys: Iterable[Key], values: Mapping[str, Any], message: str) -> Place | None:
-    """The path of the key that a message is about; None where it names none."""
+def _about(keys: Iterable[Key], values: Mapping[str, Any], about: Sequence[str]) -> Place:
+    """The place in a table of the key that an error is about; none where it has no such key.
+
+    Parameters
+    ----------
+    about : Of the error: an element's parts, and last the keyword.
+    """
     for key in keys:
         for spelling in key.spellings:
-            words = key.entry or f"(?:{re.escape(key.name)}|{re.escape(spelling)})"
-            if spelling not in values:
+            if spelling not in values or not about:
                 continue
-            if re.search(rf"\b{words}(?:\[\d+\])? {ABOUT}\b", message):
-                return (*path, spelling)
-            if key.type == "table" and (f"{key.name}: " in message or any(one.entry for one in key.keys)):
-                inside = _about((*path, spelling), key.keys, values[spelling], message)
-                if inside is not None:
-                    return inside
-    return None
+            if about[-1] in (key.entry or key.name, spelling):
+                return (spelling,)
+            if key.type == "table" and (key.name in about or any(one.entry for one in key.keys)):
+                inside = _about(key.keys, values[spelling], about)
+                if inside:
+                    return (spelling, *inside)
+    return ()
 
 
 def _curve(value: float | Curve) -> Curve:
@@ -191,7 +182,7 @@ def gains_of(tuning: Scene, settings: Mapping[str, Any]) -> dict[str, tuple[floa
     """Stiffness and damping of every actuator of a scene, by [control]."""
     for key in ("natural_frequency", "damping_ratio"):
         if not settings[key] > 0.0:
-            raise SceneError(f"{key} is {settings[key]:g}; give a number above zero")
+            raise SceneError.of(key, f"is {settings[key]:g}; give a number above zero")
     return tuned_gains(
         reflected_inertia(tuning),
         natural_frequency=2.0 * np.pi * settings["natural_frequency"],
@@ -221,8 +212,8 @@ def feed_forward_of(
     if kind != "references":
         for key in ("times", "period"):
             if key in settings:
-                raise SceneError(
-                    f"{key} is given, which feed_forward = {kind!r} has no use for; leave it out"
+                raise SceneError.of(
+                    key, f"is given, which feed_forward = {kind!r} has no use for; leave it out"
                 )
     if kind == "none":
         return {}
@@ -245,9 +236,10 @@ def times_of(parts: Sequence[Mapping[str, float]]) -> list[float]:
         steps = (until - begin) / every if every > 0.0 else 0.0
         count = round(min(steps, MOST_TIMES))
         if not 1 <= count < MOST_TIMES - len(times) or abs(steps - count) > WHOLE:
-            raise SceneError(
-                f"times is wrong from {begin:g} s until {until:g} s every {every:g} s; the part must begin "
-                f"before its end, hold its interval a whole number of times, and all parts {MOST_TIMES} times"
+            raise SceneError.of(
+                "times",
+                f"is wrong from {begin:g} s until {until:g} s every {every:g} s; the part must begin before "
+                f"its end, hold its interval a whole number of times, and all parts {MOST_TIMES} times",
             )
         times += (begin + every * np.arange(1, count + 1)).tolist()
     return times

@@ -1,4 +1,4 @@
-"""The keywords of a table of a lift, in SI, and the call that they make."""
+"""The keywords of a table of a lift, in SI, with its curves, and the call that they make."""
 
 from __future__ import annotations
 
@@ -8,29 +8,32 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane._core import Curve
 from seacrane.analysis.tanks import Tank
 from seacrane.crane import Crane, Payload, load_crane
-from seacrane.description import hydraulic_values
+from seacrane.description import hydraulic_cylinders
 from seacrane.description.channels import CHANNELS, OWN, unit_of
+from seacrane.description.curves import spline_curve
 from seacrane.description.databases import source_of
 from seacrane.description.description import coordinate_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.lift.check_keys import SHIPPED
-from seacrane.lift.curve_text import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
-from seacrane.lift.tables import LEFT, Table
+from seacrane.lift.tables import CURVES, LEFT, Table
+from seacrane.lift.vessel_keys import SHIPPED
 from seacrane.scene import heave
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import spectrum_named
 from seacrane.scene.scene import Scene
-from seacrane.scene.wind_current import FlowCoefficients
+from seacrane.scene.wind_current import FlowCoefficients, gust_curve
 from seacrane.sea import Current, SeaState, WaveSystem, cos_2s
 
 Keywords = dict[str, Any]
+Scale = Callable[[Any], Any]
+LONGEST_GUST = 1e7  # s times components: fourteen hours of the usual 200
 ANGLES = ("angle", "roll", "pitch", "yaw")
 RADIANS = {degrees: radians for radians, degrees in DEGREES.items()}
 SEA_OF_SYSTEMS = ("depth", "placement")
@@ -45,7 +48,7 @@ _MADE: Mapping[str, Callable[..., Any]] = {
     "tip": lambda body, point: (body, point),
     "history": MotionHistory,
     "raos": lambda **table: _raos(**table),
-    **hydraulic_values.VALUES,
+    **hydraulic_cylinders.VALUES,
     **heave.VALUES,
 }
 
@@ -99,9 +102,10 @@ def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, An
     if angular != (coordinate in ANGLES):
         right = [one for one, unit in key.spellings.items() if (unit != straight) != angular]
         kinds = ("an angle", "a displacement")
-        raise SceneError(
-            f"{spelling} is of {kinds[not angular]}, and {coordinate!r} of joint {joint!r} is "
-            f"{kinds[angular]}; give {' or '.join(right)}"
+        raise SceneError.of(
+            spelling,
+            f"is of {kinds[not angular]}, and {coordinate!r} of joint {joint!r} is "
+            f"{kinds[angular]}; give {' or '.join(right)}",
         )
 
 
@@ -200,11 +204,11 @@ class Caller:
     def _database(self, file: str, speed: float | None = None, depth: float | None = None) -> HydroDatabase:
         """Read once."""
         if file in SHIPPED and speed is not None:
-            raise SceneError(
-                f"vessel: speed is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
+            raise SceneError.of(
+                "vessel: speed", f"is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
             )
         if file in SHIPPED and depth is not None and np.isfinite(depth):
-            raise SceneError(f"vessel: depth is {depth:g} m, and {file} is of deep water; leave it out")
+            raise SceneError.of("vessel: depth", f"is {depth:g} m, and {file} is of deep water; leave it out")
         key = (file, speed, depth)
         if key not in self.read:
             shipped = file in SHIPPED
@@ -220,7 +224,8 @@ class Caller:
             given["sea"] = SeaState(systems=[_system(one) for one in systems], **depth)
         for key in SEA_OF_SYSTEMS:
             if key in given:
-                raise SceneError(f"sea: {key} is given without systems, whose sea is as deep as the database")
+                text = "is given without systems, whose sea is as deep as the database"
+                raise SceneError.of(f"sea: {key}", text)
         scene.add_sea(**given)
 
 
@@ -232,7 +237,7 @@ def _tanks(given: Keywords) -> Keywords:
     for table in given["tanks"]:
         name = table["name"]
         if name in tanks:
-            raise SceneError(f"ballast: tanks has {name!r} twice; names of tanks must differ")
+            raise SceneError.of("ballast: tanks", f"has {name!r} twice; names of tanks must differ")
         tanks[name] = Tank(**{key: value for key, value in table.items() if key != "name"})
     return {"tanks": tanks}
 
@@ -271,3 +276,65 @@ def _require_units(crane: Crane, rows: Iterable[Mapping[str, Any]]) -> None:
         if ("value_m" in row) != (kind == "prismatic"):
             right = "value_m" if kind == "prismatic" else "value_deg or value_rad"
             raise SceneError(f"crane: coordinate {row['name']!r} is of a {kind} joint; give {right}")
+
+
+def curve_from(given: Any, unit: str) -> float | Curve:
+    """A curve in SI from what a file holds; a number stays one.
+
+    Parameters
+    ----------
+    given : float, mapping, or tuple of mapping
+        Checked.
+    unit : Of its values.
+
+    Raises SceneError for a curve that makes no sense.
+    """
+    scale = into_si(unit)
+    if isinstance(given, float):
+        return float(scale(given))
+    first, *others = (given,) if isinstance(given, Mapping) else given
+    curve = _piece(first, scale)
+    for piece in others:
+        curve = curve.then(time=piece["from_s"], curve=_piece(piece, scale))
+    return curve
+
+
+def _piece(piece: Mapping[str, Any], scale: Scale) -> Curve:
+    arguments: dict[str, Any] = {}
+    for key in CURVES[piece["kind"]]:
+        for spelling, unit in key.spellings.items():
+            if spelling in piece:
+                own = into_si(unit) if unit else scale
+                arguments[key.name] = own(piece[spelling])
+    return _CURVE_OF[piece["kind"]](**arguments)
+
+
+def _harmonic(*, amplitude: float, period: float, **others: float) -> Curve:
+    if not period > 0.0:
+        raise SceneError(f"curve: period_s is {period:g}; give a period above zero")
+    return Curve.harmonic(amplitude=amplitude, omega=2.0 * np.pi / period, **others)
+
+
+def _spline(*, times: Any, values: Any) -> Curve:
+    try:
+        return spline_curve(times=times, values=values)
+    except np.linalg.LinAlgError as error:
+        raise SceneError(f"curve: no spline leads through its samples ({error}); space them out") from error
+
+
+def _gust(*, duration: float, count: int = 200, **others: Any) -> Curve:
+    if duration * count > LONGEST_GUST:
+        raise SceneError(
+            f"curve: duration_s is {duration:g} with count {count}; their product may be {LONGEST_GUST:g} s"
+        )
+    return gust_curve(duration=duration, count=count, **others)
+
+
+_CURVE_OF: Mapping[str, Callable[..., Curve]] = {
+    "constant": Curve.constant,
+    "quintic": Curve.quintic,
+    "harmonic": _harmonic,
+    "spline": _spline,
+    "gust": _gust,
+    "table": Curve.table,
+}

@@ -3,26 +3,34 @@
 from __future__ import annotations
 
 import difflib
+import operator
 import os
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NoReturn, TypeVar
 
+from seacrane.accuracy.choice import CHOSEN
 from seacrane.errors import SceneError
 from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import plain_notes
 from seacrane.inputs.shown import shown
-from seacrane.lift.document import Document
+from seacrane.lift.document import Document, read_document
 from seacrane.lift.keys import Key
+from seacrane.lift.study_keys import LIFTS, RANGE
 from seacrane.lift.tables import CURVES, FROM, TABLES, Table
 from seacrane.lift.text_lines import Place
 
 LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
 AS_NEAR = 0.1  # "see" is as near to "scene" as to "sea"
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
-SHIPPED = ("hull_115",)  # databases that come with the package, by their names
+Number = TypeVar("Number", int, float)
+BOUNDS: Mapping[str, tuple[Callable[[float, float], bool], str]] = {
+    "minimum": (operator.ge, "from"), "exclusiveMinimum": (operator.gt, "above"),
+    "maximum": (operator.le, "up to"), "exclusiveMaximum": (operator.lt, "below"),
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -31,12 +39,17 @@ class Entry:
 
     table: Table
     values: Mapping[str, Any]
-    path: Place = field(default=(), compare=False)
+    path: Place = field(compare=False)
+    document: Document = field(compare=False)
 
     @property
     def title(self) -> str:
         """As the file has it, with its place among several."""
         return titled(self.path)
+
+    def fail(self, text: str, *inside: str | int) -> NoReturn:
+        """Raise a FileFormatError about the table, or about what is inside."""
+        self.document.fail((*self.path, *inside), text)
 
 
 def titled(path: Place) -> str:
@@ -59,12 +72,55 @@ def entries_of(document: Document, folder: Path) -> tuple[Entry, ...]:
     for name in document.data:
         if name not in known:
             document.fail((name,), f"[{short(name)}] is unknown; {nearest(name, tuple(TABLES))}")
-    return tuple(
-        Entry(table, checker.table(path, table.keys, given), path)
+    own = tuple(
+        Entry(table, checker.table(path, table.keys, given), path, document)
         for table in TABLES.values()
         if table.name in document.data
         for path, given in _given(document, table)
     )
+    study = only(own, "study")
+    return own if study is None or "lift" not in study.values else _with_lift(own, study)
+
+
+def only(entries: Iterable[Entry], table: str) -> Entry | None:
+    """The table of a name that occurs once; None where there is none."""
+    return next((entry for entry in entries if entry.table.name == table), None)
+
+
+def shipped_lift(name: str) -> Path:
+    """Where a lift that comes with the package is."""
+    return Path(str(files("seacrane") / "data" / "lifts" / f"{name}.toml"))
+
+
+def _with_lift(own: tuple[Entry, ...], study: Entry) -> tuple[Entry, ...]:
+    """The tables of a study with those of its lift of which it has none; of [run] with the lift's keys.
+
+    An accuracy of the study chooses what the lift says in [method].
+    """
+    named = study.values["lift"]
+    path = shipped_lift(named) if named in LIFTS else Path(named)
+    if not path.is_file():
+        study.fail(f"lift is {shown(named)}: there is no file {path}", "lift")
+    document = read_document(path)
+    if "study" in document.data:
+        study.fail(f"lift is {path.name}, a study itself; give the lift that is to vary", "lift")
+    given = {entry.table.name: entry for entry in own}
+    chosen = CHOSEN if "run" in given and "accuracy" in given["run"].values else ()
+    found = [_without(one, "lift") if one is study else one for one in own]
+    for entry in entries_of(document, path.parent):
+        if entry.table.name == "run" and "run" in given:
+            run = given["run"]
+            found[found.index(run)] = replace(run, values=MappingProxyType({**entry.values, **run.values}))
+        elif entry.table.name not in given:
+            found.append(_without(entry, *chosen) if entry.table.name == "method" else entry)
+    order = [*TABLES]
+    return tuple(sorted(found, key=lambda entry: order.index(entry.table.name)))
+
+
+def _without(entry: Entry, *names: str) -> Entry:
+    left_out = {spelling for key in entry.table.keys if key.name in names for spelling in key.spellings}
+    kept = {spelling: value for spelling, value in entry.values.items() if spelling not in left_out}
+    return replace(entry, values=MappingProxyType(kept))
 
 
 def _given(document: Document, table: Table) -> Iterable[tuple[Place, Any]]:
@@ -125,14 +181,38 @@ class Checker:
             return tuple(self.table((*path, i), key.keys, one) for i, one in listed)
         if key.type == "curve" and isinstance(value, Mapping | list):
             return self._curve(path, value, of_speed=key.unit == "m/s")
+        if key.type in ("names", "limits", "ranges", "values"):
+            found = dict(self._named(path, value, key.type))
+            if not found:
+                self.document.fail(path, f"{path[-1]} is empty; name one, or leave it out")
+            return MappingProxyType(found)
+        bounds = key.bounds_in(key.spellings[str(path[-1])])
+        return _checked(self._node(path, value), key, bounds, self.folder)
+
+    def _named(self, path: Place, value: Any, kind: str) -> Iterator[tuple[str, Any]]:
+        """Values by dotted name, whether its parts are quoted together or not."""
+        if not isinstance(value, Mapping):
+            self._node(path, value).fail("give a table of names and values")
+        for name, one in value.items():
+            inside = (*path, name)
+            if isinstance(one, Mapping) and not (kind == "values" and any(key.name in one for key in RANGE)):
+                yield from ((f"{name}.{rest}", found) for rest, found in self._named(inside, one, kind))
+            else:
+                yield name, self._leaf(inside, one, kind)
+
+    def _leaf(self, path: Place, value: Any, kind: str) -> Any:
+        """A text, a number, the ends of a range, or values: a list or a table."""
         node = self._node(path, value)
-        if key.type == "names":
-            items = value.items() if isinstance(value, Mapping) else node.fail("give a table of names")
-            return MappingProxyType({name: self._node((*path, name), one).text() for name, one in items})
-        if key.type == "limits":
-            items = value.items() if isinstance(value, Mapping) else node.fail("give a table of numbers")
-            return MappingProxyType({name: self._node((*path, name), one).number() for name, one in items})
-        return _checked(node, key, self.folder)
+        match kind:
+            case "names":
+                return node.text()
+            case "limits":
+                return node.number()
+            case "ranges":
+                return tuple(node.array((2,)).tolist())
+        if isinstance(value, Mapping):
+            return self.table(path, RANGE, value)
+        return tuple(value) if isinstance(value, list) else node.fail("give a list of values")
 
     def _node(self, path: Place, value: Any) -> Node:
         where = titled(path[:-1]) if path[:-1] else "the file"
@@ -169,31 +249,40 @@ class Checker:
             self.document.fail(path, str(error))
 
 
-def _checked(node: Node, key: Key, folder: Path) -> Any:
+def _checked(node: Node, key: Key, bounds: Mapping[str, float], folder: Path) -> Any:
     """A value that is no table."""
     match key.type:
         case "text":
             return _chosen(node, key)
         case "number" | "curve":
-            return node.value if node.value in key.choices else _number(node, key)
+            return node.value if node.value in key.choices else _number(node, key, bounds)
         case "whole":
-            return node.whole()
+            return _bounded(node, bounds, node.whole())
         case "flag":
             return node.flag()
         case "array":
-            return _array(node, key)
+            return _array(node, key, bounds)
         case "texts":
             return tuple(item.text() for item in node.items())
         case "file":
-            return _file(node, folder)
+            return _file(node, key, folder)
     raise TypeError(f"no lift file holds a {key.type}")
 
 
-def _number(node: Node, key: Key) -> float:
+def _number(node: Node, key: Key, bounds: Mapping[str, float]) -> float:
     """Infinity too, where it stands for none or for deep water; TOML has a word for it."""
     if node.value == float("inf") and key.name in ("mooring_period", "depth"):
         return float("inf")
-    return node.number()
+    return _bounded(node, bounds, node.number())
+
+
+def _bounded(node: Node, bounds: Mapping[str, float], number: Number) -> Number:
+    """The number, which keeps the bounds of its key."""
+    if not all(BOUNDS[word][0](number, bound) for word, bound in bounds.items()):
+        node.fail(
+            f"give one {' and '.join(f'{BOUNDS[word][1]} {bound:g}' for word, bound in bounds.items())}"
+        )
+    return number
 
 
 def _chosen(node: Node, key: Key) -> str:
@@ -203,15 +292,18 @@ def _chosen(node: Node, key: Key) -> str:
     return text
 
 
-def _array(node: Node, key: Key) -> Any:
+def _array(node: Node, key: Key, bounds: Mapping[str, float]) -> Any:
     """An array of the shape that fits; lists become tuples, so that what is checked stays as it is."""
     if () in key.shapes and not isinstance(node.value, list):
-        return node.number()
+        return _bounded(node, bounds, node.number())
     shapes = [shape for shape in key.shapes if shape and _deep(node.value) == len(shape)] or [
         one for one in key.shapes if one
     ]
     shape = next((one for one in shapes if one[0] == len(node.values())), shapes[0])
-    return _fixed(node.array(shape).tolist())
+    array = node.array(shape)
+    for number in array.flat if bounds else ():
+        _bounded(Node(number, f"{node.path} holds a number that"), bounds, number)
+    return _fixed(array.tolist())
 
 
 def _deep(value: Any) -> int:
@@ -222,12 +314,12 @@ def _fixed(value: Any) -> Any:
     return tuple(map(_fixed, value)) if isinstance(value, list) else value
 
 
-def _file(node: Node, folder: Path) -> str:
-    """A path from the folder of the lift file, or the name of a database that comes with the package."""
+def _file(node: Node, key: Key, folder: Path) -> str:
+    """A path from the folder of the lift file, or the name of what comes with the package."""
     text = node.text()
     if not text or not text.isprintable():
         node.fail("give the path of a file")
-    return text if text in SHIPPED else os.path.normpath(folder.absolute() / text)
+    return text if text in key.choices else os.path.normpath(folder.absolute() / text)
 
 
 def nearest(name: str, known: tuple[str, ...]) -> str:

@@ -15,6 +15,7 @@ from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole
 from seacrane.lift.text_lines import Place, lines_of
 
+FORMAT = "seacrane lift"
 VERSION = 2
 LARGEST_FILE = 512 * 2**10  # bytes; TOML's smallest tables take some 150 times their size when it is parsed
 MOST_PARTS = 8  # of a dotted key: parsing one takes time by the square of them
@@ -22,19 +23,8 @@ _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_KEY = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}")
 _AT_LINE = re.compile(r"^(.*) \(at line (\d+), column (\d+)\)$", re.DOTALL)
 _AT_END = " (at end of document)"
-
-
-@dataclass(frozen=True)
-class FileKind:
-    """What a file is: in words, by its format, and where that is described."""
-
-    name: str
-    format: str
-    page: str
-
-
-LIFT = FileKind("lift", "seacrane lift", "docs/lift-files.md")
-FORMAT = LIFT.format
+_NO_LIFT = f'no lift file, which is TOML with format = "{FORMAT}" at its top (docs/lift-files.md)'
+_TOO_DEEP = "is nested too deeply to be a lift file"
 
 
 @dataclass(frozen=True)
@@ -52,8 +42,13 @@ class Document:
     lines: Mapping[Place, int] = field(default_factory=dict)
 
     def place(self, path: Place) -> str:
-        """The file and the line of a key or table, or of the nearest thing around it."""
-        around = [path[:end] for end in range(len(path), 0, -1)]
+        """The file and the line of a key or table, or of the nearest thing around it.
+
+        The last part may be a dotted name, of which the file has the parts.
+        """
+        *outer, last = path
+        parts = (*outer, *(last.split(".") if isinstance(last, str) else (last,)))
+        around = [path, *(parts[:end] for end in range(len(parts), 0, -1))]
         line = next((self.lines[one] for one in around if one in self.lines), None)
         return self.source if line is None else f"{self.source} line {line}"
 
@@ -71,37 +66,32 @@ class Document:
         raise error
 
 
-def read_document(path: Path, kind: FileKind = LIFT) -> Document:
-    """The document of a lift file, or of another kind in TOML.
+def read_document(path: Path) -> Document:
+    """The document of a lift file.
 
     Raises
     ------
     FileFormatError
-        With the line, for what is no TOML; and for what is TOML, or something else, but not of that kind.
+        With the line, for what is no TOML; and for what is TOML, or something else, but no lift.
     OSError
         If it cannot be read.
     """
     name = path.name
-    large = f"no {kind.name} file is; name tables by a scene in JSON (Scene.save)"
-    content = read_whole(path, LARGEST_FILE, large)
+    content = read_whole(path, LARGEST_FILE, "no lift file is; name tables by a scene in JSON (Scene.save)")
     try:
         text = _decoded(name, content)
-        data = _parsed(name, text, kind)
+        data = _parsed(name, text)
     except FileFormatError:
         if _is_no_toml(content):
-            raise FileFormatError(f"{name}: is {looks_like(path, content)}, {_not_of(kind)}") from None
+            raise FileFormatError(f"{name}: is {looks_like(path, content)}, {_NO_LIFT}") from None
         raise
-    if data.get("format") != kind.format:
+    if data.get("format") != FORMAT:
         what = f"is {looks_like(path, content)}" if "format" not in data else "names another format"
-        raise FileFormatError(f"{name}: {what}, {_not_of(kind)}")
+        raise FileFormatError(f"{name}: {what}, {_NO_LIFT}")
     try:
         return Document(name, data, lines_of(text))
     except RecursionError as error:
-        raise FileFormatError(f"{name}: is nested too deeply to be a {kind.name} file") from error
-
-
-def _not_of(kind: FileKind) -> str:
-    return f'no {kind.name} file, which is TOML with format = "{kind.format}" at its top ({kind.page})'
+        raise FileFormatError(f"{name}: {_TOO_DEEP}") from error
 
 
 def _is_no_toml(content: bytes) -> bool:
@@ -118,17 +108,15 @@ def _decoded(name: str, content: bytes) -> str:
         raise FileFormatError(f"{name} line {line}: byte {error.start} is not UTF-8 text") from error
 
 
-def _parsed(name: str, text: str, kind: FileKind) -> dict[str, Any]:
+def _parsed(name: str, text: str) -> dict[str, Any]:
     long = _LONG_KEY.search(text)
     if long:
         line = text.count("\n", 0, long.start()) + 1
-        raise FileFormatError(
-            f"{name} line {line}: a key has more than {MOST_PARTS} parts; no {kind.name} has such"
-        )
+        raise FileFormatError(f"{name} line {line}: a key has more than {MOST_PARTS} parts; no lift has such")
     try:
         return tomllib.loads(text)
     except RecursionError as error:
-        raise FileFormatError(f"{name}: is nested too deeply to be a {kind.name} file") from error
+        raise FileFormatError(f"{name}: {_TOO_DEEP}") from error
     except ValueError as error:  # TOMLDecodeError is one, a number of too many digits another
         raise FileFormatError(
             f"{_told(name, text, str(error)[:200])}; truncated or malformed TOML"

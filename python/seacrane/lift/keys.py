@@ -8,6 +8,7 @@ depends on a joint's coordinate ("m or rad"), the suffix says which one is meant
 from __future__ import annotations
 
 import inspect
+import math
 import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping
@@ -32,12 +33,13 @@ class Key:
     Attributes
     ----------
     name : The keyword.
-    type : text, texts, number, whole, flag, array, curve, file, table, tables, names, limits or notes.
+    type : text, texts, number, whole, flag, array, curve, file, table, tables or notes; or by dotted name
+        names (texts), limits (numbers), ranges or values.
     unit : As in `FIELDS` of the core's classes.
     shapes : tuple of tuple of int
         That an array may have; -1: any length, (): a number alone.
     text : What it is, for people.
-    choices : The texts that it may be; of a number, those that stand for one.
+    choices : The texts that it may be; of a number or a file, those that stand for one.
     bounds : What its numbers must be, in the words of JSON Schema and in `unit`.
     keys : Of a table, or of each table in a list.
     entry : What messages call it, where they call it otherwise.
@@ -69,6 +71,11 @@ class Key:
     def spellings(self) -> dict[str, str]:
         """Its unit by each way to write it in a file."""
         return {f"{self.name}_{suffix(unit)}".rstrip("_"): unit for unit in self.units} or {self.name: ""}
+
+    def bounds_in(self, unit: str) -> dict[str, float]:
+        """What its numbers must be in one of its units."""
+        scale = 180.0 / math.pi if unit.startswith("deg") else 1.0
+        return {word: bound * scale for word, bound in self.bounds.items()}
 
 
 def suffix(unit: str) -> str:

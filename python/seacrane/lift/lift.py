@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import inspect
+import json
 import os
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
+from seacrane.accuracy.asked import EVENT_TIMES
+from seacrane.accuracy.choice import refuse_what_is_chosen
+from seacrane.accuracy.quantities import limits_of, quantities_of
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.keywords import named
-from seacrane.lift.build import made, scene_of
-from seacrane.lift.check_keys import SHIPPED, Entry, entries_of, plain
+from seacrane.lift.build import SceneBuild, made, refused_at
+from seacrane.lift.check_keys import Entry, entries_of, only, plain, shipped_lift
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
 from seacrane.lift.keys import Key
 from seacrane.lift.stages import check_stages, stages_of
-from seacrane.lift.toml_text import toml_text
+from seacrane.lift.study import Study, study_of
+from seacrane.lift.study_keys import LIFTS
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -26,8 +31,8 @@ from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 
+WIDTH = 100  # characters of a line of keys; longer tables get a heading
 T_END = float(inspect.signature(simulate).parameters["t_end"].default)
-LIFTS = ("case1", "case2", "case3", "vessel")
 
 
 @named
@@ -55,6 +60,8 @@ class Lift:
         Largest errors by quantity, as of `simulate`, which choose integrator and tolerance.
     stages : tuple of Stage
         In their order; none where one run is the whole lift.
+    study : Study or None
+        What its [study] says, which `seacrane study` runs.
 
     Raises
     ------
@@ -68,25 +75,32 @@ class Lift:
     start: Literal["rest"] | None
     accuracy: Mapping[str, float] | None
     stages: tuple[Stage, ...]
-    _document: Document
-    _folder: Path
+    study: Study | None
     _entries: tuple[Entry, ...]
 
     def __init__(self, tables: Mapping[str, Any], *, folder: str | os.PathLike[str] = ".") -> None:
         data = {"format": FORMAT, "version": VERSION, **plain(tables)}
-        self._check(Document("lift", data), Path(folder).absolute())
+        self._check(entries_of(Document("lift", data), Path(folder).absolute()))
 
-    def _check(self, document: Document, folder: Path) -> None:
-        entries = entries_of(document, folder)
-        checked: dict[str, Any] = {"_document": document, "_folder": folder, "_entries": entries}
-        checked["method"] = made(document, entries, "method", Method)
-        checked["outputs"] = made(document, entries, "outputs", Outputs)
-        checked["t_end"], checked["start"], checked["accuracy"] = made(document, entries, "run", _span)
-        checked["stages"] = stages_of(document, entries)
-        if checked["stages"] and "t_end_s" in document.data.get("run", {}):
-            document.fail(
-                ("run", "t_end_s"),
-                "t_end_s stands beside [[stage]]: a lift ends with its last stage; leave it out",
+    def _check(self, entries: tuple[Entry, ...]) -> None:
+        checked: dict[str, Any] = {"_entries": entries}
+        checked["method"] = made(entries, "method", Method)
+        checked["outputs"] = made(entries, "outputs", Outputs)
+        checked["t_end"], checked["start"], checked["accuracy"] = made(entries, "run", _span)
+        checked["stages"] = stages_of(entries)
+        run, method, study = (only(entries, name) for name in ("run", "method", "study"))
+        checked["study"] = None if study is None else study_of(study)
+        if method is not None and checked["accuracy"] is not None:
+            with refused_at(method):
+                refuse_what_is_chosen(checked["method"], {}, ())
+        if run is not None and checked["stages"] and "t_end_s" in run.values:
+            run.fail(
+                "t_end_s stands beside [[stage]]: a lift ends with its last stage; leave it out", "t_end_s"
+            )
+        if study is not None and checked["stages"] and "exposure_s" in study.values:
+            study.fail(
+                "exposure_s is for runs without stages: extremes are those of one lift; leave it out",
+                "exposure_s",
             )
         for name, value in checked.items():
             object.__setattr__(self, name, value)
@@ -102,14 +116,16 @@ class Lift:
         OSError
             If it cannot be read.
         """
-        return lift_of(read_document(Path(path)), Path(path).absolute().parent)
+        lift = cls.__new__(cls)
+        lift._check(entries_of(read_document(Path(path)), Path(path).absolute().parent))
+        return lift
 
     @classmethod
     def shipped(cls, name: str) -> Lift:
         """One that comes with the package: "case1", "case2", "case3" or "vessel"."""
         if name not in LIFTS:
             raise SceneError(f"lift {name!r} does not come with seacrane; choose one of {', '.join(LIFTS)}")
-        return cls.load(Path(str(files("seacrane") / "data" / "lifts" / f"{name}.toml")))
+        return cls.load(shipped_lift(name))
 
     @property
     def tables(self) -> dict[str, Any]:
@@ -125,9 +141,21 @@ class Lift:
             With the line of the table that a scene refuses, or whose file cannot be read, and of a stage
             that does not fit the scene.
         """
-        scene = scene_of(self._document, self._entries)
-        check_stages(self._document, self._entries, scene, self.stages)
+        scene = SceneBuild(self._entries).scene()
+        check_stages(self._entries, scene, self.stages)
+        self._check_accuracy(scene)
         return scene
+
+    def _check_accuracy(self, scene: Scene) -> None:
+        """Raise FileFormatError for a quantity that the scene does not offer, or a limit that is none."""
+        run = only(self._entries, "run")
+        if self.accuracy is None or run is None:
+            return
+        model = None if self.stages else scene.compile()
+        for name, limit in self.accuracy.items():
+            with refused_at(run, "accuracy", name):
+                known = [] if name == EVENT_TIMES else quantities_of(scene, model, [name])
+                limits_of([EVENT_TIMES, *known], {name: limit})
 
     def simulate(self, *, progress: bool = False) -> Result:
         """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`.
@@ -170,20 +198,13 @@ class Lift:
         return f"<Lift: {', '.join(held) or 'empty'}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return lift_of, (self._document, self._folder)
+        return Lift, (self.tables,)
 
 
 def _span(
     t_end: float = T_END, start: Literal["rest"] | None = None, accuracy: Mapping[str, float] | None = None
 ) -> tuple[float, Literal["rest"] | None, Mapping[str, float] | None]:
     return t_end, start, accuracy
-
-
-def lift_of(document: Document, folder: Path) -> Lift:
-    """The lift of a document whose paths of files are taken from a folder. Raises FileFormatError."""
-    lift = Lift.__new__(Lift)
-    lift._check(document, folder)
-    return lift
 
 
 def _listed(tables: Iterable[tuple[str, dict[str, Any]]]) -> dict[str, Any]:
@@ -202,7 +223,7 @@ def _relative(entry: Entry, folder: Path) -> tuple[str, dict[str, Any]]:
 def _from_folder(keys: Iterable[Key], values: dict[str, Any], folder: Path) -> dict[str, Any]:
     for key in keys:
         value = values.get(key.name)
-        if key.type == "file" and value is not None and value not in SHIPPED:
+        if key.type == "file" and value is not None and value not in key.choices:
             values[key.name] = _path_from(folder, value)
         elif key.type in ("table", "tables"):
             for one in value if isinstance(value, list) else [value]:
@@ -216,3 +237,68 @@ def _path_from(folder: Path, path: str) -> str:
         return Path(os.path.relpath(path, folder)).as_posix()
     except ValueError:  # on another drive
         return path
+
+
+def toml_text(tables: Mapping[str, Any]) -> str:
+    """Format, version, then the tables.
+
+    Raises SceneError for a value that TOML has no word for.
+    """
+    lines = [f'format = "{FORMAT}"', f"version = {VERSION}"]
+    for name, given in tables.items():
+        lines += _sections(name, given)
+    return "\n".join(lines) + "\n"
+
+
+def _sections(heading: str, given: Any) -> Iterator[str]:
+    """A table, or each of a list of tables, under its heading."""
+    if isinstance(given, list):
+        for one in given:
+            yield from _section(f"[[{heading}]]", heading, one)
+    else:
+        yield from _section(f"[{heading}]", heading, given)
+
+
+def _section(title: str, heading: str, table: Mapping[str, Any]) -> Iterator[str]:
+    yield from ("", title)
+    below = {}
+    for key, value in table.items():
+        line = f"{_key(key)} = {toml_value(value)}"
+        rows = [f"    {toml_value(one)}," for one in value] if _is_tables(value) else []
+        if len(line) <= WIDTH or not (rows or isinstance(value, Mapping)):
+            yield line
+        elif rows and max(map(len, rows)) <= WIDTH:
+            yield from (f"{_key(key)} = [", *rows, "]")
+        else:
+            below[key] = value
+    for key, value in below.items():
+        yield from _sections(f"{heading}.{_key(key)}", value)
+
+
+def _is_tables(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
+
+
+def _key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _text(name)
+
+
+def _text(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def toml_value(value: Any) -> str:
+    """A value as TOML writes it; raises SceneError where it has no word."""
+    match value:
+        case bool():
+            return str(value).lower()
+        case str():
+            return _text(value)
+        case int() | float():
+            return repr(value)
+        case list():
+            return f"[{', '.join(map(toml_value, value))}]"
+        case Mapping():
+            pairs = ", ".join(f"{_key(key)} = {toml_value(one)}" for key, one in value.items())
+            return f"{{ {pairs} }}" if pairs else "{}"
+    raise SceneError(f"lift: TOML has no word for {value!r}; leave it out")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterable
 from importlib.resources import files
 from pathlib import Path
@@ -11,15 +10,17 @@ from typing import Any
 
 from seacrane.lift.document import FORMAT, VERSION
 from seacrane.lift.keys import Key
+from seacrane.lift.study_keys import RANGE
 from seacrane.lift.tables import CURVES, FROM, TABLES, Table
 
 Json = dict[str, Any]
 DRAFT = "http://json-schema.org/draft-07/schema#"
+VALUES: Json = {"type": "array", "minItems": 1, "items": {"type": ["number", "string", "boolean"]}}
 
 
-def schema_path(name: str = "lift") -> Path:
-    """Where the schema of a kind of file is in the installed package."""
-    return Path(str(files("seacrane") / "data" / f"{name}.schema.json"))
+def schema_path() -> Path:
+    """Where the schema is in the installed package."""
+    return Path(str(files("seacrane") / "data" / "lift.schema.json"))
 
 
 def schema_text() -> str:
@@ -44,6 +45,10 @@ def schema() -> Json:
             **{table.name: object_of(table.keys) for table in TABLES.values()},
             "curve": _curve([kind for kind in CURVES if kind != "gust"]),
             "curve_of_speed": _curve(list(CURVES)),
+            "names": _named("names", {"type": "string"}),
+            "limits": _named("limits", {"type": "number", "exclusiveMinimum": 0}),
+            "ranges": _named("ranges", _array((2,), {"type": "number"})),
+            "values": _named("values", {"anyOf": [VALUES, object_of(RANGE)]}),
         },
     }
 
@@ -85,9 +90,7 @@ def _rules(key: Key) -> list[Json]:
 def _described(key: Key, unit: str) -> Json:
     mixed = f" ({key.unit})" if key.unit and not key.units and not key.name.endswith("_deg") else ""
     text = f"{key.text}{f' [{unit}]' if unit else mixed}".strip()
-    scale = 180.0 / math.pi if unit.startswith("deg") else 1.0
-    bounds = {word: bound * scale for word, bound in key.bounds.items()}
-    return ({"description": text} if text else {}) | _kind(key, {"type": "number", **bounds})
+    return ({"description": text} if text else {}) | _kind(key, {"type": "number", **key.bounds_in(unit)})
 
 
 def _kind(key: Key, number: Json) -> Json:
@@ -98,7 +101,7 @@ def _kind(key: Key, number: Json) -> Json:
             words = [{"enum": list(key.choices)}] if key.choices else []
             return {"anyOf": [number, *words]} if words else number
         case "whole":
-            return {"type": "integer"}
+            return number | {"type": "integer"}
         case "flag":
             return {"type": "boolean"}
         case "array":
@@ -108,14 +111,8 @@ def _kind(key: Key, number: Json) -> Json:
             return {"type": "array", "items": {"type": "string"}}
         case "file":
             return {"type": "string", "minLength": 1}
-        case "names":
-            return {"type": "object", "additionalProperties": {"type": "string"}}
-        case "limits":
-            return {
-                "type": "object",
-                "minProperties": 1,
-                "additionalProperties": number | {"exclusiveMinimum": 0},
-            }
+        case "names" | "limits" | "ranges" | "values":
+            return {"allOf": [{"$ref": f"#/definitions/{key.type}"}]}
         case "table":
             return object_of(key.keys)
         case "tables":
@@ -124,6 +121,12 @@ def _kind(key: Key, number: Json) -> Json:
             name = "curve_of_speed" if key.unit == "m/s" else "curve"
             return {"allOf": [{"$ref": f"#/definitions/{name}"}]}
     raise TypeError(f"no lift file holds a {key.type}")
+
+
+def _named(kind: str, one: Json) -> Json:
+    """Values by name, whose parts may be tables in tables."""
+    inside = {"anyOf": [one, {"$ref": f"#/definitions/{kind}"}]}
+    return {"type": "object", "minProperties": 1, "additionalProperties": inside}
 
 
 def _array(shape: tuple[int, ...], number: Json) -> Json:

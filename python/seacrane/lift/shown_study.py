@@ -1,4 +1,4 @@
-"""What the members of a study say so far: tables of numbers over seeds, or of the members themselves."""
+"""What the members of a study say so far: tables over seeds, or of the members themselves, and pictures."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import math
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,8 +22,10 @@ from seacrane.ensembles.study_folder import study_in
 from seacrane.ensembles.targets import Certainty, known, targets_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
-from seacrane.lift.study_file import StudyFile
+from seacrane.lift.lift import Lift
+from seacrane.lift.study import Study
 from seacrane.lift.study_run import FILE, MEMBERS
+from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet
 from seacrane.plotting.table import table_of
 from seacrane.statistics.estimate import Estimate
 from seacrane.statistics.seeds import FEWEST, SeedExtremes, seed_extremes
@@ -33,6 +36,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 MOST_ROWS = 60  # that are printed; files hold all
 MOST_FAILURES = 3  # that are told
+MOST_CURVES = len(COLOURS)
+UNITS = {"hs": "m", "tp": "s", "direction_deg": "deg", "gamma": "-", "seed": "-"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,29 +168,30 @@ def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
         If no member has been run.
     """
     path = Path(folder)
-    if not (path / FILE).is_file():
+    study = Lift.load(path / FILE).study if (path / FILE).is_file() else None
+    if study is None:
         raise SceneError(f"{path} is no folder of a study; give the DIR of `seacrane study --out DIR`")
-    file, done = StudyFile.load(path / FILE), Ensemble.load(path / MEMBERS)
+    done = Ensemble.load(path / MEMBERS)
     length = study_in(path / MEMBERS)["identity"]["t_end"]
     failure = done.dataset.failure.to_numpy()
     left = int((failure == "not run").sum())
     if left == failure.size:
         raise SceneError(f"{path}: no member has been run yet; run `seacrane study` with it")
-    scalar = [name for name in file.keep if name in done.dataset and _single(done.dataset[name], done)]
+    scalar = [name for name in study.keep if name in done.dataset and _single(done.dataset[name], done)]
     return ShownStudy(
         members=failure.size,
         failed=len(done.failures),
         not_run=left,
-        tables=tuple(_told(name, file, done, length) for name in scalar),
-        not_told=tuple(name for name in file.keep if name not in scalar),
+        tables=tuple(_told(name, study, done, length) for name in scalar),
+        not_told=tuple(name for name in study.keep if name not in scalar),
         failures=tuple(dict.fromkeys(done.failures.values())),
-        certainty=tuple(_certainty(file, done)),
+        certainty=tuple(_certainty(study, done)),
     )
 
 
-def _certainty(file: StudyFile, done: Ensemble) -> Iterator[Certainty]:
+def _certainty(study: Study, done: Ensemble) -> Iterator[Certainty]:
     """How narrowly the statistics of `until` are known so far."""
-    for target in targets_of(file.until, file.keep) if file.until else ():
+    for target in targets_of(study.until, study.keep) if study.until else ():
         if target.variable not in done.dataset:
             continue
         lost = _cells(_failed(done), done)
@@ -212,14 +218,14 @@ def _single(variable: xarray.DataArray, done: Ensemble) -> bool:
     return set(map(str, variable.dims)) == set(done.members.shape)
 
 
-def _told(name: str, file: StudyFile, done: Ensemble, length: float | None) -> Told:
+def _told(name: str, study: Study, done: Ensemble, length: float | None) -> Told:
     """`length` is that of the runs, s; None of lifts in stages, where an extreme is that of one lift."""
-    what = file.keep[name]
+    what = study.keep[name]
     variable = done.dataset[name]
     seeds = "seed" in variable.dims
     sign = {"maximum": 1.0, "minimum": -1.0}.get(what.what) if seeds else None
     span = None if length is None else length - getattr(what, "after", 0.0)
-    exposure = span if file.exposure is None else file.exposure
+    exposure = span if study.exposure is None else study.exposure
     cells = tuple(
         Cell(
             parameters=parameters,
@@ -263,3 +269,69 @@ def _extremes(name: str, values: Array, span: float, exposure: float) -> SeedExt
         return None
     with silently():
         return seed_extremes(values, duration=span, exposure=exposure, name=name)
+
+
+def study_sheets(shown: ShownStudy) -> Iterator[tuple[str, Sheet]]:
+    """File names without ending, and the figures: one for each parameter with two values and more."""
+    for told in shown.tables:
+        varied = [name for name in told.cells[0].parameters if _varies(told, name)]
+        for name in varied:
+            yield f"{told.name}-over-{_file_name(name)}", _over(told, name, varied)
+        (only, *others) = told.cells
+        if not others and only.extremes is not None:
+            yield f"{told.name}-gumbel", only.extremes.sheet()
+
+
+def _file_name(name: str) -> str:
+    return "".join(letter if letter.isalnum() or letter in "._-" else "-" for letter in name)
+
+
+def _in_label(value: Value) -> str:
+    return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+
+def _varies(told: Told, name: str) -> bool:
+    values = [cell.parameters[name] for cell in told.cells]
+    return all(isinstance(value, Real) for value in values) and len(set(values)) > 1
+
+
+def _over(told: Told, name: str, varied: list[str]) -> Sheet:
+    """The table over one parameter; a curve for each combination of the others that differ."""
+    curves: dict[tuple[Any, ...], list[Cell]] = {}
+    for cell in told.cells:
+        rest = tuple(value for other, value in cell.parameters.items() if other != name)
+        curves.setdefault(rest, []).append(cell)
+    scattered = len(curves) > 1 and max(map(len, curves.values())) == 1
+    if scattered:
+        curves = {(): list(told.cells)}
+    at = np.unique([float(cell.parameters[name]) for cell in told.cells])
+    others = [other for other in told.cells[0].parameters if other != name]
+    lines: list[Line] = []
+    for colour, (rest, cells) in enumerate(list(curves.items())[:MOST_CURVES]):
+        pairs = zip(others, rest, strict=True) if rest else ()
+        label = ", ".join(
+            f"{other} {_in_label(value)}" for other, value in pairs if other in varied or len(curves) > 1
+        )
+        lines += _lines(told, cells, name, at, label, colour, "o" if scattered else "-o")
+    left = len(curves) - MOST_CURVES
+    number = "most probable maximum, dashed: its 95 % interval" if told.extremes else "mean over seeds"
+    return Sheet(
+        title=f"{told.name} over {name}",
+        caption=f"{told.what}: {number if told.over_seeds else 'each member'}."
+        + (f" {left} more curves are in the table." if left > 0 else ""),
+        abscissa=at, abscissa_name=name, abscissa_unit=UNITS.get(name, "SI"),
+        panels=(Panel(quantity=told.name, unit=told.unit, lines=tuple(lines)),),
+    )  # fmt: skip
+
+
+def _lines(
+    told: Told, cells: list[Cell], name: str, at: Any, label: str, colour: int, style: str
+) -> list[Line]:
+    values = np.full((3, at.size), np.nan)
+    for cell in cells:
+        place = int(np.searchsorted(at, float(cell.parameters[name])))
+        values[:, place] = cell.numbers("mpm") if told.extremes else [cell.mean, np.nan, np.nan]
+    middle = Line(label=label, values=values[0], style=style, colour=colour)
+    if not told.extremes:
+        return [middle]
+    return [middle, *(Line(label="", values=one, style="--", colour=colour) for one in values[1:])]

@@ -18,13 +18,13 @@ WAITS = {
     "release": "Limit that lets go, or contact that is left.",
 }
 
-_UNTIL = (
+UNTIL = (
     *(Key(name=name, type="text", text=text) for name, text in WAITS.items()),
     Key(name="minimum", type="number", unit=CHANNEL_UNITS, text="Met at this value and above."),
     Key(name="maximum", type="number", unit=CHANNEL_UNITS, text="Met at this value and below."),
     Key(name="names", type="names", text="One name for each dimension of the channel."),
 )
-_COMMANDS = (
+COMMANDS = (
     Key(name="name", type="text", required=True, text='Such as "hoist.rate".'),
     Key(name="to", type="number", unit=COMMAND_UNITS, text="Where a move ends."),
     Key(name="by", type="number", unit=COMMAND_UNITS, text="How far it goes."),
@@ -42,8 +42,8 @@ STAGE = keys_of(
     more={
         "duration": {"unit": "s"},
         "maximum_duration": {"unit": "s"},
-        "until": {"type": "tables", "keys": _UNTIL, "text": "The first that is met ends the stage."},
-        "commands": {"type": "tables", "keys": _COMMANDS, "text": "What moves during it."},
+        "until": {"type": "tables", "keys": UNTIL, "text": "The first that is met ends the stage."},
+        "commands": {"type": "tables", "keys": COMMANDS, "text": "What moves during it."},
         "connect": {"type": "texts"},
         "release": {"type": "texts"},
     },

@@ -7,15 +7,13 @@ from typing import Any
 
 from seacrane.description.description import coordinate_of
 from seacrane.description.holding import with_holds
-from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.places import ANGLES
 from seacrane.errors import SceneError
 from seacrane.lift.build import refused_at
-from seacrane.lift.calls import require_unit_of_channel
+from seacrane.lift.calls import Keywords, keywords, require_unit_of_channel
 from seacrane.lift.check_keys import Entry
-from seacrane.lift.curve_text import curve_from
-from seacrane.lift.document import Document
-from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
-from seacrane.lift.stage_keys import STAGE, WAITS
+from seacrane.lift.keys import DEGREES, EITHER
+from seacrane.lift.stage_keys import COMMANDS, STAGE, UNTIL, WAITS
 from seacrane.run.commands import HOLE, Command, targets
 from seacrane.run.move import Move
 from seacrane.run.plan import checked_stages
@@ -33,31 +31,31 @@ OF_LOADS = {
 }  # fmt: skip
 
 
-def stages_of(document: Document, entries: Iterable[Entry]) -> tuple[Stage, ...]:
+def stages_of(entries: Iterable[Entry]) -> tuple[Stage, ...]:
     """The stages, as far as they make sense by themselves.
 
     Raises FileFormatError with the line of the table.
     """
     made = []
     for entry in _tables(entries):
-        with refused_at(document, entry):
+        with refused_at(entry):
             made.append(_stage(entry))
     return tuple(made)
 
 
-def check_stages(document: Document, entries: Sequence[Entry], scene: Scene, stages: Any) -> None:
+def check_stages(entries: Sequence[Entry], scene: Scene, stages: Any) -> None:
     """Raise FileFormatError for stages that do not fit the scene or one another."""
     if not stages:
         return
     for entry in _tables(entries):
-        with refused_at(document, entry):
+        with refused_at(entry):
             for command in entry.values.get("commands", ()):
                 _require_unit_of_target(scene, command)
     try:
         checked_stages(scene, stages)
     except SceneError as error:
-        told = next((one for one in _tables(entries) if one.values["name"] == error.name), None)
-        document.fail(("stage",) if told is None else told.path, str(error))
+        tables = _tables(entries)
+        next((one for one in tables if one.values["name"] == error.name), tables[0]).fail(str(error))
 
 
 def _tables(entries: Iterable[Entry]) -> list[Entry]:
@@ -65,31 +63,15 @@ def _tables(entries: Iterable[Entry]) -> list[Entry]:
 
 
 def _stage(entry: Entry) -> Stage:
-    known = {key.name: key for key in entry.table.keys}
-    given: dict[str, Any] = {}
-    for key in known.values():
-        for spelling in key.spellings:
-            if spelling in entry.values:
-                given[key.name] = entry.values[spelling]
-    given["until"] = [_condition(known["until"].keys, one) for one in given.get("until", ())]
-    given["commands"] = _commands(known["commands"].keys, given.get("commands", ()))
+    given = keywords(STAGE, entry.values)
+    tables = zip(entry.values.get("until", ()), given.get("until", ()), strict=True)
+    given["until"] = [_condition(table, values) for table, values in tables]
+    given["commands"] = _commands(given.get("commands", ()))
     return Stage(**given)
 
 
-def _read(keys: Iterable[Key], table: Mapping[str, Any]) -> dict[str, Any]:
-    """A table in SI by keyword."""
-    values: dict[str, Any] = {}
-    for key in keys:
-        for spelling, unit in key.spellings.items():
-            if spelling in table:
-                value = table[spelling]
-                turn = curve_from if key.type == "curve" else lambda one, of: float(into_si(of)(one))
-                values[key.name] = turn(value, unit) if unit else value
-    return values
-
-
-def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
-    values = _read(keys, table)
+def _condition(table: Mapping[str, Any], values: Keywords) -> Condition:
+    """A table as it is written, and as keywords."""
     kinds = [name for name in WAITS if name in values]
     if len(kinds) != 1:
         raise SceneError(f"until: has {' and '.join(kinds) or 'nothing to wait for'}; give one of "
@@ -102,8 +84,7 @@ def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
         if bounds:
             raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")
         return Until.contact(values[kind]) if kind == "contact" else Until.release(values[kind])
-    channel = LIMITED.get(kind, values[kind])
-    require_unit_of_channel(keys, table, channel, names)
+    require_unit_of_channel(UNTIL, table, LIMITED.get(kind, str(values[kind])), names)
     if kind == "channel":
         return Until.channel(values[kind], **bounds, **names)
     if kind == "clear":
@@ -118,10 +99,9 @@ def _minimum(bounds: Mapping[Any, float]) -> float:
     return bounds["minimum"]
 
 
-def _commands(keys: tuple[Key, ...], tables: Iterable[Mapping[str, Any]]) -> dict[str, Command]:
+def _commands(tables: Iterable[Keywords]) -> dict[str, Command]:
     found: dict[str, Command] = {}
-    for table in tables:
-        values = _read(keys, table)
+    for values in tables:
         name = values["name"]
         if name in found:
             raise SceneError(f"commands: {name!r} is given twice; give one command of it in a stage")
@@ -153,18 +133,11 @@ def _require_unit_of_target(scene: Scene, table: Mapping[str, Any]) -> None:
         return  # the check of all stages says so, with what there is
     unit = _unit(scene, name)
     fits = {unit, DEGREES.get(unit)}
-    for spelling, given, key in _of_commands(table):
-        if given not in fits:
-            right = [one for one, own in key.spellings.items() if own in fits]
-            raise SceneError(
-                f"{spelling} is given of {name!r}, which is in {unit}; give {EITHER.join(right)}"
-            )
-
-
-def _of_commands(table: Mapping[str, Any]) -> list[tuple[str, str, Key]]:
-    keys = next(key.keys for key in STAGE if key.name == "commands")
-    pairs = [(spelling, unit, key) for key in keys for spelling, unit in key.spellings.items()]
-    return [one for one in pairs if one[0] in table and one[2].name in WAYS]
+    for key in (key for key in COMMANDS if key.name in WAYS):
+        for spelling, given in key.spellings.items():
+            if spelling in table and given not in fits:
+                right = EITHER.join(one for one, own in key.spellings.items() if own in fits)
+                raise SceneError(f"{spelling} is given of {name!r}, which is in {unit}; give {right}")
 
 
 def _unit(scene: Scene, name: str) -> str:

@@ -1,24 +1,38 @@
-"""Run a study into its folder, or go on with it."""
+"""Run the study of a lift into its folder, or go on with it; keys of the lift may be what varies.
+
+A lift is made anew with other values of its keys, so that what is derived from a key follows.
+"""
 
 from __future__ import annotations
 
+import copy
+import json
 import os
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from seacrane.ensembles.ensemble import Ensemble, ensemble
-from seacrane.ensembles.other_sea import WORDS, require_same_sea
-from seacrane.ensembles.study import Source, require_paths, stage_paths
+from seacrane.ensembles.members import Value
+from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
+from seacrane.ensembles.study import Source, require_paths, stage_paths, with_values
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.drafts import is_draft
-from seacrane.inputs.whole_file import read_whole
-from seacrane.lift.document import LARGEST_FILE
+from seacrane.inputs.atomic import is_draft
+from seacrane.lift.keys import Key
 from seacrane.lift.lift import Lift
-from seacrane.lift.study_file import StudyFile
-from seacrane.lift.varied_keys import KeyPlace, LiftScenes, keys_in, with_keys
+from seacrane.lift.study import Study
+from seacrane.lift.tables import TABLES
+from seacrane.scene.scene import Scene
 
 FILE, MEMBERS = "study.toml", "members"
+OF_NO_SCENE = ("run", "method", "outputs", "stage", "study", "notes")  # which vary no scene
+SINGLE = ("number", "whole", "text", "flag", "curve")  # types of keys that hold one value, or may
+MOST_HELD = 32  # scenes of a process
+
+Tables = Mapping[str, Any]
 
 
 def run_study(
@@ -28,44 +42,45 @@ def run_study(
     executor: Executor | None = None,
     progress: bool = False,
 ) -> Ensemble:
-    """Run a study file; what is in its folder is not run again.
+    """Run the study of a lift file; what is in its folder is not run again.
 
     Parameters
     ----------
-    path : Of the study file.
-    folder : Made if absent. It will hold a copy of the file, and the members as they come.
+    path : Of a lift file with a [study].
+    folder : Made if absent. It will hold the lift, complete, and the members as they come.
     executor : concurrent.futures.Executor, optional
     progress : Show a bar with the time left.
 
     Raises
     ------
     FileFormatError
-        With the line, for what is wrong in the study or its lift.
+        With the line, for what is wrong in the file or the lift that it names.
     SceneError
-        If the folder is that of another study, or of something else.
+        If there is no [study], or the folder is that of another study, or of something else.
     SimulationError, WorkerVersionError, OSError
         As of `ensemble`; what came back before is kept.
     """
-    study, target = StudyFile.load(path), Path(folder)
-    lift = study.lift()
-    t_end, start, method, outputs = study.settings(lift)
-    source = _source(study, lift)
-    text = read_whole(Path(path), LARGEST_FILE, "no study file is")
-    _claim(target, text)
+    lift, target = Lift.load(path), Path(folder)
+    if lift.study is None:
+        raise SceneError(f"{Path(path).name} has no [study]; `seacrane run` runs it once")
+    source = _source(lift, lift.study)
+    _claim(target)
+    if not (target / FILE).exists():
+        lift.save(target / FILE)
     done = ensemble(
-        source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy or lift.accuracy,
-        stages=lift.stages, start=start, t_end=None if lift.stages else t_end, method=method, outputs=outputs,
-        executor=executor, store=target / MEMBERS, progress=progress,
+        source, over=lift.study.over, keep=lift.study.keep, until=lift.study.until, accuracy=lift.accuracy,
+        stages=lift.stages, start=lift.start, t_end=None if lift.stages else lift.t_end, method=lift.method,
+        outputs=lift.outputs, executor=executor, store=target / MEMBERS, progress=progress,
     )  # fmt: skip
-    _write(target / FILE, text)
+    lift.save(target / FILE)
     return done
 
 
-def _source(study: StudyFile, lift: Lift) -> Source:
+def _source(lift: Lift, study: Study) -> Source:
     """The scene of the lift, or what makes scenes where keys of the lift vary."""
     scene = lift.scene()
-    study.require_accuracy(scene, staged=bool(lift.stages))
-    tables, axes = lift.tables, study.members.axes
+    tables = {name: table for name, table in lift.tables.items() if name != "study"}
+    axes = study.members.axes
     keys, of_stages = keys_in(tables), stage_paths(lift.stages)
     for name, values in axes.items():
         try:
@@ -86,20 +101,98 @@ def _source(study: StudyFile, lift: Lift) -> Source:
     return LiftScenes(tables, varied)
 
 
-def _claim(folder: Path, text: bytes) -> None:
+def _claim(folder: Path) -> None:
     """Make the folder, or refuse one of something else."""
     if folder.exists() and not folder.is_dir():
         raise SceneError(f"{folder} is a file; give the name of a folder")
     folder.mkdir(parents=True, exist_ok=True)
-    if (folder / FILE).exists():
-        return
-    if any(not is_draft(one) for one in folder.iterdir()):
+    if not (folder / FILE).exists() and any(not is_draft(one) for one in folder.iterdir()):
         raise SceneError(f"{folder} holds something else than a study; give another folder")
-    _write(folder / FILE, text)
 
 
-def _write(path: Path, text: bytes) -> None:
-    if path.exists() and read_whole(path, LARGEST_FILE, "no study file is") == text:
+@dataclass(frozen=True)
+class KeyPlace:
+    """Where a key stands in the tables of a lift, and its other spellings, beside which it may not stand."""
+
+    place: tuple[str | int, ...]
+    others: tuple[str, ...] = ()
+
+
+def keys_in(tables: Tables) -> dict[str, KeyPlace]:
+    """By path, such as "crane.payload.mass_kg": every key of the tables there that holds one value.
+
+    Tables of which there are several are told apart by their names, or else by their number from 1 on; so
+    are the parts of arrays, as in "crane.foot_m.2".
+    """
+    named = ((name, given) for name, given in tables.items() if name not in OF_NO_SCENE)
+    return {
+        path: place
+        for name, given in named
+        for path, place in _inside(name, (name,), TABLES[name].keys, given)
+    }
+
+
+def _inside(
+    path: str, place: tuple[str | int, ...], keys: Iterable[Key], given: Any
+) -> Iterator[tuple[str, KeyPlace]]:
+    if isinstance(given, list):
+        for number, one in enumerate(given):
+            yield from _inside(f"{path}.{one.get('name', number + 1)}", (*place, number), keys, one)
         return
-    with atomic_write(path) as draft:
-        draft.write_bytes(text)
+    for key in keys:
+        for spelling in key.spellings:
+            here, inside, value = f"{path}.{spelling}", (*place, spelling), given.get(spelling)
+            if key.type in ("table", "tables"):
+                yield from _inside(here, inside, key.keys, value) if value else ()
+            elif key.type == "array":
+                for number in range(len(value) if _of_numbers(value) else 0):
+                    yield f"{here}.{number + 1}", KeyPlace((*inside, number))
+            elif key.type in SINGLE and not isinstance(value, list | dict):
+                yield here, KeyPlace(inside, tuple(one for one in key.spellings if one != spelling))
+
+
+def _of_numbers(value: Any) -> bool:
+    return isinstance(value, list) and not any(isinstance(one, list) for one in value)
+
+
+def with_keys(tables: Tables, places: Mapping[str, KeyPlace], values: Mapping[str, Value]) -> Tables:
+    """A copy of the tables with values of keys by path."""
+    out = copy.deepcopy(dict(tables))
+    for path, value in values.items():
+        *outer, last = places[path].place
+        node: Any = out
+        for part in outer:
+            node = node[part]
+        for other in places[path].others:
+            node.pop(other, None)
+        node[last] = value
+    return out
+
+
+@dataclass(frozen=True)
+class LiftScenes:
+    """Makes the scenes of a study whose lift varies in its keys; what is derived from a key follows it.
+
+    Attributes
+    ----------
+    tables : Of the lift.
+    places : mapping of str to KeyPlace
+        Of its keys that vary.
+    """
+
+    tables: Tables
+    places: Mapping[str, KeyPlace]
+
+    def __call__(self, **values: Value) -> Scene:
+        """With values of keys, then of paths into the scene, then of words of its sea."""
+        keys = {name: value for name, value in values.items() if name in self.places}
+        sea = {name: value for name, value in values.items() if name in WORDS}
+        paths = {name: value for name, value in values.items() if name not in keys and name not in sea}
+        scene = _built(json.dumps(with_keys(self.tables, self.places, keys)))
+        made = with_values(scene, paths)
+        return with_sea(made, sea) if sea else made
+
+
+@lru_cache(maxsize=MOST_HELD)
+def _built(tables: str) -> Scene:
+    return Lift(json.loads(tables)).scene()

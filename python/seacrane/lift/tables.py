@@ -8,55 +8,43 @@ from types import MappingProxyType
 from typing import Any
 
 from seacrane import _core
-from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.tanks import Tank
-from seacrane.crane.add_crane import add_crane
 from seacrane.crane.knuckle_boom import CYLINDERS
 from seacrane.crane.payload import Payload
-from seacrane.description import (
-    bodies,
-    clearances,
-    crane_parts,
-    damping,
-    drives,
-    forces,
-    joints,
-    lift_factors,
-    limit_states,
-    meshes,
-    own_channels,
-    recorded,
-    relatives,
-)
+from seacrane.description import elements
 from seacrane.description.curves import spline_curve
-from seacrane.description.hydraulic_values import VALUES
+from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.inputs.values import entries_of
 from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
+from seacrane.lift.study_keys import STUDY
 from seacrane.lift.vessel_keys import part_keys, sea_keys, vessel_keys
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
 from seacrane.scene import (
-    bridles,
-    contact,
-    entrapped,
+    bodies,
     heave,
     hoist,
     hydraulics,
     immersed,
+    lift_factors,
     limits,
     lines,
-    luffing,
+    own_channels,
+    recorded,
+    rigging,
+    roles,
     sea,
-    slack_tank,
     vessel,
     wind_current,
 )
-from seacrane.scene.gusts import gust_curve
-from seacrane.scene.line_seabed import Seabed
+from seacrane.scene.add_crane import add_crane
+from seacrane.scene.ballast import add_ballast
+from seacrane.scene.line_fluid import Seabed
 from seacrane.scene.scene import Scene
+from seacrane.scene.wind_current import gust_curve
 from seacrane.simulation import simulate
 from seacrane.water import Opening
 
@@ -112,7 +100,7 @@ def _joint_keys() -> tuple[Key, ...]:
     places = {key: POINT for key in ("point", "second_point")} | {
         key: DIRECTION for key in ("axis", "second_axis")
     }
-    keys = keys_of(joints.add_joint, more=CHOSEN | places | {"first_frame": frame, "second_frame": frame})
+    keys = keys_of(elements.add_joint, more=CHOSEN | places | {"first_frame": frame, "second_frame": frame})
     parameters = [field for kind in _core.joint_kinds().values() for field in kind.parameters]
     return (*keys, *(replace(key, required=False) for key in field_keys(parameters)))
 
@@ -159,14 +147,14 @@ WIRE: dict[str, dict[str, Any]] = {
 SEABED = keys_of(Seabed, more={"depth": LENGTH, "stiffness": {"unit": "N/m2"}, "give": LENGTH})
 CONTACT = {
     "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
-    "surface": {"type": "text", "choices": contact.SURFACES},
+    "surface": {"type": "text", "choices": limits.SURFACES},
     "place": POINT, "axis": DIRECTION, "size": ROW | {"unit": "m", "shapes": ((-1,),)}, "edge": LENGTH,
     "stiffness": {"unit": "N/m"}, "depth": LENGTH,
     "table": {"type": "array", "unit": "m, N", "shapes": ((-1, 2),)},
 }  # fmt: skip
 FEET = tuple(
     replace(key, required=False)
-    for key in keys_of(contact.add_contact, _core.Contact, more=CONTACT, only=hoist.FEET_KEYS)
+    for key in keys_of(limits.add_contact, _core.Contact, more=CONTACT, only=hoist.FEET_KEYS)
 )
 COORDINATE = (
     Key(name="name", type="text", required=True, text="Its label, such as boom."),
@@ -221,7 +209,7 @@ CONTROL = (
     ),
     Key(name="period", type="number", unit="s", text="Of references that swing for ever; as `feed_forward`."),
 )  # fmt: skip
-COMMAND = keys_of(drives.add_actuator, _core.Actuator, only=("joint", "name", "coordinate", "reference"))
+COMMAND = keys_of(elements.add_actuator, _core.Actuator, only=("joint", "name", "coordinate", "reference"))
 FROM = Key(
     name="from", type="number", unit="s", required=True, text="When it takes over from the piece before."
 )
@@ -284,22 +272,22 @@ _ALL = (
         add=vessel.add_vessel,
     ),
     _call(
-        "slack_tank", slack_tank.add_slack_tank,
+        "slack_tank", vessel.add_slack_tank,
         moment={"unit": "kg m"}, trim_moment={"unit": "kg m"}, vessel={"type": "text"},
     ),
     Table(name="sea", text=_summary(sea.add_sea), keys=sea_keys()),
     Table(name="crane", text=_summary(add_crane), keys=CRANE),
-    Table(name="joint", text=_summary(joints.add_joint), keys=_joint_keys()),
-    _call("driver", drives.add_driver, _core.Driver),
-    _call("actuator", drives.add_actuator, _core.Actuator),
+    Table(name="joint", text=_summary(elements.add_joint), keys=_joint_keys()),
+    _call("driver", elements.add_driver, _core.Driver),
+    _call("actuator", elements.add_actuator, _core.Actuator),
     Table(
-        name="force", text=_summary(forces.add_force), add=forces.add_force,
+        name="force", text=_summary(elements.add_force), add=elements.add_force,
         keys=keys_of(
-            forces.add_force, _core.ForceTable, _core.PointForce,
+            elements.add_force, _core.ForceTable, _core.PointForce,
             more={"force": {"shapes": ((3,), (-1, 6))}}, without=("parameters",),
         ),
     ),
-    _call("spring", forces.add_spring, _core.Spring),
+    _call("spring", elements.add_spring, _core.Spring),
     _call(
         "line", lines.add_line, _core.Line,
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
@@ -307,11 +295,11 @@ _ALL = (
         breaking_load={"unit": "N"}, rung={"choices": lines.RUNGS}, **WIRE,
         seabed={"type": "table", "keys": SEABED},
     ),
-    _call("winch", lines.add_winch, _core.Line),
+    _call("winch", rigging.add_winch, _core.Line),
     Table(
-        name="roles", text=_summary(crane_parts.add_roles),
+        name="roles", text=_summary(roles.add_roles),
         keys=keys_of(
-            crane_parts.add_roles,
+            roles.add_roles,
             more={
                 "cylinders": {"type": "names"},
                 "luffs": {"type": "names"},
@@ -330,13 +318,13 @@ _ALL = (
         crane={"type": "text"}, stiffness={"unit": "N/m"}, mass_per_length={"unit": "kg/m"},
         block_mass={"unit": "kg"}, breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
-        winch={"type": "table", "keys": keys_of(lines.add_winch, _core.Line, without=("line",))},
+        winch={"type": "table", "keys": keys_of(rigging.add_winch, _core.Line, without=("line",))},
         feet={"type": "table", "keys": FEET},
         wire={"type": "table", "keys": keys_of(lines.add_line, _core.Line, more=WIRE, only=hoist.WIRE_KEYS)},
     ),
     Table(
-        name="luffing_rope", text=_summary(luffing.add_luffing_rope), add=luffing.add_luffing_rope,
-        keys=(*keys_of(luffing.add_luffing_rope), *keys_of(lines.add_winch, _core.Line, without=("line",))),
+        name="luffing_rope", text=_summary(roles.add_luffing_rope), add=roles.add_luffing_rope,
+        keys=(*keys_of(roles.add_luffing_rope), *keys_of(rigging.add_winch, _core.Line, without=("line",))),
     ),
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring,
@@ -348,7 +336,7 @@ _ALL = (
         add=hydraulics.hold_pressures,
     ),
     _call(
-        "bridle", bridles.add_bridle, _core.Line,
+        "bridle", rigging.add_bridle, _core.Line,
         hook_point=POINT, EA=EACH | {"unit": "N"}, lengths=ROW | {"unit": "m"},
         rung={"choices": lines.STRETCHING}, breaking_load={"unit": "N"},
     ),
@@ -357,23 +345,23 @@ _ALL = (
         parts={"type": "tables", "keys": part_keys()},
     ),
     _call(
-        "entrapped_water", entrapped.add_entrapped_water, _core.EntrappedWater,
-        air={"choices": entrapped.AIR}, exponent={"unit": ""},
+        "entrapped_water", immersed.add_entrapped_water, _core.EntrappedWater,
+        air={"choices": immersed.AIR}, exponent={"unit": ""},
         openings={"type": "tables", "keys": keys_of(Opening, more={"point": POINT, "area": {"unit": "m2"}})},
     ),
-    _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
-    _call("air_drag", damping.add_air_drag, _core.FlowForce),
+    _call("pendulum_damping", wind_current.add_pendulum_damping, _core.PendulumDamping),
+    _call("air_drag", wind_current.add_air_drag, _core.FlowForce),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
     _call("stop", limits.add_stop, _core.SoftStop, _core.Limit),
     _call("friction", limits.add_friction, _core.Friction),
-    _call("contact", contact.add_contact, _core.Contact, **CONTACT),
+    _call("contact", limits.add_contact, _core.Contact, **CONTACT),
     _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
     _call("point", recorded.add_point, _core.Point),
     _call(
-        "clearance", clearances.add_clearance, points={"type": "texts"}, center=POINT, size=POINT,
+        "clearance", recorded.add_clearance, points={"type": "texts"}, center=POINT, size=POINT,
     ),
-    _call("relative", relatives.add_relative),
+    _call("relative", recorded.add_relative),
     _call("channel", own_channels.add_channel),
     _call(
         "lift_factors", lift_factors.add_lift_factors,
@@ -381,15 +369,15 @@ _ALL = (
         sources={"type": "names"},
     ),
     _call(
-        "limit_state", limit_states.add_limit_state,
+        "limit_state", recorded.add_limit_state,
         maximum=NUMBER | LIMITED, minimum=NUMBER | LIMITED, names={"type": "names"},
     ),
     Table(
-        name="mesh", text=_summary(meshes.add_mesh), add=meshes.add_mesh,
+        name="mesh", text=_summary(bodies.add_mesh), add=bodies.add_mesh,
         keys=tuple(
             replace(key, required=key.required or key.name == "file")
             for key in keys_of(
-                meshes.add_mesh,
+                bodies.add_mesh,
                 more={"file": {"type": "file"}, "frame": {"type": "table", "keys": fields_of(_core.Frame)}},
                 without=("vertices", "faces"),
             )
@@ -431,6 +419,10 @@ _ALL = (
     Table(
         name="outputs", several=False, text=_summary(Outputs),
         keys=keys_of(Outputs, more={"dt_out": TIME, "channels": {"type": "texts"}}),
+    ),
+    Table(
+        name="study", several=False, keys=STUDY,
+        text="Many runs of the lift: what varies, what each leaves, and when it is enough.",
     ),
     Table(
         name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",

@@ -17,6 +17,10 @@ from seacrane.sea import Current, SeaState, WaveSystem
 from seacrane.water import from_mesh
 from seacrane.water.parts import PARTS
 
+SHIPPED = ("hull_115",)  # databases that come with the package, by their names
+HEIGHT_AND_PERIOD = {
+    "hs": LENGTH | {"bounds": {"minimum": 0.0}}, "tp": TIME | {"bounds": {"exclusiveMinimum": 0.0}}
+}  # fmt: skip
 OF_MOTION = ("ramp", "duration", "size")
 READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
 
@@ -40,7 +44,10 @@ def vessel_keys() -> tuple[Key, ...]:
         "position": POINT, "ramp": TIME, "duration": TIME, "size": POINT,
     }  # fmt: skip
     return (
-        Key(name="database", type="file", text="Path of a database, or hull_115, which comes with seacrane."),
+        Key(
+            name="database", type="file", choices=SHIPPED,
+            text="Path of a database, or hull_115, which comes with seacrane.",
+        ),
         Key(
             name="motion", type="text", choices=("raos", "rest"),
             text='"raos": led by the displacement RAOs of the database; "rest": without one, never moves.',
@@ -104,7 +111,7 @@ def sea_keys() -> tuple[Key, ...]:
     plain = keys_of(
         sea.add_sea,
         more=CHOSEN | {
-            "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
+            **HEIGHT_AND_PERIOD, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
             "cutoff": {"unit": "rad/s"}, "position": POINT | {"shapes": ((2,),)},
             "stretching": {"choices": STRETCHING},
             "current": {"type": "table", "keys": _current_keys()},
@@ -126,5 +133,5 @@ def _system_keys() -> tuple[Key, ...]:
         WaveSystem,
         more=CHOSEN | {"spreading": NUMBER, "minimum_omega": frequency, "maximum_omega": frequency},
     )
-    shape = keys_of(sea.add_sea, more={"hs": LENGTH, "tp": TIME}, only=("hs", "tp", "gamma"))
+    shape = keys_of(sea.add_sea, more=HEIGHT_AND_PERIOD, only=("hs", "tp", "gamma"))
     return (*own, *(replace(key, required=key.name != "gamma") for key in shape))

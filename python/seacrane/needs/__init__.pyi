@@ -8,7 +8,7 @@ from seacrane.needs.required import choices_of as choices_of
 from seacrane.needs.required import missing_from as missing_from
 from seacrane.needs.in_water import in_one_piece as in_one_piece
 from seacrane.needs.in_water import uncoupled as uncoupled
-from seacrane.scene.line_segments import with_segments as with_segments
+from seacrane.needs.in_air import with_segments as with_segments
 from seacrane.accuracy.simpler_scenes import strongest as strongest
 from seacrane.accuracy.simpler_scenes import with_memory as with_memory
 from seacrane.accuracy.simpler_scenes import locked as locked

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.description import Description
-from seacrane.description.file import scene_digest
 from seacrane.description.loads import lines_of
 from seacrane.description.pick import Pick
 from seacrane.description.wet_parts import wet_bodies
@@ -24,6 +23,7 @@ from seacrane.result.contact_loads import contact_loads
 from seacrane.result.history import wanted_traces
 from seacrane.result.kept_scene import NOT_KEPT
 from seacrane.result.traces import Trace
+from seacrane.scene.file import scene_digest
 
 AXES = "x forward, y to port, z up, about the origin of the inertial frame; m, s"
 REAL_WIRES = "as thick as steel ropes of their EA, EA = 40 GPa times the square of the diameter"

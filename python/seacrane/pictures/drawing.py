@@ -14,7 +14,7 @@ from seacrane.crane import Crane
 from seacrane.description import crane_parts
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
-from seacrane.description.joint_coordinates import start_pose
+from seacrane.description.places import start_pose
 from seacrane.description.suspension import hung_loads
 from seacrane.errors import SceneError
 from seacrane.hydro import Hull

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.inputs.finite import is_finite
+from seacrane.inputs.checked import is_finite
 from seacrane.result.about import NAMES
 
 Array = NDArray[np.float64]

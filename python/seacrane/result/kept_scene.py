@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 
-from seacrane.description.file import described, scene_from_bytes
-from seacrane.description.file_text import LARGEST_FILE
 from seacrane.errors import SeacraneError
+from seacrane.scene.file import LARGEST_FILE, described, scene_from_bytes
 from seacrane.scene.scene import Scene
 
 NOT_KEPT = "scene_not_kept"  # among the stats of a result: what of the scene its file does not hold, and why

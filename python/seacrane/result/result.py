@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.description.body_motion import POSE, position_of
 from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes, channel_of
 from seacrane.description.pick import Pick, pick_of
-from seacrane.description.places import on_body
+from seacrane.description.places import POSE, on_body, position_of
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.keywords import named
@@ -25,13 +24,7 @@ from seacrane.inputs.state import state_to_bytes
 from seacrane.plotting.panel import draw
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result.about import About, StageSpan
-from seacrane.result.checked_parts import (
-    Stat,
-    checked_array,
-    checked_names,
-    checked_stats,
-    checked_time,
-)
+from seacrane.result.checked_parts import Stat, checked_array, checked_names, checked_stats, checked_time
 from seacrane.result.curves import curves_of
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays

@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 
 from seacrane.description.channels import NAMED, attributes, channel_of
-from seacrane.description.file_text import LARGEST_FILE
 from seacrane.errors import FileFormatError
 from seacrane.inputs.netcdf_limits import open_netcdf
 from seacrane.inputs.state import state_from_bytes
 from seacrane.result.about import About, parted
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 from seacrane.result.kept_scene import KeptScene
+from seacrane.scene.file import LARGEST_FILE
 
 STATE, STATE_DIMENSION = "state", "state_byte"
 SCENE, SCENE_DIMENSION = "scene_json", "scene_byte"

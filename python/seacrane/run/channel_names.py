@@ -10,15 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.analysis.least_pulls import least_pulls, weighed_suspensions
-from seacrane.description.body_motion import position_of
 from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
-from seacrane.description.clearances import Clearance, distance_from_box
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
-from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.loads import winches_of
 from seacrane.description.once import once, once_in_any_sea
+from seacrane.description.places import position_of
+from seacrane.description.roles import pressure
 from seacrane.description.suspension import names_of_suspensions
 from seacrane.description.wet_parts import immersed_depths, wet_names
 from seacrane.errors import SceneError
@@ -37,6 +36,7 @@ from seacrane.run.hanging import (
 from seacrane.run.hook_loads import hook_loads, link_tensions, lowest_segments, slack_margins
 from seacrane.run.motions import motions
 from seacrane.run.own import require_own, with_sources
+from seacrane.scene.recorded import Clearance, distance_from_box
 
 if TYPE_CHECKING:
     from seacrane import _core

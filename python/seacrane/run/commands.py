@@ -9,7 +9,6 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.description import Some
-from seacrane.description.edit import replace_element
 from seacrane.description.given import given_drivers
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, winch_of
@@ -17,6 +16,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of
 from seacrane.inputs.shown import shown
 from seacrane.run.move import Move
+from seacrane.scene.edit import replace_element
 from seacrane.scene.scene import Scene
 
 RATE_TIME = 1.0  # s, in which a rate, a force or a brake that is commanded by a number is reached

@@ -8,10 +8,10 @@ from typing import Any
 from seacrane.description.channels import NAMED
 from seacrane.description.description import KINDS, LOADS, Some
 from seacrane.description.loads import named
-from seacrane.description.own_channels import picks
 from seacrane.description.pick import Pick
 from seacrane.errors import SceneError
 from seacrane.run.channel_names import missing_names
+from seacrane.scene.own_channels import picks
 from seacrane.scene.scene import Scene
 
 TABLES = ("joints", "drivers", *LOADS)

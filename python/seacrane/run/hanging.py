@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.body_motion import MOTION, POSE, position_of, velocity_of
-from seacrane.description.capacity import allowed_at
-from seacrane.description.crane_parts import tips
-from seacrane.description.crane_reach import tip_radius
-from seacrane.description.roles import CraneRoles
+from seacrane.description.crane_parts import tip_radius, tips
+from seacrane.description.places import MOTION, POSE, position_of, velocity_of
+from seacrane.description.roles import CraneRoles, allowed_at
 from seacrane.description.suspension import Hung, hung_loads, names_of_suspensions, suspensions
 
 if TYPE_CHECKING:

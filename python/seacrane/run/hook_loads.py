@@ -10,15 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.analysis.least_pulls import least_pulls
-from seacrane.description.body_motion import POSE, position_of
 from seacrane.description.crane_parts import hooks
 from seacrane.description.loads import lines_of, path_of, whole_of
 from seacrane.description.once import once_in_any_sea
-from seacrane.description.suspension import (
-    hooked_body,
-    hung_loads,
-    names_of_suspensions,
-)
+from seacrane.description.places import POSE, position_of
+from seacrane.description.suspension import hooked_body, hung_loads, names_of_suspensions
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.places import ANGLES
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 from seacrane.scene.scene import Scene

@@ -18,8 +18,7 @@ from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, on_winch
 from seacrane.description.once import once
 from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, automatic, with_rungs
-from seacrane.description.water_contradicted import starts_wet
-from seacrane.description.wet_parts import immersed_parts
+from seacrane.description.wet_parts import immersed_parts, starts_wet
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.scene.scene import Scene

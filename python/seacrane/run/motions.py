@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.body_motion import relative_motion, velocity_of
 from seacrane.description.channels import DERIVED
 from seacrane.description.loads import lines_of, winches_of
+from seacrane.description.places import relative_motion, velocity_of
 from seacrane.description.suspension import lower_ends
 from seacrane.inputs.frames import rotation_matrix
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from seacrane.description.channels import CHANNELS, OWN
 from seacrane.description.expression import Curve, Number, values_of, worked_out
-from seacrane.description.own_channels import picked, picks, programs
 from seacrane.description.pick import Pick
 from seacrane.errors import SceneError
+from seacrane.scene.own_channels import picked, picks, programs
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description

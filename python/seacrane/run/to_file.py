@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
@@ -29,6 +28,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController
 from seacrane.run.start import REST
+from seacrane.scene.file import scene_digest
 from seacrane.validity.after_run import Finding, as_text, warn_of
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Hulls afloat, from their databases: one by itself, or several in one water."""
+"""Hulls afloat, from their databases or by matrices: one by itself, or several in one water."""
 
 from __future__ import annotations
 
@@ -11,9 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.bodies import add_body
-from seacrane.description.description import Description
-from seacrane.description.hydrodynamics import add_group, add_hydrodynamics
+from seacrane.description.description import Description, insert, require
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import SceneError
@@ -37,8 +35,14 @@ from seacrane.inputs.checked import name_of, shaped_of
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.mooring import add_mooring_springs, chosen_mooring, with_mooring, without_rounding
-from seacrane.scene.mooring_parts import Mooring
+from seacrane.scene.bodies import add_body
+from seacrane.scene.mooring import (
+    Mooring,
+    add_mooring_springs,
+    chosen_mooring,
+    with_mooring,
+    without_rounding,
+)
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (the paper's station keeping)
 MOORING_DAMPING = 0.1  # of critical
@@ -51,19 +55,33 @@ AFLOAT = 1e-6  # m
 FloatArray = NDArray[np.float64]
 
 
-def add_hull(
-    scene: Description,
-    database: HydroDatabase,
-    *,
-    name: str = "vessel",
-    position: Any = (0.0, 0.0, 0.0),
-    heading_deg: float = 0.0,
-    memory: str = "by-motion",
-    kinematics: str = "yaw_following",
-    mooring: Any = None,
-    mooring_period: float | None = MOORING_PERIOD,
-    mooring_damping: float = MOORING_DAMPING,
+def add_hydrodynamics(
+    scene: Description, *, body: str, name: str | None = None, **hydrodynamics: Any
 ) -> VesselHydrodynamics:
+    """Linear hydrodynamics of a body about its origin; see `VesselHydrodynamics` for the arguments."""
+    name = name_of("vessel", name, body)
+    known = [field.name for field in VesselHydrodynamics.FIELDS if field.role == "value"]
+    for key in hydrodynamics:
+        if key not in (*known, "database"):
+            raise SceneError(f"vessel {name!r}: {key} is unknown; a vessel takes {', '.join(known)}")
+    element = VesselHydrodynamics(name=name, body=body, **hydrodynamics)
+    return insert("vessel", scene.vessels, element)
+
+
+def add_group(scene: Description, *, name: str, **matrices: Any) -> _core.GroupHydrodynamics:
+    """Vessels that load each other through the water; see `GroupHydrodynamics` for the arguments."""
+    element = _core.GroupHydrodynamics(name=name_of("group", name), **matrices)
+    for vessel in element.vessels:
+        require(scene, f"group {name!r}", "vessels", vessel, "vessels")
+    return insert("group", scene.groups, element)
+
+
+def add_hull(
+    scene: Description, database: HydroDatabase, *, name: str = "vessel", position: Any = (0.0, 0.0, 0.0),
+    heading_deg: float = 0.0, memory: str = "by-motion", kinematics: str = "yaw_following",
+    mooring: Any = None, mooring_period: float | None = MOORING_PERIOD,
+    mooring_damping: float = MOORING_DAMPING,
+) -> VesselHydrodynamics:  # fmt: skip
     """A hull that floats by itself, as `Scene.add_vessel` describes it."""
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
@@ -86,29 +104,17 @@ def add_hull(
 
 
 def _put_afloat(
-    scene: Description,
-    database: HydroDatabase,
-    parameters: VesselParameters,
-    *,
-    name: str,
-    pose: tuple[FloatArray, float],
-    memory: Any,
-    kinematics: str,
-    mooring: Any,
-    mooring_period: float | None,
-    mooring_damping: float,
-) -> VesselHydrodynamics:
+    scene: Description, database: HydroDatabase, parameters: VesselParameters, *, name: str,
+    pose: tuple[FloatArray, float], memory: Any, kinematics: str, mooring: Any,
+    mooring_period: float | None, mooring_damping: float,
+) -> VesselHydrodynamics:  # fmt: skip
     """A body with the parameters of a database, and its hydrodynamics; `pose`: position (3,), m, yaw, rad."""
     place, half = pose[0], 0.5 * pose[1]
     add_body(
-        scene,
-        name=name,
-        mass=parameters.mass,
-        inertia=parameters.inertia,
-        center_of_mass=parameters.center_of_mass,
-        position=place,
+        scene, name=name, mass=parameters.mass, inertia=parameters.inertia,
+        center_of_mass=parameters.center_of_mass, position=place,
         quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
-    )
+    )  # fmt: skip
     held = chosen_mooring(
         f"vessel {name!r}", database, mooring, mooring_period, usual=mooring_period == MOORING_PERIOD
     )
@@ -123,18 +129,10 @@ def _put_afloat(
         omega = 0.0 if held is None else 2.0 * np.pi / held
         stiffness, damping = heavy * omega**2, 2.0 * mooring_damping * omega * heavy
     return add_hydrodynamics(
-        scene,
-        body=name,
-        added_mass=parameters.added_mass,
-        linear_damping=parameters.linear_damping,
-        quadratic_damping=parameters.quadratic_damping,
-        restoring=restoring,
-        mooring_stiffness=stiffness,
-        mooring_damping=damping,
-        memory=memory,
-        kinematics=kinematics,
-        database=database,
-    )
+        scene, body=name, added_mass=parameters.added_mass, linear_damping=parameters.linear_damping,
+        quadratic_damping=parameters.quadratic_damping, restoring=restoring, mooring_stiffness=stiffness,
+        mooring_damping=damping, memory=memory, kinematics=kinematics, database=database,
+    )  # fmt: skip
 
 
 def _memory_error(parameters: VesselParameters, memory: str) -> float | None:
@@ -175,16 +173,10 @@ def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, f
 
 
 def add_hulls(
-    scene: Description,
-    group: HydroGroup,
-    *,
-    names: Sequence[str] | None = None,
-    position: Any = (0.0, 0.0, 0.0),
-    heading_deg: float = 0.0,
-    memory: str = "joint",
-    mooring_period: float | None = MOORING_PERIOD,
-    mooring_damping: float = MOORING_DAMPING,
-) -> tuple[VesselHydrodynamics, ...]:
+    scene: Description, group: HydroGroup, *, names: Sequence[str] | None = None,
+    position: Any = (0.0, 0.0, 0.0), heading_deg: float = 0.0, memory: str = "joint",
+    mooring_period: float | None = MOORING_PERIOD, mooring_damping: float = MOORING_DAMPING,
+) -> tuple[VesselHydrodynamics, ...]:  # fmt: skip
     """Hulls that feel each other's motions and waves, as `Scene.add_vessel` describes them."""
     if memory not in OF_GROUP:
         raise SceneError(f"memory {shown(memory)} of a group is not there; choose {' or '.join(OF_GROUP)}")
@@ -277,11 +269,6 @@ def _core_memory(
 def _core_block(block: MemoryBlock) -> _core.StateSpaceBlock:
     """A block of a fitted memory."""
     return _core.StateSpaceBlock(
-        inputs=[int(i) for i in block.inputs],
-        outputs=[int(i) for i in block.outputs],
-        a=block.A,
-        b=block.B,
-        c=block.C,
-        d=block.D,
-        state_scale=block.state_scale,
-    )
+        inputs=[int(i) for i in block.inputs], outputs=[int(i) for i in block.outputs], a=block.A,
+        b=block.B, c=block.C, d=block.D, state_scale=block.state_scale,
+    )  # fmt: skip

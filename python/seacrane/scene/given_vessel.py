@@ -11,12 +11,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import SIX, hold_vessel
 from seacrane.analysis.linear_system import linear_model
-from seacrane.description.bodies import add_body
+from seacrane.description.curves import curves_of_sum
 from seacrane.description.databases import source_of
 from seacrane.description.description import Description
-from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.sum_of_cosines import curves_of_sum
 from seacrane.description.vessel_hydrodynamics import Source, VesselHydrodynamics
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
@@ -26,9 +24,9 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.afloat import add_hull
+from seacrane.scene.afloat import add_hull, add_hydrodynamics
+from seacrane.scene.bodies import add_body
 from seacrane.scene.motion_history import MotionHistory
-from seacrane.scene.wave_force import force_of_components
 from seacrane.warnings import OutsideRaosWarning
 
 LIGHT = 1.0  # kg and kg m2 of the body that stands for the ship: what drives it carries what is on board
@@ -37,19 +35,13 @@ DURATION = 600.0  # s
 MOST_OUTSIDE = 0.02  # of the energy of the waves
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+AT_ONCE = 4096  # components whose transfer is interpolated together, to bound the memory it takes
 
 
 def add_given(
-    scene: Description,
-    motion: Any,
-    *,
-    name: str = "vessel",
-    position: Any = (0.0, 0.0, 0.0),
-    heading_deg: float = 0.0,
-    ramp: float = RAMP,
-    duration: float = DURATION,
-    size: Any = None,
-) -> VesselHydrodynamics:
+    scene: Description, motion: Any, *, name: str = "vessel", position: Any = (0.0, 0.0, 0.0),
+    heading_deg: float = 0.0, ramp: float = RAMP, duration: float = DURATION, size: Any = None,
+) -> VesselHydrodynamics:  # fmt: skip
     """A ship whose motion is given, as `Scene.add_vessel` describes it."""
     what = f"vessel {name_of('vessel', name)!r}"
     kind = _kind_of(what, motion)
@@ -73,24 +65,16 @@ def add_given(
     if isinstance(motion, MotionHistory):
         lasting = float(motion.time[-1])
     scene.provenance[name] = VesselProvenance(
-        database=motion.name if isinstance(motion, HydroDatabase) else None,
-        motion=kind,
-        ramp=None if kind == "rest" else grown,
-        duration=None if kind == "rest" else lasting,
-        size=outline,
+        database=motion.name if isinstance(motion, HydroDatabase) else None, motion=kind,
+        ramp=None if kind == "rest" else grown, duration=None if kind == "rest" else lasting, size=outline,
         record=motion.record or None if isinstance(motion, MotionHistory) else None,
-    )
+    )  # fmt: skip
     return added
 
 
 def put_into_sea(
-    scene: Description,
-    waves: Waves,
-    *,
-    vessel: str,
-    place: tuple[float, float],
-    heading: float,
-) -> Waves:
+    scene: Description, waves: Waves, *, vessel: str, place: tuple[float, float], heading: float,
+) -> Waves:  # fmt: skip
     """The sea with a given ship in it, which it does not load; one that follows RAOs is set moving."""
     known, source = scene.provenance[vessel], source_of(scene, vessel)
     if known.motion == "raos":
@@ -155,25 +139,13 @@ def raos_of(database: HydroDatabase) -> MotionRaos:
 
 
 def motion_of_components(
-    source: HydroDatabase | MotionRaos,
-    waves: Waves,
-    *,
-    place: tuple[float, float],
-    heading: float,
+    source: HydroDatabase | MotionRaos, waves: Waves, *, place: tuple[float, float], heading: float,
     gravity: float,
-) -> Complex:
+) -> Complex:  # fmt: skip
     """Complex amplitude (n, 6) of the motion in each component: m and rad, sum Re of them exp(i omega t).
 
-    In axes of the ship at rest.
-
-    Parameters
-    ----------
-    source : HydroDatabase or MotionRaos
-        A database without motions of its own has those of the linear model of the ship alone, floating as
-        `Scene.add_vessel` describes it.
-    place, heading
-        Of the ship at rest: (x, y), m; rad.
-    gravity : m/s2.
+    In axes of the ship at rest, at a place (x, y), m, and a heading, rad. A database without motions of its
+    own has those of the linear model of the ship alone, floating as `Scene.add_vessel` describes it.
 
     Warns
     -----
@@ -211,3 +183,12 @@ def _warn_of_outside(table: MotionRaos, omega: Array, amplitude: Array) -> None:
             "above it none; give a table of the frequencies of the sea",
             OutsideRaosWarning,
         )
+
+
+def force_of_components(database: HydroDatabase, omega: Array, heading: Array) -> NDArray[np.complex128]:
+    """N/m and N m/m, (n, 6), at frequencies (n,), rad/s, and headings (n,), rad, relative to the vessel."""
+    rows = [
+        database.force_at(omega[i : i + AT_ONCE], heading[i : i + AT_ONCE], outside="limits")
+        for i in range(0, omega.size, AT_ONCE)
+    ]
+    return np.concatenate(rows).astype(complex).reshape(-1, 6)

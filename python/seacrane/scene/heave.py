@@ -12,7 +12,7 @@ from seacrane import _core
 from seacrane.analysis.inverse import driven, hold_vessel
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import GROUND, Description
-from seacrane.description.forces import add_load
+from seacrane.description.elements import put_load
 from seacrane.description.given import given_vessels
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
 from seacrane.description.loads import path_of, winches_of
@@ -130,8 +130,7 @@ def add_heave_compensation(
     if ratio is None:
         given["ratio"] = _ratio(scene, what, winch, actuator, direction)
     compensator = _core.HeaveCompensator(**flat(what, given, VALUES))
-    added: _core.HeaveCompensator = add_load(scene, compensator)
-    return added
+    return put_load(scene, compensator)
 
 
 def _ratio(scene: Description, what: str, winch: str | None, actuator: str | None, direction: Any) -> float:
@@ -215,8 +214,7 @@ def add_gas_spring(
     entries = _of_gas(what, flat(what, given, VALUES))
     if length is None:
         entries["length"] = apart(scene, what, (first, first_point), (second, second_point))
-    added: _core.GasSpring = add_load(scene, _core.GasSpring(**entries))
-    return added
+    return put_load(scene, _core.GasSpring(**entries))
 
 
 def _of_gas(what: str, entries: dict[str, Any]) -> dict[str, Any]:
@@ -241,18 +239,9 @@ def _unit(direction: Any) -> Array:
 
 
 def falls_of(scene: Description, line: _core.Line, direction: Any) -> float:
-    """By how much the path of a line shortens for each metre by which its load moves.
+    """By how much the path of a line shortens for each metre by which its load moves along a direction (3,).
 
-    The load is the body whose rise shortens it most.
-
-    Parameters
-    ----------
-    direction : (3,) Of that motion, inertial axes.
-
-    Returns
-    -------
-    float
-        n for n falls along the direction.
+    n for n falls; inertial axes. The load is the body whose rise shortens it most.
     """
     places = [placed(scene, body, point) for body, point in path_of(line)]
     shortening = {body: np.zeros(3) for body in line.bodies if body != GROUND}
@@ -267,18 +256,9 @@ def falls_of(scene: Description, line: _core.Line, direction: Any) -> float:
 
 
 def tip_rate(scene: Description, actuator: str, body: str, point: Any, direction: Any) -> float:
-    """How fast an actuator moves a point of a body: the vessels and all other actuators are held.
+    """Speed of a point (m, in coordinates of a body) along a direction (3,), for that of an actuator.
 
-    Parameters
-    ----------
-    body, point : str, array_like
-        The point, m, in coordinates of the body.
-    direction : (3,) Along which its speed counts, inertial axes.
-
-    Returns
-    -------
-    float
-        m/s for each m/s, or rad/s, of the actuator's coordinate.
+    m/s for each m/s, or rad/s, of its coordinate; inertial axes. Vessels and all other actuators are held.
     """
     curves = {name: _core.Curve.constant(value=0.0) for name in scene.actuators}
     curves[actuator] = _core.Curve.pieces(starts=[0.0], coefficients=[[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]])

@@ -11,14 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.description.bodies import add_body
-from seacrane.description.damping import BOX_DRAG, SWING_RATIO, add_air_drag, add_pendulum_damping
+from seacrane.crane.payload import BOX_DRAG, SWING_RATIO
 from seacrane.description.description import GROUND, KINDS, Description
-from seacrane.description.joints import add_joint
+from seacrane.description.elements import add_joint
 from seacrane.description.loads import changed
 from seacrane.description.places import place_of
-from seacrane.description.ratings import note_rating, rating_of
-from seacrane.description.recorded import add_point
 from seacrane.description.roles import CraneRoles
 from seacrane.description.rungs import ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung, StretchingRung
 from seacrane.errors import SceneError
@@ -35,11 +32,13 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
-from seacrane.scene.bridles import add_bridle
-from seacrane.scene.contact import add_contact
-from seacrane.scene.limits import add_stop
-from seacrane.scene.line_start import hung_from
-from seacrane.scene.lines import TAKEN_BY, add_line, add_winch
+from seacrane.scene.bodies import add_body
+from seacrane.scene.lift_factors import note_rating, rating_of
+from seacrane.scene.limits import add_contact, add_stop
+from seacrane.scene.lines import TAKEN_BY, add_line, hung_from
+from seacrane.scene.recorded import add_point
+from seacrane.scene.rigging import add_bridle, add_winch
+from seacrane.scene.wind_current import damp_load
 
 Array = NDArray[np.float64]
 BLOCK_DENSITY = 2000.0  # kg/m3 over its outline: plates, sheaves and gaps; gives a block its size alone
@@ -265,7 +264,7 @@ def add_hoist(
         if rig is not None:
             _sling(scene, name, hook[0], load, rig, standing=on is not None)
         if flag_of(f"{what}: damping", damping):
-            _damp(scene, roles.tip, load)
+            damp_load(scene, load, scene.bodies[load].size, roles.tip, ratio=SWING_RATIO, drag=BOX_DRAG)
         for label, (body, point) in {"tip": roles.tip, "hook": hook}.items():
             if f"{roles.prefix}{label}" not in scene.points:
                 add_point(scene, f"{roles.prefix}{label}", body=body, point=point)
@@ -327,16 +326,10 @@ def _whole_or_nothing(scene: Description) -> Iterator[None]:
 
 
 def _add_load(
-    scene: Description,
-    what: str,
-    roles: CraneRoles,
-    name: str,
-    box: tuple[float | None, ArrayLike | None],
-    tip: Array,
-    rig: Slings | None,
-    place: tuple[float | None, float | None, str | None],
+    scene: Description, what: str, roles: CraneRoles, name: str, box: tuple[float | None, ArrayLike | None],
+    tip: Array, rig: Slings | None, place: tuple[float | None, float | None, str | None],
     feet: Mapping[str, Any] | None,
-) -> None:
+) -> None:  # fmt: skip
     """A box below the tip, hanging, or standing on a seat or on feet."""
     mass, size = box
     if mass is None or size is None:
@@ -432,19 +425,10 @@ def _add_block(scene: Description, what: str, name: str, load: str, mass: float,
 
 
 def _tie(
-    scene: Description,
-    what: str,
-    name: str,
-    tip: Place,
-    hook: Place,
-    falls: int,
-    weight: float,
-    given: Mapping[str, float | None],
-    rung: Rung,
-    mass_per_length: float,
-    wire: Mapping[str, Any] | None,
+    scene: Description, what: str, name: str, tip: Place, hook: Place, falls: int, weight: float,
+    given: Mapping[str, float | None], rung: Rung, mass_per_length: float, wire: Mapping[str, Any] | None,
     slack: float,
-) -> None:
+) -> None:  # fmt: skip
     """The line over its falls, which carries a weight (N) from the start, or is slack."""
     ends = [tip, hook]
     path = [ends[i % 2] for i in range(falls + 1)]
@@ -500,14 +484,3 @@ def _preload(scene: Description, structure: str, weight: float) -> None:
     spring = scene.springs[structure]
     length = spring.natural_length - weight / spring.stiffness
     scene.springs[structure] = changed(spring, natural_length=length)
-
-
-def _damp(scene: Description, tip: Place, load: str) -> None:
-    """As a `Payload` has it."""
-    add_pendulum_damping(
-        scene, f"{load} swing", first=tip[0], first_point=tip[1], second=load, ratio=SWING_RATIO
-    )
-    if not np.any(scene.bodies[load].size):
-        return
-    x, y, z = map(float, scene.bodies[load].size)
-    add_air_drag(scene, load, frontal_area=y * z, lateral_area=x * z, drag_coefficient=BOX_DRAG)

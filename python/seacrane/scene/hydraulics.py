@@ -9,11 +9,10 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.inverse import at_rest, locked_at_rest
 from seacrane.analysis.rest_on_oil import add_rod, ends_of, rod_forces, without_cylinders
-from seacrane.description import hydraulic_values as of
+from seacrane.description import hydraulic_cylinders as of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
-from seacrane.description.drives import add_driver
-from seacrane.description.edit import replace_element
+from seacrane.description.elements import add_driver
 from seacrane.description.holding import let_go
 from seacrane.description.hydraulic_cylinders import (
     holding_pressures,
@@ -23,6 +22,7 @@ from seacrane.description.hydraulic_cylinders import (
 )
 from seacrane.description.places import ORIGIN
 from seacrane.errors import SceneError
+from seacrane.scene.edit import replace_element
 
 
 def add_hydraulic_cylinder(

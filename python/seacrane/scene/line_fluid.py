@@ -1,7 +1,9 @@
-"""What a line with mass is in: air, a fluid that flows, or the sea."""
+"""What a line with mass is in, air, a fluid that flows, or the sea, and the seabed under it."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -9,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
-from seacrane.description.damping import AIR
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, positive_of, text_of
+from seacrane.inputs.checked import finite_of, not_negative_of, number_of, positive_of, text_of
+from seacrane.inputs.shown import shown
+from seacrane.scene.wind_current import AIR
 from seacrane.water.density import SEA_WATER, density_of
 
 Array = NDArray[np.float64]
@@ -20,6 +23,11 @@ MEDIA = ("air", "sea")
 CYLINDER_DRAG = 1.2  # C_D of a cylinder across the flow, below its critical Reynolds number: DNV-RP-C205
 CIRCLE_ADDED_MASS = 1.0  # C_a of a circle in ideal flow: H. Lamb, Hydrodynamics, art. 68
 SKIN_DRAG = 0.01  # C_D along, on the skin of a wire: unverified
+SOURCES = (
+    ("added mass", "added_mass_coefficient", CIRCLE_ADDED_MASS, "a circle in ideal flow (Lamb, art. 68)"),
+    ("drag across", "drag_coefficient", CYLINDER_DRAG, "a cylinder (DNV-RP-C205)"),
+    ("drag along", "drag_coefficient_along", SKIN_DRAG, "unverified"),
+)
 OF_THE_SEA = {"drag_coefficient_along": SKIN_DRAG, "added_mass_coefficient": CIRCLE_ADDED_MASS}
 
 
@@ -64,18 +72,9 @@ class Fluid:
 
     def source(self) -> str:
         """Where the coefficients are from."""
-        usual = [
-            (
-                "added mass",
-                self.added_mass_coefficient,
-                CIRCLE_ADDED_MASS,
-                "a circle in ideal flow (Lamb, art. 68)",
-            ),
-            ("drag across", self.drag_coefficient, CYLINDER_DRAG, "a cylinder (DNV-RP-C205)"),
-            ("drag along", self.drag_coefficient_along, SKIN_DRAG, "unverified"),
-        ]
         return "; ".join(
-            f"{what}: {given:g}, {text if given == own else 'given'}" for what, given, own, text in usual
+            f"{what}: {getattr(self, key):g}, {text if getattr(self, key) == usual else 'given'}"
+            for what, key, usual, text in SOURCES
         )
 
     def along(self, name: str, ends: tuple[_Point, _Point], length: float | _core.Curve) -> Any:
@@ -134,3 +133,62 @@ class Fluid:
         if not self.in_sea:
             return 0.0
         return cast(float, self.density) * gravity * np.pi / 4.0 * self.diameter**2 * length
+
+
+@dataclass(frozen=True, kw_only=True)
+class Seabed:
+    """A level seabed on which a line with mass lies: stiffness, damping and friction, no model of soil.
+
+    Attributes
+    ----------
+    depth : float
+        Below z = 0, m.
+    stiffness : float
+        Force up on each metre of line for each metre that it sinks in, N/m2.
+    friction : float
+        Coulomb's coefficient, along the line and across it; 0: none.
+    damping_ratio : float
+        Of critical damping, for the line's own mass where it has sunk in at rest.
+    give : float
+        m that it slides at rest before friction is full.
+    """
+
+    depth: float
+    stiffness: float
+    friction: float
+    damping_ratio: float = 1.0
+    give: float = 0.05
+
+    @staticmethod
+    def of(what: str, given: Seabed | Mapping[str, Any]) -> Seabed:
+        """The seabed of a line; SceneError for keywords that are not there, are missing, or out of range."""
+        if not isinstance(given, (Seabed, Mapping)):
+            raise SceneError(
+                f"{what}: seabed is {shown(given)}; give depth, stiffness and friction, such as "
+                "seabed={'depth': 50.0, 'stiffness': 25e3, 'friction': 0.5}"
+            )
+        keywords = given if isinstance(given, Mapping) else vars(given)
+        try:
+            bed = Seabed(**keywords)
+        except TypeError as error:
+            raise SceneError(
+                f"{what}: seabed has {', '.join(map(repr, keywords))}; it takes depth, stiffness, friction, "
+                "and damping_ratio and give, the first three always"
+            ) from error
+        finite_of(f"{what}: seabed depth", bed.depth, "m")
+        positive_of(f"{what}: seabed stiffness", bed.stiffness, "N/m2")
+        positive_of(f"{what}: seabed give", bed.give, "m")
+        for name in ("friction", "damping_ratio"):
+            not_negative_of(f"{what}: seabed {name}", getattr(bed, name))
+        return bed
+
+    def under(
+        self, node: tuple[str, Array], place: Array, *, length: float, mass: float, weight: float
+    ) -> _core.SeabedNode:
+        """It under a node with a length (m), mass (kg) and weight (N) of line, which is at a place (m)."""
+        stiffness = self.stiffness * length
+        return _core.SeabedNode(
+            name=f"{node[0]} seabed", body=node[0], point=node[1], depth=self.depth, stiffness=stiffness,
+            damping=2.0 * self.damping_ratio * math.sqrt(stiffness * mass) / weight, friction=self.friction,
+            load=weight, give=self.give, anchor=place,
+        )  # fmt: skip

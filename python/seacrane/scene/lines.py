@@ -1,4 +1,4 @@
-"""Lines, from a rigid wire to one with mass, and the winches that pay them out and haul them in."""
+"""Lines, from a rigid wire to one with mass: where they run, and with what length they start."""
 
 from __future__ import annotations
 
@@ -6,35 +6,24 @@ import inspect
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane import _core
-from seacrane.description.description import Description
-from seacrane.description.forces import add_load
-from seacrane.description.joints import add_joint
-from seacrane.description.loads import changed, lines_of, refuse_winch_of_segment, whole_of
+from seacrane.description.description import GROUND, Description
+from seacrane.description.elements import add_joint, put_load
+from seacrane.description.line_path import path_length
+from seacrane.description.loads import changed
 from seacrane.description.places import place_of
-from seacrane.description.ratings import note_rating, rating_of
-from seacrane.description.rungs import (
-    AUTO,
-    ELASTIC,
-    QUASI_STATIC,
-    RIGID,
-    WITH_MASS,
-    Rung,
-    StretchingRung,
-)
+from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung, StretchingRung
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.heavy_line import chain_of_segments, on_a_winch
+from seacrane.scene.heavy_line import chain_of_segments
+from seacrane.scene.lift_factors import note_rating, rating_of
 from seacrane.scene.limits import STICKING_SPEED, add_wire
-from seacrane.scene.line_fluid import CIRCLE_ADDED_MASS, CYLINDER_DRAG, SKIN_DRAG, Fluid
-from seacrane.scene.line_seabed import Seabed
-from seacrane.scene.line_start import UNKNOWN_LENGTH, path_between, starting_length
+from seacrane.scene.line_fluid import CIRCLE_ADDED_MASS, CYLINDER_DRAG, SKIN_DRAG, Fluid, Seabed
 
-NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
-STRONGEST = 1e12  # N or W: likewise
 STRETCHING = (QUASI_STATIC, ELASTIC, AUTO)
 RUNGS = (RIGID, *STRETCHING, WITH_MASS)
 TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung takes
@@ -48,6 +37,7 @@ TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung take
          "drag_coefficient_along", "added_mass_coefficient", "density", "flow", "medium", "seabed"),
         (WITH_MASS,)),
 }  # fmt: skip
+UNKNOWN_LENGTH = 1.0  # m, of a line that is made to be measured
 
 
 def add_line(
@@ -236,7 +226,7 @@ def add_line(
         )  # fmt: skip
         if length is None:
             line = changed(line, length=starting_length(scene, line, tension_at_start))
-        added = add_load(scene, line)
+        added = put_load(scene, line)
     note_rating(scene, rating)
     return added  # type: ignore[no-any-return]
 
@@ -305,103 +295,64 @@ def _axial_stiffness(what: str, given: float | None, strains: ArrayLike, tension
     return given
 
 
-def add_winch(
-    scene: Description,
-    line: str,
-    *,
-    rate: _core.Curve | float = 0.0,
-    maximum_rate: float = NO_BOUND,
-    maximum_acceleration: float = NO_BOUND,
-    lag: float = 0.0,
-    minimum_length: float = 0.1,
-    tension: _core.Curve | float = 0.0,
-    tension_gain: float = 0.0,
-    dead_band: float = 0.0,
-    drum_inertia: float = 0.0,
-    drum_radius: float = 0.0,
-    maximum_tension: float = STRONGEST,
-    maximum_power: float = STRONGEST,
-    brake: _core.Curve | float = 0.0,
-    brake_capacity: float = 0.0,
-    brake_give: float = 1e-3,
-) -> _core.Line:
-    """Put a line on a winch: its unstretched length becomes a state, "<line>.length", driven by a rate.
+def path_between(
+    scene: Description, what: str, bodies: tuple[Any, Any], points: tuple[ArrayLike | None, ArrayLike | None]
+) -> tuple[list[str], list[ArrayLike]]:
+    """The bodies of both ends and a point on each, by default the one of `hung_from`."""
+    for role, body in zip(("first", "second"), bodies, strict=True):
+        if body is None:
+            raise SceneError(f"{what}: has no {role}; name the body of that end, which may be 'ground'")
+    names = [text_of(f"{what}: {role}", body) for role, body in zip(("first", "second"), bodies, strict=True)]
+    places = [
+        hung_from(scene, body) if point is None else point for body, point in zip(names, points, strict=True)
+    ]
+    return names, places
 
-    With a lag the rate is a state too, "<line>.rate". Input "<line>.rate" adds to the command during a run.
-    A line with mass goes by its own name too, and its first segment, "<line>.1", is on the winch.
-    With `tension` and `tension_gain` it holds a tension; with `drum_inertia` and `drum_radius` its drum has
-    inertia, a motor within bounds and a brake. A bound that is reached is an event of the result, of kind
-    "limit". See docs/lines.md.
+
+def hung_from(scene: Description, body: str) -> tuple[float, float, float]:
+    """Where a line is tied to a body unless a point is given, in its coordinates, m.
+
+    That is the top centre of a body that has a size, else its origin.
+    """
+    described = scene.bodies.get(body)
+    if described is None or not np.any(described.size):
+        return (0.0, 0.0, 0.0)
+    x, y, z = map(float, described.center_of_mass)
+    return (x, y, z + 0.5 * float(described.size[2]))
+
+
+def starting_length(scene: Description, line: _core.Line, tension: float | None) -> float:
+    """The unstretched length at which a line carries a tension (N) along its path as described, m.
 
     Parameters
     ----------
-    line : str
-        A line of the scene, whose length is a number: that at the start. It leaves the drum at its first end.
-    rate : Curve or float
-        Commanded, m/s; positive pays out, negative hauls in.
-    maximum_rate : float
-        m/s, of the command in both directions; 1e7 (default): no bound.
-    maximum_acceleration : float
-        m/s2, of the rate; needs a lag. 1e7 (default): no bound.
-    lag : float
-        s, of the rate behind the command, first order, from rest; 0 (default): the rate is the command. A
-        line with mass needs one.
-    minimum_length : float
-        m, at which hauling in stops; on a line with mass a run ends there.
-    tension : Curve or float
-        N, held: the winch pays out above it and hauls in below it, also a slack line. Needs `tension_gain`.
-    tension_gain : float
-        m/s for each N beyond the tension and its dead band, added to the command; 0 (default): none is held.
-    dead_band : float
-        N on both sides of the tension, in which nothing is added.
-    drum_inertia : float
-        kg m2, of drum, gear and motor at the drum; needs a lag. 0 (default): the rate is that of the lag.
-    drum_radius : float
-        m, at which the rope runs.
-    maximum_tension : float
-        N at the rope, of the motor in both directions; 0: no motor. 1e12 (default): no bound.
-    maximum_power : float
-        W that the motor gives; what it takes is not bounded. 1e12 (default): no bound.
-    brake : Curve or float
-        Share of its capacity that is applied, 0 (open) to 1 (closed). The motor lets go by that share.
-    brake_capacity : float
-        N at the rope, beyond which the brake slips; 0 (default): no brake.
-    brake_give : float
-        m of rope that the drum turns before the brake bears its capacity.
-
-    Returns
-    -------
-    Line
-        In the place of the one without a winch; of one with mass its first segment.
-
-    Raises
-    ------
-    SceneError
-        For a line that is not there, has a winch, or is a segment of one with mass; for one with mass whose
-        length is a Curve, or that has drag in air; what else does not fit is
-        said by `Scene.compile`.
+    line : Its own length does not count.
+    tension : 0 or None: the length is that of the path.
     """
-    name = text_of("winch: line", line)
-    known = lines_of(scene.loads)
-    old = known.get(name, known.get(f"{name}.1"))
-    if isinstance(scene.loads.get(name), _core.Limit):
-        raise SceneError(f"line {name!r}: rung 'rigid' takes no winch; choose rung 'elastic'")
-    if old is None or (old.name != name and whole_of(old.name, old) != name):
-        has = ", ".join(known) or "none"
-        raise SceneError(f"winch: there is no line {name!r}; the scene has {has}: add it first")
-    if old.winch:
-        raise SceneError(f"line {name!r}: has a winch already; give one to another line, or replace it")
-    if old.name == name:
-        refuse_winch_of_segment(old)
-    winch = {
-        "winch": True, "rate": rate, "maximum_rate": maximum_rate, "lag": lag,
-        "maximum_acceleration": maximum_acceleration, "minimum_length": minimum_length,
-        "tension": tension, "tension_gain": tension_gain, "dead_band": dead_band,
-        "drum_inertia": drum_inertia, "drum_radius": drum_radius, "maximum_tension": maximum_tension,
-        "maximum_power": maximum_power, "brake": brake, "brake_capacity": brake_capacity,
-        "brake_give": brake_give,
-    }  # fmt: skip
-    if old.name != name:
-        return on_a_winch(scene, name, winch)
-    scene.loads[name] = wound = changed(old, **winch)
-    return wound
+    what = f"line {line.name!r}"
+    pull = 0.0 if tension is None else number_of(f"{what}: tension_at_start", tension)
+    if not (np.isfinite(pull) and pull >= 0.0):
+        raise SceneError(f"{what}: tension_at_start is {pull!r} N; give zero or more")
+    absent = [body for body in line.bodies if body != GROUND and body not in scene.bodies]
+    if absent:
+        raise SceneError(
+            f"{what}: its path is measured as described, and body {absent[0]!r} is not in the scene; add it "
+            "first, or give the length"
+        )
+    path = path_length(scene, line)
+    if not (np.isfinite(path) and path > 0.0):
+        raise SceneError(f"{what}: its path is {path:g} m long as described; correct its points")
+    return path / (1.0 + _strain(line, pull))
+
+
+def _strain(line: _core.Line, tension: float) -> float:
+    """At which the line carries a tension."""
+    if not len(line.strains):
+        return tension / float(line.EA)
+    from scipy.interpolate import PchipInterpolator
+
+    table = PchipInterpolator(line.strains, line.tensions)
+    last, highest = float(line.strains[-1]), float(line.tensions[-1])
+    if tension >= highest:
+        return last + (tension - highest) / float(table.derivative()(last))
+    return float(table.solve(tension, extrapolate=False)[0])

@@ -10,28 +10,119 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.description import GROUND, Description
-from seacrane.description.forces import add_spring
+from seacrane.description.elements import add_spring
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, positive_of, shaped_of
+from seacrane.inputs.frames import rotation_about_z
 from seacrane.inputs.shown import shown
-from seacrane.scene.mooring_parts import (
-    FLOATING,
-    HORIZONTAL,
-    SMALL,
-    SYMMETRIC,
-    Mooring,
-    check_mooring,
-    parts_of,
-)
 from seacrane.warnings import OwnMooringWarning
 
 Array = NDArray[np.float64]
 
+HORIZONTAL = [0, 1, 5]  # surge, sway, yaw
+FLOATING = slice(2, 5)  # heave, roll, pitch: what water restores
+SMALL = 1e-9  # of the diagonals: rounding
+SYMMETRIC = 1e-6
 FAR = 1e6  # m, of the ends of springs: so far that they keep their directions
 IN_PLANE = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
 USUAL = "the usual period of 200 s"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Mooring:
+    """Parts of a mooring as a scene takes them.
+
+    Attributes
+    ----------
+    matrix : (6, 6) All of it about the reference point.
+    horizontal : (3,) Springs of surge, sway and yaw by themselves.
+    floating : (3, 3) What joins the restoring of heave, roll and pitch.
+    springs : tuple of (point, direction, stiffness)
+        The rest, each along its line.
+    left : (3,) Couplings of heave, roll and pitch with yaw that are in none of these.
+    """
+
+    matrix: Array
+    horizontal: Array
+    floating: Array
+    springs: tuple[tuple[Array, Array, float], ...]
+    left: Array
+
+
+def parts_of(what: str, matrix: Array) -> Mooring:
+    """A matrix as springs of surge, sway and yaw, restoring, and at most two springs along lines.
+
+    Where surge and sway couple with nothing, they are springs by themselves. Else the lines take surge and
+    sway with all that they couple; heave, roll, pitch and yaw keep what is left.
+    """
+    size = np.sqrt(np.abs(np.diagonal(matrix)))
+    coupled = matrix - np.diag(np.diagonal(matrix))
+    coupled[FLOATING, FLOATING] = coupled[FLOATING, 5] = coupled[5, FLOATING] = 0.0
+    lines = np.zeros((0, 6))
+    if np.any(np.abs(coupled) > SMALL * np.outer(size, size)):
+        lines = _without_twist(what, _wrenches(matrix))
+    rest = matrix - lines.T @ lines
+    alone = np.diagonal(rest)[HORIZONTAL].copy()
+    if len(lines):
+        alone[:2] = 0.0
+    return Mooring(
+        matrix=matrix, horizontal=np.maximum(alone, 0.0), floating=rest[FLOATING, FLOATING].copy(),
+        springs=tuple(_line(wrench) for wrench in lines), left=rest[FLOATING, 5].copy(),
+    )  # fmt: skip
+
+
+def check_mooring(what: str, matrix: Array) -> None:
+    skew = np.abs(matrix - matrix.T)
+    if skew.max() > SYMMETRIC * np.abs(matrix).max():
+        i, j = np.unravel_index(int(skew.argmax()), (6, 6))
+        raise SceneError(
+            f"{what}: mooring({i}, {j}) is {matrix[i, j]:.6g}, mooring({j}, {i}) is {matrix[j, i]:.6g}; "
+            "springs have a symmetric matrix"
+        )
+    size = np.sqrt(np.abs(np.diagonal(matrix)))
+    scaled = matrix / np.outer(*[np.where(size > 0.0, size, 1.0)] * 2)
+    lowest = float(np.linalg.eigvalsh(0.5 * (scaled + scaled.T))[0])
+    if lowest < -SYMMETRIC:
+        raise SceneError(
+            f"{what}: mooring has a negative stiffness, {lowest:.3g} of its diagonals: it pushes the vessel "
+            "away; check signs and couplings"
+        )
+
+
+def _wrenches(matrix: Array) -> Array:
+    """Rows (r, 6) whose squares give all rows of surge and sway of a stiffness matrix."""
+    values, vectors = np.linalg.eigh(matrix[:2, :2])
+    kept = values > SMALL * max(float(values.max()), 0.0)
+    return np.asarray((matrix[:, :2] @ vectors[:, kept] / np.sqrt(values[kept])).T)
+
+
+def _without_twist(what: str, wrenches: Array) -> Array:
+    """The given squares, by wrenches whose force and moment are at right angles: springs along lines.
+
+    Rotating two of them among each other leaves the sum of their twists f . m, which has to be zero.
+    """
+    forces, moments = wrenches[:, :3], wrenches[:, 3:]
+    twist = 0.5 * (forces @ moments.T + moments @ forces.T)
+    size = np.linalg.norm(forces, axis=1) @ np.linalg.norm(moments, axis=1)
+    if abs(np.trace(twist)) > SYMMETRIC * size:
+        raise SceneError(
+            f"{what}: mooring turns the vessel about the axis of its force, C14 + C25 come to "
+            f"{np.trace(twist):.4g} N, which no springs do; both are zero for a symmetric mooring"
+        )
+    if len(wrenches) < 2:
+        return wrenches
+    half = 0.5 * np.arctan2(-twist[0, 0], twist[0, 1]) if np.any(np.abs(twist) > SYMMETRIC * size) else 0.0
+    turn = np.array([[np.cos(half), np.sin(half)], [-np.sin(half), np.cos(half)]])
+    return np.asarray(turn @ wrenches)
+
+
+def _line(wrench: Array) -> tuple[Array, Array, float]:
+    """Point, direction and stiffness of the spring with a wrench (6,) of sqrt(N/m) at right angles."""
+    size = float(np.linalg.norm(wrench[:3]))
+    direction = wrench[:3] / size
+    return np.cross(direction, wrench[3:] / size), direction, size**2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,12 +180,10 @@ def mooring_of(what: str, given: Any) -> Mooring:
     """
     if isinstance(given, Sequence) and all(isinstance(one, MooringSpring) for one in given):
         return Mooring(
-            matrix=mooring_matrix(given),
-            horizontal=np.zeros(3),
-            floating=np.zeros((3, 3)),
+            matrix=mooring_matrix(given), horizontal=np.zeros(3), floating=np.zeros((3, 3)),
             springs=tuple((np.array(s.point), s.direction, float(s.stiffness)) for s in given),
             left=np.zeros(3),
-        )
+        )  # fmt: skip
     if isinstance(given, str) or np.ndim(given) != 2:
         raise SceneError(
             f"{what}: mooring is {shown(given)}; give a natural period in s, a matrix (6, 6), or a list of "
@@ -116,19 +205,10 @@ def mooring_of(what: str, given: Any) -> Mooring:
 def chosen_mooring(
     what: str, database: HydroDatabase, mooring: Any, period: float | None, *, usual: bool
 ) -> Mooring | float | None:
-    """The one mooring of a vessel: parts, a natural period (s), or None for none.
+    """The one mooring of a vessel, as `add_vessel` takes it: parts, a natural period (s), or None for none.
 
-    Parameters
-    ----------
-    what : Names the vessel in messages.
-    database : Whose restoring may hold a mooring of its own.
-    mooring, period : as in `add_vessel`.
-    usual : Whether the period is that of a user who gave none.
-
-    Raises
-    ------
-    SceneError
-        Two moorings: `mooring` beside a period, or either beside the database's own.
+    The restoring of the database may hold one of its own; `usual`: nobody gave the period. Raises SceneError
+    for two moorings: `mooring` beside a period, or either beside the database's own.
     """
     if mooring is not None and not usual:
         raise SceneError(f"{what}: mooring and mooring_period are both given; leave mooring_period out")
@@ -177,21 +257,14 @@ def add_mooring_springs(scene: Description, body: str, mooring: Mooring, *, pose
     They are named "<body> mooring 1" and so on, and have no tension with the vessel afloat at that place.
     """
     place, heading = pose
-    turned = np.array(
-        [[np.cos(heading), -np.sin(heading), 0.0], [np.sin(heading), np.cos(heading), 0.0], [0.0, 0.0, 1.0]]
-    )
+    turned = rotation_about_z(heading)
     start = np.array([place[0], place[1], 0.0])
     for i, (point, direction, stiffness) in enumerate(mooring.springs):
         add_spring(
-            scene,
-            name=f"{body} mooring {i + 1}",
-            first=body,
-            second=GROUND,
-            first_point=point,
-            second_point=start + turned @ (point + FAR * direction),
-            stiffness=stiffness,
+            scene, name=f"{body} mooring {i + 1}", first=body, second=GROUND, first_point=point,
+            second_point=start + turned @ (point + FAR * direction), stiffness=stiffness,
             natural_length=FAR,
-        )
+        )  # fmt: skip
 
 
 def own_mooring(database: HydroDatabase) -> Array | None:

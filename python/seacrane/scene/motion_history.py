@@ -4,24 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from os import PathLike
+from os import PathLike, fspath
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.curves import spline_curve
-from seacrane.description.sum_of_cosines import ramp_of
-from seacrane.errors import SceneError
+from seacrane.description.curves import ramp_of, spline_curve
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import rows_of, text_of, vector_of
+from seacrane.inputs.checked import rows_of, text_of, texts_of, vector_of
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.keywords import named
-from seacrane.scene.recorded_motion import recorded_motion
+from seacrane.inputs.shown import listed
+from seacrane.series.measured_series import MeasuredSeries
+from seacrane.series.series_file import heading_of
 from seacrane.warnings import AngleUnitWarning, NoisyMotionWarning, UnitWarning
 
 Array = NDArray[np.float64]
+COMPASS = ("heading", "hdg")
 FEWEST = 6
 BETWEEN = 8  # places looked at between two samples
 LARGEST_SWING, SMALLEST_SWING = 0.5, 0.01  # beyond the samples, of their range; and m or rad
@@ -31,6 +33,25 @@ FASTEST = 2.0 * np.pi / 1.5  # rad/s: ships do not move faster
 LARGEST_NOISE = 0.3  # m/s2 and, at an arm of 30 m, rad/s2: rms of what is faster
 LEAST_SHARE = 0.1  # of the acceleration's energy, of what is faster
 ARM = 30.0  # m
+
+
+def _motions(what: str, names: Sequence[str]) -> list[str]:
+    found = texts_of(what, names)
+    unknown = [one for one in found if one not in MOTIONS]
+    if unknown:
+        raise SceneError(f"{what} holds {listed(unknown)}; give some of {', '.join(MOTIONS)}")
+    return found
+
+
+def _require_units(path: str | PathLike[str], series: MeasuredSeries) -> None:
+    for name, unit in series.units.items():
+        due = "m" if MOTIONS.index(name) < 3 else "rad"
+        if unit != due:
+            raise FileFormatError(
+                f"{fspath(path)}: column {series.headers[name]!r} is in {unit}, and {name} in {due} or a "
+                f"unit of its kind; give the right column or unit: columns={{{name!r}: ...}}, "
+                f"units={{{name!r}: ...}}"
+            )
 
 
 @named
@@ -149,10 +170,30 @@ class MotionHistory:
         -----
         FilledGapWarning, OutlierWarning, ClockDriftWarning, and those of a history
         """
-        time, motion, told = recorded_motion(
-            path, zero=zero, negated=negated, columns=columns, reading=reading
-        )
-        return cls(time=time, motion=motion, record=told)
+        still, turned = _motions("zero", zero), _motions("negated", negated)
+        if columns is not None and not isinstance(columns, Mapping):
+            raise SceneError("columns is no mapping; give the names in the file by those of the motions")
+        unknown = sorted(set(columns or {}) - {*MOTIONS, "time"})
+        if unknown:
+            raise SceneError(
+                f"columns names {listed(unknown)}; give names for time and for {', '.join(MOTIONS)}"
+            )
+        usual = {name: ("yaw", *COMPASS) if name == "yaw" else name for name in MOTIONS if name not in still}
+        series = MeasuredSeries.load(path, columns={**usual, **(columns or {})}, **reading)
+        _require_units(path, series)
+        motion = np.zeros((series.time.size, 6))
+        told = [series.told]
+        for name, values in series.columns.items():
+            column = MOTIONS.index(name)
+            motion[:, column] = values
+            if name == "yaw" and set(COMPASS) & set(heading_of(0, series.headers[name]).name.split()):
+                motion[:, column] = values.mean() - values
+                mean = np.degrees(values.mean()) % 360.0
+                told.append(f"yaw against the compass heading, from its mean of {mean:.1f} deg")
+        motion[:, [MOTIONS.index(name) for name in turned]] *= -1.0
+        told += [f"{', '.join(turned)} with the other sign"] * bool(turned)
+        told += [f"{', '.join(still)} zero"] * bool(still)
+        return cls(time=series.time - series.time[0], motion=motion, record="; ".join(told))
 
     def _warn_of_degrees(self) -> None:
         largest = np.abs(self.motion[:, 3:5]).max(axis=0)

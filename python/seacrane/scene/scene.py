@@ -6,49 +6,34 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
-from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.scene_report import elements_of, scene_report
-from seacrane.crane.add_crane import add_crane
-from seacrane.description import (
-    bodies,
-    clearances,
-    compilation,
-    crane_parts,
-    damping,
-    drives,
-    edit,
-    file,
-    forces,
-    joints,
-    lift_factors,
-    limit_states,
-    meshes,
-    own_channels,
-    places,
-    recorded,
-    relatives,
-)
+from seacrane.description import compilation, elements, places
 from seacrane.description.description import Description
 from seacrane.inputs.caller import heard
 from seacrane.inputs.keywords import named, no_attribute
 from seacrane.plotting.table import Table, table_of
 from seacrane.scene import (
-    bridles,
-    contact,
-    entrapped,
+    bodies,
+    edit,
+    file,
     heave,
     hoist,
     hydraulics,
     immersed,
+    lift_factors,
     limits,
     lines,
-    luffing,
+    own_channels,
+    recorded,
+    rigging,
+    roles,
     sea,
-    slack_tank,
     vessel,
     wind_current,
 )
-from seacrane.scene.sea_at import sea_at
+from seacrane.scene.add_crane import add_crane
+from seacrane.scene.ballast import add_ballast
+from seacrane.scene.realised_sea import sea_at
 from seacrane.validity.unstable import warn_of_capsize
 
 
@@ -109,38 +94,38 @@ class Scene(Description):
     """
 
     add_body = bodies.add_body
-    add_joint = joints.add_joint
-    add_driver = drives.add_driver
-    add_actuator = drives.add_actuator
+    add_joint = elements.add_joint
+    add_driver = elements.add_driver
+    add_actuator = elements.add_actuator
     add_range = recorded.add_range
     add_point = recorded.add_point
-    add_limit_state = limit_states.add_limit_state
+    add_limit_state = recorded.add_limit_state
     add_lift_factors = lift_factors.add_lift_factors
-    add_clearance = clearances.add_clearance
-    add_relative = relatives.add_relative
+    add_clearance = recorded.add_clearance
+    add_relative = recorded.add_relative
     add_channel = own_channels.add_channel
-    add_force = forces.add_force
-    add_spring = forces.add_spring
-    add_load = forces.add_load
+    add_force = elements.add_force
+    add_spring = elements.add_spring
+    add_load = elements.add_load
 
-    add_pendulum_damping = damping.add_pendulum_damping
-    add_air_drag = damping.add_air_drag
+    add_pendulum_damping = wind_current.add_pendulum_damping
+    add_air_drag = wind_current.add_air_drag
 
     add_stop = limits.add_stop
     add_line = lines.add_line
-    add_winch = lines.add_winch
-    add_bridle = bridles.add_bridle
+    add_winch = rigging.add_winch
+    add_bridle = rigging.add_bridle
     add_friction = limits.add_friction
-    add_contact = contact.add_contact
+    add_contact = limits.add_contact
     add_heave_compensation = heave.add_heave_compensation
     add_gas_spring = heave.add_gas_spring
     add_hydraulic_cylinder = hydraulics.add_hydraulic_cylinder
     hold_pressures = hydraulics.hold_pressures
 
     add_vessel = vessel.add_vessel
-    add_slack_tank = slack_tank.add_slack_tank
+    add_slack_tank = vessel.add_slack_tank
     add_immersed = immersed.add_immersed
-    add_entrapped_water = entrapped.add_entrapped_water
+    add_entrapped_water = immersed.add_entrapped_water
     add_sea = sea.add_sea
     sea_at = sea_at
     add_ballast = add_ballast
@@ -148,10 +133,10 @@ class Scene(Description):
     add_current = wind_current.add_current
 
     add_crane = add_crane
-    add_roles = crane_parts.add_roles
+    add_roles = roles.add_roles
     add_hoist = hoist.add_hoist
-    add_luffing_rope = luffing.add_luffing_rope
-    add_mesh = meshes.add_mesh
+    add_luffing_rope = roles.add_luffing_rope
+    add_mesh = bodies.add_mesh
 
     place_of = places.place_of
 
@@ -202,21 +187,10 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
     found = [(kind, list(names)) for kind, names in elements_of(scene)]
     found.append(("points", [f"{name} ({at.body})" for name, at in scene.points.items()]))
     found.append(("recorded", [f"{name} ({joint} {c})" for name, (joint, c) in scene.recorded.items()]))
-    found.append(
-        (
-            "ranges",
-            [
-                f"{name} ({limit.minimum + 0.0:g} to {limit.maximum + 0.0:g})"
-                for name, limit in scene.ranges.items()
-            ],
-        )
-    )
-    found.append(("limit states", list(scene.limit_states)))
-    found.append(("clearances", list(scene.clearances)))
-    found.append(("relatives", list(scene.relatives)))
-    found.append(("channels", list(scene.channels)))
-    found.append(("lift factors", list(scene.lift_factors)))
-    found.append(("meshes", list(scene.meshes)))
+    bounds = {name: f"{one.minimum + 0.0:g} to {one.maximum + 0.0:g}" for name, one in scene.ranges.items()}
+    found.append(("ranges", [f"{name} ({bound})" for name, bound in bounds.items()]))
+    others = ("limit_states", "clearances", "relatives", "channels", "lift_factors", "meshes")
+    found += [(key.replace("_", " "), list(getattr(scene, key))) for key in others]
     return [(kind, names) for kind, names in found if names]
 
 

@@ -25,11 +25,9 @@ from seacrane.inputs.checked import flag_of, number_of, shaped_of, text_of
 from seacrane.inputs.frames import MOTIONS, heading_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.drift import with_drift
-from seacrane.scene.given_vessel import put_into_sea
-from seacrane.scene.position import slow_below, with_actual_position
-from seacrane.scene.realised_sea import realised_sea
-from seacrane.scene.wave_force import force_of_components
+from seacrane.scene.given_vessel import force_of_components, put_into_sea
+from seacrane.scene.position import slow_below, with_actual_position, with_drift
+from seacrane.scene.realised_sea import COMPONENTS, realised_sea
 from seacrane.sea import Current, SeaState, Spreading
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import WavesWithoutLoadWarning
@@ -175,11 +173,9 @@ def add_sea(
         _tell_assumed(given)
     database = None if vessel is None else source_of(scene, vessel)
     waves = _evaluated(
-        _sea_of(scene, database, vessel, sea, given, current),
-        relative_bound=relative_bound,
-        evaluation=evaluation,
-        stretching=stretching,
-    )
+        _sea_of(scene, database, vessel, sea, given, current), relative_bound=relative_bound,
+        evaluation=evaluation, stretching=stretching,
+    )  # fmt: skip
     if vessel is None:
         scene.waves = waves
         return waves
@@ -245,13 +241,9 @@ def _tell_assumed(given: dict[str, Any]) -> None:
 
 
 def _sea_of(
-    scene: Description,
-    database: Source | None,
-    vessel: str | None,
-    sea: SeaState | None,
-    given: dict[str, Any],
-    current: Current | None,
-) -> Waves:
+    scene: Description, database: Source | None, vessel: str | None, sea: SeaState | None,
+    given: dict[str, Any], current: Current | None,
+) -> Waves:  # fmt: skip
     """The sea asked for; in a scene that has a sea, that one, if it is no other."""
     there = scene.waves
     if there is not None and current is not None and current != there.current:
@@ -269,8 +261,8 @@ def _sea_of(
     )  # fmt: skip
     if there is None:
         return asked
-    arrays = ("omega", "amplitude", "phase", "direction", "depth")
-    if not all(np.array_equal(getattr(there, name), getattr(asked, name)) for name in arrays):
+    alike = (np.array_equal(getattr(there, key), getattr(asked, key)) for key in (*COMPONENTS, "depth"))
+    if not all(alike):
         raise SceneError(
             f"sea: vessel {vessel!r} is given another sea than {', '.join(map(repr, there.hulls))} has, and "
             "a scene has one; leave out what describes it to put the vessel into that sea, put several wave "
@@ -333,12 +325,9 @@ def _pose(
 def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLoads) -> SeaProvenance:
     """The sea's provenance, with what of it puts no load on a vessel; of several the largest."""
     left_out = without_load(
-        database,
-        omega=waves.omega,
-        amplitude=waves.amplitude,
-        direction=waves.direction - hull.heading,
+        database, omega=waves.omega, amplitude=waves.amplitude, direction=waves.direction - hull.heading,
         force=hull.transfer,
-    )
+    )  # fmt: skip
     if left_out.variance > MOST_WITHOUT_LOAD:
         warn_caller(
             f"waves on {vessel!r}: those above {database.omega[-1]:.4g} rad/s, where database "
@@ -378,13 +367,9 @@ class WithoutLoad:
 
 
 def without_load(
-    database: HydroData,
-    *,
-    omega: FloatArray,
-    amplitude: FloatArray,
-    direction: FloatArray,
+    database: HydroData, *, omega: FloatArray, amplitude: FloatArray, direction: FloatArray,
     force: ComplexArray,
-) -> WithoutLoad:
+) -> WithoutLoad:  # fmt: skip
     """What the components of a sea above the band would add.
 
     Forces there are taken to continue as the power of the frequency that they follow at the end of the band

@@ -1,4 +1,4 @@
-"""Wind and current on bodies of a scene, by load coefficients."""
+"""Wind, gusts and current on bodies of a scene, by load coefficients."""
 
 from __future__ import annotations
 
@@ -6,32 +6,89 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
-from seacrane.description.damping import AIR
-from seacrane.description.description import Description
-from seacrane.description.forces import add_load
+from seacrane.crane.payload import BOX_DRAG, SWING_RATIO
+from seacrane.description.curves import spline_curve
+from seacrane.description.description import Description, require
+from seacrane.description.elements import put_load
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import (
-    curve_of,
-    name_of,
-    not_negative_of,
-    number_of,
-    shaped_of,
-    text_of,
-    vector_of,
-)
+from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of, text_of, vector_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
 from seacrane.warnings import DoubleCountedDampingWarning
 from seacrane.water.density import SEA_WATER
 
 Array = NDArray[np.float64]
+SLOWEST, FASTEST = 1.0 / 600.0, 0.5  # Hz: the spectrum is one of an hour's wind, fitted from 1/600 Hz on
+FREQUENCY_STREAM, PHASE_STREAM = 2**32, 2**32 + 1  # of Philox; a sea counts its own up from 0
+AIR = 1.226  # kg/m3 at 15 deg C, DNV-RP-C205
+KNOTS = 36  # over the circle: a spline through them is a cosine to 3e-6
 PORT_STARBOARD = np.array([1.0, -1.0, -1.0])  # of x, y, yaw
 HORIZONTAL = [0, 1, 5]
+
+
+def npd_spectrum(frequency: ArrayLike, *, mean_speed: float, height: float = 10.0) -> Array:
+    """Spectrum of the wind speed, m2/s2/Hz, after the Norwegian Petroleum Directorate (ISO 19901-1, A.7).
+
+    S(f) = 320 (U / 10)^2 (z / 10)^0.45 / (1 + g^n)^(5 / (3 n)), g = 172 f (z / 10)^(2/3) (U / 10)^(-3/4),
+    n = 0.468, at frequencies f, Hz, with the one-hour mean speed U at 10 m, m/s, and the height z, m.
+    """
+    f, u, z = np.asarray(frequency, dtype=float), mean_speed / 10.0, height / 10.0
+    scaled = 172.0 * f * z ** (2.0 / 3.0) * u**-0.75
+    return np.asarray(320.0 * u**2 * z**0.45 / (1.0 + scaled**0.468) ** (5.0 / (3.0 * 0.468)))
+
+
+def gust_curve(
+    *, mean_speed: float, duration: float, height: float = 10.0, seed: int = 1, count: int = 200
+) -> _core.Curve:
+    """Wind speed over time: the mean and a realisation of the NPD spectrum from 1/600 to 0.5 Hz.
+
+    Parameters
+    ----------
+    mean_speed : float
+        One-hour mean at 10 m height, m/s; at other heights z it is multiplied by
+        1 + 0.0573 sqrt(1 + 0.15 U) ln(z / 10).
+    duration : float
+        s; the curve holds its last speed afterwards.
+    height : float
+        m.
+    seed, count : int
+        Of phases and frequencies (one in each of `count` bins of equal ratio), by Philox as for waves, in
+        streams of their own: wind and waves of one seed have nothing in common.
+
+    Returns
+    -------
+    Curve
+        m/s, through samples every 0.25 s.
+
+    Raises
+    ------
+    SceneError
+        For values that are not positive.
+    """
+    given = {"mean_speed": mean_speed, "duration": duration, "height": height, "count": count}
+    for key, value in given.items():
+        positive_of(f"gust: {key}", value)
+    edges = np.geomspace(SLOWEST, FASTEST, count + 1)
+    jitter, phase = (
+        np.array([_core.philox_uniform(seed=seed, stream=stream, index=i) for i in range(count)])
+        for stream in (FREQUENCY_STREAM, PHASE_STREAM)
+    )
+    frequency = edges[:-1] + jitter * np.diff(edges)
+    density = npd_spectrum(frequency, mean_speed=mean_speed, height=height)
+    amplitude = np.sqrt(2.0 * density * np.diff(edges))
+    times = np.linspace(0.0, duration, max(6, int(np.ceil(4.0 * duration)) + 1))
+    local = mean_speed * (1.0 + 0.0573 * np.sqrt(1.0 + 0.15 * mean_speed) * np.log(height / 10.0))
+    speed = np.full(times.shape, local)
+    for a, f, e in zip(amplitude, frequency, phase, strict=True):
+        speed += a * np.cos(2.0 * np.pi * (f * times + e))
+    return spline_curve(times=times, values=speed).then(
+        time=duration, curve=_core.Curve.constant(value=float(speed[-1]))
+    )
 
 
 @named
@@ -128,22 +185,13 @@ def add_wind(
         For wrong values; what only the whole scene shows comes with `Scene.compile`.
     """
     angle, rows = coefficients.full_circle()
-    what = f"flow force {name!r}"
+    way = direction_of(f"flow force {name_of('flow force', name)!r}: direction_deg", direction_deg)
     element = _core.FlowForce(
-        name=name_of("flow force", name),
-        body=text_of(f"{what}: body", body),
-        point=shaped_of(f"{what}: point", point, (3,)),
-        density=number_of(f"{what}: density", density),
-        speed=curve_of(f"{what}: speed", speed),
-        direction=float(np.radians(direction_of(f"{what}: direction_deg", direction_deg))),
-        frontal_area=number_of(f"{what}: frontal_area", frontal_area),
-        lateral_area=number_of(f"{what}: lateral_area", lateral_area),
-        length=number_of(f"{what}: length", length),
-        angles=angle.tolist(),
+        name=name, body=body, point=point, density=density, speed=speed, direction=float(np.radians(way)),
+        frontal_area=frontal_area, lateral_area=lateral_area, length=length, angles=angle.tolist(),
         coefficients=rows,
-    )
-    added: _core.FlowForce = add_load(scene, element)
-    return added
+    )  # fmt: skip
+    return put_load(scene, element)
 
 
 def add_current(
@@ -186,20 +234,11 @@ def add_current(
     DoubleCountedDampingWarning
         The vessel has viscous damping in surge, sway or yaw already.
     """
-    speed, direction_deg = _flow_of(scene, f"flow force {name!r}", speed, direction_deg, draught)
-    element = add_wind(
-        scene,
-        coefficients=coefficients,
-        speed=speed,
-        direction_deg=direction_deg,
-        frontal_area=frontal_area,
-        lateral_area=lateral_area,
-        length=length,
-        body=body,
-        point=point,
-        density=density,
-        name=name,
+    given: dict[str, Any] = {key: one for key, one in locals().items() if key != "draught"}
+    given["speed"], given["direction_deg"] = _flow_of(
+        scene, f"flow force {name!r}", speed, direction_deg, draught
     )
+    element = add_wind(**given)
     for vessel in scene.vessels.values():
         linear, quadratic = np.diag(vessel.linear_damping), np.asarray(vessel.quadratic_damping)
         if vessel.body == body and np.any(np.abs([*linear[HORIZONTAL], *quadratic[HORIZONTAL]]) > 0.0):
@@ -213,12 +252,9 @@ def add_current(
 
 
 def _flow_of(
-    scene: Description,
-    what: str,
-    speed: float | _core.Curve | None,
-    direction_deg: float | None,
+    scene: Description, what: str, speed: float | _core.Curve | None, direction_deg: float | None,
     draught: float,
-) -> tuple[float | _core.Curve, float]:
+) -> tuple[float | _core.Curve, float]:  # fmt: skip
     """Speed and direction (deg) of a current: the sea's, or in a scene without one those given."""
     of_sea = None if scene.waves is None else scene.waves.current
     if of_sea is None:
@@ -230,3 +266,113 @@ def _flow_of(
             f"{what}: the sea has a current, and a scene has one; leave out speed and direction_deg"
         )
     return of_sea.mean(not_negative_of(f"{what}: draught", draught, "m"))
+
+
+def add_air_drag(
+    scene: Description,
+    body: str,
+    *,
+    frontal_area: float,
+    lateral_area: float,
+    drag_coefficient: float = BOX_DRAG,
+    speed: _core.Curve | float = 0.0,
+    direction_deg: float = 0.0,
+    point: Any = None,
+    density: float = AIR,
+    name: str = "",
+) -> _core.FlowForce:
+    """Drag of the air on a body that moves through it, still air by default.
+
+    Of the horizontal velocity V of the air relative to `point`, in axes that follow the body's yaw:
+    density / 2 drag_coefficient |V| (frontal_area V_x, lateral_area V_y). Vertical motion has no drag.
+
+    Parameters
+    ----------
+    frontal_area, lateral_area : float
+        Seen along the body's x axis and along its y axis, m2.
+    drag_coefficient : float
+        0 is no drag. Default 1.05: a cube with a face to the flow (Hoerner 1965).
+    speed, direction_deg : float or Curve, float
+        Of a wind, m/s, and where it blows *to*, deg from +x towards +y. Leave it out where `add_wind` has it.
+    point : array_like, shape (3,)
+        Where it acts, m, body coordinates; default: the centre of mass.
+    density : float
+        kg/m3.
+    name : str
+        Default: the body's and " drag".
+
+    Raises
+    ------
+    SceneError
+        For a body that is not there, or values that are none; the rest comes with `Scene.compile`.
+    """
+    what = f"air drag {text_of('air drag: name', name, f'{body} drag')!r}"
+    dragged = scene.bodies[require(scene, what, "body", body)]
+    angles = np.linspace(0.0, 2.0 * np.pi, KNOTS, endpoint=False)
+    coefficient = not_negative_of(f"{what}: drag_coefficient", drag_coefficient)
+    rows = coefficient * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(KNOTS)])
+    way = direction_of(f"{what}: direction_deg", direction_deg)
+    element = _core.FlowForce(
+        name=name or f"{body} drag", body=body, point=dragged.center_of_mass if point is None else point,
+        density=density, speed=speed, direction=float(np.radians(way)), frontal_area=frontal_area,
+        lateral_area=lateral_area, length=0.0, angles=angles.tolist(), coefficients=rows,
+    )  # fmt: skip
+    return put_load(scene, element)
+
+
+def add_pendulum_damping(
+    scene: Description,
+    name: str,
+    *,
+    first: str,
+    second: str,
+    first_point: Any = (0.0, 0.0, 0.0),
+    second_point: Any = None,
+    ratio: float = SWING_RATIO,
+    mass: float = 0.0,
+) -> _core.PendulumDamping:
+    """Damping of a load's swing below the point where it hangs, as a ratio of critical.
+
+    -2 ratio mass sqrt(g / L) times the velocity of the load across the line of length L from `first_point` to
+    `second_point`, seen from the first body; the opposite acts on that body at the same place. Nothing acts
+    along the line. A point mass below a fixed point has that ratio exactly. See docs/damping.md.
+
+    Parameters
+    ----------
+    first : str
+        Body that the load hangs from; "ground" is one too.
+    second : str
+        The load.
+    first_point, second_point : array_like, shape (3,)
+        In coordinates of these bodies, m. Default of the second: the load's centre of mass.
+    ratio : float
+        Of critical damping; 0 is none. Default 0.005: an estimate.
+    mass : float
+        kg, that swings; default (0): that of the load.
+
+    Raises
+    ------
+    SceneError
+        For a load that is not there, or values out of range; the rest comes with `Scene.compile`.
+    """
+    what = f"pendulum damping {name_of('pendulum damping', name)!r}"
+    require(scene, what, "second", second)
+    element = _core.PendulumDamping(
+        name=name, first=first, second=second, first_point=first_point,
+        second_point=scene.bodies[second].center_of_mass if second_point is None else second_point,
+        ratio=ratio, mass=mass,
+    )  # fmt: skip
+    return put_load(scene, element)
+
+
+def damp_load(
+    scene: Description, body: str, size: Any, tip: tuple[str, Any], *, ratio: float, drag: float
+) -> None:
+    """The small damping of a box that hangs below a tip, body and point: of its swing, and drag of air."""
+    if ratio > 0.0:
+        add_pendulum_damping(
+            scene, f"{body} swing", first=tip[0], first_point=tip[1], second=body, ratio=ratio
+        )
+    x, y, z = map(float, size)
+    if drag > 0.0 and max(x, y, z) > 0.0:
+        add_air_drag(scene, body, frontal_area=y * z, lateral_area=x * z, drag_coefficient=drag)

@@ -14,7 +14,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.dimensions import UNITS, unit_text
+from seacrane.description.expression import UNITS, unit_text
 from seacrane.errors import FileFormatError
 from seacrane.inputs.looks_like import looks_like
 from seacrane.inputs.shown import listed, shown

@@ -9,7 +9,7 @@ import numpy as np
 
 from seacrane.errors import SimulationError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.finite import is_finite
+from seacrane.inputs.checked import is_finite
 from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
 Finding = tuple[type[Warning], str]

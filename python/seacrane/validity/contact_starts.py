@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.contact_places import beside_surface, elastic_force
+from seacrane.description.given import beside_surface, borne_mass, elastic_force, welded_mass, with_mass
 from seacrane.description.line_path import described_poses
-from seacrane.description.welded import borne_mass, welded_mass, with_mass
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import ContactStartWarning

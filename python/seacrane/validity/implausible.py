@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.given import floating_bodies
 from seacrane.description.holding import free_drives
-from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.loads import bodies_of, kind_of
 from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.outline import size_of_ship
-from seacrane.description.places import placed
+from seacrane.description.places import ANGLES, placed
 from seacrane.description.references import references
 from seacrane.description.suspension import bodies_below
 from seacrane.description.wet_parts import immersed_parts

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.joint_coordinates import ANGLES, Pose, coordinate_at, wrapped
+from seacrane.description.places import ANGLES, Pose, coordinate_at, wrapped
 from seacrane.inputs.frames import MOTIONS, rotation_matrix
 from seacrane.validity.after_run import Finding, tried
 from seacrane.validity.hull_range import current_findings, hull_findings, motions, relative_findings

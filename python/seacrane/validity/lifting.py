@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.capacity import allowed_at
-from seacrane.description.crane_reach import placed, tip_radius
+from seacrane.description.crane_parts import placed, tip_radius
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.outline import box_edges, size_of_ship
 from seacrane.description.places import place_of
+from seacrane.description.roles import allowed_at
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import bodies_below, hung_loads, suspensions, weights_on
 from seacrane.description.wet_parts import carried_by_water

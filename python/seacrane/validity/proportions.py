@@ -11,14 +11,12 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import GROUND
-from seacrane.description.given import floating_bodies, given_vessels
-from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.given import borne_mass, floating_bodies, given_vessels, welded_mass, with_mass
 from seacrane.description.loads import whole_of
-from seacrane.description.places import placed
+from seacrane.description.places import ANGLES, placed
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import line_weights, suspensions, weights_on
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
-from seacrane.description.welded import borne_mass, welded_mass, with_mass
 from seacrane.description.wet_parts import displaced_volume, immersed_parts
 
 if TYPE_CHECKING:

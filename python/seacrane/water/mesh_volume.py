@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.meshes import MOST_TRIANGLES, READERS
 from seacrane.errors import SceneError
 from seacrane.hydro.hull.hydrostatics import area_vectors
 from seacrane.hydro.hull.mesh import closed_below
 from seacrane.inputs.checked import numbers_of, positive_of
+from seacrane.inputs.mesh_files import MOST_TRIANGLES, READERS
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
