@@ -28,7 +28,7 @@ from seacrane.hydro.data.relations import (
     retardation_from_damping,
 )
 from seacrane.hydro.database.figures import added_mass_sheet, retardation_sheet
-from seacrane.hydro.readers.band_of_data import first_rough_value
+from seacrane.hydro.readers.as_read import first_rough_value
 from seacrane.warnings import DampingWarning, RoughDataWarning
 
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")

@@ -9,11 +9,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
-from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
+from seacrane.hydro.data.heading_circle import (
+    LARGEST_HEADING_GAP,
+    PORT_STARBOARD,
+    both_sides,
+    largest_gap,
+    phase_centre,
+    travel,
+)
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import spline_weights
-from seacrane.hydro.data.phase_centre import phase_centre, travel
 from seacrane.one_thread import one_thread
 from seacrane.sea.dispersion import wavenumber
 

@@ -10,10 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
-from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
+from seacrane.hydro.data.heading_circle import (
+    LARGEST_HEADING_GAP,
+    PORT_STARBOARD,
+    both_sides,
+    largest_gap,
+    phase_centre,
+    travel,
+)
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.hydro.data.long_waves import warn_of_phases
-from seacrane.hydro.data.phase_centre import phase_centre, travel
 from seacrane.inputs.checked import flag_of, number_of, numbers_of, require_unmasked, text_of, vector_of
 from seacrane.inputs.keywords import named
 from seacrane.sea.dispersion import wavenumber

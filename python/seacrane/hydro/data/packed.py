@@ -14,9 +14,8 @@ from typing import Any, get_args, get_origin, get_type_hints
 import numpy as np
 
 from seacrane.errors import SceneError
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
-from seacrane.hydro.data.group_body import GroupBody
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, RollDamping
+from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.memory_model import (
     FitRow,
     MemoryBlock,

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
+from importlib.resources import files
 from os import PathLike
-from typing import TYPE_CHECKING, Literal, TypeVar
+from pathlib import Path
+from textwrap import shorten
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,13 +19,13 @@ from seacrane.hydro.data.excitation import force_at, full_circle
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.data.packed import digest_of
-from seacrane.hydro.database.check import CheckRow, check_database
-from seacrane.hydro.database.facts import as_line, as_table
+from seacrane.hydro.database.check import CheckRow, check_database, metacentric_height
 from seacrane.hydro.database.figures import hydro_figures
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
-from seacrane.hydro.database.selection import Choice, selected_database
-from seacrane.hydro.database.transform import mirrored_database, moved_database
+from seacrane.hydro.database.transform import Choice, mirrored_database, moved_database, selected_database
 from seacrane.inputs.checked import not_negative_of
+from seacrane.inputs.keywords import named
+from seacrane.plotting.table import Table, facts, format_value
 
 if TYPE_CHECKING:
     import xarray
@@ -30,6 +34,7 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 Database = TypeVar("Database", bound=HydroData)
+LETTERS = 100  # of a fact
 
 
 class HydroDatabase(HydroData):
@@ -228,3 +233,51 @@ def roll_damping_of(database: HydroData, fraction: float) -> float:
         )
     inertia = database.mass_matrix[3, 3] + np.interp(resonance, database.omega, database.added_mass[:, 3, 3])
     return float(fraction * 2.0 * np.sqrt(database.restoring[3, 3] * inertia))
+
+
+def as_line(database: HydroData) -> str:
+    """For prompts."""
+    omega, mass = database.omega, database.mass_matrix[0, 0] / 1e3
+    return (
+        f"<HydroDatabase {database.name!r}: {mass:.6g} t, {omega.size} frequencies {omega[0]:.4g} to "
+        f"{omega[-1]:.4g} rad/s, {database.heading.size} headings>"
+    )
+
+
+def as_table(database: HydroData) -> Table:
+    """The facts, names beside values."""
+    rows = [(name, shorten(format_value(value), LETTERS)) for name, value in _facts(database)]
+    return facts(rows, f"HydroDatabase {database.name!r}")
+
+
+def _facts(database: HydroData) -> list[tuple[str, Any]]:
+    """Main figures, what it holds, and where it comes from."""
+    omega, heading = database.omega, np.rad2deg(database.heading)
+    band = database.trusted_band
+    memory = database.memory
+    causes = ", ".join(one.cause for one in database.additional)
+    return [
+        ("length, breadth, draught [m]", f"{database.length:g}, {database.breadth:g}, {database.draught:g}"),
+        ("mass [t]", float(f"{database.mass_matrix[0, 0] / 1e3:.6g}")),
+        ("GM of its C44 and mass [m]", float(f"{metacentric_height(database):.4g}")),
+        ("frequencies [rad/s]", f"{omega.size}, {omega[0]:.4g} to {omega[-1]:.4g}"),
+        ("headings [deg]", f"{heading.size}, {heading[0]:.4g} to {heading[-1]:.4g}"),
+        ("trusted band [rad/s]", "not stated" if band is None else f"{band[0]:.4g} to {band[1]:.4g}"),
+        ("water depth [m]", "deep" if np.isinf(database.depth) else database.depth),
+        ("forward speed [m/s]", database.speed),
+        (
+            "fitted fluid memory",
+            "none" if memory is None else f"{sum(len(b.A) for b in memory.blocks)} states",
+        ),
+        ("additional matrices", causes or "none"),
+        ("slow drift", "none" if database.drift is None else "coefficients"),
+        ("reference point", database.origin),
+        ("source", database.source),
+    ]
+
+
+@named
+@cache
+def shipped_database() -> HydroDatabase:
+    """The database of the 115 m hull that comes with the package, memory included; read once, immutable."""
+    return HydroDatabase.load(Path(str(files("seacrane") / "data" / "hull_115.nc")))

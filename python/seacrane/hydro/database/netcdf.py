@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, HydroData, RollDamping
 from seacrane.hydro.data.memory_model import (
     FitRow,
     MemoryBlock,

@@ -2,29 +2,48 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cache, cached_property
+from importlib.resources import files
+from itertools import combinations
 from os import PathLike
+from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import HydroGroupData
 from seacrane.hydro.data.motion import motion_response
-from seacrane.hydro.data.packed import digest_of
+from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
 from seacrane.hydro.database.check import CheckRow
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.check import check_group
-from seacrane.hydro.group.gap import Gap, gaps
-from seacrane.hydro.group.group_file import load_group, save_group
+from seacrane.hydro.group.gap import Gap, GroupMode, clearance, gaps, natural_modes_of
 from seacrane.hydro.group.lid import group_with_lid
-from seacrane.hydro.group.modes import GroupMode, natural_modes_of
-from seacrane.hydro.group.moved import moved_group
-from seacrane.hydro.group.parts import group_of_databases, hull_of, ordered_group, uncoupled_group
-from seacrane.hydro.group.require import require_apart, require_group
+from seacrane.hydro.group.parts import (
+    group_of_databases,
+    hull_of,
+    moved_group,
+    ordered_group,
+    uncoupled_group,
+)
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.shown import shown
+from seacrane.inputs.user_cache import read_kept
 
 ComplexArray = NDArray[np.complex128]
+Group = TypeVar("Group", bound=HydroGroupData)
+
+MAGIC = b"seacrane hydro group "
+VERSION = 1
+MOST_BYTES = 1_000_000_000  # of the numbers, so that no damaged file fills the memory
+SAME_PLACE = 0.01  # m
+SAME_DRAUGHT = 0.02  # of it
+FILES: dict[float | None, str] = {None: "alone", 0.01: "lid_0.01", 0.03: "lid_0.03"}
 
 
 class HydroGroup(HydroGroupData):
@@ -217,3 +236,137 @@ class HydroGroup(HydroGroupData):
             f"<HydroGroup {self.name!r}: {', '.join(self.names)}, {self.omega.size} frequencies "
             f"{self.omega[0]:.4g} to {self.omega[-1]:.4g} rad/s, {self.heading.size} headings>"
         )
+
+
+def save_group(group: HydroGroupData, path: str | PathLike[str]) -> None:
+    """Write ``group`` to ``path``: complete under its name, or not at all."""
+    with atomic_write(Path(path)) as draft:
+        draft.write_bytes(MAGIC + b"%d\n" % VERSION + zlib.compress(packed(group), 9))
+
+
+def load_group(kind: type[Group], path: str | PathLike[str]) -> Group:
+    """Read a file written by `save_group`, as a ``kind`` of `HydroGroupData`.
+
+    Raises FileFormatError: the file is missing, damaged, or not one of ours.
+    """
+    source = Path(path)
+    if not source.is_file():
+        raise FileFormatError(f"{source}: no such file; give the path of a group that HydroGroup.save wrote")
+    try:
+        data = read_kept(source)
+        if not data.startswith(MAGIC):
+            raise FileFormatError(
+                f"{source}: no group of seacrane; save one with HydroGroup.save, or read a panel code's "
+                "files with load_database"
+            )
+        version, _, body = data[len(MAGIC) :].partition(b"\n")
+        if version != b"%d" % VERSION:
+            raise FileFormatError(
+                f"{source}: is of format version {shown(version[:8].decode('ascii', 'replace'))}, and this "
+                f"seacrane reads format version {VERSION}; save it again with HydroGroup.save"
+            )
+        reader = zlib.decompressobj()
+        numbers = reader.decompress(body, MOST_BYTES)
+        if not reader.eof:
+            raise ValueError("it ends within its numbers")
+        found: Group = unpacked(numbers, (kind,))
+    except (OSError, zlib.error, *NOT_PACKED) as error:
+        if isinstance(error, FileFormatError):
+            raise
+        raise FileFormatError(f"{source}: damaged group of seacrane ({error}); save it again") from error
+    return found
+
+
+def require_group(
+    group: HydroGroupData,
+    *,
+    names: Sequence[str] | None,
+    positions: Mapping[str, ArrayLike] | None,
+    draughts: Mapping[str, float] | None,
+    apart: bool,
+) -> None:
+    """`HydroGroup.require`."""
+    if names is not None and tuple(names) != group.names:
+        fix = (
+            "they stand in another order: use group.ordered(names)"
+            if sorted(names) == sorted(group.names)
+            else "name each of its bodies"
+        )
+        raise SceneError(
+            f"group {group.name!r}: holds {', '.join(group.names)}, and {', '.join(map(str, names))} are "
+            f"asked for; {fix}"
+        )
+    for what, given in (("positions", positions), ("draughts", draughts)):
+        for name in given or {}:
+            if name not in group.names:
+                raise SceneError(
+                    f"group {group.name!r}: {what} name {name!r}, which it has not; it has "
+                    f"{', '.join(group.names)}"
+                )
+    for body in group.bodies:
+        if positions and body.name in positions:
+            place = np.asarray(positions[body.name], dtype=float)
+            if place.shape != (3,) or not np.allclose(place, body.position, rtol=0.0, atol=SAME_PLACE):
+                raise SceneError(
+                    f"group {group.name!r}: {body.name} has its reference point at "
+                    f"{_point(body.position)} m, not at "
+                    f"{_point(place)}: its matrices are about another point; use that one, or compute "
+                    "them anew"
+                )
+        if draughts and body.name in draughts:
+            asked = float(draughts[body.name])
+            if not abs(asked - body.draught) <= SAME_DRAUGHT * body.draught:
+                raise SceneError(
+                    f"group {group.name!r}: {body.name} was computed with a draught of "
+                    f"{body.draught:.4g} m, and "
+                    f"{asked:.4g} m is asked for; compute it at that draught"
+                )
+    if apart:
+        require_apart(group)
+
+
+def require_apart(group: HydroGroupData) -> None:
+    """Raise where the boxes of two hulls overlap.
+
+    A hull within the ring of another has an overlapping box, and is no mistake.
+    """
+    for first, second in combinations(group.bodies, 2):
+        width, _ = clearance(first, second)
+        if width < 0.0:
+            raise SceneError(
+                f"group {group.name!r}: {first.name} and {second.name} overlap by {-width:.3g} m, as "
+                "boxes of "
+                f"{first.length:.4g} x {first.breadth:.4g} m and {second.length:.4g} x "
+                f"{second.breadth:.4g} m at "
+                "their positions and headings; move them apart"
+            )
+
+
+def _point(values: ArrayLike) -> str:
+    return "(" + ", ".join(f"{value:g}" for value in np.ravel(np.asarray(values, dtype=float))) + ")"
+
+
+@cache
+def two_barges(*, lid_damping: float | None) -> HydroGroup:
+    """Two box barges that come with the package, memory included; read once, immutable.
+
+    "crane vessel" is 100 x 25 x 5.5 m (length, breadth, draught), "feeder" 60 x 18 x 3.5 m, abreast to port
+    of it with a gap of 5 m, in deep water. `tools/two_barges.py` computes them with Capytaine.
+
+    Parameters
+    ----------
+    lid_damping : of the lid on the water in the gap, 0.01 or 0.03 (`HydroGroup.with_lid_damping`): compare
+        both, as no theory tells it. None: each hull as if alone, without interaction.
+
+    Raises
+    ------
+    SceneError : another damping.
+    """
+    if lid_damping not in FILES:
+        raise SceneError(
+            f"two barges: lid_damping is {lid_damping!r}; those that come with the package are 0.01 and "
+            "0.03, and None for hulls without interaction"
+        )
+    return HydroGroup.load(
+        Path(str(files("seacrane") / "data" / "two_barges" / f"{FILES[lid_damping]}.hydro"))
+    )

@@ -18,12 +18,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.group_body import GroupBody
-from seacrane.hydro.readers.as_read import as_read, frequencies_kept, mass_of_file
-from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.format import Format, Loaded, is_file_of, of_one_speed, zero_speed
-from seacrane.hydro.readers.of_bodies import Given, box_of, hull_or_group, of_each, require_own_hydrostatics
-from seacrane.hydro.readers.wave_directions import rising_directions
+from seacrane.hydro.data.hydro_group_data import GroupBody
+from seacrane.hydro.data.reading import reading
+from seacrane.hydro.readers.as_read import (
+    as_read,
+    finished,
+    frequencies_kept,
+    mass_of_file,
+    rising_directions,
+)
+from seacrane.hydro.readers.format import Format, Loaded, is_file_of
+from seacrane.hydro.readers.of_bodies import Given, box_of, hull_or_group, of_each
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
@@ -106,18 +111,11 @@ def read_capytaine(
     import xarray
 
     given = _Given(mass_matrix, restoring, rotation_centre, motions, leave_out)
-    try:
+    with reading(source, "a Capytaine dataset", NETCDF_ERRORS):
         with open_netcdf(source), xarray.open_dataset(source) as opened:
             dataset = opened.load()
         found = _convert(source, _of_depth(source, dataset, depth), given)
-    except FileFormatError:
-        raise
-    except NETCDF_ERRORS as error:
-        raise FileFormatError(
-            f"{source}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
-        ) from error
-    require_own_hydrostatics(source, found, "restoring={name: (6, 6)}")
-    return with_band_of_data(found)
+    return finished(source, found, "restoring={name: (6, 6)}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -475,15 +473,15 @@ def _name(dataset: xarray.Dataset) -> Any:
     return "unnamed"
 
 
-def _can_open(path: Path) -> bool:
-    return is_file_of(path, NETCDF) and is_capytaine(path)
+def is_netcdf(path: Path) -> bool:
+    """Whether a path is a file that says by its name to be NetCDF."""
+    return is_file_of(path, NETCDF)
 
 
 FORMAT = Format(
     name="Capytaine",
     files="a NetCDF file (.nc) of Capytaine",
-    can_open=_can_open,
-    read=of_one_speed(read_capytaine),
-    speeds=zero_speed,
+    can_open=lambda path: is_netcdf(path) and is_capytaine(path),
+    read=read_capytaine,
     at_depth=lambda path, depth: read_capytaine(path, depth=depth),
 )

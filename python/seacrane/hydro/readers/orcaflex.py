@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
+from seacrane.hydro.data.reading import reading
+from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.as_read import as_read, frequencies_kept, mass_of_file
-from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.equivalent_box import equivalent_box
-from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
+from seacrane.hydro.readers.as_read import as_read, finished, frequencies_kept, mass_of_file
+from seacrane.hydro.readers.format import Format, is_file_of
 from seacrane.hydro.readers.mafredo_file import read_mafredo
+from seacrane.hydro.readers.of_bodies import equivalent_box
 from seacrane.hydro.readers.orcaflex_model import KILO, Raos, VesselType, read_vessel_type
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
@@ -115,7 +115,7 @@ def read_orcaflex(
     source = Path(path)
     if not source.is_file():
         raise FileFormatError(f"{source}: no such file; give the path of a .yml or .dhyd file")
-    try:
+    with reading(source):
         if source.suffix.lower() == ".dhyd":
             found = _mafredo(source, rho)
         else:
@@ -123,11 +123,7 @@ def read_orcaflex(
             found = _orcaflex(source, kind, rho)
         made = _database(source, found, mass_matrix, restoring, leave_out)
         database = as_read(source, "read_orcaflex", made, motions)
-    except FileFormatError:
-        raise
-    except ValueError as error:
-        raise FileFormatError(f"{source}: {error}") from error
-    return with_band_of_data(database)
+    return finished(source, database, "restoring")
 
 
 def _density(path: Path, given: float | None) -> float:
@@ -196,9 +192,8 @@ def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
 
 def _moved(lever: FloatArray) -> FloatArray:
     """Matrix (6, 6) from a load at ``lever`` to the load at the origin: moments gain lever x force."""
-    x, y, z = lever
     matrix = np.eye(6)
-    matrix[3:, :3] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
+    matrix[3:, :3] = cross_matrix(lever)
     return matrix
 
 
@@ -360,14 +355,9 @@ def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
     return found[0] if len(found) and np.any(found[0]) else None
 
 
-def _can_open(path: Path) -> bool:
-    return is_file_of(path, SUFFIXES)
-
-
 FORMAT = Format(
     name="OrcaFlex",
     files="an OrcaFlex model (.yml) or MaFreDo file (.dhyd)",
-    can_open=_can_open,
-    read=of_one_speed(read_orcaflex),
-    speeds=zero_speed,
+    can_open=lambda path: is_file_of(path, SUFFIXES),
+    read=read_orcaflex,
 )

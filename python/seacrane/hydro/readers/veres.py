@@ -17,18 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
 from seacrane.hydro.data.encounter import one_function
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, RollDamping
 from seacrane.hydro.data.motion import force_of_motion
+from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.format import Format
+from seacrane.hydro.readers.format import Format, sibling
 from seacrane.hydro.readers.veres_files import (
     LOST,
-    DriftAtSpeed,
-    DriftFile,
-    MatricesAtSpeed,
-    TransferAtSpeed,
+    Case,
+    VeresFile,
     VeresSet,
     at_speed,
     choose_speed,
@@ -36,7 +34,6 @@ from seacrane.hydro.readers.veres_files import (
     is_veres,
     other_run,
     read_set,
-    sibling,
     veres_speeds,
 )
 from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
@@ -102,17 +99,13 @@ def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> Hydr
     """
     found = read_set(find_stem(Path(path)))
     chosen = choose_speed(found, speed)
-    try:
+    with reading(found.stem):
         database = _convert(found, chosen)
-    except FileFormatError:
-        raise
-    except ValueError as error:
-        raise FileFormatError(f"{found.stem}: {error}") from error
     _check_hydrostatics(found, chosen)
     return database
 
 
-def _same_grid(path: Path, case: TransferAtSpeed, matrices: MatricesAtSpeed) -> TransferAtSpeed:
+def _same_grid(path: Path, case: Case, matrices: Case) -> Case:
     """The transfer functions, which must be on the grid of the matrices."""
     pairs = {
         "motion point": case.motion_point == matrices.motion_point,
@@ -142,7 +135,7 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
     extra = tables.additional
     present = any(np.any(x != 0.0) for x in (extra.added_mass, extra.damping, extra.restoring))
 
-    def of_wave(transfer: TransferAtSpeed) -> NDArray[np.complex128]:
+    def of_wave(transfer: Case) -> NDArray[np.complex128]:
         return np.asarray(transfer.values[by_heading][:, by_omega] * TO_OURS)
 
     x_aft, z = case.motion_point
@@ -217,7 +210,7 @@ def _direction(heading_deg: FloatArray) -> FloatArray:
     return np.asarray(direction)
 
 
-def _tables(found: VeresSet, case: MatricesAtSpeed, by_omega: NDArray[np.intp]) -> _Tables:
+def _tables(found: VeresSet, case: Case, by_omega: NDArray[np.intp]) -> _Tables:
     """The matrices as functions of the frequency of encounter alone."""
     omega = case.omega[by_omega]
     ours = case.blocks[:, by_omega] * BOTH_SIDES + 0.0  # + 0.0: no negative zeros
@@ -239,7 +232,7 @@ def _tables(found: VeresSet, case: MatricesAtSpeed, by_omega: NDArray[np.intp]) 
 
 
 def _of_encounter(
-    found: VeresSet, case: MatricesAtSpeed, blocks: FloatArray, roll: FloatArray, omega: FloatArray
+    found: VeresSet, case: Case, blocks: FloatArray, roll: FloatArray, omega: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Blocks (n, 6, 6, 6) and roll damping (n, 2) from those of every heading, with warnings."""
     m, n = blocks.shape[:2]
@@ -278,7 +271,7 @@ def _warn_of_disagreement(stem: Path, speed: float, blocks: FloatArray, differen
         )
 
 
-def _drift(file: DriftFile, case: DriftAtSpeed, matrices: MatricesAtSpeed) -> DriftCoefficients:
+def _drift(file: VeresFile, case: Case, matrices: Case) -> DriftCoefficients:
     """Mean loads per squared amplitude in our axes, on the exact grid of the matrices."""
     for what, rough, exact, digits in (
         ("headings", case.heading, matrices.heading, HEADING_DIGITS),
@@ -339,4 +332,5 @@ FORMAT = Format(
     can_open=is_veres,
     read=read_veres,
     speeds=veres_speeds,
+    at_speed=lambda path, speed: read_veres(path, speed=speed),
 )

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.numbers_of_text import NUMBER as WORD
-from seacrane.hydro.readers.numbers_of_text import number_of_word
+from seacrane.hydro.readers.text_records import NUMBER as WORD
 from seacrane.hydro.readers.text_records import TextRecords
 
 FloatArray = NDArray[np.float64]
@@ -121,10 +120,7 @@ def _value(records: TextRecords, line: str, label: str) -> float:
     if not numbers or not NUMBER.match(words[-1]):
         raise records.error(f"{label}: no number at the end of the row; the file is damaged or truncated")
     marked = [word for word in numbers if word.endswith("*")]
-    try:
-        return number_of_word((marked or numbers)[-1].rstrip("*"))
-    except ValueError as error:
-        raise records.error(f"{label}: {error}") from None
+    return records.number((marked or numbers)[-1].rstrip("*"), label)
 
 
 def contradictions(hydrostatics: VeresHydrostatics, loading: Loading) -> list[str]:

@@ -20,27 +20,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
-from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
+from seacrane.hydro.data.hydro_data import DriftCoefficients
+from seacrane.hydro.data.hydro_group_data import GroupBody
+from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-from seacrane.hydro.readers.as_read import as_read, mass_of_file
-from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.format import Format, Loaded, of_one_speed, zero_speed
-from seacrane.hydro.readers.of_bodies import (
-    Given,
-    floating_body,
-    hull_or_group,
-    of_each_or_none,
-    require_own_hydrostatics,
-)
-from seacrane.hydro.readers.wamit_control import ForceControl, check_period_output, read_force_control
+from seacrane.hydro.readers.as_read import as_read, finished, mass_of_file
+from seacrane.hydro.readers.format import Format, Loaded, sibling
+from seacrane.hydro.readers.of_bodies import Given, floating_body, hull_or_group, of_each_or_none
 from seacrane.hydro.readers.wamit_listing import (
     ROTATIONS,
+    ForceControl,
     ListedBody,
     Listing,
+    check_period_output,
     count_bodies,
     listed_tables,
+    read_force_control,
     read_listing,
 )
 from seacrane.hydro.readers.wamit_tables import (
@@ -119,16 +115,11 @@ def read_wamit(
         the file and, where there is one, the line.
     """
     stem = find_wamit_stem(Path(path))
-    files = {suffix: _sibling(stem, suffix) for suffix in SUFFIXES}
+    files = {suffix: sibling(stem, suffix) for suffix in SUFFIXES}
     given = _Given(volume, float(depth), float(g), float(length_scale), rho, mass_matrix)
-    try:
+    with reading(stem):
         found = as_read(stem, "read_wamit", _convert(stem, files, given), motions)
-    except FileFormatError:
-        raise
-    except ValueError as error:
-        raise FileFormatError(f"{stem}: {error}") from error
-    require_own_hydrostatics(stem, found, "the .hst file of this run")
-    return with_band_of_data(found)
+    return finished(stem, found, "the .hst file of this run")
 
 
 def find_wamit_stem(path: Path) -> Path:
@@ -143,7 +134,7 @@ def find_wamit_stem(path: Path) -> Path:
                 f"{path}: one .1 file is needed in a WAMIT folder, found: {found}; give the stem"
             )
         return stems[0]
-    if _sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
+    if sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
         return path.with_suffix("")
     return path
 
@@ -156,18 +147,10 @@ def is_wamit(path: Path) -> bool:
         stem = find_wamit_stem(path)
     except FileFormatError:
         return False
-    if not path.is_dir() and any(_sibling(stem, suffix) is not None for suffix in NEEDED):
+    if not path.is_dir() and any(sibling(stem, suffix) is not None for suffix in NEEDED):
         return True
-    listing = _sibling(stem, ".out") if path.is_dir() or path.suffix.lower() == ".out" else None
+    listing = sibling(stem, ".out") if path.is_dir() or path.suffix.lower() == ".out" else None
     return listing is not None and count_bodies(listing) > 1
-
-
-def _sibling(stem: Path, suffix: str) -> Path | None:
-    """File of the set with that suffix, in either case."""
-    for name in (stem.name + suffix, stem.name + suffix.upper()):
-        if (stem.parent / name).is_file():
-            return stem.parent / name
-    return None
 
 
 @dataclass(frozen=True, eq=False)
@@ -492,6 +475,5 @@ FORMAT = Format(
     name="WAMIT",
     files="a WAMIT folder, stem or file (.1 .3 .hst .out, with .4, .frc and .8, .9 or .12d)",
     can_open=is_wamit,
-    read=of_one_speed(read_wamit),
-    speeds=zero_speed,
+    read=read_wamit,
 )
