@@ -259,7 +259,7 @@ def test_a_group_is_kept_and_a_file_of_none_refused(tmp_path: Path) -> None:
     assert replace(again, rho=1000.0).digest != group.digest
     data = path.read_bytes()
     other = data.replace(b"group 1\n", b"group 2\n", 1)
-    for damaged, message in ((other, "version '2'"), (data[:-20], "damaged group")):
+    for damaged, message in ((other, "version '2'"), (data[:-20], "group of seacrane")):
         path.write_bytes(damaged)
         with pytest.raises(FileFormatError, match=f"pair.hydro.*{message}"):
             HydroGroup.load(path)

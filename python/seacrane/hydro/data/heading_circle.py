@@ -10,6 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.errors import SceneError
+from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.sea.dispersion import wavenumber
 
 FloatArray = NDArray[np.float64]
@@ -51,6 +53,25 @@ def both_sides(heading: FloatArray) -> tuple[FloatArray, NDArray[np.intp], NDArr
 def largest_gap(circle: FloatArray) -> float:
     """Largest angle (rad) between neighbouring headings, across 2 pi too."""
     return float(np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max())
+
+
+def heading_weights(what: str, circle: FloatArray, heading: FloatArray) -> FloatArray:
+    """Weights (q, k) of the periodic spline over the headings; stored headings are exact in any case.
+
+    Raises SceneError: names ``what`` has no such heading, in a gap of more than 45 degrees.
+    """
+    gap = largest_gap(circle)
+    if gap <= LARGEST_HEADING_GAP + 1e-9:
+        return spline_weights(circle, heading, period=2.0 * np.pi)
+    distance = np.abs(np.angle(np.exp(1j * (heading[:, None] - circle))))
+    nearest = distance.argmin(axis=1)
+    off = distance[np.arange(len(heading)), nearest] > 1e-6
+    if np.any(off):
+        raise SceneError(
+            f"{what}: heading {np.degrees(heading[off][0]):.6g} deg is not among the stored ones, whose "
+            f"largest gap is {np.degrees(gap):.3g} deg; above 45 deg nothing is interpolated"
+        )
+    return np.asarray(np.eye(len(circle))[nearest])
 
 
 def keeps_sides_apart(added_mass: FloatArray) -> bool:
@@ -101,6 +122,14 @@ def phase_centre(k: FloatArray, circle: FloatArray, heave: ComplexArray) -> Floa
 
     found = minimize(left, best, method="Nelder-Mead", options={"xatol": 1e-3 / k[-1], "maxiter": 200})
     return np.asarray(found.x, dtype=float)
+
+
+def centred(k: FloatArray, circle: FloatArray, table: ComplexArray) -> tuple[ComplexArray, FloatArray]:
+    """Forces or motions (m, n, 6) without the phases of the wave's travel to their centre, and it."""
+    centre = phase_centre(k, circle, table[:, :, 2])
+    if np.any(centre):
+        table = table / travel(centre, k, circle[:, None])[:, :, None]
+    return table, centre
 
 
 def travel(centre: FloatArray, k: FloatArray, heading: FloatArray) -> ComplexArray:

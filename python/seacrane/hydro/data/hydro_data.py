@@ -15,25 +15,26 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 MOTION_RAO_LIMIT = (1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3)
-AXES = {
-    "omega": "n",
-    "heading": "m",
-    "added_mass": "nij",
-    "damping": "nij",
-    "infinite_frequency_added_mass": "ij",
-    "zero_frequency_added_mass": "ij",
-    "restoring": "ij",
-    "mass_matrix": "ij",
-    "force": "mni",
-    "motion_rao": "mni",
-    "motion_rao_limit": "i",
-    "motion_rao_floor": "i",
-    "linear_damping": "ij",
-    "quadratic_damping": "i",
-    "linear": "n",
-    "quadratic": "n",
-    "linearised": "mn",
-    "coefficient": "mni",
+MASS, DAMPING = "kg, kg m, kg m2", "N s/m, N s, N m s"
+ARRAYS = {  # axes, as `axes_of` tells them, and units
+    "omega": ("n", "rad/s"),
+    "heading": ("m", "rad"),
+    "added_mass": ("nij", MASS),
+    "damping": ("nij", DAMPING),
+    "infinite_frequency_added_mass": ("ij", MASS),
+    "zero_frequency_added_mass": ("ij", MASS),
+    "restoring": ("ij", "N/m, N, N m"),
+    "mass_matrix": ("ij", MASS),
+    "linear_damping": ("ij", DAMPING),
+    "quadratic_damping": ("i", "N s2/m2, N m s2"),
+    "force": ("mni", "N/m, N m/m"),
+    "motion_rao": ("mni", "m/m, rad/m"),
+    "motion_rao_limit": ("i", "1"),
+    "motion_rao_floor": ("i", "1"),
+    "linear": ("n", "N m s"),
+    "quadratic": ("n", "N m s2"),
+    "linearised": ("mn", "N m s"),
+    "coefficient": ("mni", "N/m2, N m/m2"),
 }
 
 
@@ -183,8 +184,11 @@ class HydroData:
         require_band(what, self.trusted_band)
 
 
-def axes_of(part: HydroData | RollDamping | AdditionalMatrices | DriftCoefficients) -> dict[str, str]:
+Part = HydroData | RollDamping | AdditionalMatrices | DriftCoefficients
+
+
+def axes_of(part: Part) -> dict[str, str]:
     """Axes of each array: n frequencies, m headings, i motions that a load is on, j motions that make it."""
     names = {entry.name for entry in fields(part)}
-    found = {name: axes for name, axes in AXES.items() if name in names}
+    found = {name: axes for name, (axes, _) in ARRAYS.items() if name in names}
     return found | {"restoring": "nij"} if isinstance(part, AdditionalMatrices) else found

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.data_warnings import smallest_eigenvalues
-from seacrane.hydro.data.encounter import encounter_frequency, inside_table
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import in_trusted_band
 from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
-from seacrane.hydro.data.motion import motion_response, natural_frequency
+from seacrane.hydro.data.motion import encounter_frequency, inside_table, motion_response, natural_frequency
 from seacrane.hydro.data.relations import (
     damping_from_forces,
     infinite_added_mass_from_damping,
@@ -45,6 +44,10 @@ class CheckRow:
     value: float
     limit: float | None
     verdict: str
+
+    def as_dict(self) -> dict[str, str | float | None]:
+        """The row as ``{check, value, limit, verdict}``."""
+        return asdict(self)
 
 
 def check_database(database: HydroData) -> list[CheckRow]:
@@ -86,17 +89,12 @@ def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
     rows.append(at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
     rows.append(info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0)))
     rows += passivity_rows(model)
-    rows.append(
-        at_most("vessel_with_memory_growth_per_s", largest_growth_rate(database, model), GROWTH_LIMIT)
-    )
+    growth = largest_growth_rate(database, model)
+    rows.append(at_most("vessel_with_memory_growth_per_s", growth, GROWTH_LIMIT))
     known = database.infinite_frequency_added_mass
     if known is not None:
-        rows.append(
-            info(
-                "memory_infinite_added_mass_against_database",
-                _against_range(database, model.added_mass - known),
-            )
-        )
+        against = _against_range(database, model.added_mass - known)
+        rows.append(info("memory_infinite_added_mass_against_database", against))
     return rows + memory_motion_rows(database, model)
 
 
@@ -211,11 +209,8 @@ def _relation_rows(database: HydroData) -> list[CheckRow]:
         for i, name in enumerate(MOTIONS):
             span = float(np.ptp(database.added_mass[:, i, i]))
             if span > 0.0:
-                rows.append(
-                    at_most(
-                        f"kramers_kronig_{name}", float(abs(difference[i, i]) / span), KRAMERS_KRONIG_LIMIT
-                    )
-                )
+                share = float(abs(difference[i, i]) / span)
+                rows.append(at_most(f"kramers_kronig_{name}", share, KRAMERS_KRONIG_LIMIT))
     return rows
 
 
@@ -232,13 +227,15 @@ def _against_range(database: HydroData, difference: FloatArray) -> float:
 
 
 def at_most(check: str, value: float, limit: float) -> CheckRow:
-    return CheckRow(
-        check=check, value=float(value), limit=limit, verdict="pass" if value <= limit else "fail"
-    )
+    return _judged(check, value, limit, good=value <= limit)
 
 
 def at_least(check: str, value: float, limit: float, *, strict: bool = False) -> CheckRow:
     good = value > limit if strict else value >= limit
+    return _judged(check, value, limit, good=good)
+
+
+def _judged(check: str, value: float, limit: float, *, good: bool) -> CheckRow:
     return CheckRow(check=check, value=float(value), limit=limit, verdict="pass" if good else "fail")
 
 

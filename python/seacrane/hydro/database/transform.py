@@ -15,13 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, mirrored_heading, phase_at
-from seacrane.hydro.data.hydro_data import (
-    AdditionalMatrices,
-    DriftCoefficients,
-    HydroData,
-    RollDamping,
-    axes_of,
-)
+from seacrane.hydro.data.hydro_data import HydroData, Part, axes_of
 from seacrane.hydro.data.rigid_mass import cross_matrix, weight_restoring
 from seacrane.hydro.memory.moved_memory import mirrored_memory, moved_memory
 from seacrane.inputs.caller import warn_caller
@@ -44,9 +38,7 @@ def motion_transform(point: FloatArray) -> FloatArray:
     return transform
 
 
-def _arrays(
-    part: HydroData | RollDamping | AdditionalMatrices | DriftCoefficients, change: Change
-) -> dict[str, Any]:
+def _arrays(part: Part, change: Change) -> dict[str, Any]:
     """The arrays that a part has, each changed."""
     there = {name: (getattr(part, name), axes) for name, axes in axes_of(part).items()}
     return {name: change(array, axes) for name, (array, axes) in there.items() if array is not None}

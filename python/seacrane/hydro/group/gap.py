@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.hydro_group_data import GroupBody, HydroGroupData
+from seacrane.hydro.data.interpolation import by_straight_lines
 from seacrane.inputs.brief import brief
 from seacrane.sea.dispersion import wavenumber
 
@@ -77,8 +78,7 @@ def piston_frequency(*, draught: float, gap: float, width: float, g: float = 9.8
     if not (draught > 0.0 and 0.0 < gap < width and g > 0.0):
         raise ValueError(
             f"piston frequency: draught {draught:g} m, gap {gap:g} m, width over both {width:g} m; give "
-            "positive "
-            "ones, the width the largest"
+            "positive ones, the width the largest"
         )
     length = draught + gap / np.pi * (1.5 + np.log(OVERALL * width / (2.0 * gap)))
     return float(np.sqrt(g / length))
@@ -162,7 +162,7 @@ def _peaks(group: HydroGroupData) -> list[float]:
 
 
 def _at(omega: FloatArray, values: FloatArray, where: FloatArray) -> FloatArray:
-    """Columns of ``values`` at other frequencies, by straight lines."""
+    """Columns of ``values`` at other frequencies, by straight lines, beyond the ends as there."""
     return np.array([np.interp(where, omega, column) for column in values.T]).T
 
 
@@ -245,27 +245,20 @@ def _mode(group: HydroGroupData, between: tuple[float, float], place: int, size:
         value = np.linalg.eigvalsh(_dynamic(group, np.array([middle]))[0] * np.outer(size, size))[place]
         low, high = (middle, high) if value > 0.0 else (low, middle)
     omega = 0.5 * (low + high)
-    dynamic = _dynamic(group, np.array([omega]))[0]
+    at = np.array([omega])
+    dynamic = _dynamic(group, at)[0]
     vector = np.linalg.eigh(dynamic * np.outer(size, size))[1][:, place]
     shape = vector * size / vector[np.abs(vector).argmax()]
-    inertia = group.mass_matrix + _symmetric(_table(group, group.added_mass, np.array([omega]))[0])
-    damping = group.linear_damping + _table(group, group.damping, np.array([omega]))[0]
+    inertia = group.mass_matrix + _symmetric(by_straight_lines(group.omega, group.added_mass, at)[0])
+    damping = group.linear_damping + by_straight_lines(group.omega, group.damping, at)[0]
     ratio = (shape @ damping @ shape) / (2.0 * omega * (shape @ inertia @ shape))
     shape.setflags(write=False)
     return GroupMode(omega=omega, damping_ratio=float(ratio), shape=shape)
 
 
 def _dynamic(group: HydroGroupData, omega: FloatArray) -> FloatArray:
-    inertia = group.mass_matrix + _symmetric(_table(group, group.added_mass, omega))
+    inertia = group.mass_matrix + _symmetric(by_straight_lines(group.omega, group.added_mass, omega))
     return np.asarray(_symmetric(group.restoring) - omega[:, None, None] ** 2 * inertia)
-
-
-def _table(group: HydroGroupData, table: FloatArray, omega: FloatArray) -> FloatArray:
-    """Matrices at frequencies of the band, by straight lines."""
-    right = np.clip(np.searchsorted(group.omega, omega), 1, len(group.omega) - 1)
-    left = right - 1
-    part = (omega - group.omega[left]) / (group.omega[right] - group.omega[left])
-    return np.asarray((1.0 - part)[:, None, None] * table[left] + part[:, None, None] * table[right])
 
 
 def _symmetric(matrices: FloatArray) -> FloatArray:

@@ -9,7 +9,6 @@ from importlib.resources import files
 from itertools import combinations
 from os import PathLike
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +18,7 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import HydroGroupData
 from seacrane.hydro.data.motion import motion_response
 from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
+from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.check import CheckRow
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.check import check_group
@@ -29,6 +29,7 @@ from seacrane.hydro.group.parts import (
     hull_of,
     moved_group,
     ordered_group,
+    place_of,
     uncoupled_group,
 )
 from seacrane.inputs.atomic import atomic_write
@@ -36,7 +37,6 @@ from seacrane.inputs.shown import shown
 from seacrane.inputs.user_cache import read_kept
 
 ComplexArray = NDArray[np.complex128]
-Group = TypeVar("Group", bound=HydroGroupData)
 
 MAGIC = b"seacrane hydro group "
 VERSION = 1
@@ -207,14 +207,41 @@ class HydroGroup(HydroGroupData):
         ------
         SceneError : names the body, both values and the fix.
         """
-        require_group(self, names=names, positions=positions, draughts=draughts, apart=apart)
+        what = f"group {self.name!r}"
+        if names is not None and tuple(names) != self.names:
+            ordered = sorted(names) == sorted(self.names)
+            fix = "they stand in another order: use group.ordered(names)" if ordered else "name each body"
+            raise SceneError(
+                f"{what}: holds {', '.join(self.names)}, not {', '.join(map(str, names))}; {fix}"
+            )
+        for asked, given in (("positions", positions), ("draughts", draughts)):
+            for name in [one for one in given or {} if one not in self.names]:
+                raise SceneError(
+                    f"{what}: {asked} name {name!r}, which it has not; it has {', '.join(self.names)}"
+                )
+        for body in self.bodies:
+            place = np.asarray((positions or {}).get(body.name, body.position), dtype=float)
+            if place.shape != (3,) or not np.allclose(place, body.position, rtol=0.0, atol=SAME_PLACE):
+                raise SceneError(
+                    f"{what}: {body.name} has its reference point at {place_of(body.position)} m, not at "
+                    f"{place_of(place)}: its matrices are about another point; use that one, or compute anew"
+                )
+            draught = float((draughts or {}).get(body.name, body.draught))
+            if not abs(draught - body.draught) <= SAME_DRAUGHT * body.draught:
+                raise SceneError(
+                    f"{what}: {body.name} was computed with a draught of {body.draught:.4g} m, and "
+                    f"{draught:.4g} m is asked for; compute it at that draught"
+                )
+        if apart:
+            require_apart(self)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write everything, the memory model included, to a file of seacrane, atomically and without loss.
 
         The memory of a group takes minutes to fit, and no panel code's file holds it.
         """
-        save_group(self, path)
+        with atomic_write(Path(path)) as draft:
+            draft.write_bytes(MAGIC + b"%d\n" % VERSION + zlib.compress(packed(self), 9))
 
     @staticmethod
     def load(path: str | PathLike[str]) -> HydroGroup:
@@ -224,7 +251,14 @@ class HydroGroup(HydroGroupData):
         ------
         seacrane.errors.FileFormatError : the file is not one of ours, or is damaged.
         """
-        return load_group(HydroGroup, path)
+        source = Path(path)
+        if not source.is_file():
+            raise FileFormatError(
+                f"{source}: no such file; give the path of a group that HydroGroup.save wrote"
+            )
+        with reading(source, "a group of seacrane", (OSError, zlib.error, *NOT_PACKED)):
+            found: HydroGroup = unpacked(_numbers(source), (HydroGroup,))
+        return found
 
     @property
     def digest(self) -> str:
@@ -238,91 +272,25 @@ class HydroGroup(HydroGroupData):
         )
 
 
-def save_group(group: HydroGroupData, path: str | PathLike[str]) -> None:
-    """Write ``group`` to ``path``: complete under its name, or not at all."""
-    with atomic_write(Path(path)) as draft:
-        draft.write_bytes(MAGIC + b"%d\n" % VERSION + zlib.compress(packed(group), 9))
-
-
-def load_group(kind: type[Group], path: str | PathLike[str]) -> Group:
-    """Read a file written by `save_group`, as a ``kind`` of `HydroGroupData`.
-
-    Raises FileFormatError: the file is missing, damaged, or not one of ours.
-    """
-    source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a group that HydroGroup.save wrote")
-    try:
-        data = read_kept(source)
-        if not data.startswith(MAGIC):
-            raise FileFormatError(
-                f"{source}: no group of seacrane; save one with HydroGroup.save, or read a panel code's "
-                "files with load_database"
-            )
-        version, _, body = data[len(MAGIC) :].partition(b"\n")
-        if version != b"%d" % VERSION:
-            raise FileFormatError(
-                f"{source}: is of format version {shown(version[:8].decode('ascii', 'replace'))}, and this "
-                f"seacrane reads format version {VERSION}; save it again with HydroGroup.save"
-            )
-        reader = zlib.decompressobj()
-        numbers = reader.decompress(body, MOST_BYTES)
-        if not reader.eof:
-            raise ValueError("it ends within its numbers")
-        found: Group = unpacked(numbers, (kind,))
-    except (OSError, zlib.error, *NOT_PACKED) as error:
-        if isinstance(error, FileFormatError):
-            raise
-        raise FileFormatError(f"{source}: damaged group of seacrane ({error}); save it again") from error
-    return found
-
-
-def require_group(
-    group: HydroGroupData,
-    *,
-    names: Sequence[str] | None,
-    positions: Mapping[str, ArrayLike] | None,
-    draughts: Mapping[str, float] | None,
-    apart: bool,
-) -> None:
-    """`HydroGroup.require`."""
-    if names is not None and tuple(names) != group.names:
-        fix = (
-            "they stand in another order: use group.ordered(names)"
-            if sorted(names) == sorted(group.names)
-            else "name each of its bodies"
+def _numbers(source: Path) -> bytes:
+    """What `HydroGroup.save` packed into a file."""
+    data = read_kept(source)
+    if not data.startswith(MAGIC):
+        raise FileFormatError(
+            f"{source}: no group of seacrane; save one with HydroGroup.save, or read a panel code's files "
+            "with load_database"
         )
-        raise SceneError(
-            f"group {group.name!r}: holds {', '.join(group.names)}, and {', '.join(map(str, names))} are "
-            f"asked for; {fix}"
+    version, _, body = data[len(MAGIC) :].partition(b"\n")
+    if version != b"%d" % VERSION:
+        raise FileFormatError(
+            f"{source}: is of format version {shown(version[:8].decode('ascii', 'replace'))}, and this "
+            f"seacrane reads format version {VERSION}; save it again with HydroGroup.save"
         )
-    for what, given in (("positions", positions), ("draughts", draughts)):
-        for name in given or {}:
-            if name not in group.names:
-                raise SceneError(
-                    f"group {group.name!r}: {what} name {name!r}, which it has not; it has "
-                    f"{', '.join(group.names)}"
-                )
-    for body in group.bodies:
-        if positions and body.name in positions:
-            place = np.asarray(positions[body.name], dtype=float)
-            if place.shape != (3,) or not np.allclose(place, body.position, rtol=0.0, atol=SAME_PLACE):
-                raise SceneError(
-                    f"group {group.name!r}: {body.name} has its reference point at "
-                    f"{_point(body.position)} m, not at "
-                    f"{_point(place)}: its matrices are about another point; use that one, or compute "
-                    "them anew"
-                )
-        if draughts and body.name in draughts:
-            asked = float(draughts[body.name])
-            if not abs(asked - body.draught) <= SAME_DRAUGHT * body.draught:
-                raise SceneError(
-                    f"group {group.name!r}: {body.name} was computed with a draught of "
-                    f"{body.draught:.4g} m, and "
-                    f"{asked:.4g} m is asked for; compute it at that draught"
-                )
-    if apart:
-        require_apart(group)
+    reader = zlib.decompressobj()
+    numbers = reader.decompress(body, MOST_BYTES)
+    if not reader.eof:
+        raise ValueError("it ends within its numbers")
+    return numbers
 
 
 def require_apart(group: HydroGroupData) -> None:
@@ -334,16 +302,10 @@ def require_apart(group: HydroGroupData) -> None:
         width, _ = clearance(first, second)
         if width < 0.0:
             raise SceneError(
-                f"group {group.name!r}: {first.name} and {second.name} overlap by {-width:.3g} m, as "
-                "boxes of "
-                f"{first.length:.4g} x {first.breadth:.4g} m and {second.length:.4g} x "
-                f"{second.breadth:.4g} m at "
-                "their positions and headings; move them apart"
+                f"group {group.name!r}: {first.name} and {second.name} overlap by {-width:.3g} m, as boxes "
+                f"of {first.length:.4g} x {first.breadth:.4g} m and {second.length:.4g} x "
+                f"{second.breadth:.4g} m at their positions and headings; move them apart"
             )
-
-
-def _point(values: ArrayLike) -> str:
-    return "(" + ", ".join(f"{value:g}" for value in np.ravel(np.asarray(values, dtype=float))) + ")"
 
 
 @cache

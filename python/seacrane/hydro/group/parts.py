@@ -52,7 +52,7 @@ def hull_of(group: HydroGroupData, name: str) -> HydroDatabase:
         **_of_body(body),
         **shared,
         port_starboard_symmetric=group.port_starboard_symmetric,
-        origin=f"reference point of {name}, {_place(body.position)} m from the {group.origin}",
+        origin=f"reference point of {name}, {place_of(body.position)} m from the {group.origin}",
         source=f"{group.source}; {name} with the others held at rest beside it",
     )
 
@@ -190,8 +190,7 @@ def _body_of(name: str, database: HydroData, position: ArrayLike, heading: float
     if database.additional or database.roll_damping is not None or database.speed != 0.0:
         raise ValueError(
             f"database {database.name!r}: has additional matrices, tabulated roll damping or a forward "
-            "speed, "
-            "which a group does not take; use with_roll_damping(), and a database without them"
+            "speed, which a group does not take; use with_roll_damping(), and a database without them"
         )
     return GroupBody(
         name=name,
@@ -203,9 +202,8 @@ def _body_of(name: str, database: HydroData, position: ArrayLike, heading: float
 
 def _check_alike(name: str, databases: Mapping[str, HydroData]) -> None:
     """One water and one set of frequencies."""
-    first_name, first = next(iter(databases.items()), ("", None))
     for label, database in databases.items():
-        assert first is not None
+        first_name, first = next(iter(databases.items()))
         for what in WATER:
             ours, theirs = float(getattr(first, what)), float(getattr(database, what))
             if not np.isclose(ours, theirs, rtol=SAME, atol=0.0):
@@ -229,8 +227,9 @@ def _forces(database: HydroData, heading: FloatArray) -> ComplexArray:
     return force_at(database, database.omega, heading[:, None])
 
 
-def _place(position: FloatArray) -> str:
-    return "(" + ", ".join(f"{value:g}" for value in position) + ")"
+def place_of(point: ArrayLike) -> str:
+    """A point in m, for messages."""
+    return "(" + ", ".join(f"{value:g}" for value in np.ravel(np.asarray(point, dtype=float))) + ")"
 
 
 def moved_group(group: Group, points: Mapping[str, ArrayLike]) -> Group:

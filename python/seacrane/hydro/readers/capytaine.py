@@ -208,7 +208,8 @@ def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> Loaded:
     if not several:
         x, y, z = centres[0]
         origin = f"rotation centre of the Capytaine body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
-        body = f", body {np.ravel(_name(dataset))[0]}"
+        named = [dataset[key].values for key in ("body", "body_name") if key in dataset.variables]
+        body = f", body {np.ravel(named[0] if named else 'unnamed')[0]}"
     found = hull_or_group(
         bodies,
         name=path.stem,
@@ -447,14 +448,9 @@ def _rotation_centres(
 
 def _by_body(dataset: xarray.Dataset, variable: str, names: list[str]) -> FloatArray | None:
     """A variable's values by body, in the order of the names; None where the file has none by name."""
-    if (
-        variable not in dataset.variables
-        or "body" not in dataset[variable].dims
-        or "body" not in dataset.coords
-    ):
-        return None
-    there = [str(name) for name in dataset["body"].values]
-    if sorted(there) != sorted(names):
+    known = variable in dataset.variables and "body" in dataset[variable].dims and "body" in dataset.coords
+    there = [str(name) for name in dataset["body"].values] if known else []
+    if not known or sorted(there) != sorted(names):
         return None
     values = np.asarray(dataset[variable].transpose("body", ...).values, dtype=float)
     return values[[there.index(name) for name in names]]
@@ -464,13 +460,6 @@ def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
     """The matrix at a limiting frequency, if it is there."""
     found = matrices[where]
     return found[0] if len(found) and np.all(np.isfinite(found)) else None
-
-
-def _name(dataset: xarray.Dataset) -> Any:
-    for key in ("body", "body_name"):
-        if key in dataset.variables:
-            return dataset[key].values
-    return "unnamed"
 
 
 def is_netcdf(path: Path) -> bool:

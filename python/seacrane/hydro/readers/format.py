@@ -12,10 +12,6 @@ from seacrane.hydro.group.group import HydroGroup
 Loaded = HydroDatabase | HydroGroup
 
 
-def _zero(path: Path) -> tuple[float, ...]:
-    return (0.0,)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Format:
     """One kind of files, of one hull or of several.
@@ -35,7 +31,7 @@ class Format:
     files: str
     can_open: Callable[[Path], bool]
     read: Callable[[Path], Loaded]
-    speeds: Callable[[Path], tuple[float, ...]] = _zero
+    speeds: Callable[[Path], tuple[float, ...]] = lambda path: (0.0,)
     at_speed: Callable[[Path, float], Loaded] | None = None
     at_depth: Callable[[Path, float], Loaded] | None = None
 

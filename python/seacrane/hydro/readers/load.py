@@ -27,8 +27,7 @@ OURS = Format(  # any NetCDF file but Capytaine's: one of no known kind is refus
     read=HydroDatabase.load,
     speeds=lambda path: (HydroDatabase.load(path).speed,),
 )
-OTHERS = (veres, wamit, orcaflex, bemio, nemoh)
-FORMATS = (capytaine.FORMAT, OURS, *(kind.FORMAT for kind in OTHERS))
+FORMATS = (capytaine.FORMAT, OURS, *(kind.FORMAT for kind in (veres, wamit, orcaflex, bemio, nemoh)))
 NAMED = 5  # files in a message
 SAME_DEPTH = 1e-6
 SAME_SPEED = 1e-9  # m/s

@@ -8,7 +8,7 @@ phase: a wave of zero phase at r from there is ahead by ``k . r``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 
@@ -60,15 +60,15 @@ class _Source:
     heading_deg: FloatArray
     load_omega: FloatArray
     force: ComplexArray
-    motion: ComplexArray | None
-    mass_matrix: FloatArray | None
-    restoring: FloatArray | None
-    linear_damping: FloatArray
-    quadratic_damping: FloatArray
     rho: float
-    depth: float
-    length: float | None
-    displaced: float | None
+    motion: ComplexArray | None = None
+    mass_matrix: FloatArray | None = None
+    restoring: FloatArray | None = None
+    linear_damping: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
+    quadratic_damping: FloatArray = field(default_factory=lambda: np.zeros(6))
+    depth: float = np.inf
+    length: float | None = None
+    displaced: float | None = None
 
 
 def read_orcaflex(
@@ -142,7 +142,9 @@ def _density(path: Path, given: float | None) -> float:
 def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
     """A vessel type about the reference origin of its matrices."""
     loads, motions = kind.loads, kind.motions
-    if motions is not None and not _same_grid(loads, motions):
+    if motions is not None and not all(
+        np.array_equal(getattr(loads, name), getattr(motions, name)) for name in ("heading_deg", "omega")
+    ):
         warn_caller(
             f"{path}: displacement RAOs are not at the directions and frequencies of the load RAOs; they are "
             "left out, and nothing proves that loads and matrices belong together",
@@ -163,6 +165,11 @@ def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
             f"{path}: quadratic other damping acts at {lever.tolist()} m from the reference origin; only "
             "damping at that origin is read: move it there"
         )
+
+    def phase(raos: Raos) -> ComplexArray:
+        """From zero phase at the RAOs' phase origin to zero phase at the reference origin."""
+        return _shift(raos.phase_origin - kind.origin, raos.omega, raos.heading_deg, kind.depth)
+
     turned = _moved(lever)
     x, y, z = kind.origin
     return _Source(
@@ -175,10 +182,10 @@ def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
         damping=kind.damping,
         heading_deg=loads.heading_deg,
         load_omega=loads.omega,
-        force=loads.values @ _moved(loads.origin - kind.origin).T * _phase(loads, kind),
+        force=loads.values @ _moved(loads.origin - kind.origin).T * phase(loads),
         motion=None
         if motions is None
-        else motions.values @ _moved(kind.origin - motions.origin) * _phase(motions, kind),
+        else motions.values @ _moved(kind.origin - motions.origin) * phase(motions),
         mass_matrix=mass_matrix,
         restoring=restoring,
         linear_damping=turned @ np.diag(kind.other_linear) @ turned.T,
@@ -197,11 +204,6 @@ def _moved(lever: FloatArray) -> FloatArray:
     return matrix
 
 
-def _phase(raos: Raos, kind: VesselType) -> ComplexArray:
-    """Factor (m, n, 1) from zero phase at the RAOs' phase origin to zero phase at the reference origin."""
-    return _shift(raos.phase_origin - kind.origin, raos.omega, raos.heading_deg, kind.depth)
-
-
 def _shift(r: FloatArray, omega: FloatArray, heading_deg: FloatArray, depth: float) -> ComplexArray:
     """``exp(-i k . r)`` (m, n, 1) for a phase origin at ``r`` (x, y, ...) from the reference point."""
     beta = np.radians(heading_deg)
@@ -210,10 +212,6 @@ def _shift(r: FloatArray, omega: FloatArray, heading_deg: FloatArray, depth: flo
     usual = (omega > 0.0) & np.isfinite(omega)
     k[usual] = wavenumber(omega[usual], g=GRAVITY, depth=depth)
     return np.asarray(np.exp(-1j * np.outer(along, k))[:, :, None])
-
-
-def _same_grid(a: Raos, b: Raos) -> bool:
-    return np.array_equal(a.heading_deg, b.heading_deg) and np.array_equal(a.omega, b.omega)
 
 
 def _mafredo(path: Path, rho: float | None) -> _Source:
@@ -233,15 +231,7 @@ def _mafredo(path: Path, rho: float | None) -> _Source:
         heading_deg=data.heading_deg,
         load_omega=data.load_omega,
         force=force,
-        motion=None,
-        mass_matrix=None,
-        restoring=None,
-        linear_damping=np.zeros((6, 6)),
-        quadratic_damping=np.zeros(6),
         rho=_density(path, rho),
-        depth=np.inf,
-        length=None,
-        displaced=None,
     )
 
 

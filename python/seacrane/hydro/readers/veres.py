@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.encounter import one_function
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, RollDamping
-from seacrane.hydro.data.motion import force_of_motion
+from seacrane.hydro.data.motion import force_of_motion, one_function
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.format import Format, sibling
@@ -36,7 +35,7 @@ from seacrane.hydro.readers.veres_files import (
     read_set,
     veres_speeds,
 )
-from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
+from seacrane.hydro.readers.veres_hydrostatics import contradictions, read_veres_hydrostatics
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import EncounterFrequencyWarning, HydrostaticsWarning, PartialSetWarning
 
@@ -139,6 +138,7 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
         return np.asarray(transfer.values[by_heading][:, by_omega] * TO_OURS)
 
     x_aft, z = case.motion_point
+    names = ", ".join(file.path.suffix.lower() for file in found.files())
     given = motion if force is None else force
     assert given is not None
     database = HydroDatabase(
@@ -170,7 +170,7 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
             f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
             "baseline"
         ),
-        source=f"ShipX/VERES files {found.stem.name} ({_names(found)}): {found.matrices.title}{_lost(found)}",
+        source=f"ShipX/VERES files {found.stem.name} ({names}): {found.matrices.title}{_lost(found)}",
         trusted_band=_trusted(omega),
         port_starboard_symmetric=True,
     )
@@ -197,10 +197,6 @@ def _lost(found: VeresSet) -> str:
     """What files that are not there take away."""
     missing = [suffix for suffix in LOST if sibling(found.stem, suffix) is None]
     return "".join(f"; no {suffix}: {LOST[suffix]}" for suffix in missing)
-
-
-def _names(found: VeresSet) -> str:
-    return ", ".join(file.path.suffix.lower() for file in found.files())
 
 
 def _direction(heading_deg: FloatArray) -> FloatArray:
@@ -298,20 +294,8 @@ def _check_hydrostatics(found: VeresSet, speed: float) -> None:
     path = sibling(found.stem, ".hyd")
     if path is None:
         return
-    head, case = found.matrices.header, at_speed(found.matrices.cases, speed)
-    assert head.lcg_aft is not None and head.vcg is not None
-    ship = Loading(
-        mass=found.matrices.mass,
-        restoring=case.blocks[0, 0, 4],
-        lcg_aft=head.lcg_aft,
-        vcg=head.vcg,
-        motion_point=case.motion_point,
-        g=head.g,
-        length=head.length,
-        breadth=head.breadth,
-        draught=head.draught,
-    )
-    different = contradictions(read_veres_hydrostatics(path), ship)
+    case = at_speed(found.matrices.cases, speed)
+    different = contradictions(read_veres_hydrostatics(path), found.matrices, case)
     if different:
         warn_caller(
             f"{path}: contradicts {found.matrices.path.name}: {'; '.join(different)} (SI); the matrices are "

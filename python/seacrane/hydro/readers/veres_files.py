@@ -85,6 +85,11 @@ class VeresFile:
     title: str = ""
     mass: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
 
+    @property
+    def speeds(self) -> list[float]:
+        """m/s, in the order of the file."""
+        return [case.speed for case in self.cases]
+
 
 def read_matrices(path: Path) -> VeresFile:
     """Read a ``.re7`` file of version 1 (no version line, no additional blocks) or 2."""
@@ -299,22 +304,17 @@ def other_run(path: Path, what: str) -> FileFormatError:
 
 def common_speeds(found: VeresSet) -> tuple[float, ...]:
     """Speeds of ``.re7`` that all other files hold too."""
-    speeds = [case.speed for case in found.matrices.cases]
     common = [
         speed
-        for speed in speeds
-        if all(any(same_speed(speed, case.speed) for case in file.cases) for file in found.files())
+        for speed in found.matrices.speeds
+        if all(any(same_speed(speed, other) for other in file.speeds) for file in found.files())
     ]
     if not common:
-        lists = "; ".join(f"{file.path.name}: {_listed(_of(file))}" for file in found.files())
+        lists = "; ".join(f"{file.path.name}: {_listed(file.speeds)}" for file in found.files())
         raise FileFormatError(
             f"{found.stem}: no speed is in every file ({lists}); use files of one VERES run"
         )
     return tuple(sorted(common))
-
-
-def _of(file: VeresFile) -> list[float]:
-    return [case.speed for case in file.cases]
 
 
 def _listed(values: Sequence[float]) -> str:
@@ -325,7 +325,7 @@ def choose_speed(found: VeresSet, speed: float | None) -> float:
     """The speed to read, with warnings about the others."""
     common = common_speeds(found)
     partial: list[float] = []
-    for value in sorted(value for file in found.files() for value in _of(file)):
+    for value in sorted(value for file in found.files() for value in file.speeds):
         if not any(same_speed(value, other) for other in (*common, *partial)):
             partial.append(value)
     if partial:

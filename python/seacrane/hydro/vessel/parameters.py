@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.encounter import require_zero_speed
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import MemoryModel
-from seacrane.hydro.data.motion import natural_frequency
+from seacrane.hydro.data.motion import natural_frequency, require_zero_speed
 from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix, weight_restoring
 from seacrane.hydro.memory.fit import fit_memory
 from seacrane.hydro.memory.retardation import RetardationModel
@@ -133,8 +132,7 @@ def _split_mass_matrix(matrix: FloatArray, name: str) -> tuple[float, FloatArray
     if np.any(np.linalg.eigvalsh(inertia) <= 0.0):
         raise ValueError(
             f"database {name!r}: the inertia about the centre of mass has eigenvalues "
-            f"{np.linalg.eigvalsh(inertia)}; "
-            "check the mass matrix, or take out less"
+            f"{np.linalg.eigvalsh(inertia)}; check the mass matrix, or take out less"
         )
     return mass, centre, _of_a_mass_distribution(inertia)
 
