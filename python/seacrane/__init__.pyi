@@ -8,7 +8,7 @@ from seacrane.scene.scene import Scene as Scene
 from seacrane.lift.lift import Lift as Lift
 from seacrane.crane.payload import Payload as Payload
 from seacrane.hydro.database.database import HydroDatabase as HydroDatabase
-from seacrane.hydro.database.shipped import shipped_database as shipped_database
+from seacrane.hydro.database.database import shipped_database as shipped_database
 from seacrane.hydro.readers.load import load_database as load_database
 from seacrane._core import Curve as Curve
 from seacrane._core import Frame as Frame

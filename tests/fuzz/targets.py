@@ -219,7 +219,7 @@ _SCENE = (
 _HYDRO = "hydro/readers"
 _ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
 _VERES = _under(_HYDRO, "veres veres_files veres_hydrostatics text_records")
-_WAMIT = _under(_HYDRO, "wamit wamit_control wamit_listing wamit_tables")
+_WAMIT = _under(_HYDRO, "wamit wamit_listing wamit_tables text_records")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
 _RECORDED = (*_under("series", "series_file reading clock mending"), "scene/recorded_motion.py")
 _LIFT = _under("lift", "document text_lines check_keys study")
@@ -278,8 +278,7 @@ _ALL = [
     Target("series", "series", "mru.csv", _series, _RECORDED, refusals=_SEEN),
     Target("motion-record", "series", "mru.csv", _motion_record, _RECORDED, refusals=_SEEN),
     Target("state", "state", "run.state", _state, ("inputs/state.py",)),
-    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py",
-                     "hydro/readers/seacrane_netcdf.py"),
+    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py"),
     *_netcdf_targets("mafredo", "ship.dhyd", _of_mafredo, f"{_HYDRO}/mafredo_file.py"),
     *_netcdf_targets("capytaine", "ship.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
     *_netcdf_targets("bemio", "ship.h5", _of_bemio, f"{_HYDRO}/bemio.py"),

@@ -27,8 +27,8 @@ from seacrane.hydro.data.relations import (
     infinite_added_mass_from_damping,
     retardation_from_damping,
 )
-from seacrane.hydro.database.figures import added_mass_sheet, retardation_sheet
-from seacrane.hydro.readers.band_of_data import first_rough_value
+from seacrane.hydro.database.figures import radiation_sheet, retardation_sheet
+from seacrane.hydro.readers.as_read import first_rough_value
 from seacrane.warnings import DampingWarning, RoughDataWarning
 
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
@@ -231,7 +231,7 @@ def test_retardation_of_the_memory_is_its_impulse_response() -> None:
 def test_fits_in_the_figures_are_those_of_the_memory() -> None:
     database = shipped_database()
     memory = database.memory
-    drawn = [added_mass_sheet(database, memory), retardation_sheet(database, memory)]
+    drawn = [radiation_sheet(database, memory, 0), retardation_sheet(database, memory)]
     a35, k33 = (
         {line.label: line.values for panel in sheet.panels if panel.quantity == name for line in panel.lines}
         for sheet, name in zip(drawn, ("A35", "K33"), strict=True)

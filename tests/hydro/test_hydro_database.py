@@ -101,7 +101,7 @@ def test_bad_input_names_the_object() -> None:
         with pytest.raises(ValueError, match=message):
             small(**changes)
     good = {"heading": [0.0, 1.0], "omega": [0.3, 0.4, 0.5], "coefficient": np.zeros((2, 3, 6))}
-    with pytest.raises(ValueError, match="heading must rise"):
+    with pytest.raises(ValueError, match="heading spans"):
         DriftCoefficients(**(good | {"heading": [0.0, 7.0]}))
 
 

@@ -15,7 +15,6 @@ from seacrane.hydro import (
     motion_response,
     passivity_certificate,
 )
-from seacrane.hydro.group.parts import joined_memory
 from seacrane.hydro.memory.oscillators import Oscillators
 
 HEAVE, SWAY = 2, 1
@@ -105,15 +104,8 @@ def test_hulls_that_do_not_couple_have_memories_of_their_own() -> None:
     apart = group_in(known_water(0.0))
     model = fit_memory(database=apart, limit=LIMIT)
     assert all(len({motion // 6 for motion in block.inputs}) == 1 for block in model.blocks)
-    single = [fit_memory(database=apart[name], limit=LIMIT, band=(0.15, 2.2)) for name in apart]
-    joint = joined_memory(single)
-    assert joint.states == sum(one.states for one in single)
-    for i, one in enumerate(single):
-        at = slice(6 * i, 6 * i + 6)
-        assert np.array_equal(joint.transfer(apart.omega)[:, at, at], one.transfer(apart.omega))
-    for both in (model, joint):
-        assert not np.any(both.transfer(apart.omega)[:, :6, 6:])
-        assert passivity_certificate(both).passive
+    assert not np.any(model.transfer(apart.omega)[:, :6, 6:])
+    assert passivity_certificate(model).passive
 
 
 LIGHT = 0.02  # damping of the gap's water, 1/s

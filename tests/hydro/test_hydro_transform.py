@@ -25,7 +25,7 @@ from seacrane.hydro import (
     vessel_parameters,
 )
 from seacrane.hydro.memory.certificate import is_energy_form
-from seacrane.hydro.vessel.memory_stability import free_vessel_system
+from seacrane.hydro.vessel.parameters import free_vessel_system
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import QuadraticDampingWarning
 

@@ -31,7 +31,7 @@ from seacrane.hydro import (
     read_veres_hydrostatics,
     vessel_parameters,
 )
-from seacrane.hydro.data.encounter import encounter_frequency
+from seacrane.hydro.data.motion import encounter_frequency
 from seacrane.warnings import (
     EncounterFrequencyWarning,
     HydrostaticsWarning,

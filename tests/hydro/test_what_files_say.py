@@ -25,7 +25,7 @@ from seacrane.hydro import (
     read_wamit,
     shipped_database,
 )
-from seacrane.hydro.readers.numbers_of_text import number_of_word
+from seacrane.hydro.readers.text_records import number_of_word
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import AssumedReferenceWarning, FloatingPositionWarning
 

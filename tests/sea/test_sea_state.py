@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from seacrane import Scene, _core, cases, simulate
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
+from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, realise_waves, torsethaugen
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import WavesWithoutLoadWarning

@@ -26,7 +26,7 @@ from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.fit import LIMIT
 from seacrane.hydro.memory.motion_judge import motion_judge
-from seacrane.hydro.vessel.memory_stability import largest_growth_rate
+from seacrane.hydro.vessel.parameters import largest_growth_rate
 from seacrane.scene.file import scene_digest
 from seacrane.sea import jonswap
 from seacrane.warnings import MemoryFitWarning

@@ -15,7 +15,7 @@ from veres_writer import VeresRun
 from seacrane import Scene, SceneError, cases, linear_model, motion_rao, response_statistics
 from seacrane.analysis import response_summed
 from seacrane.hydro import HydroDatabase, motion_response, read_veres, shipped_database
-from seacrane.hydro.data.encounter import encounter_frequency
+from seacrane.hydro.data.motion import encounter_frequency
 from seacrane.sea import Spreading, cos_2s, cos_n, jonswap
 from seacrane.warnings import EncounterFrequencyWarning
 

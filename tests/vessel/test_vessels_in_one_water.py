@@ -23,8 +23,7 @@ from seacrane.hydro import (
     shipped_database,
     two_barges,
 )
-from seacrane.hydro.data.memory_model import MemoryBlock
-from seacrane.hydro.group.parts import joined_memory
+from seacrane.hydro.data.memory_model import MODEL_MATRICES, MemoryBlock, MemoryModel
 from seacrane.hydro.memory.independent_states import independent_blocks
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.validity.hull_range import gap_between, relative_findings
@@ -43,6 +42,13 @@ def hull() -> HydroDatabase:
     return replace(database, memory=fit_memory(database=database, kind="by-motion"))
 
 
+def of_two(memory: MemoryModel) -> MemoryModel:
+    """The memory of two hulls alike that do not feel each other."""
+    blocks = [replace(b, outputs=b.outputs + i, inputs=b.inputs + i) for i in (0, 6) for b in memory.blocks]
+    whole = {key: np.kron(np.eye(2), getattr(memory, key)) for key in MODEL_MATRICES}
+    return replace(memory, blocks=tuple(blocks), motion=None, rows=(), **whole)
+
+
 @lru_cache(maxsize=1)
 def apart() -> HydroGroup:
     """Two hulls that do not feel each other, the second turned."""
@@ -50,7 +56,7 @@ def apart() -> HydroGroup:
         databases={"a": hull(), "b": hull()},
         positions={"a": (0.0, 0.5 * FAR, 0.0), "b": (10.0, -0.5 * FAR, 0.0)},
     )
-    return replace(group, memory=joined_memory([hull().memory] * 2))
+    return replace(group, memory=of_two(hull().memory))
 
 
 def mixed(share: float = 0.2) -> HydroGroup:
@@ -60,7 +66,7 @@ def mixed(share: float = 0.2) -> HydroGroup:
     """
     whole = apart()
     mix = np.eye(12) + share * np.kron([[0.0, 1.0], [1.0, 0.0]], MIRROR)
-    memory = joined_memory([hull().memory] * 2)
+    memory = of_two(hull().memory)
     blocks = []
     for block in memory.blocks:
         b, c = np.zeros((len(block.A), 12)), np.zeros((12, len(block.A)))
@@ -69,13 +75,8 @@ def mixed(share: float = 0.2) -> HydroGroup:
         blocks.append(
             replace(block, inputs=every, outputs=every, B=b @ mix, C=mix.T @ c, D=np.zeros((12, 12)))
         )
-    coupled = replace(
-        memory, blocks=tuple(blocks), motion=None, rows=(),
-        **{
-            key: mix.T @ getattr(memory, key) @ mix
-            for key in ("added_mass", "additional_added_mass", "additional_stiffness")
-        },
-    )  # fmt: skip
+    matrices = {key: mix.T @ getattr(memory, key) @ mix for key in MODEL_MATRICES}
+    coupled = replace(memory, blocks=tuple(blocks), **matrices)
     tables = {key: mix.T @ getattr(whole, key) @ mix for key in ("added_mass", "damping")}
     limit = whole.infinite_frequency_added_mass
     return replace(whole, **tables, memory=coupled, infinite_frequency_added_mass=mix.T @ limit @ mix)
@@ -258,7 +259,7 @@ def test_a_group_is_kept_and_a_file_of_none_refused(tmp_path: Path) -> None:
     assert replace(again, rho=1000.0).digest != group.digest
     data = path.read_bytes()
     other = data.replace(b"group 1\n", b"group 2\n", 1)
-    for damaged, message in ((other, "version '2'"), (data[:-20], "damaged group")):
+    for damaged, message in ((other, "version '2'"), (data[:-20], "group of seacrane")):
         path.write_bytes(damaged)
         with pytest.raises(FileFormatError, match=f"pair.hydro.*{message}"):
             HydroGroup.load(path)

@@ -26,7 +26,7 @@ from test_scene_file import every_kind
 from seacrane import Result, Scene, cases, shipped_database, simulate
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.hydro import HydroDatabase, motion_response
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
+from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.scene.file import described
 
 

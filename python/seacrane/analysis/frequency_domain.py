@@ -16,7 +16,7 @@ from seacrane.description.description import Description
 from seacrane.description.given import given_vessels, group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
-from seacrane.hydro.data.encounter import encounter_frequency_at
+from seacrane.hydro.data.motion import encounter_frequency_at
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.keywords import named

@@ -24,9 +24,9 @@ from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.description import Description
 from seacrane.description.given import group_of
 from seacrane.errors import SceneError
-from seacrane.hydro.data.below_band import warn_of_waves_below_band
-from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
+from seacrane.hydro.data.data_warnings import warn_of_waves_below_band
 from seacrane.hydro.data.excitation import force_on_grid
+from seacrane.hydro.data.motion import encounter_frequency_at, inside_table
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of

@@ -1,7 +1,7 @@
 """Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
 
 from seacrane.inputs.mesh_files import read_stl as read_stl
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients as DriftCoefficients
+from seacrane.hydro.data.hydro_data import DriftCoefficients as DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices as AdditionalMatrices
 from seacrane.hydro.data.hydro_data import RollDamping as RollDamping
 from seacrane.hydro.data.memory_model import FitRow as FitRow
@@ -16,15 +16,15 @@ from seacrane.hydro.data.rigid_mass import rigid_mass_matrix as rigid_mass_matri
 from seacrane.hydro.database.check import CheckRow as CheckRow
 from seacrane.hydro.database.check import memory_rows as memory_rows
 from seacrane.hydro.database.database import HydroDatabase as HydroDatabase
-from seacrane.hydro.database.shipped import shipped_database as shipped_database
-from seacrane.hydro.data.group_body import GroupBody as GroupBody
+from seacrane.hydro.database.database import shipped_database as shipped_database
+from seacrane.hydro.data.hydro_group_data import GroupBody as GroupBody
 from seacrane.hydro.group.gap import Gap as Gap
 from seacrane.hydro.group.gap import Spike as Spike
 from seacrane.hydro.group.gap import piston_frequency as piston_frequency
 from seacrane.hydro.group.gap import spikes as spikes
 from seacrane.hydro.group.group import HydroGroup as HydroGroup
-from seacrane.hydro.group.modes import GroupMode as GroupMode
-from seacrane.hydro.group.two_barges import two_barges as two_barges
+from seacrane.hydro.group.gap import GroupMode as GroupMode
+from seacrane.hydro.group.group import two_barges as two_barges
 from seacrane.hydro.hull.hull import Hull as Hull
 from seacrane.hydro.hull.hull_database import hydro_from_hull as hydro_from_hull
 from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics

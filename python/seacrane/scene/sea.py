@@ -16,7 +16,7 @@ from seacrane.description.vessel_hydrodynamics import Source
 from seacrane.description.waves import STRETCHING, HullLoads, Waves, flowing_water
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
-from seacrane.hydro.data.below_band import warn_of_waves_below_band
+from seacrane.hydro.data.data_warnings import warn_of_waves_below_band
 from seacrane.hydro.data.excitation import force_at
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.long_waves import warn_of_long_waves

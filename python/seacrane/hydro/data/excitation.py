@@ -9,11 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
-from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
+from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, centred, heading_weights, travel
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import spline_weights
-from seacrane.hydro.data.phase_centre import phase_centre, travel
 from seacrane.one_thread import one_thread
 from seacrane.sea.dispersion import wavenumber
 
@@ -54,7 +53,7 @@ def force_at(
 def force_on_grid(database: HydroData, omega: FloatArray, heading: FloatArray) -> ComplexArray:
     """Forces (q, k, 6) at headings (q,) times frequencies (k,) within the table, as `force_at` has them."""
     circle, table, centre = _held_circle(database)
-    in_heading = _heading_weights(database, circle, np.asarray(heading, dtype=float))
+    in_heading = heading_weights(f"database {database.name!r}", circle, np.asarray(heading, dtype=float))
     by_heading = np.tensordot(in_heading, table, axes=1)
     in_frequency = spline_weights(database.omega, np.asarray(omega, dtype=float))
     force = np.asarray(np.einsum("kn,qnd->qkd", in_frequency, by_heading, optimize=True))
@@ -85,7 +84,7 @@ def _of_equal_headings(database: HydroData, heading: float, count: int) -> Compl
 
 def _interpolated_in_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
     circle, table, _ = _held_circle(database)
-    in_heading = _heading_weights(database, circle, heading)
+    in_heading = heading_weights(f"database {database.name!r}", circle, heading)
     return np.asarray(
         (in_heading @ table.reshape(len(circle), -1)).reshape(len(heading), len(database.omega), 6)
     )
@@ -95,11 +94,7 @@ def _interpolated_in_heading(database: HydroData, heading: FloatArray) -> Comple
 def _held_circle(database: HydroData) -> tuple[FloatArray, ComplexArray, FloatArray]:
     """As `full_circle`, without the phases of the wave's travel to the phase centre, and that centre (2,)."""
     circle, table = full_circle(database)
-    k = wavenumber(database.omega, g=database.g, depth=database.depth)
-    centre = phase_centre(k, circle, table[:, :, 2])
-    if np.any(centre):
-        table = table / travel(centre, k, circle[:, None])[:, :, None]
-    return circle, table, centre
+    return circle, *centred(wavenumber(database.omega, g=database.g, depth=database.depth), circle, table)
 
 
 def full_circle(database: Hydrodynamics) -> tuple[FloatArray, ComplexArray]:
@@ -113,23 +108,6 @@ def full_circle(database: Hydrodynamics) -> tuple[FloatArray, ComplexArray]:
     sides = np.tile(PORT_STARBOARD, database.force.shape[-1] // 6)
     parity = np.where(mirrored[:, None], sides, 1.0)
     return heading, database.force[source] * parity[:, None, :]
-
-
-def _heading_weights(database: HydroData, circle: FloatArray, heading: FloatArray) -> FloatArray:
-    """Weights (q, k) of the periodic spline over the headings; stored headings are exact in any case."""
-    gap = largest_gap(circle)
-    if gap <= LARGEST_HEADING_GAP + 1e-9:
-        return spline_weights(circle, heading, period=2.0 * np.pi)
-    distance = np.abs(np.angle(np.exp(1j * (heading[:, None] - circle))))
-    nearest = distance.argmin(axis=1)
-    off = distance[np.arange(len(heading)), nearest] > 1e-6
-    if np.any(off):
-        raise SceneError(
-            f"database {database.name!r}: heading {np.degrees(heading[off][0]):.6g} deg is not among the "
-            f"stored ones, whose largest gap is {np.degrees(gap):.3g} deg; above 45 deg "
-            "nothing is interpolated"
-        )
-    return np.asarray(np.eye(len(circle))[nearest])
 
 
 def with_limits(database: HydroData, omega: FloatArray, force: ComplexArray) -> ComplexArray:

@@ -3,38 +3,69 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
+from seacrane.hydro.data.frozen import freeze, require_band, require_definite, require_grid, require_positive
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.inputs.brief import brief
-from seacrane.inputs.checked import require_unmasked
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 MOTION_RAO_LIMIT = (1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3)
-_SHAPES = {
-    "omega": "n",
-    "heading": "m",
-    "added_mass": "nij",
-    "damping": "nij",
-    "infinite_frequency_added_mass": "ij",
-    "zero_frequency_added_mass": "ij",
-    "mass_matrix": "ij",
-    "force": "mni",
-    "motion_rao": "mni",
-    "motion_rao_limit": "i",
-    "motion_rao_floor": "i",
-    "linear_damping": "ij",
-    "quadratic_damping": "i",
-    "linear": "n",
-    "quadratic": "n",
-    "linearised": "mn",
+MASS, DAMPING = "kg, kg m, kg m2", "N s/m, N s, N m s"
+ARRAYS = {  # axes, as `axes_of` tells them, and units
+    "omega": ("n", "rad/s"),
+    "heading": ("m", "rad"),
+    "added_mass": ("nij", MASS),
+    "damping": ("nij", DAMPING),
+    "infinite_frequency_added_mass": ("ij", MASS),
+    "zero_frequency_added_mass": ("ij", MASS),
+    "restoring": ("ij", "N/m, N, N m"),
+    "mass_matrix": ("ij", MASS),
+    "linear_damping": ("ij", DAMPING),
+    "quadratic_damping": ("i", "N s2/m2, N m s2"),
+    "force": ("mni", "N/m, N m/m"),
+    "motion_rao": ("mni", "m/m, rad/m"),
+    "motion_rao_limit": ("i", "1"),
+    "motion_rao_floor": ("i", "1"),
+    "linear": ("n", "N m s"),
+    "quadratic": ("n", "N m s2"),
+    "linearised": ("mn", "N m s"),
+    "coefficient": ("mni", "N/m2, N m/m2"),
 }
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class DriftCoefficients:
+    """Mean second-order load per squared wave amplitude; axes, headings and point as in `HydroDatabase`.
+
+    The mean load of a wave of amplitude a is ``coefficient a^2``. With Newman's approximation (1974, Second
+    Order Slowly Varying Forces on Vessels in Irregular Waves) it also gives the slow loads of several waves.
+
+    Attributes
+    ----------
+    heading : (m,) direction waves travel to, rad, increasing, within [0, 2 pi).
+    omega : (n,) wave frequency (not encounter frequency), rad/s, increasing, positive.
+    coefficient : (m, n, 6) N/m2 and N m/m2; motions the source does not give are zero.
+
+    Raises
+    ------
+    ValueError : a wrong shape, a value that is not finite, headings or frequencies that do not rise.
+    """
+
+    heading: FloatArray
+    omega: FloatArray
+    coefficient: FloatArray
+
+    __repr__ = brief
+
+    def __post_init__(self) -> None:
+        m, n = np.size(self.heading), np.size(self.omega)
+        freeze(self, "drift coefficients", {"heading": (m,), "omega": (n,), "coefficient": (m, n, 6)})
+        require_grid("drift coefficients", self.omega, self.heading)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -139,68 +170,25 @@ class HydroData:
     drift: DriftCoefficients | None = None
 
     def __post_init__(self) -> None:
-        n, m = np.size(self.omega), np.size(self.heading)
+        what = f"database {self.name!r}"
+        sizes = {"n": np.size(self.omega), "m": np.size(self.heading), "i": 6, "j": 6}
         for part in (self, self.roll_damping, *self.additional):
             if part is not None:
-                freeze(part, n, m, self.name, restoring="ij" if part is self else "nij")
-        check_increasing(self.name, "omega", self.omega, low=0.0, high=np.inf)
-        check_increasing(self.name, "heading", self.heading, low=-1e-12, high=2.0 * np.pi)
-        for name in ("rho", "g", "depth", "length", "breadth", "draught"):
-            value = float(getattr(self, name))
-            if not value > 0.0:
-                raise ValueError(f"database {self.name!r}: {name} is {value}; give a positive number")
+                shapes = {name: tuple(sizes[axis] for axis in axes) for name, axes in axes_of(part).items()}
+                freeze(part, what, shapes)
+        require_grid(what, self.omega, self.heading)
+        require_positive(self, what, "rho", "g", "depth", "length", "breadth", "draught")
         if not np.isfinite(self.speed):
-            raise ValueError(f"database {self.name!r}: speed is {self.speed}; give a finite number in m/s")
-        if np.any(np.linalg.eigvalsh(0.5 * (self.mass_matrix + self.mass_matrix.T)) <= 0.0):
-            raise ValueError(
-                f"database {self.name!r}: the mass matrix is not positive definite; check mass and inertia"
-            )
-        if self.trusted_band is not None and not 0.0 <= self.trusted_band[0] < self.trusted_band[1]:
-            raise ValueError(
-                f"database {self.name!r}: trusted_band {self.trusted_band} is not (low, high) in rad/s"
-            )
+            raise ValueError(f"{what}: speed is {self.speed}; give a finite number in m/s")
+        require_definite(what, self.mass_matrix)
+        require_band(what, self.trusted_band)
 
 
-def freeze(part: Any, n: int, m: int, name: str, *, restoring: str) -> None:
-    """Replace every array of ``part`` by a finite, read-only copy of the right shape and type.
-
-    ``restoring`` says in letters what shape that matrix has there: "ij", or "nij" where it has frequencies.
-    """
-    sizes = {"n": n, "m": m, "i": 6, "j": 6}
-    for entry in fields(part):
-        value = getattr(part, entry.name)
-        letters = _SHAPES.get(entry.name)
-        if entry.name == "restoring":
-            letters = restoring
-        if letters is None or value is None:
-            continue
-        require_unmasked(f"database {name!r}: {entry.name}", value)
-        wanted = tuple(sizes[letter] for letter in letters)
-        array = np.array(value, dtype=complex if letters == "mni" else float)
-        if array.shape != wanted:
-            raise ValueError(f"database {name!r}: {entry.name} has shape {array.shape}; {wanted} is needed")
-        if not np.all(np.isfinite(array)):
-            where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-            raise ValueError(
-                f"database {name!r}: {entry.name}{list(where)} is {array[where]}; give finite numbers"
-            )
-        array.setflags(write=False)
-        object.__setattr__(part, entry.name, array)
+Part = HydroData | RollDamping | AdditionalMatrices | DriftCoefficients
 
 
-def check_increasing(name: str, what: str, values: FloatArray, *, low: float, high: float) -> None:
-    """Raise unless ``values`` are strictly increasing and inside (low, high)."""
-    if values.size == 0:
-        raise ValueError(f"database {name!r}: {what} is empty; give at least one value")
-    steps = np.flatnonzero(np.diff(values) <= 0.0)
-    if steps.size:
-        i = int(steps[0])
-        raise ValueError(
-            f"database {name!r}: {what} is not strictly increasing: {values[i]:.6g} then {values[i + 1]:.6g} "
-            "at index "
-            f"{i + 1}; sort it and drop duplicates"
-        )
-    if not (values[0] > low and values[-1] < high):
-        raise ValueError(
-            f"database {name!r}: {what} spans {values[0]:.6g} to {values[-1]:.6g}, outside ({low}, {high})"
-        )
+def axes_of(part: Part) -> dict[str, str]:
+    """Axes of each array: n frequencies, m headings, i motions that a load is on, j motions that make it."""
+    names = {entry.name for entry in fields(part)}
+    found = {name: axes for name, (axes, _) in ARRAYS.items() if name in names}
+    return found | {"restoring": "nij"} if isinstance(part, AdditionalMatrices) else found

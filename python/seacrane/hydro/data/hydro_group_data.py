@@ -2,20 +2,66 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.group_body import GroupBody
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping, check_increasing
+from seacrane.hydro.data.frozen import freeze, require_band, require_definite, require_grid, require_positive
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
 from seacrane.hydro.data.memory_model import MemoryModel
-from seacrane.inputs.checked import require_unmasked
+from seacrane.inputs.brief import brief
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+SHAPES = {
+    "position": (3,),
+    "mass_matrix": (6, 6),
+    "restoring": (6, 6),
+    "linear_damping": (6, 6),
+    "quadratic_damping": (6,),
+}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GroupBody:
+    """One hull of a `HydroGroup`; immutable, every array read-only.
+
+    Attributes
+    ----------
+    name : its name in the group.
+    position : (3,) m, its reference point from the group's origin, which is on the still waterline.
+    heading : rad, of its x axis, from the group's x axis towards its y axis.
+    mass_matrix, restoring, linear_damping : (6, 6), of this hull alone, about its reference point and in its
+        own axes (x forward, y port, z up).
+    quadratic_damping : (6,) coefficients of v |v| beside radiation.
+    length, breadth, draught : m.
+    """
+
+    name: str
+    position: FloatArray
+    mass_matrix: FloatArray
+    restoring: FloatArray
+    length: float
+    breadth: float
+    draught: float
+    heading: float = 0.0
+    linear_damping: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
+    quadratic_damping: FloatArray = field(default_factory=lambda: np.zeros(6))
+
+    __repr__ = brief
+
+    def __post_init__(self) -> None:
+        if not self.name:
+            raise ValueError("a body of a group has no name; give each hull one of its own")
+        what = f"body {self.name!r}"
+        freeze(self, what, SHAPES)
+        require_positive(self, what, "length", "breadth", "draught")
+        if not np.isfinite(self.heading):
+            raise ValueError(f"{what}: heading is {self.heading}; give a finite angle in rad")
+        require_definite(what, self.mass_matrix)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,55 +114,25 @@ class HydroGroupData:
     additional: ClassVar[tuple[AdditionalMatrices, ...]] = ()
 
     def __post_init__(self) -> None:
+        what = f"group {self.name!r}"
         object.__setattr__(self, "bodies", tuple(self.bodies))
         if len(self.bodies) < 2 or len(set(self.names)) < len(self.bodies):
             raise ValueError(
-                f"group {self.name!r}: bodies are named {', '.join(self.names) or 'nothing'}; give two or "
-                "more, each with a name of its own"
+                f"{what}: bodies are named {', '.join(self.names) or 'nothing'}; give two or more, each "
+                "with a name of its own"
             )
         n, m, k = np.size(self.omega), np.size(self.heading), 6 * len(self.bodies)
-        shapes = {
-            "omega": (n,),
-            "heading": (m,),
-            "added_mass": (n, k, k),
-            "damping": (n, k, k),
-            "infinite_frequency_added_mass": (k, k),
-            "zero_frequency_added_mass": (k, k),
-            "force": (m, n, k),
-        }
-        for name, shape in shapes.items():
-            if getattr(self, name) is not None:
-                self._freeze(name, shape)
-        check_increasing(self.name, "omega", self.omega, low=0.0, high=np.inf)
-        check_increasing(self.name, "heading", self.heading, low=-1e-12, high=2.0 * np.pi)
-        for name in ("rho", "g", "depth"):
-            if not float(getattr(self, name)) > 0.0:
-                raise ValueError(f"group {self.name!r}: {name} is {getattr(self, name)}; give a positive one")
-        if self.trusted_band is not None and not 0.0 <= self.trusted_band[0] < self.trusted_band[1]:
-            raise ValueError(
-                f"group {self.name!r}: trusted_band {self.trusted_band} is not (low, high) in rad/s"
-            )
+        matrices = {"added_mass": (n, k, k), "damping": (n, k, k)}
+        limits = dict.fromkeys(("infinite_frequency_added_mass", "zero_frequency_added_mass"), (k, k))
+        freeze(self, what, {"omega": (n,), "heading": (m,), **matrices, **limits, "force": (m, n, k)})
+        require_grid(what, self.omega, self.heading)
+        require_positive(self, what, "rho", "g", "depth")
+        require_band(what, self.trusted_band)
         if self.memory is not None and self.memory.added_mass.shape != (k, k):
             raise ValueError(
-                f"group {self.name!r}: its memory has {len(self.memory.added_mass)} motions, the group {k}; "
-                "fit one with fit_memory(database=group)"
+                f"{what}: its memory has {len(self.memory.added_mass)} motions, the group {k}; fit one with "
+                "fit_memory(database=group)"
             )
-
-    def _freeze(self, name: str, shape: tuple[int, ...]) -> None:
-        require_unmasked(f"group {self.name!r}: {name}", getattr(self, name))
-        array = np.array(getattr(self, name), dtype=complex if name == "force" else float)
-        if array.shape != shape:
-            raise ValueError(
-                f"group {self.name!r}: {name} has shape {array.shape}; {shape} is needed for bodies "
-                f"{', '.join(self.names)}"
-            )
-        if not np.all(np.isfinite(array)):
-            where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-            raise ValueError(
-                f"group {self.name!r}: {name}{list(where)} is {array[where]}; give finite numbers"
-            )
-        array.setflags(write=False)
-        object.__setattr__(self, name, array)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -168,3 +184,10 @@ Hydrodynamics = HydroData | HydroGroupData  # of one hull, or of several: the sa
 def _frozen(array: FloatArray) -> FloatArray:
     array.setflags(write=False)
     return array
+
+
+def in_trusted_band(database: Hydrodynamics, omega: FloatArray | None = None) -> NDArray[np.bool_]:
+    """Which of ``omega`` (rad/s, any shape; None: the database's) lie in it; all where there is no band."""
+    low, high = database.trusted_band or (0.0, np.inf)
+    omega = database.omega if omega is None else omega
+    return np.asarray((omega >= low - 1e-9) & (omega <= high + 1e-9))

@@ -1,4 +1,4 @@
-"""Cubic splines as weight matrices: one small solve per set of knots serves any number of tables."""
+"""Tables at other places: straight lines, and cubic splines as weight matrices, which serve any number."""
 
 from __future__ import annotations
 
@@ -35,6 +35,13 @@ def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None
     if len(knots) < 4:
         return _polynomial_weights(knots, query)
     return _evaluate(knots, query, np.eye(len(knots)), _curvature(np.asarray(knots, float).tobytes(), None))
+
+
+def by_straight_lines(x: FloatArray, table: FloatArray, where: FloatArray) -> FloatArray:
+    """Rows (q, ...) of a table (n, ...) over rising ``x`` at places (q,) within its range."""
+    right = np.clip(np.searchsorted(x, where), 1, len(x) - 1)
+    part = ((where - x[right - 1]) / (x[right] - x[right - 1])).reshape(-1, *[1] * (table.ndim - 1))
+    return np.asarray((1.0 - part) * table[right - 1] + part * table[right])
 
 
 def _evaluate(x: FloatArray, query: FloatArray, value: FloatArray, curvature: FloatArray) -> FloatArray:

@@ -23,17 +23,6 @@ ALONG = 0.5  # least cosine of a heading in which pitch is judged
 _SLIPS: WeakKeyDictionary[HydroData, list[str]] = WeakKeyDictionary()  # each database is judged once
 
 
-def _limits(
-    omega: float, heading: FloatArray, *, depth: float, g: float
-) -> tuple[ComplexArray, NDArray[np.bool_]]:
-    """Heave and pitch (m, 2) of a hull that follows the wave, and which are judged (m, 2)."""
-    slope = float(wavenumber(np.array([omega]), g=g, depth=depth)[0])
-    along = np.cos(heading)
-    limit = np.stack([np.ones(along.size, dtype=complex), 1j * slope * along], axis=1)
-    judged = np.stack([np.ones(along.size, dtype=bool), np.abs(along) >= ALONG], axis=1)
-    return limit, judged
-
-
 def warn_of_phases(
     what: str, omega: float, heading: FloatArray, motions: ComplexArray, *, depth: float, g: float
 ) -> None:
@@ -48,7 +37,10 @@ def phase_slip(omega: float, heading: FloatArray, motions: ComplexArray, *, dept
 
     A hull follows a wave where both amplitudes are those of the limit; in shorter waves nothing is told.
     """
-    limit, judged = _limits(omega, heading, depth=depth, g=g)
+    slope = float(wavenumber(np.array([omega]), g=g, depth=depth)[0])
+    along = np.cos(heading)
+    limit = np.stack([np.ones(along.size, dtype=complex), 1j * slope * along], axis=1)  # heave and pitch
+    judged = np.stack([np.ones(along.size, dtype=bool), np.abs(along) >= ALONG], axis=1)
     found = motions[:, [2, 4]]
     ratio = np.divide(found, limit, out=np.ones_like(found), where=judged)
     mirrored = np.divide(np.conj(found), limit, out=np.ones_like(found), where=judged)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.hydro.data.frozen import freeze
 from seacrane.inputs.brief import brief
 from seacrane.one_thread import one_thread
 
@@ -15,6 +16,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 RADIATION = "radiation"
+MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 PEAK_ALLOWANCE = 5.0  # a resonant peak may be off by this many times what a sea may
 
 
@@ -42,17 +44,8 @@ class MemoryBlock:
 
     def __post_init__(self) -> None:
         k, p, m = len(self.A), len(self.outputs), len(self.inputs)
-        shapes = {"A": (k, k), "B": (k, m), "C": (p, k), "D": (p, m), "state_scale": (k,)}
-        for name in ("outputs", "inputs", *shapes):
-            array = np.array(getattr(self, name), dtype=np.int64 if name in ("outputs", "inputs") else float)
-            if name in shapes and array.shape != shapes[name]:
-                raise ValueError(
-                    f"memory block {self.cause!r}: {name} has shape {array.shape}, not {shapes[name]}"
-                )
-            if not np.all(np.isfinite(array)):
-                raise ValueError(f"memory block {self.cause!r}: {name} holds a value that is not finite")
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
+        matrices = {"A": (k, k), "B": (k, m), "C": (p, k), "D": (p, m), "state_scale": (k,)}
+        freeze(self, f"memory block {self.cause!r}", {"outputs": (p,), "inputs": (m,), **matrices})
         if np.any(np.concatenate([self.outputs, self.inputs]) < 0):
             raise ValueError(f"memory block {self.cause!r}: outputs and inputs count motions from 0")
 
@@ -206,13 +199,7 @@ class MemoryModel:
 
     def __post_init__(self) -> None:
         size = 6 * max(1, len(self.added_mass) // 6)
-        for entry in fields(self):
-            if entry.name in ("added_mass", "additional_added_mass", "additional_stiffness"):
-                array = np.array(getattr(self, entry.name), dtype=float)
-                if array.shape != (size, size) or not np.all(np.isfinite(array)):
-                    raise ValueError(f"memory model: {entry.name} must be a finite ({size}, {size}) matrix")
-                array.setflags(write=False)
-                object.__setattr__(self, entry.name, array)
+        freeze(self, "memory model", dict.fromkeys(MODEL_MATRICES, (size, size)))
         for block in self.blocks:
             if max(block.outputs.max(initial=0), block.inputs.max(initial=0)) >= size:
                 raise ValueError(

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
-from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
+from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, centred, heading_weights, travel
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.hydro.data.long_waves import warn_of_phases
-from seacrane.hydro.data.phase_centre import phase_centre, travel
 from seacrane.inputs.checked import flag_of, number_of, numbers_of, require_unmasked, text_of, vector_of
 from seacrane.inputs.keywords import named
 from seacrane.sea.dispersion import wavenumber
@@ -118,7 +117,7 @@ class MotionRaos:
         """
         w, b = np.asarray(omega, dtype=float), np.asarray(heading, dtype=float)
         circle, table, centre = self._circle
-        in_heading = self._heading_weights(circle, b)
+        in_heading = heading_weights(f"RAOs {self.name!r}", circle, b)
         inside = np.clip(w, self.omega[0], self.omega[-1])
         in_frequency = spline_weights(self.omega, inside)
         by_heading = (in_heading @ table.reshape(circle.size, -1)).reshape(b.size, self.omega.size, 6)
@@ -137,24 +136,7 @@ class MotionRaos:
             parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)
             values = self.values[source] * parity[:, None, :]
         k = wavenumber(self.omega, g=self.g, depth=self.depth)
-        centre = phase_centre(k, heading, values[:, :, 2])
-        if np.any(centre):
-            values = values / travel(centre, k, heading[:, None])[:, :, None]
-        return heading, values, centre
-
-    def _heading_weights(self, circle: Array, heading: Array) -> Array:
-        gap = largest_gap(circle)
-        if gap <= LARGEST_HEADING_GAP + 1e-9:
-            return spline_weights(circle, heading, period=TURN)
-        distance = np.abs(np.angle(np.exp(1j * (heading[:, None] - circle))))
-        nearest = distance.argmin(axis=1)
-        off = distance[np.arange(heading.size), nearest] > 1e-6
-        if off.any():
-            raise SceneError(
-                f"RAOs {self.name!r}: have no heading {np.degrees(heading[off][0]):.6g} deg, where waves go, "
-                f"and their largest gap is {np.degrees(gap):.3g} deg; above 45 deg nothing is interpolated"
-            )
-        return np.asarray(np.eye(circle.size)[nearest])
+        return heading, *centred(k, heading, values)
 
 
 def _increasing(what: str, given: Any, unit: str) -> Array:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from functools import lru_cache
 from types import NoneType, UnionType
@@ -14,9 +13,8 @@ from typing import Any, get_args, get_origin, get_type_hints
 import numpy as np
 
 from seacrane.errors import SceneError
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
-from seacrane.hydro.data.group_body import GroupBody
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, RollDamping
+from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.memory_model import (
     FitRow,
     MemoryBlock,
@@ -121,12 +119,9 @@ def _fits(value: Any, hint: Any) -> bool:
     if origin is np.ndarray:
         return isinstance(value, np.ndarray) and value.dtype == get_args(arguments[1])[0]
     if origin is tuple:
-        return isinstance(value, tuple) and all(_fits(*pair) for pair in _pairs(value, arguments))
+        if not isinstance(value, tuple):
+            return False
+        every = [arguments[0]] * len(value) if arguments[-1] is Ellipsis else arguments
+        return all(_fits(*pair) for pair in zip(value, every, strict=True))
     whole = hint is float and isinstance(value, int)
     return (isinstance(value, hint) or whole) and (hint is bool or not isinstance(value, bool))
-
-
-def _pairs(values: tuple[Any, ...], hints: tuple[Any, ...]) -> Iterator[tuple[Any, Any]]:
-    if hints[-1] is Ellipsis:
-        return ((value, hints[0]) for value in values)
-    return zip(values, hints, strict=True)

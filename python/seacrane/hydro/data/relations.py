@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.excitation import full_circle
+from seacrane.hydro.data.heading_circle import largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.hydro.data.interpolation import by_straight_lines, spline_weights
 
 FloatArray = NDArray[np.float64]
 
@@ -28,7 +29,7 @@ def damping_from_forces(database: Hydrodynamics) -> FloatArray | None:
     if np.isfinite(database.depth) or database.speed != 0.0:
         return None
     circle, force = full_circle(database)
-    if np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max() > np.radians(20.0):
+    if largest_gap(circle) > np.radians(20.0):
         return None
     beta = np.arange(HEADINGS) * 2.0 * np.pi / HEADINGS
     weights = spline_weights(circle, beta, period=2.0 * np.pi)
@@ -44,8 +45,7 @@ def resolved_by_headings(database: Hydrodynamics) -> NDArray[np.bool_]:
     The force from an end of the ship turns by up to ``k L / 2`` radians of phase per radian of heading.
     """
     circle, _ = full_circle(database)
-    gap = np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max()
-    phase = gap * database.omega**2 / database.g * _span(database) / 2.0
+    phase = largest_gap(circle) * database.omega**2 / database.g * _span(database) / 2.0
     return np.asarray(phase <= LARGEST_PHASE_STEP)
 
 
@@ -80,9 +80,7 @@ def _dispersion_integral(database: Hydrodynamics, index: int) -> FloatArray:
     knots = np.concatenate([[0.0], database.omega])
     table = np.concatenate([np.zeros_like(database.damping[:1]), database.damping])
     at = database.damping[index]
-    right = np.clip(np.searchsorted(knots, fine), 1, len(knots) - 1)
-    part = ((fine - knots[right - 1]) / (knots[right] - knots[right - 1]))[:, None, None]
-    damping = (1.0 - part) * table[right - 1] + part * table[right]
+    damping = by_straight_lines(knots, table, fine)
     gap = fine**2 - w**2
     near = np.abs(gap) < 1e-6
     ratio = (damping - at) / np.where(near, 1.0, gap)[:, None, None]

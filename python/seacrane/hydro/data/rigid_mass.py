@@ -1,4 +1,4 @@
-"""Mass matrix of a rigid body about any point."""
+"""Mass matrix of a rigid body about any point, and what its weight restores."""
 
 from __future__ import annotations
 
@@ -17,6 +17,15 @@ def rigid_mass_matrix(mass: float, center: FloatArray, inertia: FloatArray) -> F
     matrix[3:, :3] = mass * cross
     matrix[3:, 3:] = inertia - mass * cross @ cross
     return matrix
+
+
+def weight_restoring(weight: float, position: FloatArray) -> FloatArray:
+    """Share of a weight (N) at ``position`` in the restoring matrix (6, 6) about the reference point."""
+    x, y, z = position
+    c = np.zeros((6, 6))
+    c[3, 3] = c[4, 4] = -weight * z
+    c[3, 5], c[4, 5] = weight * x, weight * y
+    return c
 
 
 def cross_matrix(v: FloatArray) -> FloatArray:

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.data_warnings import smallest_eigenvalues
-from seacrane.hydro.data.encounter import encounter_frequency, inside_table
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import in_trusted_band
 from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
-from seacrane.hydro.data.motion import motion_response, natural_frequency
+from seacrane.hydro.data.motion import encounter_frequency, inside_table, motion_response, natural_frequency
 from seacrane.hydro.data.relations import (
     damping_from_forces,
     infinite_added_mass_from_damping,
     resolved_by_headings,
 )
-from seacrane.hydro.data.trusted_band import in_trusted_band
-from seacrane.hydro.database.facts import metacentric_height
 from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 from seacrane.hydro.memory.motion_errors import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel
-from seacrane.hydro.vessel.memory_stability import largest_growth_rate
+from seacrane.hydro.vessel.parameters import largest_growth_rate
 from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]
@@ -49,7 +47,7 @@ class CheckRow:
 
     def as_dict(self) -> dict[str, str | float | None]:
         """The row as ``{check, value, limit, verdict}``."""
-        return {"check": self.check, "value": self.value, "limit": self.limit, "verdict": self.verdict}
+        return asdict(self)
 
 
 def check_database(database: HydroData) -> list[CheckRow]:
@@ -74,6 +72,11 @@ def check_database(database: HydroData) -> list[CheckRow]:
     return rows if model is None else rows + memory_rows(database, model)
 
 
+def metacentric_height(database: HydroData) -> float:
+    """GM (m) of the database's own C44 and mass; what tanks take from it is apart, in `additional`."""
+    return float(database.restoring[3, 3] / (float(database.mass_matrix[0, 0]) * database.g))
+
+
 def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
     """Quality of a memory model: fits, stability, passivity, and its effect on the motions."""
     rows = []
@@ -82,26 +85,32 @@ def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
         rows.append(at_least(f"memory_r2_added_mass_{suffix}", row.r2_added_mass, model.r2))
         rows.append(at_least(f"memory_r2_damping_{suffix}", row.r2_damping, model.r2))
     slowest = min((row.slowest_decay for row in model.rows), default=np.inf)
-    rows.append(info("memory_states", float(model.states)))
+    rows += fit_rows(model)
+    rows.append(at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
+    rows.append(info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0)))
+    rows += passivity_rows(model)
+    growth = largest_growth_rate(database, model)
+    rows.append(at_most("vessel_with_memory_growth_per_s", growth, GROWTH_LIMIT))
+    known = database.infinite_frequency_added_mass
+    if known is not None:
+        against = _against_range(database, model.added_mass - known)
+        rows.append(info("memory_infinite_added_mass_against_database", against))
+    return rows + memory_motion_rows(database, model)
+
+
+def fit_rows(model: MemoryModel) -> list[CheckRow]:
+    """States, and by how much motions are off."""
+    rows = [info("memory_states", float(model.states))]
     if model.motion is not None:
         rows.append(at_most("memory_motion_error", model.motion.error.worst, model.motion.limit))
         rows.append(info("memory_motion_error_of_convolution", model.motion.floor))
-    rows.append(at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
-    rows.append(info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0)))
-    rows.append(at_least("memory_passivity_in_band", model.passivity.in_band, PASSIVITY_LIMIT))
-    rows.append(at_least("memory_passivity_everywhere", model.passivity.minimum, PASSIVITY_LIMIT))
-    rows.append(
-        at_most("vessel_with_memory_growth_per_s", largest_growth_rate(database, model), GROWTH_LIMIT)
-    )
-    known = database.infinite_frequency_added_mass
-    if known is not None:
-        rows.append(
-            info(
-                "memory_infinite_added_mass_against_database",
-                _against_range(database, model.added_mass - known),
-            )
-        )
-    return rows + memory_motion_rows(database, model)
+    return rows
+
+
+def passivity_rows(model: MemoryModel) -> list[CheckRow]:
+    """Whether the model takes energy, within the band and everywhere."""
+    where = {"in_band": model.passivity.in_band, "everywhere": model.passivity.minimum}
+    return [at_least(f"memory_passivity_{name}", value, PASSIVITY_LIMIT) for name, value in where.items()]
 
 
 def _closure_rows(database: HydroData) -> list[CheckRow]:
@@ -200,11 +209,8 @@ def _relation_rows(database: HydroData) -> list[CheckRow]:
         for i, name in enumerate(MOTIONS):
             span = float(np.ptp(database.added_mass[:, i, i]))
             if span > 0.0:
-                rows.append(
-                    at_most(
-                        f"kramers_kronig_{name}", float(abs(difference[i, i]) / span), KRAMERS_KRONIG_LIMIT
-                    )
-                )
+                share = float(abs(difference[i, i]) / span)
+                rows.append(at_most(f"kramers_kronig_{name}", share, KRAMERS_KRONIG_LIMIT))
     return rows
 
 
@@ -221,13 +227,15 @@ def _against_range(database: HydroData, difference: FloatArray) -> float:
 
 
 def at_most(check: str, value: float, limit: float) -> CheckRow:
-    return CheckRow(
-        check=check, value=float(value), limit=limit, verdict="pass" if value <= limit else "fail"
-    )
+    return _judged(check, value, limit, good=value <= limit)
 
 
 def at_least(check: str, value: float, limit: float, *, strict: bool = False) -> CheckRow:
     good = value > limit if strict else value >= limit
+    return _judged(check, value, limit, good=good)
+
+
+def _judged(check: str, value: float, limit: float, *, good: bool) -> CheckRow:
     return CheckRow(check=check, value=float(value), limit=limit, verdict="pass" if good else "fail")
 
 

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
+from importlib.resources import files
 from os import PathLike
-from typing import TYPE_CHECKING, Literal, TypeVar
+from pathlib import Path
+from textwrap import shorten
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,13 +19,14 @@ from seacrane.hydro.data.excitation import force_at, full_circle
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.data.packed import digest_of
-from seacrane.hydro.database.check import CheckRow, check_database
-from seacrane.hydro.database.facts import as_line, as_table
-from seacrane.hydro.database.figures import hydro_figures
+from seacrane.hydro.database.check import CheckRow, check_database, metacentric_height
+from seacrane.hydro.database.figures import SHEETS, hydro_sheets
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
-from seacrane.hydro.database.selection import Choice, selected_database
-from seacrane.hydro.database.transform import mirrored_database, moved_database
+from seacrane.hydro.database.transform import Choice, mirrored_database, moved_database, selected_database
 from seacrane.inputs.checked import not_negative_of
+from seacrane.inputs.keywords import named
+from seacrane.plotting.panel import draw
+from seacrane.plotting.table import Table, facts, format_value
 
 if TYPE_CHECKING:
     import xarray
@@ -29,7 +34,7 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
-Database = TypeVar("Database", bound=HydroData)
+LETTERS = 100  # of a fact
 
 
 class HydroDatabase(HydroData):
@@ -124,7 +129,12 @@ class HydroDatabase(HydroData):
         ------
         SceneError : a negative value, or a fraction where the roll natural frequency is outside the table.
         """
-        return with_roll_damping(self, linear, quadratic, fraction)
+        for what, value in (("linear", linear), ("quadratic", quadratic), ("fraction", fraction)):
+            not_negative_of(f"database {self.name!r}: roll damping, {what}", value)
+        whole, squares = self.linear_damping.copy(), self.quadratic_damping.copy()
+        whole[3, 3] = linear + (fraction and roll_damping_of(self, fraction))
+        squares[3] = quadratic
+        return replace(self, linear_damping=whole, quadratic_damping=squares, roll_damping=None)
 
     def select(
         self,
@@ -169,7 +179,8 @@ class HydroDatabase(HydroData):
         ------
         ValueError : a name that is not among the figures.
         """
-        return hydro_figures(database=self, what=what)
+        names = list(SHEETS) if what is None else [what] if isinstance(what, str) else list(what)
+        return {name: draw(sheet) for name, sheet in hydro_sheets(self, names).items()}
 
     @property
     def digest(self) -> str:
@@ -177,13 +188,22 @@ class HydroDatabase(HydroData):
         return digest_of(self)
 
     def __repr__(self) -> str:
-        return as_line(self)
+        omega, mass = self.omega, self.mass_matrix[0, 0] / 1e3
+        return (
+            f"<HydroDatabase {self.name!r}: {mass:.6g} t, {omega.size} frequencies {omega[0]:.4g} to "
+            f"{omega[-1]:.4g} rad/s, {self.heading.size} headings>"
+        )
+
+    def _table(self) -> Table:
+        """The facts, names beside values."""
+        rows = [(name, shorten(format_value(value), LETTERS)) for name, value in _facts(self)]
+        return facts(rows, f"HydroDatabase {self.name!r}")
 
     def __str__(self) -> str:
-        return str(as_table(self))
+        return str(self._table())
 
     def _repr_html_(self) -> str:
-        return as_table(self)._repr_html_()
+        return self._table()._repr_html_()
 
     def check(self) -> list[CheckRow]:
         """Self-check: closure, symmetry, damping, natural periods, memory; see `check_database`."""
@@ -208,16 +228,6 @@ class HydroDatabase(HydroData):
         return to_xarray(self)
 
 
-def with_roll_damping(database: Database, linear: float, quadratic: float, fraction: float) -> Database:
-    """See `HydroDatabase.with_roll_damping`."""
-    for what, value in (("linear", linear), ("quadratic", quadratic), ("fraction", fraction)):
-        not_negative_of(f"database {database.name!r}: roll damping, {what}", value)
-    whole, squares = database.linear_damping.copy(), database.quadratic_damping.copy()
-    whole[3, 3] = linear + (fraction and roll_damping_of(database, fraction))
-    squares[3] = quadratic
-    return replace(database, linear_damping=whole, quadratic_damping=squares, roll_damping=None)
-
-
 def roll_damping_of(database: HydroData, fraction: float) -> float:
     """N m s/rad: a fraction of the critical roll damping at the roll natural frequency."""
     resonance = natural_frequency(database, 3)
@@ -228,3 +238,36 @@ def roll_damping_of(database: HydroData, fraction: float) -> float:
         )
     inertia = database.mass_matrix[3, 3] + np.interp(resonance, database.omega, database.added_mass[:, 3, 3])
     return float(fraction * 2.0 * np.sqrt(database.restoring[3, 3] * inertia))
+
+
+def _facts(database: HydroData) -> list[tuple[str, Any]]:
+    """Main figures, what it holds, and where it comes from."""
+    omega, heading = database.omega, np.rad2deg(database.heading)
+    band = database.trusted_band
+    memory = database.memory
+    causes = ", ".join(one.cause for one in database.additional)
+    return [
+        ("length, breadth, draught [m]", f"{database.length:g}, {database.breadth:g}, {database.draught:g}"),
+        ("mass [t]", float(f"{database.mass_matrix[0, 0] / 1e3:.6g}")),
+        ("GM of its C44 and mass [m]", float(f"{metacentric_height(database):.4g}")),
+        ("frequencies [rad/s]", f"{omega.size}, {omega[0]:.4g} to {omega[-1]:.4g}"),
+        ("headings [deg]", f"{heading.size}, {heading[0]:.4g} to {heading[-1]:.4g}"),
+        ("trusted band [rad/s]", "not stated" if band is None else f"{band[0]:.4g} to {band[1]:.4g}"),
+        ("water depth [m]", "deep" if np.isinf(database.depth) else database.depth),
+        ("forward speed [m/s]", database.speed),
+        (
+            "fitted fluid memory",
+            "none" if memory is None else f"{sum(len(b.A) for b in memory.blocks)} states",
+        ),
+        ("additional matrices", causes or "none"),
+        ("slow drift", "none" if database.drift is None else "coefficients"),
+        ("reference point", database.origin),
+        ("source", database.source),
+    ]
+
+
+@named
+@cache
+def shipped_database() -> HydroDatabase:
+    """The database of the 115 m hull that comes with the package, memory included; read once, immutable."""
+    return HydroDatabase.load(Path(str(files("seacrane") / "data" / "hull_115.nc")))

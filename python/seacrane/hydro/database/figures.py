@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import in_trusted_band
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.motion import motion_response
 from seacrane.hydro.data.relations import retardation_from_damping
 from seacrane.inputs.frames import MOTIONS
-from seacrane.plotting.panel import Line, Panel, Picture, Sheet, draw, save_sheet
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from seacrane.plotting.panel import Line, Panel, Picture, Sheet, save_sheet
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -26,9 +23,11 @@ ComplexArray = NDArray[np.complex128]
 NEGLIGIBLE = 1e-4  # of the geometric mean of the diagonals: such an entry is not drawn
 HEADINGS_DEG = (0, 45, 90, 135, 180)
 HEADING_COLOURS = (0, 1, 2, 3, 6)  # of the palette: told apart in print
-ADDED_MASS_UNITS = ("kg", "kg m", "kg m2")
-DAMPING_UNITS = ("kg/s", "kg m/s", "kg m2/s")
-RETARDATION_UNITS = ("N/m", "N", "N m")
+RADIATION = (
+    ("Added mass", "A", ("kg", "kg m", "kg m2")),
+    ("Radiation damping", "B", ("kg/s", "kg m/s", "kg m2/s")),
+)
+RETARDATION = ("Retardation functions", "K", ("N/m", "N", "N m"))
 FAINT = 1e-2  # of a force's largest: its phase is not drawn
 BAND = "trusted band: the source vouches for its numbers"
 
@@ -41,36 +40,27 @@ def drawn_entries(matrices: Array) -> list[tuple[int, int]]:
 
 
 def matrix_sheet(
-    *,
-    abscissa: tuple[str, str, Array],
-    curves: dict[str, Array],
-    symbol: str,
-    units: tuple[str, str, str],
-    title: str,
-    caption: str = "",
-    band: tuple[float, float] | None = None,
-) -> Sheet:
+    abscissa: tuple[str, str, Array], curves: dict[str, Array], matrix: tuple[str, str, tuple[str, str, str]],
+    *, name: str, caption: str = "", band: tuple[float, float] | None = None,
+) -> Sheet:  # fmt: skip
     """Every entry of a matrix over frequency or time.
 
     Parameters
     ----------
-    abscissa : (str, str, ndarray of shape (n,))
-        Name, unit and values.
-    curves : dict of ndarray, shape (n, 6, 6) or (6, 6)
-        By label, SI. The first decides which entries are drawn; a constant becomes a dotted line.
-    symbol : A, B or K.
-    units : Of entries between two translations, one translation and one rotation, two rotations.
-    title, caption : Heading, and what follows the usual sentence below it.
-    band : (float, float), optional
-        Shaded range.
+    abscissa : name, unit and values (n,).
+    curves : (n, 6, 6) or (6, 6), by label, SI. The first decides which entries are drawn; a constant becomes
+        a dotted line.
+    matrix : what it is, its letter, and its units between two translations, one of each, two rotations.
+    name, caption : of the database, and what follows the usual sentence below.
+    band : rad/s, shaded.
     """
-    name, unit_of_abscissa, values = abscissa
+    quantity, symbol, units = matrix
     panels = []
     for j, k in drawn_entries(next(iter(curves.values()))):
         lines = [
             Line(
                 label=label,
-                values=np.broadcast_to(matrices[..., j, k], values.shape).copy(),
+                values=np.broadcast_to(matrices[..., j, k], abscissa[2].shape).copy(),
                 colour=place,
                 style=":" if matrices.ndim == 2 else ("-", "--")[min(place, 1)],
             )
@@ -78,12 +68,21 @@ def matrix_sheet(
         ]
         unit = units[(j > 2) + (k > 2)]
         panels.append(Panel(quantity=f"{symbol}{j + 1}{k + 1}", unit=unit, lines=tuple(lines)))
+    caption = "x forward, y to port, z up; upper triangle, entries that are not negligible." + caption
+    return _sheet(f"{quantity}, {name}", caption, abscissa, panels, band)
+
+
+def _sheet(
+    title: str, caption: str, abscissa: tuple[str, str, Array], panels: Sequence[Panel],
+    band: tuple[float, float] | None,
+) -> Sheet:  # fmt: skip
+    name, unit, values = abscissa
     return Sheet(
         title=title,
-        caption="x forward, y to port, z up; upper triangle, entries that are not negligible." + caption,
+        caption=caption,
         abscissa=values,
         abscissa_name=name,
-        abscissa_unit=unit_of_abscissa,
+        abscissa_unit=unit,
         panels=tuple(panels),
         columns=2,
         shaded=band,
@@ -111,40 +110,18 @@ def with_additional(database: HydroData, memory: MemoryModel | None, part: int) 
     return curves
 
 
-def added_mass_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
-    """Added mass, its fit, and its limits at infinite frequency."""
-    curves = {"database": database.added_mass}
+def radiation_sheet(database: HydroData, memory: MemoryModel | None, part: int) -> Sheet:
+    """Added mass and its limits at infinite frequency (``part`` 0), or damping (1), and its fit."""
+    curves = {"database": (database.added_mass, database.damping)[part]}
     if memory is not None:
-        curves["memory model"] = memory.frequency_response(database.omega)[0]
-    curves |= with_additional(database, memory, 0)
-    if memory is not None:
+        curves["memory model"] = memory.frequency_response(database.omega)[part]
+    curves |= with_additional(database, memory, part)
+    if part == 0 and memory is not None:
         curves["model, infinite frequency"] = memory.added_mass
-    if database.infinite_frequency_added_mass is not None:
+    if part == 0 and database.infinite_frequency_added_mass is not None:
         curves["database, infinite frequency"] = database.infinite_frequency_added_mass
-    return matrix_sheet(
-        abscissa=("omega", "rad/s", database.omega),
-        curves=curves,
-        symbol="A",
-        units=ADDED_MASS_UNITS,
-        title=f"Added mass, {database.name}",
-        band=database.trusted_band,
-    )
-
-
-def damping_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
-    """Radiation damping and its fit."""
-    curves = {"database": database.damping}
-    if memory is not None:
-        curves["memory model"] = memory.frequency_response(database.omega)[1]
-    curves |= with_additional(database, memory, 1)
-    return matrix_sheet(
-        abscissa=("omega", "rad/s", database.omega),
-        curves=curves,
-        symbol="B",
-        units=DAMPING_UNITS,
-        title=f"Radiation damping, {database.name}",
-        band=database.trusted_band,
-    )
+    abscissa = ("omega", "rad/s", database.omega)
+    return matrix_sheet(abscissa, curves, RADIATION[part], name=database.name, band=database.trusted_band)
 
 
 def retardation_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
@@ -154,11 +131,10 @@ def retardation_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
     if memory is not None:
         curves["memory model"] = memory.impulse_response(time)
     return matrix_sheet(
-        abscissa=("time", "s", time),
-        curves=curves,
-        symbol="K",
-        units=RETARDATION_UNITS,
-        title=f"Retardation functions, {database.name}",
+        ("time", "s", time),
+        curves,
+        RETARDATION,
+        name=database.name,
         caption=" Damping is transformed up to the end of the trusted band, joined by straight lines, with "
         "a tail as omega^-3.",
     )
@@ -185,8 +161,7 @@ def force_sheet(database: HydroData) -> Sheet:
     headings = chosen_headings(database)
     force = np.array([database.force[index] * signs for index, signs in headings.values()])
     size = np.abs(force)
-    low, high = database.trusted_band or (0.0, np.inf)
-    doubtful = (database.omega < low - 1e-9) | (database.omega > high + 1e-9)
+    doubtful = ~in_trusted_band(database)
     faint = (size < FAINT * np.abs(database.force).max(axis=(0, 1))) | doubtful[:, None]
     phase = np.where(faint, np.nan, np.rad2deg(np.angle(force)))
 
@@ -202,18 +177,14 @@ def force_sheet(database: HydroData) -> Sheet:
         for i, motion in enumerate(MOTIONS)
     ]
     phases = [panel(f"{motion} force phase", "deg", phase[:, :, i], ".") for i, motion in enumerate(MOTIONS)]
-    return Sheet(
-        title=f"Wave forces, {database.name}",
-        caption="Per metre of wave amplitude; the angle is the direction the waves travel to, 0 following. "
+    caption = (
+        "Per metre of wave amplitude; the angle is the direction the waves travel to, 0 following. "
         "Phases are ahead of the crest at the reference point; those outside the trusted band, and of forces "
-        "below 1 % of their largest, are left out.",
-        abscissa=database.omega,
-        abscissa_name="omega",
-        abscissa_unit="rad/s",
-        panels=(*amplitudes, *phases),
-        columns=2,
-        shaded=database.trusted_band,
-        shaded_name=BAND,
+        "below 1 % of their largest, are left out."
+    )
+    abscissa = ("omega", "rad/s", database.omega)
+    return _sheet(
+        f"Wave forces, {database.name}", caption, abscissa, [*amplitudes, *phases], database.trusted_band
     )
 
 
@@ -231,19 +202,13 @@ def motion_sheet(database: HydroData) -> Sheet:
                 lines.append(Line(label=f"{label}, file", values=values, colour=colour, style="x"))
         panels.append(Panel(quantity=f"|{motion}|", unit="m/m" if i < 3 else "deg/m", lines=tuple(lines)))
     panels += [_motion_phase(database, solved, i, motion) for i, motion in enumerate(MOTIONS)]
-    return Sheet(
-        title=f"Motions, {database.name}",
-        caption="Per metre of wave amplitude, solved from mass, added mass, damping, restoring and wave "
+    caption = (
+        "Per metre of wave amplitude, solved from mass, added mass, damping, restoring and wave "
         "forces; crosses are the motions the file holds. The angle is the direction the waves travel to, "
-        "0 following. Phases are ahead of the crest, of motions above 1 % of their largest.",
-        abscissa=database.omega,
-        abscissa_name="omega",
-        abscissa_unit="rad/s",
-        panels=tuple(panels),
-        columns=2,
-        shaded=database.trusted_band,
-        shaded_name=BAND,
+        "0 following. Phases are ahead of the crest, of motions above 1 % of their largest."
     )
+    abscissa = ("omega", "rad/s", database.omega)
+    return _sheet(f"Motions, {database.name}", caption, abscissa, panels, database.trusted_band)
 
 
 def _motion_phase(database: HydroData, solved: ComplexArray, i: int, motion: str) -> Panel:
@@ -262,53 +227,32 @@ def _degrees(values: Array, motion: int) -> Array:
 
 
 SHEETS: dict[str, Callable[[HydroData, MemoryModel | None], Sheet]] = {
-    "added_mass": added_mass_sheet,
-    "damping": damping_sheet,
+    "added_mass": lambda database, memory: radiation_sheet(database, memory, 0),
+    "damping": lambda database, memory: radiation_sheet(database, memory, 1),
     "retardation": retardation_sheet,
     "wave_force": lambda database, _: force_sheet(database),
     "motion": lambda database, _: motion_sheet(database),
 }
 
 
-def hydro_figures(
-    *, database: HydroData, what: str | Sequence[str] | None = None, memory: MemoryModel | None = None
-) -> dict[str, Figure]:
-    """Figures of a database, by the names in `SHEETS`; those without any panel are left out.
-
-    Parameters
-    ----------
-    database : Any database.
-    what : str or sequence of str, optional
-        Names; all if None.
-    memory : MemoryModel, optional
-        Whose curves are drawn over the data; the database's own if None, and none if it has none.
+def hydro_sheets(database: HydroData, names: Sequence[str] = tuple(SHEETS)) -> dict[str, Sheet]:
+    """Sheets by the names in `SHEETS`, with the curves of the database's own memory, where it has one; those
+    without any panel are left out.
 
     Raises
     ------
     ValueError
         An unknown name.
     """
-    names = list(SHEETS) if what is None else [what] if isinstance(what, str) else list(what)
     for name in names:
         if name not in SHEETS:
             raise ValueError(
                 f"database {database.name!r}: there is no figure {name!r}; choose among {', '.join(SHEETS)}"
             )
-    sheets = {name: SHEETS[name](database, memory or database.memory) for name in names}
-    return {name: draw(sheet) for name, sheet in sheets.items() if sheet.panels}
+    sheets = {name: SHEETS[name](database, database.memory) for name in names}
+    return {name: sheet for name, sheet in sheets.items() if sheet.panels}
 
 
-def save_hydro_figures(
-    *, database: HydroData, folder: Path, memory: MemoryModel | None = None
-) -> list[Picture]:
-    """Write added_mass, damping, retardation, wave_force and motion, each as .png and .csv.
-
-    Parameters
-    ----------
-    database : Any database.
-    folder : Existing folder.
-    memory : MemoryModel, optional
-        Whose curves are drawn over the data; the database's own if None, and none if it has none.
-    """
-    sheets = {stem: make(database, memory or database.memory) for stem, make in SHEETS.items()}
-    return [save_sheet(sheet, folder, stem) for stem, sheet in sheets.items() if sheet.panels]
+def save_hydro_figures(*, database: HydroData, folder: Path) -> list[Picture]:
+    """Write all figures of a database into an existing folder, each as .png and .csv."""
+    return [save_sheet(sheet, folder, stem) for stem, sheet in hydro_sheets(database).items()]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import asdict, astuple, fields
 from os import PathLike
 from pathlib import Path
@@ -10,9 +11,17 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
+from seacrane.hydro.data.hydro_data import (
+    ARRAYS,
+    AdditionalMatrices,
+    DriftCoefficients,
+    HydroData,
+    Part,
+    RollDamping,
+    axes_of,
+)
 from seacrane.hydro.data.memory_model import (
+    MODEL_MATRICES,
     FitRow,
     MemoryBlock,
     MemoryModel,
@@ -20,6 +29,7 @@ from seacrane.hydro.data.memory_model import (
     MotionFit,
     Passivity,
 )
+from seacrane.hydro.data.reading import reading
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
@@ -37,31 +47,9 @@ CONVENTION = (
 )
 _TEXTS = ("name", "origin", "source")
 _NUMBERS = ("rho", "g", "depth", "speed", "length", "breadth", "draught")
+_DIMENSIONS = {"n": "omega", "m": "heading", "i": "motion", "j": "motion_of"}
 _MATRIX = ("motion", "motion_of")
-_ARRAYS: dict[str, tuple[tuple[str, ...], str]] = {
-    "omega": (("omega",), "rad/s"),
-    "heading": (("heading",), "rad"),
-    "added_mass": (("omega", *_MATRIX), "kg, kg m, kg m2"),
-    "damping": (("omega", *_MATRIX), "N s/m, N s, N m s"),
-    "infinite_frequency_added_mass": (_MATRIX, "kg, kg m, kg m2"),
-    "zero_frequency_added_mass": (_MATRIX, "kg, kg m, kg m2"),
-    "restoring": (_MATRIX, "N/m, N, N m"),
-    "mass_matrix": (_MATRIX, "kg, kg m, kg m2"),
-    "linear_damping": (_MATRIX, "N s/m, N s, N m s"),
-    "quadratic_damping": (("motion",), "N s2/m2, N m s2"),
-    "force": (("heading", "omega", "motion"), "N/m, N m/m"),
-    "motion_rao": (("heading", "omega", "motion"), "m/m, rad/m"),
-    "motion_rao_limit": (("motion",), "1"),
-    "motion_rao_floor": (("motion",), "1"),
-}
-_ROLL = {"linear": ("omega",), "quadratic": ("omega",), "linearised": ("heading", "omega")}
-_DRIFT: dict[str, tuple[tuple[str, ...], str]] = {
-    "heading": (("heading",), "rad"),
-    "omega": (("omega",), "rad/s"),
-    "coefficient": (("heading", "omega", "motion"), "N/m2, N m/m2"),
-}
 _BLOCK_ARRAYS = ("outputs", "inputs", "A", "B", "C", "D", "state_scale")
-_MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 
 
 def save_database(database: HydroData, path: str | PathLike[str]) -> None:
@@ -84,53 +72,42 @@ def load_database_file(kind: type[Data], path: str | PathLike[str]) -> Data:
     source = Path(path)
     if not source.is_file():
         raise FileFormatError(f"{source}: no such file; give the path of a hydrodynamic database")
-    try:
-        with open_netcdf(source) as file:
-            if getattr(file, "format", None) != FORMAT:
-                raise FileFormatError(
-                    f"{source}: a NetCDF file, but not a seacrane hydrodynamic database; save one with "
-                    "HydroDatabase.save"
-                )
-            if int(file.format_version) != FORMAT_VERSION:
-                raise FileFormatError(
-                    f"{source}: is of format version {int(file.format_version)}, and this seacrane reads "
-                    f"format version {FORMAT_VERSION}; save it again with HydroDatabase.save"
-                )
-            return _read(kind, file)
-    except FileFormatError:
-        raise
-    except NETCDF_ERRORS as error:
-        raise FileFormatError(
-            f"{source}: damaged hydrodynamic database ({str(error)[:200]}); fetch or save it again"
-        ) from error
+    with reading(source, "a hydrodynamic database", NETCDF_ERRORS), open_netcdf(source) as file:
+        if getattr(file, "format", None) != FORMAT:
+            raise FileFormatError(
+                f"{source}: a NetCDF file, but not a seacrane hydrodynamic database; save one with "
+                "HydroDatabase.save"
+            )
+        if int(file.format_version) != FORMAT_VERSION:
+            raise FileFormatError(
+                f"{source}: is of format version {int(file.format_version)}, and this seacrane reads "
+                f"format version {FORMAT_VERSION}; save it again with HydroDatabase.save"
+            )
+        found = _read(kind, file)
+    return found
+
+
+def _arrays(part: Part) -> Iterator[Any]:
+    """Name, array, dimensions and unit of all arrays that a part has."""
+    for name, axes in axes_of(part).items():
+        if getattr(part, name) is not None:
+            yield name, getattr(part, name), tuple(_DIMENSIONS[axis] for axis in axes), ARRAYS[name][1]
 
 
 def to_xarray(database: HydroData) -> xarray.Dataset:
     """Labelled copies of the database's arrays."""
     import xarray
 
-    variables = {}
-    for name, (dimensions, unit) in _ARRAYS.items():
-        value = getattr(database, name)
-        if value is not None and name not in ("omega", "heading"):
-            variables[name] = (dimensions, np.array(value), {"units": unit})
+    variables: dict[str, Any] = {}
+    for name, array, dimensions, unit in _arrays(database):
+        variables[name] = (dimensions, np.array(array), {"units": unit})
     for part in database.additional:
-        for name in ("added_mass", "damping", "restoring"):
+        for name, array, dimensions, unit in _arrays(part):
             key = f"{name}_{part.cause.replace(' ', '_')}"
-            variables[key] = (("omega", *_MATRIX), np.array(getattr(part, name)), {"cause": part.cause})
-    if database.roll_damping is not None:
-        for name, dimensions in _ROLL.items():
-            variables[f"roll_damping_{name}"] = (
-                dimensions,
-                np.array(getattr(database.roll_damping, name)),
-                {},
-            )
-    coordinates = {
-        "omega": ("omega", np.array(database.omega), {"units": "rad/s"}),
-        "heading": ("heading", np.array(database.heading), {"units": "rad"}),
-        "motion": list(MOTIONS),
-        "motion_of": list(MOTIONS),
-    }
+            variables[key] = (dimensions, np.array(array), {"units": unit, "cause": part.cause})
+    for name, array, dimensions, unit in _arrays(database.roll_damping) if database.roll_damping else ():
+        variables[f"roll_damping_{name}"] = (dimensions, np.array(array), {"units": unit})
+    coordinates = {"motion": list(MOTIONS), "motion_of": list(MOTIONS)}
     attributes = {name: getattr(database, name) for name in (*_TEXTS, *_NUMBERS)}
     return xarray.Dataset(variables, coordinates, {**attributes, "convention": CONVENTION})
 
@@ -142,46 +119,34 @@ def _write(file: Any, database: HydroData) -> None:
     file.port_starboard_symmetric = int(database.port_starboard_symmetric)
     if database.trusted_band is not None:
         file.trusted_band = np.array(database.trusted_band, dtype=float)
-    sizes = {
-        "omega": len(database.omega),
-        "heading": len(database.heading),
-        "motion": 6,
-        "motion_of": 6,
-        "reim": 2,
-    }
-    for name, size in sizes.items():
+    sizes = {"omega": len(database.omega), "heading": len(database.heading)}
+    for name, size in {**sizes, "motion": 6, "motion_of": 6, "reim": 2}.items():
         file.createDimension(name, size)
-    for name, (dimensions, unit) in _ARRAYS.items():
-        value = getattr(database, name)
-        if value is not None:
-            _put(file, name, value, dimensions).units = unit
+    _put_all(file, database)
     for i, part in enumerate(database.additional):
         group = file.createGroup(f"additional_{i}")
         group.cause = part.cause
-        for name in ("added_mass", "damping", "restoring"):
-            _put(group, name, getattr(part, name), ("omega", *_MATRIX))
+        _put_all(group, part)
     if database.roll_damping is not None:
         group = file.createGroup("roll_damping")
         if database.roll_damping.linearised_amplitude is not None:
             group.linearised_amplitude = float(database.roll_damping.linearised_amplitude)
-        for name, dimensions in _ROLL.items():
-            _put(group, name, getattr(database.roll_damping, name), dimensions)
+        _put_all(group, database.roll_damping)
     if database.drift is not None:
         group = file.createGroup("drift")
         group.createDimension("heading", len(database.drift.heading))
         group.createDimension("omega", len(database.drift.omega))
-        for name, (dimensions, unit) in _DRIFT.items():
-            _put(group, name, getattr(database.drift, name), dimensions).units = unit
+        _put_all(group, database.drift)
     if database.memory is not None:
         _write_memory(file.createGroup("memory"), database.memory)
 
 
 def _write_memory(group: Any, model: MemoryModel) -> None:
     group.band, group.r2 = np.array(model.band, dtype=float), float(model.r2)
-    group.passivity = np.array([getattr(model.passivity, entry.name) for entry in fields(Passivity)])
+    group.passivity = np.array(astuple(model.passivity))
     if model.motion is not None:
         _write_motion(group.createGroup("motion"), model.motion)
-    for name in _MODEL_MATRICES:
+    for name in MODEL_MATRICES:
         _put(group, name, getattr(model, name), _MATRIX)
     shapes = [(len(block.A), len(block.outputs), len(block.inputs)) for block in model.blocks]
     group.createDimension("block", len(model.blocks))
@@ -198,10 +163,8 @@ def _write_memory(group: Any, model: MemoryModel) -> None:
     group.row_cause = "\n".join(row.cause for row in model.rows)
     for entry in fields(FitRow):
         if entry.name != "cause":
-            kind = float if entry.type == "float" else np.int64
-            _put(
-                group, f"row_{entry.name}", np.array([row[entry.name] for row in rows], dtype=kind), ("row",)
-            )
+            column = np.array([row[entry.name] for row in rows], float if entry.type == "float" else np.int64)
+            _put(group, f"row_{entry.name}", column, ("row",))
 
 
 def _write_motion(group: Any, motion: MotionFit) -> None:
@@ -217,6 +180,11 @@ def _read_motion(group: Any) -> MotionFit:
         floor=float(group.floor),
         left_out=tuple((int(pair[0]) - 1, int(pair[1]) - 1) for pair in str(group.left_out).split()),
     )
+
+
+def _put_all(group: Any, part: Part) -> None:
+    for name, array, dimensions, unit in _arrays(part):
+        _put(group, name, array, dimensions).units = unit
 
 
 def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:
@@ -235,9 +203,7 @@ def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:
 def _read(kind: type[Data], file: Any) -> Data:
     values: dict[str, Any] = {name: str(file.getncattr(name)) for name in _TEXTS}
     values |= {name: float(file.getncattr(name)) for name in _NUMBERS}
-    for name in _ARRAYS:
-        if name in file.variables:
-            values[name] = _get(file, name)
+    values |= _got(kind, file)
     band = getattr(file, "trusted_band", None)
     groups = file.groups
     additional = [groups[name] for name in sorted(groups) if name.startswith("additional_")]
@@ -246,30 +212,27 @@ def _read(kind: type[Data], file: Any) -> Data:
         port_starboard_symmetric=bool(file.port_starboard_symmetric),
         trusted_band=None if band is None else (float(band[0]), float(band[1])),
         additional=tuple(
-            AdditionalMatrices(
-                cause=str(group.cause),
-                added_mass=_get(group, "added_mass"),
-                damping=_get(group, "damping"),
-                restoring=_get(group, "restoring"),
-            )
+            AdditionalMatrices(cause=str(group.cause), **_got(AdditionalMatrices, group))
             for group in additional
         ),
         roll_damping=_read_roll(groups["roll_damping"]) if "roll_damping" in groups else None,
         memory=_read_memory(groups["memory"]) if "memory" in groups else None,
-        drift=_read_drift(groups["drift"]) if "drift" in groups else None,
+        drift=DriftCoefficients(**_got(DriftCoefficients, groups["drift"])) if "drift" in groups else None,
     )
 
 
 def _read_roll(group: Any) -> RollDamping:
     amplitude = getattr(group, "linearised_amplitude", None)
     return RollDamping(
-        **{name: _get(group, name) for name in _ROLL},
+        **_got(RollDamping, group),
         linearised_amplitude=None if amplitude is None else float(amplitude),
     )
 
 
-def _read_drift(group: Any) -> DriftCoefficients:
-    return DriftCoefficients(**{name: _get(group, name) for name in _DRIFT})
+def _got(kind: type, group: Any) -> dict[str, Any]:
+    """The arrays of a kind of part that a group of the file holds."""
+    names = [entry.name for entry in fields(kind) if entry.name in ARRAYS and entry.name in group.variables]
+    return {name: _get(group, name) for name in names}
 
 
 def _read_memory(group: Any) -> MemoryModel:
@@ -291,15 +254,16 @@ def _read_memory(group: Any) -> MemoryModel:
     }
     row_causes = str(group.row_cause).split("\n") if len(columns["order"]) else []
     rows = [
-        FitRow(cause=cause, **{name: _plain(name, column[i]) for name, column in columns.items()})
+        FitRow(cause=cause, **one | {"accepted": bool(one["accepted"])})
         for i, cause in enumerate(row_causes)
+        for one in [{name: column[i].item() for name, column in columns.items()}]
     ]
     band, passivity = group.band, _passivity(group.passivity)
     if np.isnan(band).any() or np.isnan(astuple(passivity)).any() or not np.isfinite(group.r2):
         raise ValueError("memory: band, passivity or r2 is not a number")
     return MemoryModel(
         blocks=tuple(blocks),
-        **{name: _get(group, name) for name in _MODEL_MATRICES},
+        **{name: _get(group, name) for name in MODEL_MATRICES},
         band=(float(band[0]), float(band[1])),
         r2=float(group.r2),
         rows=tuple(rows),
@@ -311,11 +275,6 @@ def _read_memory(group: Any) -> MemoryModel:
 def _passivity(values: Any) -> Passivity:
     names = [entry.name for entry in fields(Passivity)]
     return Passivity(**{name: float(value) for name, value in zip(names, values, strict=True)})
-
-
-def _plain(name: str, value: Any) -> Any:
-    """Python scalar of a row's column."""
-    return bool(value) if name == "accepted" else value.item()
 
 
 def _get(group: Any, name: str) -> Any:

@@ -1,4 +1,4 @@
-"""The same vessel about another reference point, or seen in a mirror.
+"""The same vessel about another reference point, in a mirror, or with fewer frequencies and headings.
 
 With the new point at r from the old one (vessel's axes) a small motion is ``eta_old = T eta_new``,
 ``T = [[I, S(r)], [0, I]]``, ``S(r) v = r x v``. Loads follow from their work, ``F_new = T^T F_old``, and
@@ -7,41 +7,53 @@ every matrix X from a motion to a load becomes ``T^T X T``.
 
 from __future__ import annotations
 
-import dataclasses
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, mirrored_heading
-from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, mirrored_heading, phase_at
+from seacrane.hydro.data.hydro_data import HydroData, Part, axes_of
+from seacrane.hydro.data.rigid_mass import cross_matrix, weight_restoring
 from seacrane.hydro.memory.moved_memory import mirrored_memory, moved_memory
 from seacrane.inputs.caller import warn_caller
-from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import QuadraticDampingWarning
 
 FloatArray = NDArray[np.float64]
 Data = TypeVar("Data", bound=HydroData)
+Change = Callable[[NDArray[Any], str], NDArray[Any]]  # of an array with axes as `axes_of` says
+Indices = NDArray[np.intp]
+Choice = tuple[float, float] | slice | Sequence[int] | NDArray[np.integer[Any]] | None
 
-MATRICES = (
-    "added_mass",
-    "damping",
-    "infinite_frequency_added_mass",
-    "zero_frequency_added_mass",
-    "mass_matrix",
-    "linear_damping",
-    "restoring",
-)
-PER_CAUSE = ("added_mass", "damping", "restoring")
+TOLERANCE = 1e-9  # rad/s or rad: ends of a range belong to it
 MIRRORED = "; mirrored in the centre plane"
 
 
 def motion_transform(point: FloatArray) -> FloatArray:
     """T (6, 6): motions at the old reference point from those at ``point`` (3,), m from it."""
-    x, y, z = point
     transform = np.eye(6)
-    transform[:3, 3:] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
+    transform[:3, 3:] = cross_matrix(point)
     return transform
+
+
+def _arrays(part: Part, change: Change) -> dict[str, Any]:
+    """The arrays that a part has, each changed."""
+    there = {name: (getattr(part, name), axes) for name, axes in axes_of(part).items()}
+    return {name: change(array, axes) for name, (array, axes) in there.items() if array is not None}
+
+
+def _with_arrays(database: Data, change: Change, of_drift: Change | None = None, **others: Any) -> Data:
+    """The database with all arrays changed, those of its parts too, and ``others`` in place of its own."""
+    parts: dict[str, Any] = {
+        "additional": tuple(replace(part, **_arrays(part, change)) for part in database.additional)
+    }
+    if database.roll_damping is not None:
+        parts["roll_damping"] = replace(database.roll_damping, **_arrays(database.roll_damping, change))
+    if database.drift is not None and of_drift is not None:
+        parts["drift"] = replace(database.drift, **_arrays(database.drift, of_drift))
+    return replace(database, **_arrays(database, change) | parts | others)
 
 
 def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_lift: float) -> Data:
@@ -51,73 +63,76 @@ def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_
         database = _unfolded(database)
     transform = motion_transform(r)
     warn_of_quadratic(f"database {database.name!r}", database.quadratic_damping, transform)
-    changes: dict[str, Any] = {
-        name: _congruent(getattr(database, name), transform)
-        for name in MATRICES
-        if getattr(database, name) is not None
-    }
-    changes["restoring"] = changes["restoring"] + _unbalanced(r, net_lift)
-    changes["additional"] = tuple(
-        dataclasses.replace(
-            part,
-            added_mass=_congruent(part.added_mass, transform),
-            damping=_congruent(part.damping, transform),
-            restoring=_congruent(part.restoring, transform),
-        )
-        for part in database.additional
-    )
-    shift = _phase_shift(database, r) if phase_origin else np.ones((1, 1, 1))
-    changes["force"] = (database.force @ transform) * shift
+
+    def change(array: NDArray[Any], axes: str) -> NDArray[Any]:
+        return np.asarray(transform.T @ array @ transform) if axes.endswith("ij") else array
+
+    def of_drift(array: NDArray[Any], axes: str) -> NDArray[Any]:
+        return array @ transform if axes == "mni" else array
+
+    water = {"g": database.g, "depth": database.depth}
+    shift = phase_at(r, database.omega, database.heading, **water) if phase_origin else np.ones((1, 1, 1))
+    others: dict[str, Any] = {"force": (database.force @ transform) * shift}
     if database.motion_rao is not None:
-        changes["motion_rao"] = (database.motion_rao @ np.linalg.inv(transform).T) * shift
-    for name in ("motion_rao_limit", "motion_rao_floor"):
-        changes[name] = _of_all_that_mix(getattr(database, name), transform)
-    if database.drift is not None:
-        changes["drift"] = dataclasses.replace(
-            database.drift, coefficient=database.drift.coefficient @ transform
-        )
+        others["motion_rao"] = (database.motion_rao @ np.linalg.inv(transform).T) * shift
+    for name in (
+        "motion_rao_limit",
+        "motion_rao_floor",
+    ):  # the largest of all old motions that one is made of
+        others[name] = np.where(transform != 0.0, getattr(database, name), 0.0).max(axis=1)
+    # The moment about the moving point gains -(theta x r) x F with the load F that is there at rest.
+    others["restoring"] = change(database.restoring, "ij") + weight_restoring(net_lift, r)
     waves = "" if phase_origin else "; waves have zero phase at the latter"
     place = ", ".join(f"{value:g}" for value in r)
-    moved = dataclasses.replace(
-        database, **changes, memory=None, origin=f"({place}) m from: {database.origin}{waves}"
-    )
+    others["origin"] = f"({place}) m from: {database.origin}{waves}"
+    moved = _with_arrays(database, change, of_drift, **others, memory=None)
     if database.memory is None:
         return moved
-    return dataclasses.replace(moved, memory=moved_memory(database.memory, transform, moved))
+    return replace(moved, memory=moved_memory(database.memory, transform, moved))
 
 
 def mirrored_database(database: Data) -> Data:
     """`HydroDatabase.mirror`."""
     sign = np.outer(PORT_STARBOARD, PORT_STARBOARD)
-    turned = mirrored_heading(database.heading)
-    order = np.argsort(turned)
-    changes: dict[str, Any] = {
-        name: getattr(database, name) * sign for name in MATRICES if getattr(database, name) is not None
-    }
-    changes["additional"] = tuple(
-        dataclasses.replace(part, **{name: getattr(part, name) * sign for name in PER_CAUSE})
-        for part in database.additional
-    )
-    changes["force"] = database.force[order] * PORT_STARBOARD
-    if database.motion_rao is not None:
-        changes["motion_rao"] = database.motion_rao[order] * PORT_STARBOARD
-    if database.roll_damping is not None:
-        changes["roll_damping"] = dataclasses.replace(
-            database.roll_damping, linearised=database.roll_damping.linearised[order]
-        )
-    if database.drift is not None:
-        drift_turned = mirrored_heading(database.drift.heading)
-        rising = np.argsort(drift_turned)
-        changes["drift"] = dataclasses.replace(
-            database.drift,
-            heading=drift_turned[rising],
-            coefficient=database.drift.coefficient[rising] * PORT_STARBOARD,
-        )
-    if database.memory is not None:
-        changes["memory"] = mirrored_memory(database.memory)
+
+    def mirror(heading: FloatArray) -> Change:
+        turned = mirrored_heading(heading)
+        order = np.argsort(turned)
+
+        def change(array: NDArray[Any], axes: str) -> NDArray[Any]:
+            if axes == "m":
+                return np.asarray(turned[order])
+            if axes.endswith("ij"):
+                return np.asarray(array * sign)
+            array = array[order] if axes.startswith("m") else array
+            return np.asarray(array * PORT_STARBOARD) if axes == "mni" else array
+
+        return change
+
+    drift = None if database.drift is None else mirror(database.drift.heading)
     was_mirrored = database.source.endswith(MIRRORED)
     source = database.source.removesuffix(MIRRORED) if was_mirrored else database.source + MIRRORED
-    return dataclasses.replace(database, **changes, heading=turned[order], source=source)
+    memory = None if database.memory is None else mirrored_memory(database.memory)
+    return _with_arrays(database, mirror(database.heading), drift, source=source, memory=memory)
+
+
+def _unfolded(database: Data) -> Data:
+    """A symmetric vessel with all headings of both sides written out, as one that is not symmetric."""
+
+    def unfold(heading: FloatArray) -> Change:
+        circle, source, mirrored = both_sides(heading)
+        parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)[:, None, :]
+
+        def change(array: NDArray[Any], axes: str) -> NDArray[Any]:
+            if axes == "m":
+                return circle
+            array = array[source] if axes.startswith("m") else array
+            return np.asarray(array * parity) if axes == "mni" else array
+
+        return change
+
+    drift = None if database.drift is None else unfold(database.drift.heading)
+    return _with_arrays(database, unfold(database.heading), drift, port_starboard_symmetric=False)
 
 
 def _point(database: HydroData, point: ArrayLike, net_lift: float) -> FloatArray:
@@ -133,34 +148,6 @@ def _point(database: HydroData, point: ArrayLike, net_lift: float) -> FloatArray
     return r
 
 
-def _congruent(matrices: FloatArray, transform: FloatArray) -> FloatArray:
-    return np.asarray(transform.T @ matrices @ transform)
-
-
-def _unbalanced(r: FloatArray, net_lift: float) -> FloatArray:
-    """What the restoring gains where weight and buoyancy differ by ``net_lift`` (N, upwards).
-
-    The moment about the moving point gains ``-(theta x r) x F`` with the load F that is there at rest.
-    """
-    x, y, z = r * net_lift
-    extra = np.zeros((6, 6))
-    extra[3, 3] = extra[4, 4] = -z
-    extra[3, 5], extra[4, 5] = x, y
-    return extra
-
-
-def _phase_shift(database: HydroData, r: FloatArray) -> NDArray[np.complex128]:
-    """``exp(+i k (x cos b + y sin b))`` (m, n, 1): waves that had zero phase at the old point get it at r."""
-    along = r[0] * np.cos(database.heading) + r[1] * np.sin(database.heading)
-    k = wavenumber(database.omega, g=database.g, depth=database.depth)
-    return np.asarray(np.exp(1j * np.outer(along, k)))[:, :, None]
-
-
-def _of_all_that_mix(limits: FloatArray, transform: FloatArray) -> FloatArray:
-    """Each motion's limit (6,), the largest of all old motions that it is made of."""
-    return np.asarray(np.where(transform != 0.0, limits, 0.0).max(axis=1))
-
-
 def warn_of_quadratic(what: str, damping: FloatArray, transform: FloatArray) -> None:
     """Moments move as they are; v |v| of a translation at the old point is no such term at the new one."""
     coupled = np.any(transform[:, 3:] - np.eye(6)[:, 3:], axis=1) & (damping != 0.0)
@@ -174,21 +161,81 @@ def warn_of_quadratic(what: str, damping: FloatArray, transform: FloatArray) -> 
         )
 
 
-def _unfolded(database: Data) -> Data:
-    """A symmetric vessel with all headings of both sides written out, as one that is not symmetric."""
-    heading, source, mirrored = both_sides(database.heading)
-    parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)[:, None, :]
-    changes: dict[str, Any] = {"heading": heading, "force": database.force[source] * parity}
-    if database.motion_rao is not None:
-        changes["motion_rao"] = database.motion_rao[source] * parity
-    if database.roll_damping is not None:
-        changes["roll_damping"] = dataclasses.replace(
-            database.roll_damping, linearised=database.roll_damping.linearised[source]
+def selected_database(database: Data, omega: Choice, heading: Choice, every: int, every_heading: int) -> Data:
+    """`HydroDatabase.select`."""
+    what = f"database {database.name!r}"
+    n = _chosen(f"{what}: omega", omega, database.omega, turning=False)
+    m = _chosen(f"{what}: heading", heading, database.heading, turning=True)
+    n, m = _thinned(f"{what}: every", n, every), _thinned(f"{what}: every_heading", m, every_heading)
+
+    def change(array: NDArray[Any], axes: str) -> NDArray[Any]:
+        for axis, places in (("n", n), ("m", m)):
+            array = array.take(places, axes.index(axis)) if axis in axes else array
+        return array
+
+    others: dict[str, Any] = {"trusted_band": _band(database, database.omega[n])}
+    if len(n) < len(database.omega):
+        others["memory"] = None
+    return _with_arrays(database, change, **others)
+
+
+def _chosen(what: str, choice: Choice, values: FloatArray, *, turning: bool) -> Indices:
+    """Rising indices of the values that are chosen: a pair is a range, anything else indices."""
+    every = np.arange(len(values))
+    if choice is None:
+        return every
+    if isinstance(choice, tuple):
+        found = _in_range(what, choice, values, turning=turning)
+    elif isinstance(choice, slice):
+        found = every[choice]
+    else:
+        found = _indices(what, choice, len(values))
+    if found.size == 0:
+        raise ValueError(
+            f"{what} = {choice!r} leaves nothing of {values[0]:.4g} to {values[-1]:.4g} "
+            f"{'rad' if turning else 'rad/s'}; widen it"
         )
-    if database.drift is not None:
-        circle, at, turned = both_sides(database.drift.heading)
-        sign = np.where(turned[:, None], PORT_STARBOARD, 1.0)[:, None, :]
-        changes["drift"] = dataclasses.replace(
-            database.drift, heading=circle, coefficient=database.drift.coefficient[at] * sign
+    return np.sort(found)
+
+
+def _in_range(what: str, choice: tuple[float, float], values: FloatArray, *, turning: bool) -> Indices:
+    ends = np.asarray(choice, dtype=float) if len(choice) == 2 else np.full(2, np.nan)
+    low, high = float(ends[0]), float(ends[1])
+    if not np.all(np.isfinite(ends)) or low > high:
+        raise ValueError(f"{what} = {choice!r} is no range; give (low, high), or a list of indices")
+    if not turning:
+        return np.flatnonzero((values >= low - TOLERANCE) & (values <= high + TOLERANCE))
+    from_low = np.mod(values - low + TOLERANCE, 2.0 * np.pi)
+    return np.flatnonzero(from_low <= high - low + 2.0 * TOLERANCE)
+
+
+def _indices(what: str, choice: Any, count: int) -> Indices:
+    array = np.asarray(choice)
+    if array.ndim != 1 or (array.size and not np.issubdtype(array.dtype, np.integer)):
+        raise ValueError(f"{what} = {choice!r} is neither a range (low, high) nor a list of integer indices")
+    if np.any((array < -count) | (array >= count)):
+        raise ValueError(f"{what} = {choice!r} counts beyond its {count} values")
+    found = np.mod(array.astype(np.intp), count)
+    if len(np.unique(found)) < len(found):
+        raise ValueError(f"{what} = {choice!r} names a value twice; name each once")
+    return found
+
+
+def _thinned(what: str, indices: Indices, step: int) -> Indices:
+    if isinstance(step, bool) or not isinstance(step, (int, np.integer)) or step < 1:
+        raise ValueError(f"{what} = {step!r}; give a positive whole number")
+    return indices[::step]
+
+
+def _band(database: HydroData, omega: FloatArray) -> tuple[float, float] | None:
+    """The trusted band within the frequencies that are left; where only one is inside, the band as it was."""
+    if database.trusted_band is None:
+        return None
+    low, high = database.trusted_band
+    if not np.any((omega >= low - TOLERANCE) & (omega <= high + TOLERANCE)):
+        raise ValueError(
+            f"database {database.name!r}: the selected frequencies, {omega[0]:.4g} to {omega[-1]:.4g} rad/s, "
+            f"all lie outside the trusted band {low:.4g} to {high:.4g} rad/s; include some of it"
         )
-    return dataclasses.replace(database, **changes, port_starboard_symmetric=False)
+    inner = max(low, float(omega[0])), min(high, float(omega[-1]))
+    return inner if inner[0] < inner[1] else (low, high)

@@ -7,27 +7,26 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.hydro_group_data import HydroGroupData
+from seacrane.hydro.data.hydro_group_data import HydroGroupData, in_trusted_band
 from seacrane.hydro.data.relations import (
     damping_from_forces,
     infinite_added_mass_from_damping,
     resolved_by_headings,
 )
-from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.hydro.database.check import (
     DAMPING_LIMIT,
     FORCE_DAMPING_LIMIT,
     KRAMERS_KRONIG_LIMIT,
-    PASSIVITY_LIMIT,
     SYMMETRY_LIMIT,
     CheckRow,
     at_least,
     at_most,
+    fit_rows,
     info,
+    passivity_rows,
     skewness,
 )
-from seacrane.hydro.group.gap import clearance, gaps, radiating, spikes
-from seacrane.hydro.group.long_wave import long_wave_lift
+from seacrane.hydro.group.gap import clearance, gaps, long_wave_lift, radiating, spikes
 from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]
@@ -44,7 +43,7 @@ def check_group(group: HydroGroupData) -> list[CheckRow]:
         *_dispersion_rows(group),
         *_lift_rows(group),
         *_gap_rows(group),
-        *_memory_rows(group),
+        *([] if group.memory is None else fit_rows(group.memory) + passivity_rows(group.memory)),
     ]
 
 
@@ -63,11 +62,11 @@ def _matrix_rows(group: HydroGroupData) -> list[CheckRow]:
         rows.append(at_most(f"symmetry_{name}_coupling", float(skew[~own].max()), COUPLING_LIMIT))
     damping = group.damping[inside][:, felt][:, :, felt]
     if damping.size:
-        rows.append(at_least("damping_smallest_eigenvalue", smallest_damping(damping), DAMPING_LIMIT))
+        rows.append(at_least("damping_smallest_eigenvalue", _smallest_damping(damping), DAMPING_LIMIT))
     return rows
 
 
-def smallest_damping(damping: FloatArray) -> float:
+def _smallest_damping(damping: FloatArray) -> float:
     """Smallest eigenvalue of B over all frequencies, scaled by the square roots of its largest diagonals."""
     peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 0.0))
     active = peak > 0.0
@@ -108,11 +107,8 @@ def _by_motion_and_pair(
     group: HydroGroupData, name: str, share: NDArray[np.float64], felt: NDArray[np.bool_], limit: float
 ) -> list[CheckRow]:
     """A row for each motion that is felt, and one for the largest entry between each two hulls."""
-    rows = [
-        at_most(f"{name}_{label}", float(share[i, i]), limit)
-        for i, label in enumerate(_labels(group))
-        if felt[i]
-    ]
+    labels = [f"{hull}_{motion}" for hull in group.names for motion in MOTIONS]
+    rows = [at_most(f"{name}_{labels[i]}", float(share[i, i]), limit) for i in np.flatnonzero(felt)]
     for (i, a), (j, b) in combinations(enumerate(group.names), 2):
         block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
         rows.append(at_most(f"{name}_{a}_{b}", float(block.max()), limit))
@@ -150,20 +146,3 @@ def _gap_rows(group: HydroGroupData) -> list[CheckRow]:
     if group.lid_damping is not None:
         rows.append(info("lid_damping", group.lid_damping))
     return rows
-
-
-def _memory_rows(group: HydroGroupData) -> list[CheckRow]:
-    model = group.memory
-    if model is None:
-        return []
-    rows = [info("memory_states", float(model.states))]
-    if model.motion is not None:
-        rows.append(at_most("memory_motion_error", model.motion.error.worst, model.motion.limit))
-        rows.append(info("memory_motion_error_of_convolution", model.motion.floor))
-    rows.append(at_least("memory_passivity_in_band", model.passivity.in_band, PASSIVITY_LIMIT))
-    rows.append(at_least("memory_passivity_everywhere", model.passivity.minimum, PASSIVITY_LIMIT))
-    return rows
-
-
-def _labels(group: HydroGroupData) -> list[str]:
-    return [f"{name}_{motion}" for name in group.names for motion in MOTIONS]

@@ -19,8 +19,10 @@ from itertools import combinations, product
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.group_body import GroupBody
-from seacrane.hydro.data.hydro_group_data import HydroGroupData
+from seacrane.hydro.data.hydro_group_data import GroupBody, HydroGroupData
+from seacrane.hydro.data.interpolation import by_straight_lines
+from seacrane.inputs.brief import brief
+from seacrane.sea.dispersion import wavenumber
 
 FloatArray = NDArray[np.float64]
 
@@ -32,6 +34,8 @@ FELT = 1e-4  # least damping, by inertia times frequency
 LEAST = 0.02  # of an entry's largest value
 SAME = 0.04  # of a frequency: peaks of several motions at one resonance
 FIRST_MODES = 3
+LONGEST_SIZE = 0.1  # of 1 / k: hulls this broad and this deep are lifted as by a rising water level
+BISECTIONS = 40
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,8 +78,7 @@ def piston_frequency(*, draught: float, gap: float, width: float, g: float = 9.8
     if not (draught > 0.0 and 0.0 < gap < width and g > 0.0):
         raise ValueError(
             f"piston frequency: draught {draught:g} m, gap {gap:g} m, width over both {width:g} m; give "
-            "positive "
-            "ones, the width the largest"
+            "positive ones, the width the largest"
         )
     length = draught + gap / np.pi * (1.5 + np.log(OVERALL * width / (2.0 * gap)))
     return float(np.sqrt(g / length))
@@ -159,7 +162,7 @@ def _peaks(group: HydroGroupData) -> list[float]:
 
 
 def _at(omega: FloatArray, values: FloatArray, where: FloatArray) -> FloatArray:
-    """Columns of ``values`` at other frequencies, by straight lines."""
+    """Columns of ``values`` at other frequencies, by straight lines, beyond the ends as there."""
     return np.array([np.interp(where, omega, column) for column in values.T]).T
 
 
@@ -181,3 +184,87 @@ def _explained(group: HydroGroupData, omega: float) -> Spike:
         if gap.piston < omega < gap.across:
             return Spike(omega=omega, cause="gap", of=f"{gap.first}-{gap.second}", expected=float("nan"))
     return Spike(omega=omega, cause="unexplained", of="", expected=float("nan"))
+
+
+def long_wave_lift(group: HydroGroupData) -> FloatArray | None:
+    """C33 (k,) of each body by the vertical force of the group's longest wave, N/m.
+
+    Bodies held in water that rises by 1 m are bodies that all move down, ``F = C33 - w^2 sum A``. None where
+    that wave is not much longer than they are broad and deep.
+    """
+    k = float(wavenumber(group.omega[:1], g=group.g, depth=group.depth)[0])
+    if k * max(max(body.breadth, body.draught) for body in group.bodies) > LONGEST_SIZE:
+        return None
+    inertia = group.omega[0] ** 2 * group.added_mass[0, 2::6, 2::6].sum(axis=1)
+    return np.asarray(np.abs(group.force[:, 0, 2::6] + inertia).mean(axis=0))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GroupMode:
+    """A natural mode of a group.
+
+    Attributes
+    ----------
+    omega : rad/s. period : s.
+    damping_ratio : of critical, by radiation and linear damping at that frequency.
+    shape : (6 k,) motions, m and rad, read-only, the largest of ``shape`` times half the lengths being 1.
+    """
+
+    omega: float
+    damping_ratio: float
+    shape: FloatArray
+
+    __repr__ = brief
+
+    @property
+    def period(self) -> float:
+        """Natural period, s."""
+        return 2.0 * np.pi / self.omega
+
+
+def natural_modes_of(group: HydroGroupData) -> tuple[GroupMode, ...]:
+    """`HydroGroup.natural_modes`.
+
+    Where an eigenvalue of ``C - w^2 (M + A(w))``, symmetric, falls through zero between two of the
+    frequencies; A is a straight line between them.
+    """
+    dynamic = _dynamic(group, group.omega)
+    size = _sizes(group)
+    scaled = np.linalg.eigvalsh(dynamic * np.outer(size, size))
+    modes = []
+    for i in range(len(group.omega) - 1):
+        for place in np.flatnonzero((scaled[i] > 0.0) & (scaled[i + 1] <= 0.0)):
+            modes.append(_mode(group, (float(group.omega[i]), float(group.omega[i + 1])), int(place), size))
+    return tuple(sorted(modes, key=lambda mode: mode.omega))
+
+
+def _mode(group: HydroGroupData, between: tuple[float, float], place: int, size: FloatArray) -> GroupMode:
+    low, high = between
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        value = np.linalg.eigvalsh(_dynamic(group, np.array([middle]))[0] * np.outer(size, size))[place]
+        low, high = (middle, high) if value > 0.0 else (low, middle)
+    omega = 0.5 * (low + high)
+    at = np.array([omega])
+    dynamic = _dynamic(group, at)[0]
+    vector = np.linalg.eigh(dynamic * np.outer(size, size))[1][:, place]
+    shape = vector * size / vector[np.abs(vector).argmax()]
+    inertia = group.mass_matrix + _symmetric(by_straight_lines(group.omega, group.added_mass, at)[0])
+    damping = group.linear_damping + by_straight_lines(group.omega, group.damping, at)[0]
+    ratio = (shape @ damping @ shape) / (2.0 * omega * (shape @ inertia @ shape))
+    shape.setflags(write=False)
+    return GroupMode(omega=omega, damping_ratio=float(ratio), shape=shape)
+
+
+def _dynamic(group: HydroGroupData, omega: FloatArray) -> FloatArray:
+    inertia = group.mass_matrix + _symmetric(by_straight_lines(group.omega, group.added_mass, omega))
+    return np.asarray(_symmetric(group.restoring) - omega[:, None, None] ** 2 * inertia)
+
+
+def _symmetric(matrices: FloatArray) -> FloatArray:
+    return np.asarray(0.5 * (matrices + matrices.swapaxes(-1, -2)))
+
+
+def _sizes(group: HydroGroupData) -> FloatArray:
+    """1 for translations, 1 over half the length for rotations: motions that move the ends alike."""
+    return np.concatenate([np.repeat([1.0, 2.0 / body.length], 3) for body in group.bodies])

@@ -2,29 +2,48 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cache, cached_property
+from importlib.resources import files
+from itertools import combinations
 from os import PathLike
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import HydroGroupData
 from seacrane.hydro.data.motion import motion_response
-from seacrane.hydro.data.packed import digest_of
+from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
+from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.check import CheckRow
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.check import check_group
-from seacrane.hydro.group.gap import Gap, gaps
-from seacrane.hydro.group.group_file import load_group, save_group
+from seacrane.hydro.group.gap import Gap, GroupMode, clearance, gaps, natural_modes_of
 from seacrane.hydro.group.lid import group_with_lid
-from seacrane.hydro.group.modes import GroupMode, natural_modes_of
-from seacrane.hydro.group.moved import moved_group
-from seacrane.hydro.group.parts import group_of_databases, hull_of, ordered_group, uncoupled_group
-from seacrane.hydro.group.require import require_apart, require_group
+from seacrane.hydro.group.parts import (
+    group_of_databases,
+    hull_of,
+    moved_group,
+    ordered_group,
+    place_of,
+    uncoupled_group,
+)
+from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.shown import shown
+from seacrane.inputs.user_cache import read_kept
 
 ComplexArray = NDArray[np.complex128]
+
+MAGIC = b"seacrane hydro group "
+VERSION = 1
+MOST_BYTES = 1_000_000_000  # of the numbers, so that no damaged file fills the memory
+SAME_PLACE = 0.01  # m
+SAME_DRAUGHT = 0.02  # of it
+FILES: dict[float | None, str] = {None: "alone", 0.01: "lid_0.01", 0.03: "lid_0.03"}
 
 
 class HydroGroup(HydroGroupData):
@@ -188,14 +207,41 @@ class HydroGroup(HydroGroupData):
         ------
         SceneError : names the body, both values and the fix.
         """
-        require_group(self, names=names, positions=positions, draughts=draughts, apart=apart)
+        what = f"group {self.name!r}"
+        if names is not None and tuple(names) != self.names:
+            ordered = sorted(names) == sorted(self.names)
+            fix = "they stand in another order: use group.ordered(names)" if ordered else "name each body"
+            raise SceneError(
+                f"{what}: holds {', '.join(self.names)}, not {', '.join(map(str, names))}; {fix}"
+            )
+        for asked, given in (("positions", positions), ("draughts", draughts)):
+            for name in [one for one in given or {} if one not in self.names]:
+                raise SceneError(
+                    f"{what}: {asked} name {name!r}, which it has not; it has {', '.join(self.names)}"
+                )
+        for body in self.bodies:
+            place = np.asarray((positions or {}).get(body.name, body.position), dtype=float)
+            if place.shape != (3,) or not np.allclose(place, body.position, rtol=0.0, atol=SAME_PLACE):
+                raise SceneError(
+                    f"{what}: {body.name} has its reference point at {place_of(body.position)} m, not at "
+                    f"{place_of(place)}: its matrices are about another point; use that one, or compute anew"
+                )
+            draught = float((draughts or {}).get(body.name, body.draught))
+            if not abs(draught - body.draught) <= SAME_DRAUGHT * body.draught:
+                raise SceneError(
+                    f"{what}: {body.name} was computed with a draught of {body.draught:.4g} m, and "
+                    f"{draught:.4g} m is asked for; compute it at that draught"
+                )
+        if apart:
+            require_apart(self)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write everything, the memory model included, to a file of seacrane, atomically and without loss.
 
         The memory of a group takes minutes to fit, and no panel code's file holds it.
         """
-        save_group(self, path)
+        with atomic_write(Path(path)) as draft:
+            draft.write_bytes(MAGIC + b"%d\n" % VERSION + zlib.compress(packed(self), 9))
 
     @staticmethod
     def load(path: str | PathLike[str]) -> HydroGroup:
@@ -205,7 +251,14 @@ class HydroGroup(HydroGroupData):
         ------
         seacrane.errors.FileFormatError : the file is not one of ours, or is damaged.
         """
-        return load_group(HydroGroup, path)
+        source = Path(path)
+        if not source.is_file():
+            raise FileFormatError(
+                f"{source}: no such file; give the path of a group that HydroGroup.save wrote"
+            )
+        with reading(source, "a group of seacrane", (OSError, zlib.error, *NOT_PACKED)):
+            found: HydroGroup = unpacked(_numbers(source), (HydroGroup,))
+        return found
 
     @property
     def digest(self) -> str:
@@ -217,3 +270,65 @@ class HydroGroup(HydroGroupData):
             f"<HydroGroup {self.name!r}: {', '.join(self.names)}, {self.omega.size} frequencies "
             f"{self.omega[0]:.4g} to {self.omega[-1]:.4g} rad/s, {self.heading.size} headings>"
         )
+
+
+def _numbers(source: Path) -> bytes:
+    """What `HydroGroup.save` packed into a file."""
+    data = read_kept(source)
+    if not data.startswith(MAGIC):
+        raise FileFormatError(
+            f"{source}: no group of seacrane; save one with HydroGroup.save, or read a panel code's files "
+            "with load_database"
+        )
+    version, _, body = data[len(MAGIC) :].partition(b"\n")
+    if version != b"%d" % VERSION:
+        raise FileFormatError(
+            f"{source}: is of format version {shown(version[:8].decode('ascii', 'replace'))}, and this "
+            f"seacrane reads format version {VERSION}; save it again with HydroGroup.save"
+        )
+    reader = zlib.decompressobj()
+    numbers = reader.decompress(body, MOST_BYTES)
+    if not reader.eof:
+        raise ValueError("it ends within its numbers")
+    return numbers
+
+
+def require_apart(group: HydroGroupData) -> None:
+    """Raise where the boxes of two hulls overlap.
+
+    A hull within the ring of another has an overlapping box, and is no mistake.
+    """
+    for first, second in combinations(group.bodies, 2):
+        width, _ = clearance(first, second)
+        if width < 0.0:
+            raise SceneError(
+                f"group {group.name!r}: {first.name} and {second.name} overlap by {-width:.3g} m, as boxes "
+                f"of {first.length:.4g} x {first.breadth:.4g} m and {second.length:.4g} x "
+                f"{second.breadth:.4g} m at their positions and headings; move them apart"
+            )
+
+
+@cache
+def two_barges(*, lid_damping: float | None) -> HydroGroup:
+    """Two box barges that come with the package, memory included; read once, immutable.
+
+    "crane vessel" is 100 x 25 x 5.5 m (length, breadth, draught), "feeder" 60 x 18 x 3.5 m, abreast to port
+    of it with a gap of 5 m, in deep water. `tools/two_barges.py` computes them with Capytaine.
+
+    Parameters
+    ----------
+    lid_damping : of the lid on the water in the gap, 0.01 or 0.03 (`HydroGroup.with_lid_damping`): compare
+        both, as no theory tells it. None: each hull as if alone, without interaction.
+
+    Raises
+    ------
+    SceneError : another damping.
+    """
+    if lid_damping not in FILES:
+        raise SceneError(
+            f"two barges: lid_damping is {lid_damping!r}; those that come with the package are 0.01 and "
+            "0.03, and None for hulls without interaction"
+        )
+    return HydroGroup.load(
+        Path(str(files("seacrane") / "data" / "two_barges" / f"{FILES[lid_damping]}.hydro"))
+    )

@@ -50,24 +50,21 @@ def group_with_lid(group: Group, damping: float) -> Group:
     damping = positive_of(f"group {group.name!r}: lid damping", damping, "")
     if group.lid_damping:
         raise ValueError(
-            f"group {group.name!r}: its source has a lid of damping {group.lid_damping:g} already; "
-            "compute it "
-            "without one"
+            f"group {group.name!r}: its source has a lid of damping {group.lid_damping:g} already; compute "
+            "it without one"
         )
     places = [spike.omega for spike in spikes(group) if spike.cause == "gap"]
     if not places:
         raise ValueError(
-            f"group {group.name!r}: no narrow peak of the damping is one of a gap, so that a lid has "
-            "nothing to damp; "
-            "see group.gaps() and group.check()"
+            f"group {group.name!r}: no narrow peak of the damping is one of a gap, so that a lid has nothing "
+            "to damp; see group.gaps() and group.check()"
         )
     poles = _found(group, places)
     if poles.left > WORST:
         raise ValueError(
-            f"group {group.name!r}: the resonance of the gap at {places[0]:.4g} rad/s is no sum of poles "
-            "in these data: "
-            f"{poles.left:.2g} of it is left over; compute with a finer step of frequencies and finer "
-            "panels there"
+            f"group {group.name!r}: the resonance of the gap at {places[0]:.4g} rad/s is no sum of poles in "
+            f"these data: {poles.left:.2g} of it is left over; compute with a finer step of frequencies and "
+            "finer panels there"
         )
     w = group.omega
     dynamic = -(w[:, None, None] ** 2) * group.added_mass + 1j * w[:, None, None] * group.damping

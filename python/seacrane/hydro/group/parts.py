@@ -2,28 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_at, full_circle
-from seacrane.hydro.data.group_body import GroupBody
+from seacrane.hydro.data.heading_circle import phase_at
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import HydroGroupData
-from seacrane.hydro.data.memory_model import MemoryBlock, MemoryModel
+from seacrane.hydro.data.hydro_group_data import GroupBody, HydroGroupData
+from seacrane.hydro.data.memory_model import MODEL_MATRICES, MemoryModel
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.sea.dispersion import wavenumber
+from seacrane.hydro.database.transform import motion_transform, warn_of_quadratic
+from seacrane.hydro.memory.moved_memory import moved_memory
+from seacrane.inputs.checked import shaped_of
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 Group = TypeVar("Group", bound=HydroGroupData)
 
 LIMITS = ("infinite_frequency_added_mass", "zero_frequency_added_mass")
+MATRICES = ("added_mass", "damping", *LIMITS)
+WATER = ("rho", "g", "depth")
+OWN = (
+    "mass_matrix", "restoring", "linear_damping", "quadratic_damping", "length", "breadth", "draught",
+)  # fmt: skip
 SAME = 1e-9
 SAME_HEADING = 1e-6  # rad
+ON_WATER = 1e-9  # m
 
 
 def hull_of(group: HydroGroupData, name: str) -> HydroDatabase:
@@ -34,39 +43,34 @@ def hull_of(group: HydroGroupData, name: str) -> HydroDatabase:
     own[2.0 * np.pi - own < SAME_HEADING] = 0.0
     order = np.argsort(own)
     force = group.force[:, :, at] * phase_at_body(group, body)
-    limits: dict[str, Any] = {
-        key: None if (whole := getattr(group, key)) is None else whole[at, at] for key in LIMITS
-    }
+    shared: dict[str, Any] = {key: getattr(group, key) for key in (*WATER, "omega", "trusted_band")}
     return HydroDatabase(
         name=f"{group.name}/{name}",
-        omega=group.omega,
         heading=own[order],
-        added_mass=group.added_mass[:, at, at],
-        damping=group.damping[:, at, at],
         force=force[order],
-        mass_matrix=body.mass_matrix,
-        restoring=body.restoring,
-        linear_damping=body.linear_damping,
-        quadratic_damping=body.quadratic_damping,
-        **limits,
-        rho=group.rho,
-        g=group.g,
-        depth=group.depth,
-        length=body.length,
-        breadth=body.breadth,
-        draught=body.draught,
-        trusted_band=group.trusted_band,
+        **_matrices(group, lambda whole: whole[..., at, at]),
+        **_of_body(body),
+        **shared,
         port_starboard_symmetric=group.port_starboard_symmetric,
-        origin=f"reference point of {name}, {_place(body.position)} m from the {group.origin}",
+        origin=f"reference point of {name}, {place_of(body.position)} m from the {group.origin}",
         source=f"{group.source}; {name} with the others held at rest beside it",
     )
 
 
+def _matrices(group: HydroGroupData, change: Callable[[FloatArray], FloatArray]) -> dict[str, Any]:
+    """Matrices of radiation that the group has, each changed."""
+    there = {name: getattr(group, name) for name in MATRICES}
+    return {name: change(matrix) for name, matrix in there.items() if matrix is not None}
+
+
+def _of_body(of: GroupBody | HydroData) -> dict[str, Any]:
+    """What a hull has for itself, in a group or alone."""
+    return {name: getattr(of, name) for name in OWN}
+
+
 def phase_at_body(group: HydroGroupData, body: GroupBody) -> ComplexArray:
-    """Factor (m, n, 1) that gives waves of zero phase at the body: exp(+i k (x cos b + y sin b))."""
-    along = body.position[0] * np.cos(group.heading) + body.position[1] * np.sin(group.heading)
-    k = wavenumber(group.omega, g=group.g, depth=group.depth)
-    return np.asarray(np.exp(1j * np.outer(along, k)))[:, :, None]
+    """`phase_at` of a body's reference point."""
+    return phase_at(body.position, group.omega, group.heading, g=group.g, depth=group.depth)
 
 
 def ordered_group(group: Group, names: Sequence[str]) -> Group:
@@ -77,17 +81,11 @@ def ordered_group(group: Group, names: Sequence[str]) -> Group:
             f"{', '.join(group.names)} once"
         )
     at = np.concatenate([np.arange(6) + group.place(name).start for name in names])
-    square = np.ix_(at, at)
-    limits: dict[str, Any] = {
-        key: None if (whole := getattr(group, key)) is None else whole[square] for key in LIMITS
-    }
     moved = replace(
         group,
         bodies=tuple(group.bodies[group.names.index(name)] for name in names),
-        added_mass=group.added_mass[:, at][:, :, at],
-        damping=group.damping[:, at][:, :, at],
+        **_matrices(group, lambda whole: whole[..., at, :][..., at]),
         force=group.force[:, :, at],
-        **limits,
         memory=None,
     )
     return moved if group.memory is None else replace(moved, memory=_ordered_memory(group.memory, at))
@@ -97,7 +95,7 @@ def _ordered_memory(memory: MemoryModel, at: NDArray[np.intp]) -> MemoryModel:
     """The memory with motion ``at[i]`` in place i."""
     now = np.argsort(at)
     square = np.ix_(at, at)
-    blocks: tuple[MemoryBlock, ...] = tuple(
+    blocks = tuple(
         replace(block, outputs=now[block.outputs], inputs=now[block.inputs]) for block in memory.blocks
     )
     rows = tuple(
@@ -115,26 +113,15 @@ def _ordered_memory(memory: MemoryModel, at: NDArray[np.intp]) -> MemoryModel:
         blocks=blocks,
         rows=rows,
         motion=motion,
-        added_mass=memory.added_mass[square],
-        additional_added_mass=memory.additional_added_mass[square],
-        additional_stiffness=memory.additional_stiffness[square],
+        **{name: getattr(memory, name)[square] for name in MODEL_MATRICES},
     )
 
 
 def uncoupled_group(group: Group) -> Group:
     """`HydroGroup.without_coupling`."""
     own = np.kron(np.eye(len(group.bodies)), np.ones((6, 6)))
-    limits: dict[str, Any] = {
-        key: None if (whole := getattr(group, key)) is None else whole * own for key in LIMITS
-    }
-    return replace(
-        group,
-        added_mass=group.added_mass * own,
-        damping=group.damping * own,
-        **limits,
-        memory=None,
-        source=f"{group.source}; without coupling",
-    )
+    apart = _matrices(group, lambda whole: whole * own)
+    return replace(group, **apart, memory=None, source=f"{group.source}; without coupling")
 
 
 def group_of_databases(
@@ -186,9 +173,7 @@ def group_of_databases(
         **tables,
         **limits,
         force=force,
-        rho=first.rho,
-        g=first.g,
-        depth=first.depth,
+        **{what: getattr(first, what) for what in WATER},
         trusted_band=band,
         port_starboard_symmetric=keeps,
         origin="group's origin, on the still waterline",
@@ -205,29 +190,21 @@ def _body_of(name: str, database: HydroData, position: ArrayLike, heading: float
     if database.additional or database.roll_damping is not None or database.speed != 0.0:
         raise ValueError(
             f"database {database.name!r}: has additional matrices, tabulated roll damping or a forward "
-            "speed, "
-            "which a group does not take; use with_roll_damping(), and a database without them"
+            "speed, which a group does not take; use with_roll_damping(), and a database without them"
         )
     return GroupBody(
         name=name,
         position=np.asarray(position, dtype=float),
         heading=float(heading),
-        mass_matrix=database.mass_matrix,
-        restoring=database.restoring,
-        linear_damping=database.linear_damping,
-        quadratic_damping=database.quadratic_damping,
-        length=database.length,
-        breadth=database.breadth,
-        draught=database.draught,
+        **_of_body(database),
     )
 
 
 def _check_alike(name: str, databases: Mapping[str, HydroData]) -> None:
     """One water and one set of frequencies."""
-    first_name, first = next(iter(databases.items()), ("", None))
     for label, database in databases.items():
-        assert first is not None
-        for what in ("rho", "g", "depth"):
+        first_name, first = next(iter(databases.items()))
+        for what in WATER:
             ours, theirs = float(getattr(first, what)), float(getattr(database, what))
             if not np.isclose(ours, theirs, rtol=SAME, atol=0.0):
                 raise ValueError(
@@ -250,47 +227,62 @@ def _forces(database: HydroData, heading: FloatArray) -> ComplexArray:
     return force_at(database, database.omega, heading[:, None])
 
 
-def _place(position: FloatArray) -> str:
-    return "(" + ", ".join(f"{value:g}" for value in position) + ")"
+def place_of(point: ArrayLike) -> str:
+    """A point in m, for messages."""
+    return "(" + ", ".join(f"{value:g}" for value in np.ravel(np.asarray(point, dtype=float))) + ")"
 
 
-def joined_memory(memories: Sequence[MemoryModel]) -> MemoryModel:
-    """The memory of hulls that do not feel each other, one after another; states as they are.
-
-    Raises
-    ------
-    ValueError : of other bands, so that the parts were judged by other frequencies.
-    """
-    bands = {memory.band for memory in memories}
-    if len(bands) != 1:
-        raise ValueError(
-            f"the memories are of other bands, {sorted(bands)} rad/s; fit them over the same one"
-        )
-    worst = min((memory.passivity for memory in memories), key=lambda each: each.minimum)
-    starts = np.concatenate([[0], np.cumsum([memory.motions for memory in memories])])
-    shifted = list(zip(memories, (int(start) for start in starts), strict=False))
-    return MemoryModel(
-        blocks=tuple(
-            replace(block, outputs=block.outputs + start, inputs=block.inputs + start)
-            for memory, start in shifted
-            for block in memory.blocks
-        ),
-        added_mass=_diagonal([memory.added_mass for memory in memories]),
-        additional_added_mass=_diagonal([memory.additional_added_mass for memory in memories]),
-        additional_stiffness=_diagonal([memory.additional_stiffness for memory in memories]),
-        band=bands.pop(),
-        r2=min(memory.r2 for memory in memories),
-        rows=tuple(
-            replace(row, output=row.output + start, input=row.input + start)
-            for memory, start in shifted
-            for row in memory.rows
-        ),
-        passivity=worst,
-    )
-
-
-def _diagonal(matrices: Sequence[FloatArray]) -> FloatArray:
-    """Matrices along the diagonal of a larger one."""
+def moved_group(group: Group, points: Mapping[str, ArrayLike]) -> Group:
+    """`HydroGroup.at`."""
+    unknown = [name for name in points if name not in group.names]
+    if unknown:
+        raise SceneError(f"group {group.name!r}: has no body {unknown[0]!r}; it has {', '.join(group.names)}")
     from scipy.linalg import block_diag
 
-    return np.asarray(block_diag(*matrices))
+    levers = [_lever(group, body, points.get(body.name)) for body in group.bodies]
+    if not np.any(levers):
+        return group
+    transforms = [motion_transform(lever) for lever in levers]
+    whole = np.asarray(block_diag(*transforms))
+    bodies = tuple(
+        _moved_body(body, lever, transform)
+        for body, lever, transform in zip(group.bodies, levers, transforms, strict=True)
+    )
+    changes = _matrices(group, lambda matrix: np.asarray(whole.T @ matrix @ whole))
+    heading, force, symmetric = group.heading, group.force, group.port_starboard_symmetric
+    if symmetric and any(body.position[1] != 0.0 for body in bodies):
+        (heading, force), symmetric = full_circle(group), False
+    moved = replace(
+        group, **changes, bodies=bodies, heading=heading, force=force @ whole, memory=None,
+        port_starboard_symmetric=symmetric,
+    )  # fmt: skip
+    return moved if group.memory is None else replace(moved, memory=moved_memory(group.memory, whole, moved))
+
+
+def afloat(group: Group) -> Group:
+    """The group with every reference point on the still water, above or below where it was."""
+    away = {body.name: (0.0, 0.0, -body.position[2]) for body in group.bodies}
+    return moved_group(group, {name: point for name, point in away.items() if abs(point[2]) > ON_WATER})
+
+
+def _lever(group: HydroGroupData, body: GroupBody, point: ArrayLike | None) -> FloatArray:
+    if point is None:
+        return np.zeros(3)
+    found = shaped_of(f"group {group.name!r}: point of {body.name!r}", point, (3,))
+    if not np.all(np.isfinite(found)):
+        raise SceneError(f"group {group.name!r}: point of {body.name!r} is {found}; give finite m")
+    return found
+
+
+def _moved_body(body: GroupBody, lever: FloatArray, transform: FloatArray) -> GroupBody:
+    cos, sin = np.cos(body.heading), np.sin(body.heading)
+    turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    warn_of_quadratic(f"body {body.name!r}", body.quadratic_damping, transform)
+    return replace(
+        body,
+        position=body.position + turn @ lever,
+        **{
+            name: transform.T @ getattr(body, name) @ transform
+            for name in ("mass_matrix", "restoring", "linear_damping")
+        },
+    )

@@ -7,11 +7,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.encounter import require_zero_speed
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, in_trusted_band
 from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
-from seacrane.hydro.data.trusted_band import in_trusted_band
+from seacrane.hydro.data.motion import require_zero_speed
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.cache import FitSettings, keep_fit, kept_fit
 from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, dissipation_limit, memory_entries

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import in_trusted_band
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.motion import motion_errors, motion_response
-from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.hydro.memory.retardation import RetardationModel
 from seacrane.one_thread import one_thread
 

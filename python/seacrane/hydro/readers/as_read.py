@@ -1,4 +1,4 @@
-"""What every reader asks of what it read: motions that were solved, whole matrices, a mass."""
+"""What every reader asks of what it read: motions that were solved, whole matrices, a mass, smooth data."""
 
 from __future__ import annotations
 
@@ -12,12 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData
+from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.group.gap import long_wave_lift
+from seacrane.hydro.group.group import HydroGroup
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
-from seacrane.warnings import FloatingPositionWarning
+from seacrane.warnings import FloatingPositionWarning, RoughDataWarning
 
 FloatArray = NDArray[np.float64]
 Data = TypeVar("Data", bound=Hydrodynamics)
+Found = TypeVar("Found", bound=HydroDatabase | HydroGroup)
 
 SYMMETRIC = ("added_mass", "damping", "infinite_frequency_added_mass", "zero_frequency_added_mass")
 SAME_FREQUENCY = 1e-3  # of one that is to be left out, as messages round it
@@ -25,6 +29,13 @@ LIGHTEST, HEAVIEST = 0.5, 2.0  # mass over displaced mass of a vessel that float
 SHALLOWEST = 1e-3  # draught over breadth
 OBLIQUE = 0.1  # sine of twice a heading: waves from there load every motion
 ROUND = 1e-3  # by which two motions of a round body may differ
+SAME_DIRECTION = 1e-9  # rad
+LIFT_LIMIT = 0.1  # of C33
+ROUGH = 0.01  # misfit of a left-out value, as a share of what varies
+UNRESOLVED = 4.0  # misfit over twice the step by that over the step: 16 of smooth data, 1 of noise
+LEAST_INERTIA, LEAST_DAMPING = 0.1, 0.01  # scales at least, by the mass and by mass times frequency
+COARSEST = 0.15  # step by frequency, beyond which a table does not tell noise from shape
+NEIGHBOURS = 4
 
 
 def as_read(where: object, reader: str, found: Data, motions: Sequence[str] | None) -> Data:
@@ -206,3 +217,168 @@ def frequencies_kept(
     if not kept.any():
         raise FileFormatError(f"{where}: leave_out leaves no frequency; leave out fewer")
     return np.flatnonzero(kept)
+
+
+def rising_directions(raw: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Directions (rad) in [0, 2 pi), rising, and their places in ``raw``; a full turn beside 0 is dropped."""
+    wrapped = np.mod(raw, 2.0 * np.pi)
+    wrapped[2.0 * np.pi - wrapped < SAME_DIRECTION] = 0.0
+    order = np.argsort(wrapped, kind="stable")
+    new = np.append(True, np.diff(wrapped[order]) > SAME_DIRECTION)
+    return wrapped[order][new], order[new]
+
+
+def finished(where: object, found: Found, fix: str) -> Found:
+    """The database or group, whose hydrostatics have to be its own, with a trusted band.
+
+    Parameters
+    ----------
+    where : file, for messages.
+    fix : what the caller gives in place of hydrostatics that are another's.
+
+    Raises FileFormatError: as `require_own_hydrostatics`.
+
+    Warns
+    -----
+    RoughDataWarning : as `with_band_of_data`.
+    """
+    if isinstance(found, HydroGroup):
+        require_own_hydrostatics(where, found, fix)
+    return with_band_of_data(found)
+
+
+def require_own_hydrostatics(where: object, found: HydroGroup, fix: str) -> None:
+    """Raise unless a long wave lifts each body with its own C33, as it does whatever lies beside it.
+
+    Files by body that stand in another order, or that hold all bodies together, fail it. Nothing is told
+    where no wave is long enough.
+    """
+    lift = long_wave_lift(found)
+    if lift is None:
+        return
+    stiffness = np.array([body.restoring[2, 2] for body in found.bodies])
+    off = np.abs(stiffness / lift - 1.0)
+    if off.max() <= LIFT_LIMIT:
+        return
+    at = int(off.argmax())
+    others = [i for i in range(len(lift)) if i != at and abs(stiffness[at] / lift[i] - 1.0) <= LIFT_LIMIT]
+    guess = (
+        "all bodies together, perhaps"
+        if not others
+        else f"{found.names[others[0]]}: they stand in another order"
+    )
+    raise FileFormatError(
+        f"{where}: the restoring of {found.names[at]} has C33 = {stiffness[at]:.4g} N/m, and a wave of "
+        f"{found.omega[0]:.3g} rad/s lifts it with {lift[at]:.4g} N/m: it is that of {guess}. Give {fix}"
+    )
+
+
+def with_band_of_data(found: Found) -> Found:
+    """The database or group; where it has no trusted band, with one that ends below the first jump of a hull.
+
+    Warns
+    -----
+    RoughDataWarning : matrices jump. In a group it may be a resonance of the water between hulls, where the
+        frequencies are too far apart to show its shape.
+    """
+    if found.trusted_band is not None:
+        return found
+    hulls = found.hulls if isinstance(found, HydroGroup) else {"": found}
+    first = {name: first_rough_value(hull) for name, hull in hulls.items()}
+    rough = [(each[0], name, each[1]) for name, each in first.items() if each is not None and each[0] >= 2]
+    if not rough:
+        return found
+    at, name, entry = min(rough, key=lambda each: each[0])
+    low, high = float(found.omega[0]), float(found.omega[at - 1])
+    kind, causes, more = "database", "for the panels or of an irregular frequency", ""
+    if isinstance(found, HydroGroup):
+        kind, entry = "group", f"{entry} of {name}"
+        causes = (
+            "for the panels, of an irregular frequency, or of a resonance of the water between the hulls "
+            "that the frequencies do not resolve"
+        )
+        more = "; group.check() tells the causes apart"
+    warn_caller(
+        f"{kind} {found.name!r}: its files do not say how far their panels can be trusted, and {entry} "
+        f"jumps at {found.omega[at]:.4g} rad/s, as of waves too short {causes}. The trusted band ends at "
+        f"{high:.4g} rad/s; nothing above it is fitted. For another one give load_database(path, "
+        f"trusted_band=(low, high)) in rad/s{more}",
+        RoughDataWarning,
+    )
+    return replace(found, trusted_band=(low, high))
+
+
+def first_rough_value(database: HydroData) -> tuple[int, str] | None:
+    """Where A or B first jumps: index of the frequency, and the entry ("A33"); None: smooth to the end.
+
+    Each value is left out, and compared with the cubic through its two neighbours on either side. It is rough
+    where the misfit, by what noise of that size would give, exceeds 1 % of the range of A or of the peak of B
+    (geometric mean of two motions), and is not that of a curve too coarse for the cubic. Such a misfit grows
+    sixteenfold with twice the step, noise does not; and it is larger at lower frequencies, where a ship's
+    matrices turn most.
+
+    Looked at are frequencies whose deep-water wave is shorter than two breadths. Below, resonances of the
+    fluid are as narrow as errors; above, the matrices of a ship are smooth, the lowest irregular frequency of
+    a box as deep as it is broad is about there, and no mesh is as coarse as to fail sooner. Steps above 15 %
+    of the frequency are not judged.
+    """
+    omega = database.omega
+    start = np.sqrt(np.pi * database.g / database.breadth)
+    if len(omega) < 2 * NEIGHBOURS:
+        return None
+    values = _by_scale(database, start)
+    near, wide = (_misfit(omega, values, step) for step in (1, 2))
+    around = np.maximum(wide, np.maximum(np.roll(wide, 1, axis=0), np.roll(wide, -1, axis=0)))
+    lower = near[(omega >= 0.5 * start) & (omega < start)]
+    allowed = np.maximum(ROUGH, lower.max(axis=0, initial=0.0))
+    judged = (omega >= start) & (np.gradient(omega) <= COARSEST * omega)
+    rough = (near > allowed) & (near * UNRESOLVED > around) & judged[:, None]
+    found = np.flatnonzero(rough.any(axis=1))
+    if not len(found):
+        return None
+    worst = int(np.argmax(np.where(rough[found[0]], near[found[0]], 0.0)))
+    table, entry = divmod(worst, 36)
+    return int(found[0]), f"{'AB'[table]}{entry // 6 + 1}{entry % 6 + 1}"
+
+
+def _by_scale(database: HydroData, start: float) -> FloatArray:
+    """Symmetric parts of A and B (n, 72), by what the motions of each pair vary; forbidden pairs are zero."""
+    mass = np.abs(np.diag(database.mass_matrix))
+    kept = np.ones((6, 6))
+    if database.port_starboard_symmetric:
+        kept = 1.0 - np.add.outer(np.arange(6), np.arange(6)) % 2
+    parts = []
+    for table in (database.added_mass, database.damping):
+        diagonal = np.diagonal(table, axis1=1, axis2=2)
+        if table is database.added_mass:
+            scale = np.maximum(np.ptp(diagonal, axis=0), LEAST_INERTIA * mass)
+        else:
+            scale = np.maximum(diagonal.max(axis=0), LEAST_DAMPING * start * mass)
+        symmetric = 0.5 * (table + table.swapaxes(1, 2))
+        parts.append((kept * symmetric / np.sqrt(np.outer(scale, scale))).reshape(len(table), 36))
+    return np.concatenate(parts, axis=1)
+
+
+def _misfit(omega: FloatArray, values: FloatArray, step: int) -> FloatArray:
+    """Size of values (n, p) less the cubic through four others, every ``step``, in deviations of noise."""
+    n = len(omega)
+    out = np.zeros_like(values)
+    for i in range(n):
+        near = _neighbours(i, n, step)
+        if near is None:
+            continue
+        x = omega[near]
+        away = x[:, None] - x[None, :] + np.eye(NEIGHBOURS)
+        toward = np.where(np.eye(NEIGHBOURS, dtype=bool), 1.0, omega[i] - x[None, :])
+        weights = np.prod(toward / away, axis=1)
+        out[i] = np.abs(values[i] - weights @ values[near]) / np.sqrt(1.0 + weights @ weights)
+    return out
+
+
+def _neighbours(i: int, n: int, step: int) -> NDArray[np.intp] | None:
+    """Two on either side of i, moved inwards at an end; None where there are not so many."""
+    offsets = [k for k in range(-NEIGHBOURS, NEIGHBOURS + 1) if k and 0 <= i + k * step < n]
+    below = [k for k in offsets if k < 0]
+    first = min(max(len(below) - 2, 0), max(len(offsets) - NEIGHBOURS, 0))
+    chosen = offsets[first : first + NEIGHBOURS]
+    return i + step * np.array(chosen) if len(chosen) == NEIGHBOURS else None

@@ -19,19 +19,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.group_body import GroupBody
+from seacrane.hydro.data.hydro_group_data import GroupBody
+from seacrane.hydro.data.reading import reading
 from seacrane.hydro.group.group import HydroGroup
-from seacrane.hydro.readers.as_read import as_read, frequencies_kept
-from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.format import Format, Loaded, is_file_of, of_one_speed, zero_speed
-from seacrane.hydro.readers.of_bodies import (
-    Given,
-    floating_body,
-    hull_or_group,
-    of_each_or_none,
-    require_own_hydrostatics,
-)
-from seacrane.hydro.readers.wave_directions import rising_directions
+from seacrane.hydro.readers.as_read import as_read, finished, frequencies_kept, rising_directions
+from seacrane.hydro.readers.format import Format, Loaded, is_file_of
+from seacrane.hydro.readers.of_bodies import Given, floating_body, hull_or_group, of_each_or_none
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_hdf5
 
 FloatArray = NDArray[np.float64]
@@ -77,17 +70,9 @@ def read_bemio(
     source = Path(path)
     if not source.is_file():
         raise FileFormatError(f"{source}: no such file; give the path of a BEMIO file")
-    try:
-        with open_hdf5(source) as file:
-            found = _convert(source, file, mass_matrix, motions, leave_out)
-    except FileFormatError:
-        raise
-    except NETCDF_ERRORS as error:
-        raise FileFormatError(
-            f"{source}: cannot be read as a BEMIO file ({str(error)[:200]}); write it again"
-        ) from error
-    require_own_hydrostatics(source, found, "a file that was written anew")
-    return with_band_of_data(found)
+    with reading(source, "a BEMIO file", NETCDF_ERRORS), open_hdf5(source) as file:
+        found = _convert(source, file, mass_matrix, motions, leave_out)
+    return finished(source, found, "a file that was written anew")
 
 
 def is_bemio(path: Path) -> bool:
@@ -244,14 +229,9 @@ def _infinite(path: Path, file: Any, name: str) -> FloatArray:
     return _values(path, file, name)
 
 
-def _can_open(path: Path) -> bool:
-    return is_file_of(path, HDF5) and is_bemio(path)
-
-
 FORMAT = Format(
     name="BEMIO",
     files="an HDF5 file (.h5) of BEMIO",
-    can_open=_can_open,
-    read=of_one_speed(read_bemio),
-    speeds=zero_speed,
+    can_open=lambda path: is_file_of(path, HDF5) and is_bemio(path),
+    read=read_bemio,
 )

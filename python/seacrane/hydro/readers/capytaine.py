@@ -18,12 +18,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.group_body import GroupBody
-from seacrane.hydro.readers.as_read import as_read, frequencies_kept, mass_of_file
-from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.format import Format, Loaded, is_file_of, of_one_speed, zero_speed
-from seacrane.hydro.readers.of_bodies import Given, box_of, hull_or_group, of_each, require_own_hydrostatics
-from seacrane.hydro.readers.wave_directions import rising_directions
+from seacrane.hydro.data.hydro_group_data import GroupBody
+from seacrane.hydro.data.reading import reading
+from seacrane.hydro.readers.as_read import (
+    as_read,
+    finished,
+    frequencies_kept,
+    mass_of_file,
+    rising_directions,
+)
+from seacrane.hydro.readers.format import Format, Loaded, is_file_of
+from seacrane.hydro.readers.of_bodies import Given, box_of, hull_or_group, of_each
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
@@ -106,18 +111,11 @@ def read_capytaine(
     import xarray
 
     given = _Given(mass_matrix, restoring, rotation_centre, motions, leave_out)
-    try:
+    with reading(source, "a Capytaine dataset", NETCDF_ERRORS):
         with open_netcdf(source), xarray.open_dataset(source) as opened:
             dataset = opened.load()
         found = _convert(source, _of_depth(source, dataset, depth), given)
-    except FileFormatError:
-        raise
-    except NETCDF_ERRORS as error:
-        raise FileFormatError(
-            f"{source}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
-        ) from error
-    require_own_hydrostatics(source, found, "restoring={name: (6, 6)}")
-    return with_band_of_data(found)
+    return finished(source, found, "restoring={name: (6, 6)}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,7 +208,8 @@ def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> Loaded:
     if not several:
         x, y, z = centres[0]
         origin = f"rotation centre of the Capytaine body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
-        body = f", body {np.ravel(_name(dataset))[0]}"
+        named = [dataset[key].values for key in ("body", "body_name") if key in dataset.variables]
+        body = f", body {np.ravel(named[0] if named else 'unnamed')[0]}"
     found = hull_or_group(
         bodies,
         name=path.stem,
@@ -449,14 +448,9 @@ def _rotation_centres(
 
 def _by_body(dataset: xarray.Dataset, variable: str, names: list[str]) -> FloatArray | None:
     """A variable's values by body, in the order of the names; None where the file has none by name."""
-    if (
-        variable not in dataset.variables
-        or "body" not in dataset[variable].dims
-        or "body" not in dataset.coords
-    ):
-        return None
-    there = [str(name) for name in dataset["body"].values]
-    if sorted(there) != sorted(names):
+    known = variable in dataset.variables and "body" in dataset[variable].dims and "body" in dataset.coords
+    there = [str(name) for name in dataset["body"].values] if known else []
+    if not known or sorted(there) != sorted(names):
         return None
     values = np.asarray(dataset[variable].transpose("body", ...).values, dtype=float)
     return values[[there.index(name) for name in names]]
@@ -468,22 +462,15 @@ def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
     return found[0] if len(found) and np.all(np.isfinite(found)) else None
 
 
-def _name(dataset: xarray.Dataset) -> Any:
-    for key in ("body", "body_name"):
-        if key in dataset.variables:
-            return dataset[key].values
-    return "unnamed"
-
-
-def _can_open(path: Path) -> bool:
-    return is_file_of(path, NETCDF) and is_capytaine(path)
+def is_netcdf(path: Path) -> bool:
+    """Whether a path is a file that says by its name to be NetCDF."""
+    return is_file_of(path, NETCDF)
 
 
 FORMAT = Format(
     name="Capytaine",
     files="a NetCDF file (.nc) of Capytaine",
-    can_open=_can_open,
-    read=of_one_speed(read_capytaine),
-    speeds=zero_speed,
+    can_open=lambda path: is_netcdf(path) and is_capytaine(path),
+    read=read_capytaine,
     at_depth=lambda path, depth: read_capytaine(path, depth=depth),
 )

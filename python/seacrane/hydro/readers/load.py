@@ -13,16 +13,24 @@ from seacrane.hydro.data.data_warnings import warn_of_data
 from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
-from seacrane.hydro.group.moved import afloat
-from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, seacrane_netcdf, veres, wamit
-from seacrane.hydro.readers.format import Format, Loaded, of_one_speed
+from seacrane.hydro.group.parts import afloat
+from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, veres, wamit
+from seacrane.hydro.readers.format import Format, Loaded
 from seacrane.inputs.caller import silently
 from seacrane.inputs.keywords import named
 from seacrane.warnings import RoughDataWarning
 
-FORMATS = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
+OURS = Format(  # any NetCDF file but Capytaine's: one of no known kind is refused by what it lacks of ours
+    name="seacrane",
+    files="a NetCDF file (.nc) of seacrane",
+    can_open=capytaine.is_netcdf,
+    read=HydroDatabase.load,
+    speeds=lambda path: (HydroDatabase.load(path).speed,),
+)
+FORMATS = (capytaine.FORMAT, OURS, *(kind.FORMAT for kind in (veres, wamit, orcaflex, bemio, nemoh)))
 NAMED = 5  # files in a message
 SAME_DEPTH = 1e-6
+SAME_SPEED = 1e-9  # m/s
 
 
 @named
@@ -98,11 +106,14 @@ def load_hull(
 
 def _read(found: Format, path: Path, speed: float | None, depth: float | None) -> Loaded:
     """What is of a speed and a depth, where they are asked for."""
-    if depth is None or found.at_depth is None:
-        database = found.read(path, speed=speed)
+    if speed is not None and found.at_speed is not None:
+        database = found.at_speed(path, speed)
+    elif depth is not None and found.at_depth is not None:
+        database = found.at_depth(path, depth)
     else:
-        read = found.at_depth
-        database = of_one_speed(lambda file: read(file, depth))(path, speed=speed)
+        database = found.read(path)
+    if speed is not None and found.at_speed is None and abs(database.speed - speed) > SAME_SPEED:
+        raise FileFormatError(f"{path}: of {database.speed:g} m/s, not of speed {speed:g} m/s")
     if depth is not None and not np.isclose(database.depth, depth, rtol=SAME_DEPTH, atol=0.0):
         raise FileFormatError(
             f"{path}: is of a depth of {database.depth:g} m, not of {depth:g} m; leave depth out, or compute "

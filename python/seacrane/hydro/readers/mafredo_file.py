@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.errors import FileFormatError
+from seacrane.hydro.data.reading import reading
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
@@ -47,15 +47,9 @@ def read_mafredo(path: Path) -> MafredoData:
 
     Raises FileFormatError: no such form, damaged, or of different grids in its parts.
     """
-    try:
-        with open_netcdf(path) as file:
-            return _read(path, file)
-    except FileFormatError:
-        raise
-    except NETCDF_ERRORS as error:
-        raise FileFormatError(
-            f"{path}: cannot be read as a MaFreDo database ({str(error)[:200]}); write it again"
-        ) from error
+    with reading(path, "a MaFreDo database", NETCDF_ERRORS), open_netcdf(path) as file:
+        found = _read(path, file)
+    return found
 
 
 def _read(path: Path, file: Any) -> MafredoData:

@@ -14,22 +14,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.errors import FileFormatError
-from seacrane.hydro.data.group_body import GroupBody
+from seacrane.hydro.data.hydro_group_data import GroupBody
+from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.transform import motion_transform
-from seacrane.hydro.readers.as_read import as_read
-from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.format import Format, Loaded, of_one_speed, zero_speed
+from seacrane.hydro.readers.as_read import as_read, finished
+from seacrane.hydro.readers.format import Format, Loaded
 from seacrane.hydro.readers.nemoh_files import (
     CONTROL,
     EXCITATION,
-    HYDROSTATICS,
     RADIATION,
-    STIFFNESS,
     Water,
     found_file,
     needed,
-    of_body,
     project_of,
     read_control,
     read_hydrostatics,
@@ -37,13 +33,7 @@ from seacrane.hydro.readers.nemoh_files import (
     read_stiffness,
     sought,
 )
-from seacrane.hydro.readers.of_bodies import (
-    Given,
-    floating_body,
-    hull_or_group,
-    of_each_or_none,
-    require_own_hydrostatics,
-)
+from seacrane.hydro.readers.of_bodies import Given, floating_body, hull_or_group, of_each_or_none
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import AssumedDensityWarning
 
@@ -118,15 +108,10 @@ def read_nemoh(
     ]
     files = [*results, control, *(file for hull in hulls for file in (hull.stiffness, hull.hydrostatics))]
     told = folder / ", ".join(file.name for file in files if file is not None)
-    try:
+    with reading(told):
         made = _convert(folder, results, control, water, hulls, leave_out)
         found = as_read(told, "read_nemoh", made, motions)
-    except FileFormatError:
-        raise
-    except ValueError as error:
-        raise FileFormatError(f"{told}: {error}") from error
-    require_own_hydrostatics(told, found, "restoring={name: (6, 6)} and mass_matrix")
-    return with_band_of_data(found)
+    return finished(told, found, "restoring={name: (6, 6)} and mass_matrix")
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,9 +128,8 @@ class _Hull:
 
 def _hydrostatics(folder: Path, water: Water, index: int) -> tuple[Path | None, Path | None]:
     """``KH.dat`` and ``Hydrostatics.dat`` of one body, or of one among several."""
-    if len(water.names) == 1:
-        return sought(folder, STIFFNESS), sought(folder, HYDROSTATICS)
-    return of_body(folder, f"KH_{index}.dat"), of_body(folder, f"Hydrostatics_{index}.dat")
+    number = f"_{index}" if len(water.names) > 1 else ""
+    return sought(folder, f"KH{number}.dat"), sought(folder, f"Hydrostatics{number}.dat")
 
 
 def _convert(
@@ -252,6 +236,5 @@ FORMAT = Format(
     name="NEMOH",
     files="a NEMOH folder (RadiationCoefficients.tec, ExcitationForce.tec, KH.dat, Hydrostatics.dat)",
     can_open=_can_open,
-    read=of_one_speed(read_nemoh),
-    speeds=zero_speed,
+    read=read_nemoh,
 )

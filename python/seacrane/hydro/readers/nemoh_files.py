@@ -18,10 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.as_read import frequencies_kept, whole_stiffness
-from seacrane.hydro.readers.numbers_of_text import NUMBER, is_number, number_of_word
-from seacrane.hydro.readers.wave_directions import rising_directions
-from seacrane.inputs.whole_file import read_whole
+from seacrane.hydro.readers.as_read import frequencies_kept, rising_directions, whole_stiffness
+from seacrane.hydro.readers.text_records import NUMBER, is_number, number_at, text_of
 
 FloatArray = NDArray[np.float64]
 
@@ -54,8 +52,10 @@ def project_of(path: Path) -> Path:
 
 
 def sought(folder: Path, name: str) -> Path | None:
-    places = [folder, *(folder / inner for inner in INNER)]
-    return next((place / name for place in places if (place / name).is_file()), None)
+    """A file by name in either case, in the folder or its inner ones."""
+    places = [place for place in (folder, *(folder / inner for inner in INNER)) if place.is_dir()]
+    every = (file for place in places for file in sorted(place.iterdir()))
+    return next((file for file in every if file.name.lower() == name.lower() and file.is_file()), None)
 
 
 def found_file(folder: Path, name: str) -> Path:
@@ -71,13 +71,6 @@ def needed(file: Path | None, place: Path) -> Path:
             "and Hydrostatics_0.dat on"
         )
     return file
-
-
-def of_body(folder: Path, name: str) -> Path | None:
-    """A file by name in either case, in the folder or its inner ones."""
-    places = [place for place in (folder, *(folder / inner for inner in INNER)) if place.is_dir()]
-    every = (file for place in places for file in sorted(place.iterdir()))
-    return next((file for file in every if file.name.lower() == name.lower()), None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,7 +215,7 @@ def _direction(path: Path, block: _Block) -> float:
 
 def read_hydrostatics(path: Path) -> tuple[FloatArray, float]:
     """Centre of gravity (3,) in m, and displaced volume in m3."""
-    text = "\n".join(_text_lines(path))
+    text = text_of(path)
     gravity = re.findall(rf"[XYZ]G\s*=\s*({NUMBER})", text)
     volume = re.search(rf"Displacement\s*=\s*({NUMBER})", text)
     if len(gravity) != 3 or volume is None:
@@ -289,19 +282,8 @@ def _names(centres: list[tuple[float, ...]], meshes: list[str]) -> list[str]:
 
 def _numbers_in(path: Path, line: int, words: list[str], *, failed: bool = False) -> list[float]:
     """Finite numbers; where a solution may have failed, NaN too."""
-    try:
-        return [np.nan if failed and word.lower() == "nan" else number_of_word(word) for word in words]
-    except ValueError as error:
-        told = " ".join(words)[:60]
-        raise FileFormatError(
-            f"{path}, line {line}: {told!r} are no numbers, or not all finite: {error}"
-        ) from None
+    return [np.nan if failed and word.lower() == "nan" else number_at(path, line, word) for word in words]
 
 
 def _text_lines(path: Path) -> list[str]:
-    try:
-        return read_whole(path).decode("latin-1").splitlines()
-    except OSError as error:
-        raise FileFormatError(
-            f"{path}: cannot be read ({error.strerror}); check the path and its rights"
-        ) from error
+    return text_of(path).split("\n")

@@ -10,22 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.group_body import GroupBody
-from seacrane.hydro.data.heading_circle import keeps_sides_apart
+from seacrane.hydro.data.heading_circle import keeps_sides_apart, phase_at
+from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
-from seacrane.hydro.group.long_wave import long_wave_lift
-from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Loaded
-from seacrane.hydro.readers.wave_directions import phase_at
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import AssumedInertiaWarning
 
 FloatArray = NDArray[np.float64]
 Given = ArrayLike | Mapping[str, ArrayLike]  # of one body, or by name
 
-LIFT_LIMIT = 0.1  # of C33
 ORIGIN = (0.0, 0.0)
 USUAL_RADII = (0.36, 0.25, 0.25)  # of breadth, length, length
 
@@ -170,27 +166,27 @@ def box_of(
         raise FileFormatError(f"{path}: {f'body {name}: ' if name else ''}{error}") from error
 
 
-def require_own_hydrostatics(path: Path, found: Loaded, fix: str) -> None:
-    """Raise unless a long wave lifts each body with its own C33, as it does whatever lies beside it.
+def equivalent_box(restoring: FloatArray, volume: float, weight_density: float) -> tuple[float, float, float]:
+    """Length, breadth, draught (m) of the floating box that C33, C55 (6, 6) and the volume (m3) describe.
 
-    Files by body that stand in another order, or that hold all bodies together, fail it. Nothing is told
-    of one body, nor where no wave is long enough.
+    A box has ``C55 / C33 = L^2 / 12`` but for the small term of the heights of buoyancy and gravity,
+    waterplane ``C33 / (rho g) = L B`` and volume ``L B T``. ``weight_density`` is rho g in N/m3. A pointed
+    ship comes out shorter than it is (246 m as 226 m): good enough for scales, not for geometry. Where C55 is
+    not positive, of a hull that turns over by itself, it tells no length: the box is as broad as long.
+
+    Raises ValueError: C33 is not positive: nothing floats on this waterplane.
     """
-    lift = long_wave_lift(found) if isinstance(found, HydroGroup) else None
-    if lift is None or not isinstance(found, HydroGroup):
-        return
-    stiffness = np.array([body.restoring[2, 2] for body in found.bodies])
-    off = np.abs(stiffness / lift - 1.0)
-    if off.max() <= LIFT_LIMIT:
-        return
-    at = int(off.argmax())
-    others = [i for i in range(len(lift)) if i != at and abs(stiffness[at] / lift[i] - 1.0) <= LIFT_LIMIT]
-    guess = (
-        "all bodies together, perhaps"
-        if not others
-        else f"{found.names[others[0]]}: they stand in another order"
-    )
-    raise FileFormatError(
-        f"{path}: the restoring of {found.names[at]} has C33 = {stiffness[at]:.4g} N/m, and a wave of "
-        f"{found.omega[0]:.3g} rad/s lifts it with {lift[at]:.4g} N/m: it is that of {guess}. Give {fix}"
-    )
+    heave, pitch = float(restoring[2, 2]), float(restoring[4, 4])
+    if heave <= 0.0:
+        raise ValueError(
+            f"restoring C33 = {heave:.6g} N/m and C55 = {pitch:.6g} N m/rad; the first has to be positive "
+            "for a floating vessel: check the hydrostatics"
+        )
+    area = heave / weight_density if weight_density > 0.0 else 0.0
+    length = float(np.sqrt(12.0 * pitch / heave)) if pitch > 0.0 else float(np.sqrt(area))
+    if not (0.0 < area < np.inf and 0.0 < length < np.inf):
+        raise ValueError(
+            f"C33 = {heave:.6g} N/m and C55 = {pitch:.6g} N m/rad with {weight_density:.6g} N/m3 of water "
+            "are of no floating box: check density, gravity and hydrostatics"
+        )
+    return length, area / length, volume / area

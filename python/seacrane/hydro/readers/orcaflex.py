@@ -8,7 +8,7 @@ phase: a wave of zero phase at r from there is ahead by ``k . r``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 
@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
+from seacrane.hydro.data.reading import reading
+from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.as_read import as_read, frequencies_kept, mass_of_file
-from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.equivalent_box import equivalent_box
-from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
+from seacrane.hydro.readers.as_read import as_read, finished, frequencies_kept, mass_of_file
+from seacrane.hydro.readers.format import Format, is_file_of
 from seacrane.hydro.readers.mafredo_file import read_mafredo
+from seacrane.hydro.readers.of_bodies import equivalent_box
 from seacrane.hydro.readers.orcaflex_model import KILO, Raos, VesselType, read_vessel_type
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
@@ -60,15 +60,15 @@ class _Source:
     heading_deg: FloatArray
     load_omega: FloatArray
     force: ComplexArray
-    motion: ComplexArray | None
-    mass_matrix: FloatArray | None
-    restoring: FloatArray | None
-    linear_damping: FloatArray
-    quadratic_damping: FloatArray
     rho: float
-    depth: float
-    length: float | None
-    displaced: float | None
+    motion: ComplexArray | None = None
+    mass_matrix: FloatArray | None = None
+    restoring: FloatArray | None = None
+    linear_damping: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
+    quadratic_damping: FloatArray = field(default_factory=lambda: np.zeros(6))
+    depth: float = np.inf
+    length: float | None = None
+    displaced: float | None = None
 
 
 def read_orcaflex(
@@ -115,7 +115,7 @@ def read_orcaflex(
     source = Path(path)
     if not source.is_file():
         raise FileFormatError(f"{source}: no such file; give the path of a .yml or .dhyd file")
-    try:
+    with reading(source):
         if source.suffix.lower() == ".dhyd":
             found = _mafredo(source, rho)
         else:
@@ -123,11 +123,7 @@ def read_orcaflex(
             found = _orcaflex(source, kind, rho)
         made = _database(source, found, mass_matrix, restoring, leave_out)
         database = as_read(source, "read_orcaflex", made, motions)
-    except FileFormatError:
-        raise
-    except ValueError as error:
-        raise FileFormatError(f"{source}: {error}") from error
-    return with_band_of_data(database)
+    return finished(source, database, "restoring")
 
 
 def _density(path: Path, given: float | None) -> float:
@@ -146,7 +142,9 @@ def _density(path: Path, given: float | None) -> float:
 def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
     """A vessel type about the reference origin of its matrices."""
     loads, motions = kind.loads, kind.motions
-    if motions is not None and not _same_grid(loads, motions):
+    if motions is not None and not all(
+        np.array_equal(getattr(loads, name), getattr(motions, name)) for name in ("heading_deg", "omega")
+    ):
         warn_caller(
             f"{path}: displacement RAOs are not at the directions and frequencies of the load RAOs; they are "
             "left out, and nothing proves that loads and matrices belong together",
@@ -167,6 +165,11 @@ def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
             f"{path}: quadratic other damping acts at {lever.tolist()} m from the reference origin; only "
             "damping at that origin is read: move it there"
         )
+
+    def phase(raos: Raos) -> ComplexArray:
+        """From zero phase at the RAOs' phase origin to zero phase at the reference origin."""
+        return _shift(raos.phase_origin - kind.origin, raos.omega, raos.heading_deg, kind.depth)
+
     turned = _moved(lever)
     x, y, z = kind.origin
     return _Source(
@@ -179,10 +182,10 @@ def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
         damping=kind.damping,
         heading_deg=loads.heading_deg,
         load_omega=loads.omega,
-        force=loads.values @ _moved(loads.origin - kind.origin).T * _phase(loads, kind),
+        force=loads.values @ _moved(loads.origin - kind.origin).T * phase(loads),
         motion=None
         if motions is None
-        else motions.values @ _moved(kind.origin - motions.origin) * _phase(motions, kind),
+        else motions.values @ _moved(kind.origin - motions.origin) * phase(motions),
         mass_matrix=mass_matrix,
         restoring=restoring,
         linear_damping=turned @ np.diag(kind.other_linear) @ turned.T,
@@ -196,15 +199,9 @@ def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
 
 def _moved(lever: FloatArray) -> FloatArray:
     """Matrix (6, 6) from a load at ``lever`` to the load at the origin: moments gain lever x force."""
-    x, y, z = lever
     matrix = np.eye(6)
-    matrix[3:, :3] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
+    matrix[3:, :3] = cross_matrix(lever)
     return matrix
-
-
-def _phase(raos: Raos, kind: VesselType) -> ComplexArray:
-    """Factor (m, n, 1) from zero phase at the RAOs' phase origin to zero phase at the reference origin."""
-    return _shift(raos.phase_origin - kind.origin, raos.omega, raos.heading_deg, kind.depth)
 
 
 def _shift(r: FloatArray, omega: FloatArray, heading_deg: FloatArray, depth: float) -> ComplexArray:
@@ -215,10 +212,6 @@ def _shift(r: FloatArray, omega: FloatArray, heading_deg: FloatArray, depth: flo
     usual = (omega > 0.0) & np.isfinite(omega)
     k[usual] = wavenumber(omega[usual], g=GRAVITY, depth=depth)
     return np.asarray(np.exp(-1j * np.outer(along, k))[:, :, None])
-
-
-def _same_grid(a: Raos, b: Raos) -> bool:
-    return np.array_equal(a.heading_deg, b.heading_deg) and np.array_equal(a.omega, b.omega)
 
 
 def _mafredo(path: Path, rho: float | None) -> _Source:
@@ -238,15 +231,7 @@ def _mafredo(path: Path, rho: float | None) -> _Source:
         heading_deg=data.heading_deg,
         load_omega=data.load_omega,
         force=force,
-        motion=None,
-        mass_matrix=None,
-        restoring=None,
-        linear_damping=np.zeros((6, 6)),
-        quadratic_damping=np.zeros(6),
         rho=_density(path, rho),
-        depth=np.inf,
-        length=None,
-        displaced=None,
     )
 
 
@@ -360,14 +345,9 @@ def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
     return found[0] if len(found) and np.any(found[0]) else None
 
 
-def _can_open(path: Path) -> bool:
-    return is_file_of(path, SUFFIXES)
-
-
 FORMAT = Format(
     name="OrcaFlex",
     files="an OrcaFlex model (.yml) or MaFreDo file (.dhyd)",
-    can_open=_can_open,
-    read=of_one_speed(read_orcaflex),
-    speeds=zero_speed,
+    can_open=lambda path: is_file_of(path, SUFFIXES),
+    read=read_orcaflex,
 )

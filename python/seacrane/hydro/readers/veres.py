@@ -17,18 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
-from seacrane.hydro.data.encounter import one_function
-from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
-from seacrane.hydro.data.motion import force_of_motion
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, RollDamping
+from seacrane.hydro.data.motion import force_of_motion, one_function
+from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.format import Format
+from seacrane.hydro.readers.format import Format, sibling
 from seacrane.hydro.readers.veres_files import (
     LOST,
-    DriftAtSpeed,
-    DriftFile,
-    MatricesAtSpeed,
-    TransferAtSpeed,
+    Case,
+    VeresFile,
     VeresSet,
     at_speed,
     choose_speed,
@@ -36,10 +33,9 @@ from seacrane.hydro.readers.veres_files import (
     is_veres,
     other_run,
     read_set,
-    sibling,
     veres_speeds,
 )
-from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
+from seacrane.hydro.readers.veres_hydrostatics import contradictions, read_veres_hydrostatics
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import EncounterFrequencyWarning, HydrostaticsWarning, PartialSetWarning
 
@@ -102,17 +98,13 @@ def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> Hydr
     """
     found = read_set(find_stem(Path(path)))
     chosen = choose_speed(found, speed)
-    try:
+    with reading(found.stem):
         database = _convert(found, chosen)
-    except FileFormatError:
-        raise
-    except ValueError as error:
-        raise FileFormatError(f"{found.stem}: {error}") from error
     _check_hydrostatics(found, chosen)
     return database
 
 
-def _same_grid(path: Path, case: TransferAtSpeed, matrices: MatricesAtSpeed) -> TransferAtSpeed:
+def _same_grid(path: Path, case: Case, matrices: Case) -> Case:
     """The transfer functions, which must be on the grid of the matrices."""
     pairs = {
         "motion point": case.motion_point == matrices.motion_point,
@@ -142,10 +134,11 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
     extra = tables.additional
     present = any(np.any(x != 0.0) for x in (extra.added_mass, extra.damping, extra.restoring))
 
-    def of_wave(transfer: TransferAtSpeed) -> NDArray[np.complex128]:
+    def of_wave(transfer: Case) -> NDArray[np.complex128]:
         return np.asarray(transfer.values[by_heading][:, by_omega] * TO_OURS)
 
     x_aft, z = case.motion_point
+    names = ", ".join(file.path.suffix.lower() for file in found.files())
     given = motion if force is None else force
     assert given is not None
     database = HydroDatabase(
@@ -177,7 +170,7 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
             f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
             "baseline"
         ),
-        source=f"ShipX/VERES files {found.stem.name} ({_names(found)}): {found.matrices.title}{_lost(found)}",
+        source=f"ShipX/VERES files {found.stem.name} ({names}): {found.matrices.title}{_lost(found)}",
         trusted_band=_trusted(omega),
         port_starboard_symmetric=True,
     )
@@ -206,10 +199,6 @@ def _lost(found: VeresSet) -> str:
     return "".join(f"; no {suffix}: {LOST[suffix]}" for suffix in missing)
 
 
-def _names(found: VeresSet) -> str:
-    return ", ".join(file.path.suffix.lower() for file in found.files())
-
-
 def _direction(heading_deg: FloatArray) -> FloatArray:
     """Directions of travel in [0, 2 pi) of the files' headings."""
     direction = np.mod(np.radians(heading_deg) + np.pi, 2.0 * np.pi)
@@ -217,7 +206,7 @@ def _direction(heading_deg: FloatArray) -> FloatArray:
     return np.asarray(direction)
 
 
-def _tables(found: VeresSet, case: MatricesAtSpeed, by_omega: NDArray[np.intp]) -> _Tables:
+def _tables(found: VeresSet, case: Case, by_omega: NDArray[np.intp]) -> _Tables:
     """The matrices as functions of the frequency of encounter alone."""
     omega = case.omega[by_omega]
     ours = case.blocks[:, by_omega] * BOTH_SIDES + 0.0  # + 0.0: no negative zeros
@@ -239,7 +228,7 @@ def _tables(found: VeresSet, case: MatricesAtSpeed, by_omega: NDArray[np.intp]) 
 
 
 def _of_encounter(
-    found: VeresSet, case: MatricesAtSpeed, blocks: FloatArray, roll: FloatArray, omega: FloatArray
+    found: VeresSet, case: Case, blocks: FloatArray, roll: FloatArray, omega: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Blocks (n, 6, 6, 6) and roll damping (n, 2) from those of every heading, with warnings."""
     m, n = blocks.shape[:2]
@@ -278,7 +267,7 @@ def _warn_of_disagreement(stem: Path, speed: float, blocks: FloatArray, differen
         )
 
 
-def _drift(file: DriftFile, case: DriftAtSpeed, matrices: MatricesAtSpeed) -> DriftCoefficients:
+def _drift(file: VeresFile, case: Case, matrices: Case) -> DriftCoefficients:
     """Mean loads per squared amplitude in our axes, on the exact grid of the matrices."""
     for what, rough, exact, digits in (
         ("headings", case.heading, matrices.heading, HEADING_DIGITS),
@@ -305,20 +294,8 @@ def _check_hydrostatics(found: VeresSet, speed: float) -> None:
     path = sibling(found.stem, ".hyd")
     if path is None:
         return
-    head, case = found.matrices.header, at_speed(found.matrices.cases, speed)
-    assert head.lcg_aft is not None and head.vcg is not None
-    ship = Loading(
-        mass=found.matrices.mass,
-        restoring=case.blocks[0, 0, 4],
-        lcg_aft=head.lcg_aft,
-        vcg=head.vcg,
-        motion_point=case.motion_point,
-        g=head.g,
-        length=head.length,
-        breadth=head.breadth,
-        draught=head.draught,
-    )
-    different = contradictions(read_veres_hydrostatics(path), ship)
+    case = at_speed(found.matrices.cases, speed)
+    different = contradictions(read_veres_hydrostatics(path), found.matrices, case)
     if different:
         warn_caller(
             f"{path}: contradicts {found.matrices.path.name}: {'; '.join(different)} (SI); the matrices are "
@@ -339,4 +316,5 @@ FORMAT = Format(
     can_open=is_veres,
     read=read_veres,
     speeds=veres_speeds,
+    at_speed=lambda path, speed: read_veres(path, speed=speed),
 )

@@ -5,16 +5,17 @@ And those of one stem: which there are, whether they are of one run, which speed
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.readers.format import sibling
 from seacrane.hydro.readers.text_records import TextRecords
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
@@ -50,125 +51,107 @@ class VeresHeader:
 
 
 @dataclass(frozen=True, eq=False)
-class MatricesAtSpeed:
-    """``blocks`` (headings, frequencies, 6 kinds, 6, 6) of A, A_add, B, B_add, C, C_add; ``roll`` (.., 3)."""
+class Case:
+    """What a file holds at one speed.
 
-    speed: float
-    motion_point: tuple[float, float]
-    heading: FloatArray
-    omega: FloatArray
-    blocks: FloatArray
-    roll: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
-class TransferAtSpeed:
-    """Transfer functions (headings, frequencies, 6)."""
-
-    speed: float
-    motion_point: tuple[float, float]
-    heading: FloatArray
-    omega: FloatArray
-    values: ComplexArray
-
-
-@dataclass(frozen=True, eq=False)
-class DriftAtSpeed:
-    """Drift coefficients (headings, frequencies, 3) of surge, sway, yaw as the file gives them."""
+    ``values`` (headings, frequencies, ...) are transfer functions of six motions, or drift coefficients of
+    surge, sway and yaw as the file gives them, or what `blocks` and `roll` take apart.
+    """
 
     speed: float
     heading: FloatArray
     omega: FloatArray
-    values: FloatArray
+    values: NDArray[Any]
+    motion_point: tuple[float, float] = (0.0, 0.0)
 
+    @property
+    def blocks(self) -> FloatArray:
+        """A, A_add, B, B_add, C, C_add of a ``.re7`` file (headings, frequencies, 6 kinds, 6, 6)."""
+        return np.asarray(self.values[:, :, :-3].reshape(*self.values.shape[:2], 6, 6, 6))
 
-Case = TypeVar("Case", MatricesAtSpeed, TransferAtSpeed, DriftAtSpeed)
-
-
-@dataclass(frozen=True, eq=False)
-class MatricesFile:
-    """A ``.re7`` file; ``version`` 1 or 2."""
-
-    path: Path
-    title: str
-    version: int
-    header: VeresHeader
-    mass: FloatArray
-    cases: tuple[MatricesAtSpeed, ...]
+    @property
+    def roll(self) -> FloatArray:
+        """Roll damping (headings, frequencies, 3) of a ``.re7`` file."""
+        return np.asarray(self.values[:, :, -3:])
 
 
 @dataclass(frozen=True, eq=False)
-class TransferFile:
-    """A ``.re1`` or ``.re8`` file."""
+class VeresFile:
+    """A file with all its speeds; ``title`` and ``mass`` are of ``.re7`` alone."""
 
     path: Path
     header: VeresHeader
-    cases: tuple[TransferAtSpeed, ...]
+    cases: tuple[Case, ...]
+    title: str = ""
+    mass: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
+
+    @property
+    def speeds(self) -> list[float]:
+        """m/s, in the order of the file."""
+        return [case.speed for case in self.cases]
 
 
-@dataclass(frozen=True, eq=False)
-class DriftFile:
-    """A ``.re2`` file."""
-
-    path: Path
-    header: VeresHeader
-    cases: tuple[DriftAtSpeed, ...]
-
-
-def read_matrices(path: Path) -> MatricesFile:
+def read_matrices(path: Path) -> VeresFile:
     """Read a ``.re7`` file of version 1 (no version line, no additional blocks) or 2."""
     records = TextRecords(path)
     title, header = _header(records, with_gravity=True)
     version = _version(records)
-    speeds, m, n = _counts(records, with_motions=True)
-    rows = 36 if version == 2 else 18
-    records.expect(6 + speeds * (1 + m * (1 + n * (1 + rows + 1))), "the counts in its header")
+    counts = _counts(records, with_motions=True)
+    kinds, what = ([*range(6)], "A, A_add, B, B_add, C, C_add") if version == 2 else (RADIATION, "A, B, C")
+    _expect(records, counts, before=6, each=6 * len(kinds) + 1)
     mass = np.array([records.numbers(6, "mass matrix") for _ in range(6)])
-    cases = []
-    for _ in range(speeds):
-        speed, point = _speed_line(records)
-        heading, omega = np.empty(m), np.empty((m, n))
-        blocks, roll = np.zeros((m, n, 6, 6, 6)), np.empty((m, n, 3))
-        for h in range(m):
-            (heading[h],) = records.numbers(1, "heading")
-            for k in range(n):
-                (omega[h, k],) = records.numbers(1, "frequency")
-                if version == 2:
-                    table = records.table(36, 6, "A, A_add, B, B_add, C, C_add")
-                    blocks[h, k] = table.reshape(6, 6, 6)
-                else:
-                    blocks[h, k, RADIATION] = records.table(18, 6, "A, B, C").reshape(3, 6, 6)
-                roll[h, k] = records.numbers(3, "roll damping")
-        cases.append(MatricesAtSpeed(speed, point, heading, _one_omega(records, omega), blocks, roll))
-    records.finish()
-    return MatricesFile(path, title, version, header, mass, _distinct(path, cases))
+
+    def row() -> FloatArray:
+        blocks = np.zeros((6, 6, 6))
+        blocks[kinds] = records.table(6 * len(kinds), 6, what).reshape(-1, 6, 6)
+        return np.append(blocks, records.numbers(3, "roll damping"))
+
+    return VeresFile(path, header, _cases(records, counts, row), title, mass)
 
 
-def read_transfer(path: Path) -> TransferFile:
+def read_transfer(path: Path) -> VeresFile:
     """Read a ``.re1`` or ``.re8`` file."""
     records = TextRecords(path)
     _, header = _header(records, with_gravity=True)
-    speeds, m, n = _counts(records, with_motions=True)
-    records.expect(speeds * (1 + m * (1 + n * 7)), "the counts in its header")
+    counts = _counts(records, with_motions=True)
+    _expect(records, counts, before=0, each=6)
+
+    def row() -> ComplexArray:
+        rows = records.table(6, 3, "motion, real, imaginary part")
+        if not np.array_equal(rows[:, 0], np.arange(1, 7)):
+            raise records.error(f"motions {rows[:, 0].tolist()} where 1 to 6 are expected")
+        return np.asarray(rows[:, 1] + 1j * rows[:, 2])
+
+    return VeresFile(path, header, _cases(records, counts, row))
+
+
+def _expect(records: TextRecords, counts: tuple[int, int, int], *, before: int, each: int) -> None:
+    """Raise unless there are as many lines as follow from the counts, ``each`` of a frequency."""
+    speeds, m, n = counts
+    records.expect(before + speeds * (1 + m * (1 + n * (1 + each))), "the counts in its header")
+
+
+def _cases(
+    records: TextRecords, counts: tuple[int, int, int], row: Callable[[], NDArray[Any]]
+) -> tuple[Case, ...]:
+    """Every speed of a file, whose headings and frequencies have a ``row`` each."""
+    speeds, m, n = counts
     cases = []
     for _ in range(speeds):
-        speed, point = _speed_line(records)
-        heading, omega = np.empty(m), np.empty((m, n))
-        values = np.empty((m, n, 6), dtype=complex)
+        speed, _, _, x_aft, z = records.numbers(5, "speed, sinkage, trim, motion point")
+        heading, omega, rows = np.empty(m), np.empty((m, n)), []
         for h in range(m):
             (heading[h],) = records.numbers(1, "heading")
             for k in range(n):
                 (omega[h, k],) = records.numbers(1, "frequency")
-                rows = records.table(6, 3, "motion, real, imaginary part")
-                if not np.array_equal(rows[:, 0], np.arange(1, 7)):
-                    raise records.error(f"motions {rows[:, 0].tolist()} where 1 to 6 are expected")
-                values[h, k] = rows[:, 1] + 1j * rows[:, 2]
-        cases.append(TransferAtSpeed(speed, point, heading, _one_omega(records, omega), values))
+                rows.append(row())
+        values = np.array(rows).reshape(m, n, -1)
+        cases.append(Case(speed, heading, _one_omega(records, omega), values, (x_aft, z)))
     records.finish()
-    return TransferFile(path, header, _distinct(path, cases))
+    return _distinct(records.path, cases)
 
 
-def read_drift(path: Path) -> DriftFile:
+def read_drift(path: Path) -> VeresFile:
     """Read a ``.re2`` file."""
     records = TextRecords(path)
     _, header = _header(records, with_gravity=False)
@@ -186,9 +169,9 @@ def read_drift(path: Path) -> DriftFile:
                 f"speeds {shown(np.unique(speed).tolist())} m/s where {m} headings of one are due"
             )
         omega = _one_omega(records, table[:, :, 0])
-        cases.append(DriftAtSpeed(float(speed[0]), heading, omega, table[:, :, 1:].copy()))
+        cases.append(Case(float(speed[0]), heading, omega, table[:, :, 1:].copy()))
     records.finish()
-    return DriftFile(path, header, _distinct(path, cases))
+    return VeresFile(path, header, _distinct(path, cases))
 
 
 def same_speed(a: float, b: float) -> bool:
@@ -197,7 +180,7 @@ def same_speed(a: float, b: float) -> bool:
 
 
 def _header(records: TextRecords, *, with_gravity: bool) -> tuple[str, VeresHeader]:
-    title = [records.text() for _ in range(HEADER_LINES)]
+    title = [records.text("the header") for _ in range(HEADER_LINES)]
     rho, g = records.numbers(2, "density and gravity")
     length, breadth, draught = records.numbers(3, "length, breadth, draught")
     lcg, vcg = records.numbers(2, "LCG and VCG") if with_gravity else (None, None)
@@ -207,8 +190,7 @@ def _header(records: TextRecords, *, with_gravity: bool) -> tuple[str, VeresHead
 
 def _version(records: TextRecords) -> int:
     """Version 2 announces itself with a line ``-1 2``; version 1 has the counts in that place."""
-    words = records.peek()
-    if len(words) == 4:
+    if len(records.peek("the version line or counts")) == 4:
         return 1
     marker, version = records.integers(2, "version line or counts")
     if marker != -1 or version != 2:
@@ -228,11 +210,6 @@ def _counts(records: TextRecords, *, with_motions: bool) -> tuple[int, int, int]
             "motions are needed"
         )
     return counts[0], counts[1], counts[2]
-
-
-def _speed_line(records: TextRecords) -> tuple[float, tuple[float, float]]:
-    speed, _, _, x_aft, z = records.numbers(5, "speed, sinkage, trim, motion point")
-    return speed, (x_aft, z)
 
 
 def _one_omega(records: TextRecords, omega: FloatArray) -> FloatArray:
@@ -258,12 +235,12 @@ class VeresSet:
     """The files of one stem; what is not there is None."""
 
     stem: Path
-    matrices: MatricesFile
-    force: TransferFile | None
-    motion: TransferFile | None
-    drift: DriftFile | None
+    matrices: VeresFile
+    force: VeresFile | None
+    motion: VeresFile | None
+    drift: VeresFile | None
 
-    def files(self) -> list[MatricesFile | TransferFile | DriftFile]:
+    def files(self) -> list[VeresFile]:
         every = (self.matrices, self.force, self.motion, self.drift)
         return [file for file in every if file is not None]
 
@@ -294,14 +271,6 @@ def find_stem(path: Path) -> Path:
     return path.with_suffix("") if path.suffix.lower() in SUFFIXES else path
 
 
-def sibling(stem: Path, suffix: str) -> Path | None:
-    """File of the set with that suffix, in either case."""
-    for name in (stem.name + suffix, stem.name + suffix.upper()):
-        if (stem.parent / name).is_file():
-            return stem.parent / name
-    return None
-
-
 def read_set(stem: Path) -> VeresSet:
     """All files of the set, from one calculation."""
     re7, re8, re1, re2 = (sibling(stem, suffix) for suffix in SUFFIXES[:4])
@@ -321,7 +290,7 @@ def read_set(stem: Path) -> VeresSet:
     found = VeresSet(stem, matrices, force, motion, drift)
     for file in found.files():
         header = file.header
-        if isinstance(file, DriftFile):
+        if file is drift:
             header = replace(header, lcg_aft=matrices.header.lcg_aft, vcg=matrices.header.vcg)
         if header != matrices.header:
             raise other_run(file.path, "header (density, gravity, dimensions)")
@@ -335,22 +304,17 @@ def other_run(path: Path, what: str) -> FileFormatError:
 
 def common_speeds(found: VeresSet) -> tuple[float, ...]:
     """Speeds of ``.re7`` that all other files hold too."""
-    speeds = [case.speed for case in found.matrices.cases]
     common = [
         speed
-        for speed in speeds
-        if all(any(same_speed(speed, case.speed) for case in file.cases) for file in found.files())
+        for speed in found.matrices.speeds
+        if all(any(same_speed(speed, other) for other in file.speeds) for file in found.files())
     ]
     if not common:
-        lists = "; ".join(f"{file.path.name}: {_listed(_of(file))}" for file in found.files())
+        lists = "; ".join(f"{file.path.name}: {_listed(file.speeds)}" for file in found.files())
         raise FileFormatError(
             f"{found.stem}: no speed is in every file ({lists}); use files of one VERES run"
         )
     return tuple(sorted(common))
-
-
-def _of(file: MatricesFile | TransferFile | DriftFile) -> list[float]:
-    return [case.speed for case in file.cases]
 
 
 def _listed(values: Sequence[float]) -> str:
@@ -361,7 +325,7 @@ def choose_speed(found: VeresSet, speed: float | None) -> float:
     """The speed to read, with warnings about the others."""
     common = common_speeds(found)
     partial: list[float] = []
-    for value in sorted(value for file in found.files() for value in _of(file)):
+    for value in sorted(value for file in found.files() for value in file.speeds):
         if not any(same_speed(value, other) for other in (*common, *partial)):
             partial.append(value)
     if partial:

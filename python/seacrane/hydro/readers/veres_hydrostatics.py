@@ -3,44 +3,28 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.numbers_of_text import NUMBER as WORD
-from seacrane.hydro.readers.numbers_of_text import number_of_word
+from seacrane.hydro.readers.text_records import NUMBER as WORD
 from seacrane.hydro.readers.text_records import TextRecords
-
-FloatArray = NDArray[np.float64]
+from seacrane.hydro.readers.veres_files import Case, VeresFile
 
 TOLERANCE = 2e-3  # the digits of the text
 ROUNDING = 1e-3  # m
 POSITION_TOLERANCE = 1e-3  # of the length, for points along the ship
-ROWS = {
-    "length": "Length between perpendiculars",
-    "breadth": "Breadth",
-    "draught": "Draught, midship",
-    "sinkage": "Sinkage",
-    "trim_deg": "Trim",
-    "displacement": "Displacement",
-    "kb": "Vertical center of b",
-    "vcg": "Vertical center of gravity",
-    "lcb": "Longitudinal center of b",
-    "lcg": "Longitudinal center of gravity",
-    "cb": "Block coefficient",
-    "cw": "Water plane area coefficient",
-    "gm_longitudinal": "Longitudinal metacentric height",
-    "gm_transverse": "Transverse metacentric height",
-    "r44": "Roll radius of gyration",
-    "r55": "Pitch radius of gyration",
-    "r66": "Yaw radius of gyration",
-}
 TONNES = 1000.0
 NUMBER = re.compile(rf"^{WORD}\*?$")
+
+
+def _row(label: str) -> Any:
+    """A value of the file, which stands in the row that begins so."""
+    return field(default=None, metadata={"row": label})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,38 +44,23 @@ class VeresHydrostatics:
     r44, r55, r66 : radii of gyration about the centre of gravity, m.
     """
 
-    length: float | None = None
-    breadth: float | None = None
-    draught: float | None = None
-    sinkage: float | None = None
-    trim_deg: float | None = None
-    displacement: float | None = None
-    kb: float | None = None
-    vcg: float | None = None
-    lcb: float | None = None
-    lcg: float | None = None
-    cb: float | None = None
-    cw: float | None = None
-    gm_transverse: float | None = None
-    gm_longitudinal: float | None = None
-    r44: float | None = None
-    r55: float | None = None
-    r66: float | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Loading:
-    """What the matrices are of, in the files' axes: x aft of midship and z above the baseline, in m."""
-
-    mass: FloatArray
-    restoring: FloatArray
-    g: float
-    length: float
-    breadth: float
-    draught: float
-    lcg_aft: float
-    vcg: float
-    motion_point: tuple[float, float]
+    length: float | None = _row("Length between perpendiculars")
+    breadth: float | None = _row("Breadth")
+    draught: float | None = _row("Draught, midship")
+    sinkage: float | None = _row("Sinkage")
+    trim_deg: float | None = _row("Trim")
+    displacement: float | None = _row("Displacement")
+    kb: float | None = _row("Vertical center of b")
+    vcg: float | None = _row("Vertical center of gravity")
+    lcb: float | None = _row("Longitudinal center of b")
+    lcg: float | None = _row("Longitudinal center of gravity")
+    cb: float | None = _row("Block coefficient")
+    cw: float | None = _row("Water plane area coefficient")
+    gm_transverse: float | None = _row("Transverse metacentric height")
+    gm_longitudinal: float | None = _row("Longitudinal metacentric height")
+    r44: float | None = _row("Roll radius of gyration")
+    r55: float | None = _row("Pitch radius of gyration")
+    r66: float | None = _row("Yaw radius of gyration")
 
 
 def read_veres_hydrostatics(path: str | PathLike[str]) -> VeresHydrostatics:
@@ -103,10 +72,11 @@ def read_veres_hydrostatics(path: str | PathLike[str]) -> VeresHydrostatics:
     """
     records = TextRecords(Path(path))
     values: dict[str, float] = {}
+    rows = {entry.name: str(entry.metadata["row"]) for entry in fields(VeresHydrostatics)}
     for line in records.rest():
-        name = next((name for name, label in ROWS.items() if line.strip().startswith(label)), None)
+        name = next((name for name, label in rows.items() if line.strip().startswith(label)), None)
         if name is not None and name not in values:
-            values[name] = _value(records, line.strip(), ROWS[name])
+            values[name] = _value(records, line.strip(), rows[name])
     if not values:
         raise FileFormatError(f"{path}: none of the rows of a VERES hydrostatics file; export it again")
     if "displacement" in values:
@@ -121,15 +91,12 @@ def _value(records: TextRecords, line: str, label: str) -> float:
     if not numbers or not NUMBER.match(words[-1]):
         raise records.error(f"{label}: no number at the end of the row; the file is damaged or truncated")
     marked = [word for word in numbers if word.endswith("*")]
-    try:
-        return number_of_word((marked or numbers)[-1].rstrip("*"))
-    except ValueError as error:
-        raise records.error(f"{label}: {error}") from None
+    return records.number((marked or numbers)[-1].rstrip("*"), label)
 
 
-def contradictions(hydrostatics: VeresHydrostatics, loading: Loading) -> list[str]:
+def contradictions(hydrostatics: VeresHydrostatics, file: VeresFile, case: Case) -> list[str]:
     """Every value of the text that the matrices contradict, as "name: text against matrices"."""
-    expected = _of_matrices(loading)
+    expected = _of_matrices(file, case)
     found = []
     for entry in fields(hydrostatics):
         text = getattr(hydrostatics, entry.name)
@@ -141,15 +108,17 @@ def contradictions(hydrostatics: VeresHydrostatics, loading: Loading) -> list[st
     return found
 
 
-def _of_matrices(ship: Loading) -> dict[str, tuple[float, float]]:
-    """What the matrices and headers say, with what rounding allows."""
-    mass, weight = ship.mass[0, 0], ship.mass[0, 0] * ship.g
-    x, z = ship.lcg_aft - ship.motion_point[0], ship.vcg - ship.motion_point[1]
+def _of_matrices(file: VeresFile, case: Case) -> dict[str, tuple[float, float]]:
+    """What the matrices and header of ``.re7`` say, with what rounding allows."""
+    ship, matrix, restoring = file.header, file.mass, case.blocks[0, 0, 4]
+    assert ship.lcg_aft is not None and ship.vcg is not None
+    mass, weight = matrix[0, 0], matrix[0, 0] * ship.g
+    x, z = ship.lcg_aft - case.motion_point[0], ship.vcg - case.motion_point[1]
     along = ship.length / 2.0 - ship.lcg_aft
     gyration = {
-        "r44": ship.mass[3, 3] / mass - z**2,
-        "r55": ship.mass[4, 4] / mass - x**2 - z**2,
-        "r66": ship.mass[5, 5] / mass - x**2,
+        "r44": matrix[3, 3] / mass - z**2,
+        "r55": matrix[4, 4] / mass - x**2 - z**2,
+        "r66": matrix[5, 5] / mass - x**2,
     }
     near = {name: float(np.sqrt(max(square, 0.0))) for name, square in gyration.items()}
     near |= {
@@ -158,8 +127,8 @@ def _of_matrices(ship: Loading) -> dict[str, tuple[float, float]]:
         "draught": ship.draught,
         "displacement": float(mass),
         "vcg": ship.vcg,
-        "gm_transverse": float(ship.restoring[3, 3] / weight),
-        "gm_longitudinal": float(ship.restoring[4, 4] / weight),
+        "gm_transverse": float(restoring[3, 3] / weight),
+        "gm_longitudinal": float(restoring[4, 4] / weight),
     }
     limits = {name: (value, TOLERANCE * abs(value) + ROUNDING) for name, value in near.items()}
     point = (along, POSITION_TOLERANCE * ship.length)

@@ -10,8 +10,8 @@ have zero phase at the origin of the global axes, which is the group's (chapter 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -20,27 +20,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.drift_coefficients import DriftCoefficients
-from seacrane.hydro.data.group_body import GroupBody
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
+from seacrane.hydro.data.hydro_data import DriftCoefficients
+from seacrane.hydro.data.hydro_group_data import GroupBody
+from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-from seacrane.hydro.readers.as_read import as_read, mass_of_file
-from seacrane.hydro.readers.band_of_data import with_band_of_data
-from seacrane.hydro.readers.format import Format, Loaded, of_one_speed, zero_speed
-from seacrane.hydro.readers.of_bodies import (
-    Given,
-    floating_body,
-    hull_or_group,
-    of_each_or_none,
-    require_own_hydrostatics,
-)
-from seacrane.hydro.readers.wamit_control import ForceControl, check_period_output, read_force_control
+from seacrane.hydro.readers.as_read import as_read, finished, mass_of_file
+from seacrane.hydro.readers.format import Format, Loaded, sibling
+from seacrane.hydro.readers.of_bodies import Given, floating_body, hull_or_group, of_each_or_none
 from seacrane.hydro.readers.wamit_listing import (
     ROTATIONS,
+    ForceControl,
     ListedBody,
     Listing,
+    check_period_output,
     count_bodies,
     listed_tables,
+    read_force_control,
     read_listing,
 )
 from seacrane.hydro.readers.wamit_tables import (
@@ -59,6 +55,7 @@ from seacrane.inputs.shown import shown
 from seacrane.warnings import AssumedDensityWarning, PartialSetWarning, RoundedPhaseWarning
 
 FloatArray = NDArray[np.float64]
+Files = dict[str, Path | None]  # by suffix
 
 SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
 NEEDED = (".1", ".3", ".hst")
@@ -119,16 +116,15 @@ def read_wamit(
         the file and, where there is one, the line.
     """
     stem = find_wamit_stem(Path(path))
-    files = {suffix: _sibling(stem, suffix) for suffix in SUFFIXES}
-    given = _Given(volume, float(depth), float(g), float(length_scale), rho, mass_matrix)
-    try:
-        found = as_read(stem, "read_wamit", _convert(stem, files, given), motions)
-    except FileFormatError:
-        raise
-    except ValueError as error:
-        raise FileFormatError(f"{stem}: {error}") from error
-    require_own_hydrostatics(stem, found, "the .hst file of this run")
-    return with_band_of_data(found)
+    files = {suffix: sibling(stem, suffix) for suffix in SUFFIXES}
+
+    def as_given() -> Listing:
+        return _listing_as_given(stem, volume, depth, g, length_scale)
+
+    with reading(stem):
+        made = _convert(stem, files, as_given, rho, mass_matrix)
+        found = as_read(stem, "read_wamit", made, motions)
+    return finished(stem, found, "the .hst file of this run")
 
 
 def find_wamit_stem(path: Path) -> Path:
@@ -143,7 +139,7 @@ def find_wamit_stem(path: Path) -> Path:
                 f"{path}: one .1 file is needed in a WAMIT folder, found: {found}; give the stem"
             )
         return stems[0]
-    if _sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
+    if sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
         return path.with_suffix("")
     return path
 
@@ -156,82 +152,54 @@ def is_wamit(path: Path) -> bool:
         stem = find_wamit_stem(path)
     except FileFormatError:
         return False
-    if not path.is_dir() and any(_sibling(stem, suffix) is not None for suffix in NEEDED):
+    if not path.is_dir() and any(sibling(stem, suffix) is not None for suffix in NEEDED):
         return True
-    listing = _sibling(stem, ".out") if path.is_dir() or path.suffix.lower() == ".out" else None
+    listing = sibling(stem, ".out") if path.is_dir() or path.suffix.lower() == ".out" else None
     return listing is not None and count_bodies(listing) > 1
 
 
-def _sibling(stem: Path, suffix: str) -> Path | None:
-    """File of the set with that suffix, in either case."""
-    for name in (stem.name + suffix, stem.name + suffix.upper()):
-        if (stem.parent / name).is_file():
-            return stem.parent / name
-    return None
-
-
-@dataclass(frozen=True, eq=False)
-class _Given:
-    """What the caller says of a set that lacks ``.out`` or ``.frc``."""
-
-    volume: float | None
-    depth: float
-    g: float
-    length_scale: float
-    rho: float | None
-    mass: Given | None
-
-    def listing(self, stem: Path) -> Listing:
-        """In the place of ``.out``."""
-        if self.volume is None:
-            raise FileFormatError(
-                f"{stem}.out: no such file; WAMIT needs it, or read_wamit the displaced volume in m3 (and "
-                "depth, g, length_scale where they are not inf, 9.80665, 1)"
-            )
-        values = {"volume": self.volume, "depth": self.depth, "g": self.g, "length_scale": self.length_scale}
-        for name, value in values.items():
-            if not (value > 0.0 and (np.isfinite(value) or name == "depth")):
-                raise FileFormatError(f"{stem}: {name} is {value!r}; give a positive number")
-        centre = np.zeros(3)
-        return Listing(
-            path=stem,
-            version="without .out,",
-            title="volume, depth and gravity as given",
-            g=self.g,
-            length_scale=self.length_scale,
-            depth=self.depth,
-            rho=None,
-            bodies=(ListedBody(stem.name, centre, 0.0, float(self.volume), centre),),
+def _listing_as_given(stem: Path, volume: float | None, depth: float, g: float, scale: float) -> Listing:
+    """In the place of ``.out``, what the caller says."""
+    if volume is None:
+        raise FileFormatError(
+            f"{stem}.out: no such file; WAMIT needs it, or read_wamit the displaced volume in m3 (and depth, "
+            "g, length_scale where they are not inf, 9.80665, 1)"
         )
+    values = {"volume": float(volume), "depth": float(depth), "g": float(g), "length_scale": float(scale)}
+    for name, value in values.items():
+        if not (value > 0.0 and (np.isfinite(value) or name == "depth")):
+            raise FileFormatError(f"{stem}: {name} is {value!r}; give a positive number")
+    centre = np.zeros(3)
+    return Listing(
+        path=stem,
+        version="without .out,",
+        title="volume, depth and gravity as given",
+        g=values["g"],
+        length_scale=values["length_scale"],
+        depth=values["depth"],
+        rho=None,
+        bodies=(ListedBody(stem.name, centre, 0.0, values["volume"], centre),),
+    )
 
 
-@dataclass(frozen=True, eq=False)
-class _Numbers:
-    """What the files hold, non-dimensional; ``restoring`` (6 k, 6 k), or None: that of the listing."""
-
-    radiation: Radiation
-    waves: WaveTable
-    restoring: FloatArray | None
-    files: str = ".1, .3, .out"
-
-
-def _numbers(files: dict[str, Path | None], listing: Listing) -> _Numbers:
+def _numbers(files: Files, listing: Listing) -> tuple[Radiation, WaveTable, str]:
+    """Matrices and forces, non-dimensional, and which files hold them."""
     count = len(listing.bodies)
-    matrices, waves, stiffness = (files[suffix] for suffix in NEEDED)
-    restoring = None if stiffness is None else read_restoring(stiffness, bodies=count)
-    if matrices is not None and waves is not None:
-        radiation = read_radiation(matrices, bodies=count)
-        return _Numbers(radiation, read_waves(waves, bodies=count), restoring)
+    if files[".1"] is not None and files[".3"] is not None:
+        found = read_radiation(files[".1"], bodies=count), read_waves(files[".3"], bodies=count)
+        return *found, ".1, .3, .out"
     rows, forces = listed_tables(listing)
     warn_caller(
         f"{listing.path}: wave forces are read from the listing, whose phases are rounded to degrees: each "
         "is off by up to 0.9 % of its size. Give the .1 and .3 files beside it",
         RoundedPhaseWarning,
     )
-    return _Numbers(radiation_of(rows, bodies=count), waves_of(forces, bodies=count), restoring, ".out alone")
+    return radiation_of(rows, bodies=count), waves_of(forces, bodies=count), ".out alone"
 
 
-def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> Loaded:
+def _convert(
+    stem: Path, files: Files, as_given: Callable[[], Listing], given_rho: float | None, mass: Given | None
+) -> Loaded:
     """The database or the group in SI."""
     if files[".cfg"] is not None:
         check_period_output(files[".cfg"])
@@ -242,32 +210,46 @@ def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> Loaded
         raise FileFormatError(
             f"{stem}{lacking}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
         )
-    listing = listing or given.listing(stem)
-    numbers = _numbers(files, listing)
-    radiation = numbers.radiation
+    listing = listing or as_given()
+    count = len(listing.bodies)
+    whole = None if files[".hst"] is None else read_restoring(files[".hst"], bodies=count)
+    radiation, waves, told = _numbers(files, listing)
     motion = None if files[".4"] is None or not alone else read_waves(files[".4"])
     control = None if files[".frc"] is None or not alone else read_force_control(files[".frc"])
     if files[".out"] is not None and files[".1"] is not None:
         _check_periods(listing, radiation.period, files[".1"])
-    period, heading_deg = _common_periods(stem, radiation, numbers.waves, motion)
-    rho = _density(stem, listing.rho, given.rho if control is None or control.rho is None else control.rho)
+    period, heading_deg = _common_periods(stem, radiation, waves, motion)
+    rho = _density(stem, listing.rho, given_rho if control is None or control.rho is None else control.rho)
     g, scale = listing.g, listing.length_scale
-    turns = np.tile(ROTATIONS, len(listing.bodies))
+    turns = np.tile(ROTATIONS, count)
     mass_scale = rho * scale ** (3 + np.add.outer(turns, turns))
     omega = (2.0 * np.pi / period)[::-1]
     rows = np.searchsorted(radiation.period, period)[::-1]
-    direction, order = _directions(numbers.waves.path, heading_deg)
-    wave = _WavePicker(period, heading_deg, order)
+    direction, order = _directions(waves.path, heading_deg)
+
+    def picked(table: WaveTable) -> NDArray[np.complex128]:
+        """The common headings and periods out of a table, directions and frequencies rising."""
+        at = np.searchsorted(table.heading_deg, heading_deg)[order]
+        return np.asarray(table.values[np.ix_(at, np.searchsorted(table.period, period)[::-1])])
+
     limits = (radiation.infinite_frequency_added_mass, radiation.zero_frequency_added_mass)
     infinite, zero = (None if limit is None else limit * mass_scale for limit in limits)
-    bodies = _bodies(stem, listing, numbers.restoring, rho, given.mass, control)
+    bodies = _bodies(stem, listing, whole, rho, mass, control)
     own: dict[str, Any] = {}
+    origin = "origin of WAMIT's global axes, on the still waterline"
+    lids = ", ".join(f"{body.name} {body.lid_panels}" for body in listing.bodies)
+    source = f"WAMIT {listing.version} files {stem.name} ({told}); interior lid panels: {lids}"
     if alone:
+        haskind = control is None or control.motions_option != 2
         own = {
-            **_of_one(listing, bodies[0], radiation, omega, haskind=_by_haskind(control)),
-            "motion_rao": None if motion is None else wave.pick(motion) / scale**ROTATIONS,
+            **_of_one(listing, bodies[0], radiation, omega, haskind=haskind),
+            "motion_rao": None if motion is None else picked(motion) / scale**ROTATIONS,
             "drift": _drift(files, listing, rho),
         }
+        height = listing.bodies[0].position[2]
+        place = "on the still waterline" if height == 0.0 else f"{height:g} m above the still waterline"
+        origin = f"origin of the WAMIT body axes, {place}"
+        source = _source(stem, files, listing, haskind=haskind)
     return hull_or_group(
         bodies,
         alone=own,
@@ -278,14 +260,12 @@ def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> Loaded
         damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
         infinite_frequency_added_mass=infinite,
         zero_frequency_added_mass=zero,
-        force=wave.pick(numbers.waves) * rho * g * scale ** (2 + turns),
+        force=picked(waves) * rho * g * scale ** (2 + turns),
         rho=rho,
         g=g,
         depth=listing.depth,
-        origin=_origin(listing) if alone else "origin of WAMIT's global axes, on the still waterline",
-        source=_source(stem, files, listing, control)
-        if alone
-        else _source_of_several(stem, listing, numbers),
+        origin=origin,
+        source=source,
     )
 
 
@@ -351,7 +331,7 @@ def _of_one(
     }
 
 
-def _drift(files: dict[str, Path | None], listing: Listing, rho: float) -> DriftCoefficients | None:
+def _drift(files: Files, listing: Listing, rho: float) -> DriftCoefficients | None:
     """Mean loads per squared amplitude, N/m2 and N m/m2, of the first file that has them."""
     path = next((files[suffix] for suffix in BY_PREFERENCE if files[suffix] is not None), None)
     if path is None:
@@ -409,20 +389,6 @@ def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArra
     return np.radians(degrees), order
 
 
-@dataclass(frozen=True, eq=False)
-class _WavePicker:
-    """The common headings and periods out of a table, directions and frequencies rising."""
-
-    period: FloatArray
-    heading_deg: FloatArray
-    order: NDArray[np.intp]
-
-    def pick(self, table: WaveTable) -> NDArray[np.complex128]:
-        rows = np.searchsorted(table.heading_deg, self.heading_deg)[self.order]
-        columns = np.searchsorted(table.period, self.period)[::-1]
-        return np.asarray(table.values[np.ix_(rows, columns)])
-
-
 def _density(stem: Path, listed: float | None, given: float | None) -> float:
     """kg/m3 of the listing or as given; where both tell it, they have to agree."""
     if given is None and listed is None:
@@ -452,26 +418,11 @@ def _mass_of_control(control: ForceControl, body: ListedBody, rho: float) -> Flo
     return mass_of_file(control.path, asked, matrix)
 
 
-def _origin(listing: Listing) -> str:
-    height = listing.bodies[0].position[2]
-    place = "on the still waterline" if height == 0.0 else f"{height:g} m above the still waterline"
-    return f"origin of the WAMIT body axes, {place}"
-
-
-def _by_haskind(control: ForceControl | None) -> bool:
-    return control is None or control.motions_option != 2
-
-
-def _source(stem: Path, files: dict[str, Path | None], listing: Listing, control: ForceControl | None) -> str:
+def _source(stem: Path, files: Files, listing: Listing, *, haskind: bool) -> str:
     read = ", ".join(suffix for suffix in SUFFIXES if files[suffix] is not None and suffix != ".pot")
-    method = "Haskind" if _by_haskind(control) else "diffraction"
+    method = "Haskind" if haskind else "diffraction"
     motions = "" if files[".4"] is None else f"; motions by WAMIT from {method} forces"
     return f"WAMIT {listing.version} files {stem.name} ({read}): {listing.title}{motions}"
-
-
-def _source_of_several(stem: Path, listing: Listing, numbers: _Numbers) -> str:
-    lids = ", ".join(f"{body.name} {body.lid_panels}" for body in listing.bodies)
-    return f"WAMIT {listing.version} files {stem.name} ({numbers.files}); interior lid panels: {lids}"
 
 
 def _trusted(
@@ -492,6 +443,5 @@ FORMAT = Format(
     name="WAMIT",
     files="a WAMIT folder, stem or file (.1 .3 .hst .out, with .4, .frc and .8, .9 or .12d)",
     can_open=is_wamit,
-    read=of_one_speed(read_wamit),
-    speeds=zero_speed,
+    read=read_wamit,
 )

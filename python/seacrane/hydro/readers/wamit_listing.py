@@ -1,21 +1,21 @@
-"""The listing (``.out``) of a WAMIT run: what it says of the water and of each body, and its tables."""
+"""Listing (``.out``) and control files (``.frc``, ``.cfg``) of a WAMIT run: water, bodies, tables."""
 
 from __future__ import annotations
 
 import math
 import re
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.numbers_of_text import NUMBER as WORD
-from seacrane.hydro.readers.numbers_of_text import number_of_word
+from seacrane.hydro.readers.text_records import NUMBER as WORD
+from seacrane.hydro.readers.text_records import TextRecords, is_number, number_at, text_of
 from seacrane.hydro.readers.wamit_tables import INFINITE_FREQUENCY_PERIOD, ZERO_FREQUENCY_PERIOD, Table
-from seacrane.inputs.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 
@@ -33,6 +33,7 @@ RESTORING = (
     (r"C\(5,5\),C\(5,6\):", ((4, 4), (4, 5))),
 )
 ROTATIONS = np.array([0, 0, 0, 1, 1, 1])
+IOPTN_MOTIONS = 3  # the fourth option of the second line
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,11 +49,13 @@ class _Part:
     def maybe(self, pattern: str) -> list[float] | None:
         """The numbers of the first place like that, if there is one."""
         found = re.compile(pattern).search(self.text, self.start, self.end)
-        try:
-            return None if found is None else [number_of_word(word) for word in found.groups()]
-        except ValueError as error:
-            line = self.text.count("\n", 0, found.start()) + 1 if found else 1
-            raise FileFormatError(f"{self.path}, line {line}: {error}") from None
+        if found is None:
+            return None
+        return [number_at(self.path, self.line(found.start()), word) for word in found.groups()]
+
+    def line(self, place: int) -> int:
+        """The line of a character, counted from 1."""
+        return self.text.count("\n", 0, place) + 1
 
     def find(self, pattern: str, what: str) -> list[float]:
         found = self.maybe(pattern)
@@ -61,10 +64,9 @@ class _Part:
         return found
 
     def error(self, what: str) -> FileFormatError:
-        line = self.text.count("\n", 0, self.end) + 1
         return FileFormatError(
-            f"{self.path}, line {line}: the listing ends without {what}{self.whose}; it is truncated, or no "
-            "WAMIT listing"
+            f"{self.path}, line {self.line(self.end)}: the listing ends without {what}{self.whose}; it is "
+            "truncated, or no WAMIT listing"
         )
 
 
@@ -120,8 +122,7 @@ class Listing:
 
 def count_bodies(path: Path) -> int:
     """Bodies of a listing; 1 where it does not number them."""
-    numbers = [int(found.group(1)) for line in listing_lines(path) if (found := BODY.search(line))]
-    return max(numbers, default=1)
+    return max((int(number) for number in BODY.findall(text_of(path))), default=1)
 
 
 def read_listing(path: Path) -> Listing:
@@ -129,8 +130,8 @@ def read_listing(path: Path) -> Listing:
 
     Raises FileFormatError: something needed is missing, or the one body is placed away from the origin.
     """
-    lines = listing_lines(path)
-    text = "\n".join(lines)
+    text = text_of(path).rstrip("\n")
+    lines = text.split("\n")
     whole = _Part(path, text, 0, len(text))
     g, scale = whole.find(rf"Gravity:\s+{NUMBER}\s+Length scale:\s+{NUMBER}", "gravity and length scale")
     if min(g, scale) <= 0.0:
@@ -139,7 +140,10 @@ def read_listing(path: Path) -> Listing:
     version = re.search(r"WAMIT\s+Version\s+(\S+)", text)
     symmetry = re.search(r"Symmetry:[^\n]*", text)
     panels = whole.maybe(r"Total panels:\s+(\d+)")
-    periods = [number_of_word(word) for word in re.findall(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)]
+    periods = [
+        number_at(path, whole.line(found.start()), found[1])
+        for found in re.finditer(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)
+    ]
     return Listing(
         path=path,
         version=version.group(1) if version else "of unknown version",
@@ -203,7 +207,7 @@ def _depth(whole: _Part) -> float:
         raise whole.error("the water depth")
     if match.group(1).lower().startswith("inf"):
         return math.inf
-    return _value(whole.path, whole.text.count("\n", 0, match.start()) + 1, match.group(1))
+    return number_at(whole.path, whole.line(match.start()), match.group(1))
 
 
 def _title(lines: list[str]) -> str:
@@ -212,15 +216,6 @@ def _title(lines: list[str]) -> str:
         if "Geometric Data File" in line:
             return following.strip()
     return ""
-
-
-def listing_lines(path: Path) -> list[str]:
-    try:
-        return read_whole(path).decode("latin-1").replace("\r", "").rstrip("\n").split("\n")
-    except OSError as error:
-        raise FileFormatError(
-            f"{path}: cannot be read ({error.strerror}); check the path and its rights"
-        ) from error
 
 
 def listed_tables(listing: Listing) -> tuple[Table, Table]:
@@ -238,8 +233,8 @@ def listed_tables(listing: Listing) -> tuple[Table, Table]:
         words = line.split()
         if not words:
             continue
-        if table and _is_row(words):
-            values = [_value(path, number, word) for word in words]
+        if table and words[0].lstrip("-").isdigit():
+            values = [number_at(path, number, word) for word in words]
             if np.isnan(period) or (table != "ADDED" and np.isnan(heading)):
                 raise FileFormatError(f"{path}, line {number}: a row before any wave period or heading")
             if table == "ADDED" and len(values) in (3, 4):
@@ -251,9 +246,9 @@ def listed_tables(listing: Listing) -> tuple[Table, Table]:
                 waves[table].append((number, row))
         elif found := PERIOD.search(line):
             word, table = found.group(1), ""
-            period = NAMED_PERIODS[word] if word in NAMED_PERIODS else _value(path, number, word)
+            period = NAMED_PERIODS[word] if word in NAMED_PERIODS else number_at(path, number, word)
         elif found := HEADING.search(line):
-            heading = _value(path, number, found.group(1))
+            heading = number_at(path, number, found.group(1))
         elif words[0][0].isalpha() and words[0] != "I":
             table = next((kind for kind in ("ADDED", *waves) if kind in line), "")
     forces = waves["DIFFRACTION"] or waves["HASKIND"]
@@ -267,12 +262,77 @@ def _table(path: Path, rows: list[tuple[int, list[float]]]) -> Table:
     return Table(path, np.array([values for _, values in rows]), np.array([number for number, _ in rows]))
 
 
-def _is_row(words: list[str]) -> bool:
-    return words[0].lstrip("-").isdigit()
+@dataclass(frozen=True, eq=False)
+class ForceControl:
+    """A ``.frc`` file of either form; what its form does not hold is None.
+
+    Form 1 (IALTFRC=1): ``height_of_gravity`` and ``radii`` (3, 3) of gyration, m. Form 2 (IALTFRC=2):
+    ``rho``, ``center_of_gravity`` (3,), ``mass``, ``damping``, ``stiffness`` (6, 6), all dimensional.
+    ``motions_option`` is 1 for motions from Haskind forces, 2 from diffraction forces, 0 for none.
+    """
+
+    path: Path
+    motions_option: int
+    height_of_gravity: float | None = None
+    radii: FloatArray | None = None
+    rho: float | None = None
+    center_of_gravity: FloatArray | None = None
+    mass: FloatArray | None = None
+    damping: FloatArray | None = None
+    stiffness: FloatArray | None = None
 
 
-def _value(path: Path, number: int, word: str) -> float:
-    try:
-        return number_of_word(word)
-    except ValueError as error:
-        raise FileFormatError(f"{path}, line {number}: {error}") from None
+def read_force_control(path: Path) -> ForceControl:
+    """Read a ``.frc`` file of form 1 or 2, told apart by its fifth line (three radii, or the flag IMASS)."""
+    reader = _ListDirected(path)
+    reader.text("the heading")
+    options = reader.take(9, "the nine options")
+    motions = abs(int(options[IOPTN_MOTIONS]))
+    first = reader.take(1, "VCG or the density")[0]
+    row = reader.take(3, "the first radii of gyration or the centre of gravity")
+    numbers = takewhile(is_number, reader.peek("IMASS or radii of gyration"))
+    second_form = len(list(numbers)) < 3
+    if second_form and not first > 0.0:
+        raise FileFormatError(f"{path}, line 3: density {first:g}; give a positive one")
+    if not second_form:
+        radii = np.array([row, *(reader.take(3, "radii of gyration") for _ in range(2))])
+        reader.take(1, "NBETAH")
+        return ForceControl(path, motions, height_of_gravity=first, radii=radii)
+    names = ("mass", "damping", "stiffness")
+    matrices: dict[str, Any] = {name: reader.matrix(f"external {name}") for name in names}
+    reader.take(1, "NBETAH")
+    return ForceControl(path, motions, rho=first, center_of_gravity=np.array(row), **matrices)
+
+
+def check_period_output(path: Path) -> None:
+    """Raise if a ``.cfg`` file makes the numeric files list something else than periods."""
+    for number, line in enumerate(text_of(path).split("\n"), start=1):
+        match = re.match(r"\s*(IPEROUT|IPERIO)\s*=\s*(-?\d+)", line, re.IGNORECASE)
+        if match and match.group(2) != "1":
+            raise FileFormatError(
+                f"{path}, line {number}: {match.group(1)}={match.group(2)[:20]}: the files list frequencies "
+                "or wave numbers; run WAMIT with periods (1)"
+            )
+
+
+class _ListDirected(TextRecords):
+    """Numbers as Fortran's list-directed input takes them: over several lines, rest of a line dropped."""
+
+    def take(self, count: int, what: str, *, over_lines: bool = False) -> list[float]:
+        """The next ``count`` numbers, from the start of the next line."""
+        values: list[float] = []
+        while len(values) < count:
+            if values and not over_lines:
+                raise self.error(f"{what}: {count} numbers are expected, found {len(values)}")
+            words = self.text(what).replace(",", " ").split()
+            values += [self.number(word, what) for word in words[: count - len(values)]]
+        return values
+
+    def matrix(self, what: str) -> FloatArray | None:
+        """A flag, and a matrix (6, 6) if it is 1."""
+        flag = self.take(1, f"the flag of the {what}")[0]
+        if flag not in (0.0, 1.0):
+            raise self.error(f"flag {flag:g} of the {what}: 0 or 1 is expected")
+        if flag == 0.0:
+            return None
+        return np.array(self.take(36, f"the {what} matrix", over_lines=True)).reshape(6, 6)

@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.numbers_of_text import is_number, number_of_word
+from seacrane.hydro.readers.text_records import is_number, number_at, text_of
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.whole_file import read_whole
 from seacrane.warnings import PartialSetWarning
 
 FloatArray = NDArray[np.float64]
@@ -32,6 +31,7 @@ BODY_AXES = (-6.0, -5.0, -4.0)  # rows of mean moments in the axes of the body, 
 
 MOMENTUM, PRESSURES, SECOND_ORDER = ".8", ".9", ".12d"
 BY_PREFERENCE = (PRESSURES, MOMENTUM, SECOND_ORDER)  # all six loads first
+NO_PERIOD = "ends without a positive period; the file is truncated, or of limits alone"
 REAL_TOLERANCE = 1e-3  # of the largest of its motion: a mean load has no imaginary part
 
 
@@ -64,23 +64,13 @@ class Radiation:
 
 @dataclass(frozen=True, eq=False)
 class WaveTable:
-    """Contents of a ``.3`` or ``.4`` file: periods (n,) in s and headings (m,) in degrees, both rising, and
-    values (m, n, 6 k)."""
+    """Periods (n,) in s and headings (m,) in degrees, both rising; values (m, n, 6 k): complex of a ``.3``
+    or ``.4`` file, real of mean drift; non-dimensional."""
 
     path: Path
     period: FloatArray
     heading_deg: FloatArray
-    values: ComplexArray
-
-
-@dataclass(frozen=True, eq=False)
-class MeanDrift:
-    """Periods (n,) in s and headings (m,) in degrees, both rising; loads (m, n, 6), non-dimensional."""
-
-    path: Path
-    period: FloatArray
-    heading_deg: FloatArray
-    values: FloatArray
+    values: NDArray[Any]
 
 
 def read_radiation(path: Path, *, bodies: int = 1) -> Radiation:
@@ -111,9 +101,7 @@ def radiation_of(table: Table, *, bodies: int) -> Radiation:
     limits = [added_mass[np.flatnonzero(periods == limit)] for limit in special]
     finite = periods > 0.0
     if not np.any(finite):
-        raise table.error(
-            len(table.lines) - 1, "ends without a positive period; the file is truncated, or of limits alone"
-        )
+        raise table.error(-1, NO_PERIOD)
     zero, infinite = (limit[0] if len(limit) else None for limit in limits)
     return Radiation(periods[finite], added_mass[finite], damping[finite], zero, infinite)
 
@@ -125,26 +113,26 @@ def read_waves(path: Path, *, bodies: int = 1) -> WaveTable:
 
 def waves_of(table: Table, *, bodies: int) -> WaveTable:
     """Forces or motions of such rows."""
-    size = 6 * bodies
     rows = np.flatnonzero(table.values[:, 0] > 0.0)
     if rows.size == 0:
-        raise table.error(
-            len(table.lines) - 1, "ends without a positive period; the file is truncated, or of limits alone"
-        )
+        raise table.error(-1, NO_PERIOD)
     table = table.only(rows)
     motion = _motion_of(table, 2, bodies)
-    value = _checked_complex(table, motion)
+    return _by_wave(table, 1, motion, _checked_complex(table, motion), bodies)
+
+
+def _by_wave(table: Table, column: int, motion: IntArray, value: NDArray[Any], bodies: int = 1) -> WaveTable:
+    """One value of each row by period, heading (degrees, in ``column``) and motion."""
     periods, in_period = np.unique(table.values[:, 0], return_inverse=True)
-    headings, in_heading = np.unique(table.values[:, 1], return_inverse=True)
-    n, m = len(periods), len(headings)
-    if n * m > len(rows):
+    headings, in_heading = np.unique(table.values[:, column], return_inverse=True)
+    n, m, size = len(periods), len(headings), 6 * bodies
+    if n * m > len(value):
         # Each pair has at least one row: this many periods and headings is damage, and not worth the memory.
         raise table.error(
-            len(rows) - 1,
-            f"{n} periods and {m} headings, but only {len(rows)} rows; the file is truncated or damaged",
+            -1, f"{n} periods and {m} headings, but only {len(value)} rows; the file is truncated or damaged"
         )
     _check_complete(table, in_period * m + in_heading, motion, n * m, size, "motion")
-    values = np.zeros((m, n, size), dtype=complex)
+    values = np.zeros((m, n, size), dtype=value.dtype)
     values[in_heading, in_period, motion] = value
     return WaveTable(table.path, periods, headings, values)
 
@@ -157,17 +145,14 @@ def read_restoring(path: Path, *, bodies: int = 1) -> FloatArray:
     motions = size * first + second
     half = bodies == 1 and len(motions) == 21 and (np.all(first <= second) or np.all(first >= second))
     if len(motions) < 36 * bodies and not half:
-        raise table.error(
-            len(motions) - 1,
-            f"{len(motions)} of {36 * bodies} entries end here; the file is truncated",
-        )
+        raise table.error(-1, f"{len(motions)} of {36 * bodies} entries end here; the file is truncated")
     _check_complete(table, np.zeros(len(motions), dtype=np.int64), motions, 1, size**2, "entry i j")
     restoring = np.zeros(size**2)
     restoring[motions] = table.values[:, 2]
     return restoring.reshape(size, size)
 
 
-def read_mean_drift(path: Path) -> MeanDrift:
+def read_mean_drift(path: Path) -> WaveTable:
     """The mean loads of single waves in one of these files.
 
     Raises FileFormatError: truncated or damaged, with the line; or no row of one wave alone.
@@ -181,7 +166,6 @@ def read_mean_drift(path: Path) -> MeanDrift:
     if rows.size == 0:
         raise FileFormatError(f"{path}: no row of one period and one heading; it holds no mean drift")
     table = _of_space_axes(table.only(rows), first + 2)
-    rows = np.arange(len(table.lines))
     motion = _motion_of(table, first + 2)
     real, imaginary = table.values[:, first + 5], table.values[:, first + 6]
     size = np.hypot(real, imaginary)
@@ -193,15 +177,7 @@ def read_mean_drift(path: Path) -> MeanDrift:
         raise table.error(
             int(bad[0]), f"a mean load with an imaginary part of {imaginary[bad[0]]:g}; the line is damaged"
         )
-    periods, in_period = np.unique(table.values[:, 0], return_inverse=True)
-    headings, in_heading = np.unique(table.values[:, first], return_inverse=True)
-    if len(periods) * len(headings) > len(rows):
-        raise table.error(len(rows) - 1, "not every heading has every period; the file is truncated")
-    group = in_period * len(headings) + in_heading
-    _check_complete(table, group, motion, len(periods) * len(headings), 6, "motion")
-    values = np.zeros((len(headings), len(periods), 6))
-    values[in_heading, in_period, motion] = real
-    return MeanDrift(path, periods, headings, values)
+    return _by_wave(table, first, motion, real)
 
 
 def _of_space_axes(table: Table, column: int) -> Table:
@@ -221,12 +197,7 @@ def _of_space_axes(table: Table, column: int) -> Table:
 
 def _read_table(path: Path, widths: tuple[int, ...]) -> Table:
     """All rows of a file; a first line of text (option NUMHDR) is passed over."""
-    try:
-        text = read_whole(path).decode("latin-1")
-    except OSError as error:
-        raise FileFormatError(
-            f"{path}: cannot be read ({error.strerror}); check the path and its rights"
-        ) from error
+    text = text_of(path)
     every = [(number, line) for number, line in enumerate(text.split("\n"), start=1) if line.strip()]
     if every and not is_number(every[0][1].split()[0]):
         del every[0]
@@ -239,13 +210,7 @@ def _read_table(path: Path, widths: tuple[int, ...]) -> Table:
         if len(words) not in widths:
             wanted = " or ".join(str(width) for width in widths)
             raise FileFormatError(f"{path}, line {number}: {wanted} numbers are expected, found {len(words)}")
-        try:
-            values[row, : len(words)] = [number_of_word(word) for word in words]
-        except ValueError as error:
-            told = f"{error}, in {line.strip()[:80]!r}"
-            if "finite" in told:
-                told = f"a number is not finite: {line.strip()[:80]!r}"
-            raise FileFormatError(f"{path}, line {number}: {told}") from None
+        values[row, : len(words)] = [number_at(path, number, word) for word in words]
     return Table(path, values, np.array([number for number, _ in every]))
 
 
@@ -282,8 +247,8 @@ def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
         row = int(bad[0])
         raise table.error(
             row,
-            f"modulus {modulus[row]:g} and phase {phase_deg[row]:g} deg are not {real[row]:g} + "
-            f"{imaginary[row]:g}i; the line is damaged",
+            f"modulus {modulus[row]:g} and phase {phase_deg[row]:g} deg are not {value[row]:g}; the line "
+            "is damaged",
         )
     return np.asarray(value)
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.encounter import require_zero_speed
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import MemoryModel
-from seacrane.hydro.data.motion import natural_frequency
-from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
+from seacrane.hydro.data.motion import natural_frequency, require_zero_speed
+from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix, weight_restoring
 from seacrane.hydro.memory.fit import fit_memory
 from seacrane.hydro.memory.retardation import RetardationModel
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 
@@ -71,7 +71,7 @@ def time_domain_vessel(
         mass_matrix -= rigid_mass_matrix(
             part.mass, np.asarray(part.position, float), np.asarray(part.inertia, float)
         )
-        restoring -= _weight_restoring(part.mass * database.g, np.asarray(part.position, float))
+        restoring -= weight_restoring(part.mass * database.g, np.asarray(part.position, float))
     restoring += sum(part.restoring[0] for part in database.additional) + model.additional_stiffness
     linear, quadratic = database.linear_damping.copy(), database.quadratic_damping.copy()
     _add_roll_damping(database, linear, quadratic)
@@ -120,15 +120,6 @@ def following_yaw(restoring: FloatArray) -> FloatArray:
     return kept
 
 
-def _weight_restoring(weight: float, position: FloatArray) -> FloatArray:
-    """Share of a weight (N) at ``position`` in the restoring matrix about the reference point."""
-    x, y, z = position
-    c = np.zeros((6, 6))
-    c[3, 3] = c[4, 4] = -weight * z
-    c[3, 5], c[4, 5] = weight * x, weight * y
-    return c
-
-
 def _split_mass_matrix(matrix: FloatArray, name: str) -> tuple[float, FloatArray, FloatArray]:
     """Mass, centre of mass and inertia about it."""
     mass = float(np.trace(matrix[:3, :3]) / 3.0)
@@ -141,8 +132,7 @@ def _split_mass_matrix(matrix: FloatArray, name: str) -> tuple[float, FloatArray
     if np.any(np.linalg.eigvalsh(inertia) <= 0.0):
         raise ValueError(
             f"database {name!r}: the inertia about the centre of mass has eigenvalues "
-            f"{np.linalg.eigvalsh(inertia)}; "
-            "check the mass matrix, or take out less"
+            f"{np.linalg.eigvalsh(inertia)}; check the mass matrix, or take out less"
         )
     return mass, centre, _of_a_mass_distribution(inertia)
 
@@ -176,3 +166,46 @@ def _add_roll_damping(database: HydroData, linear: FloatArray, quadratic: FloatA
         at = resonance if resonance is not None else float(np.median(database.omega))
         linear[3, 3] += float(np.interp(at, database.omega, database.roll_damping.linear))
         quadratic[3] += float(np.interp(at, database.omega, database.roll_damping.quadratic))
+
+
+def largest_growth_rate(database: HydroData, model: MemoryModel) -> float:
+    """Largest real part (1/s) among the eigenvalues of the freely floating vessel with its memory.
+
+    Positions of motions without restoring (surge, sway, yaw) are left out of the state: nothing depends on
+    them, and they would add eigenvalues of zero. A positive value means that motions grow from nothing.
+    """
+    return growth_rate(time_domain_vessel(database, memory=model))
+
+
+@one_thread
+def growth_rate(vessel: VesselParameters) -> float:
+    """The growth rate of a vessel of the time domain, whose memory it holds."""
+    return float(np.linalg.eigvals(free_vessel_system(vessel)).real.max())
+
+
+def free_vessel_system(vessel: VesselParameters) -> FloatArray:
+    """Matrix of ``x' = S x``: positions of motions with restoring, all six velocities, memory states.
+
+    Raises TypeError: the memory is a convolution, which has no states.
+    """
+    model = vessel.memory
+    if not isinstance(model, MemoryModel):
+        raise TypeError("the vessel's memory is a convolution; give one of states, from fit_memory")
+    rigid = rigid_mass_matrix(vessel.mass, vessel.center_of_mass, vessel.inertia)
+    inverse = np.linalg.inv(rigid + vessel.added_mass)
+    held = np.flatnonzero(np.any(vessel.restoring != 0.0, axis=0))
+    p, total = len(held), len(held) + 6 + model.states
+    system = np.zeros((total, total))
+    velocity = slice(p, p + 6)
+    system[np.arange(p), p + held] = 1.0
+    system[velocity, :p] = -inverse @ vessel.restoring[:, held]
+    system[velocity, velocity] = -inverse @ vessel.linear_damping
+    start = p + 6
+    for block in model.blocks:
+        states = slice(start, start + len(block.A))
+        system[states, states] = block.A
+        system[states, p + block.inputs] = block.B
+        system[velocity, states] = -inverse[:, block.outputs] @ block.C
+        system[velocity, p + block.inputs] -= inverse[:, block.outputs] @ block.D
+        start += len(block.A)
+    return system

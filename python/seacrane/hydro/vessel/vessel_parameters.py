@@ -7,15 +7,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from seacrane.hydro.data.below_band import warn_of_resonance_below_band
-from seacrane.hydro.data.data_warnings import warn_of_matrices
+from seacrane.hydro.data.data_warnings import warn_of_matrices, warn_of_resonance_below_band
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import PEAK_ALLOWANCE, MemoryModel, MotionFit
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.memory.audit import warn_of_mismatch
 from seacrane.hydro.memory.retardation import RetardationModel
-from seacrane.hydro.vessel.memory_stability import growth_rate
-from seacrane.hydro.vessel.parameters import RigidPart, VesselParameters, time_domain_vessel
+from seacrane.hydro.vessel.parameters import RigidPart, VesselParameters, growth_rate, time_domain_vessel
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.one_thread import one_thread
