@@ -6,18 +6,18 @@ Source: the specification of the Unified Robot Description Format, wiki.ros.org/
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.data import HOME, BodyData, JointData, Placed
+from seacrane.crane.data import HOME, BodyData, JointData, MeshData, Placed
 from seacrane.crane.mass_properties import MassProperties
-from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
-from seacrane.crane.urdf_visuals import meshes_of
+from seacrane.description.revolved import revolved
 from seacrane.errors import FileFormatError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import listed, shown
@@ -28,6 +28,69 @@ Array = NDArray[np.float64]
 LARGEST_FILE = 2**24  # bytes
 KINDS = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld"}
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+LARGEST = 1e12
+Faces = NDArray[np.int64]
+AROUND = 24  # corners of a circle
+READABLE = (".stl", ".glb", ".gltf")
+
+
+def name_of(source: str, element: Element) -> str:
+    """The name of a link or a joint; FileFormatError for none."""
+    name = element.get("name", "")
+    if not name:
+        raise FileFormatError(f"{source}: a <{element.tag}> has no name; give each one its own.")
+    return name
+
+
+def number_in(source: str, what: str, text: str) -> float:
+    """A finite number of a text."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not abs(value) <= LARGEST:
+        raise FileFormatError(f"{source}: {what} is {shown(text)}; write a finite number.")
+    return value
+
+
+def value_of(
+    source: str, what: str, element: Element | None, key: str, default: float | None = None
+) -> float:
+    """An attribute that is a number."""
+    text = None if element is None else element.get(key)
+    if text is None:
+        if default is None:
+            raise FileFormatError(f"{source}: {what} has no {key}; give it.")
+        return default
+    return number_in(source, f"{what}: {key}", text)
+
+
+def row_of(source: str, what: str, element: Element, key: str) -> Array:
+    """An attribute of three numbers; zeros where there is none."""
+    text = element.get(key, "0 0 0")
+    row = [number_in(source, f"{what}: {key}", part) for part in text.split()]
+    if len(row) != 3:
+        raise FileFormatError(f"{source}: {what}: {key} is {shown(text)}; write three numbers.")
+    return np.array(row)
+
+
+def origin_of(source: str, element: Element) -> Placed:
+    """The frame of an <origin>, m: rotations about the fixed axes x, y, z."""
+    origin = element.find("origin")
+    if origin is None:
+        return HOME
+    what = f"<origin> of {element.get('name') or '<' + element.tag + '>'}"
+    roll, pitch, yaw = row_of(source, what, origin, "rpy")
+    return Placed(fixed_axes(roll, pitch, yaw), row_of(source, what, origin, "xyz"))
+
+
+def fixed_axes(roll: float, pitch: float, yaw: float) -> Array:
+    """Rz(yaw) Ry(pitch) Rx(roll), (3, 3)."""
+    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(a), math.sin(a)) for a in (roll, pitch, yaw))
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
+    about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
+    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
+    return np.asarray(about_z @ about_y @ about_x)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -270,3 +333,64 @@ def _warn_of_dynamics(source: str, what: str, joint: Element) -> None:
             "Scene.add_friction",
             UrdfWarning,
         )
+
+
+def meshes_of(source: str, folder: Path, link: Element, frame: Placed) -> Iterator[MeshData]:
+    """The meshes of a link, placed in the crane-foot frame at home."""
+    name = name_of(source, link)
+    for i, visual in enumerate(link.findall("visual")):
+        geometry = visual.find("geometry")
+        shape = None if geometry is None else next(iter(geometry), None)
+        if shape is None:
+            continue
+        place = frame.inner(origin_of(source, visual))
+        label = name if i == 0 else f"{name} {i + 1}"
+        mesh = _mesh(source, folder, label, shape, place)
+        if mesh is not None:
+            yield mesh
+
+
+def _mesh(source: str, folder: Path, name: str, shape: Element, place: Placed) -> MeshData | None:
+    what = f"visual {name!r}"
+    where: dict[str, Any] = {"name": name, "frame": place}
+    match shape.tag:
+        case "mesh":
+            return _file(source, folder, what, shape, where)
+        case "box":
+            vertices, faces = _box(row_of(source, what, shape, "size"))
+        case "cylinder":
+            radius, length = (value_of(source, what, shape, key) for key in ("radius", "length"))
+            profile = np.array([[0.0, -0.5], [1.0, -0.5], [1.0, 0.5], [0.0, 0.5]]) * [radius, length]
+            vertices, faces = revolved(profile, AROUND)
+        case "sphere":
+            angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, AROUND // 2 + 1)
+            radius = value_of(source, what, shape, "radius")
+            vertices, faces = revolved(radius * np.column_stack([np.cos(angle), np.sin(angle)]), AROUND)
+        case _:
+            raise FileFormatError(
+                f"{source}: {what} is a <{shape.tag[:40]}>; write mesh, box, cylinder or sphere."
+            )
+    if not np.all(np.ptp(vertices, axis=0) > 0.0):
+        raise FileFormatError(f"{source}: {what} has no extent; give sizes above zero.")
+    return MeshData(vertices=vertices, faces=faces, **where)
+
+
+def _file(source: str, folder: Path, what: str, shape: Element, where: dict[str, Any]) -> MeshData | None:
+    given = shape.get("filename", "")
+    path = folder / given.removeprefix("file://").removeprefix("package://")
+    scale = row_of(source, what, shape, "scale") if shape.get("scale") else np.ones(3)
+    if not (scale[0] == scale[1] == scale[2] and scale[0] > 0.0):
+        raise FileFormatError(f"{source}: {what} has scale {scale.tolist()}; give three equal numbers.")
+    if path.suffix.lower() not in READABLE:
+        warn_caller(
+            f"{source}: {what} is {shown(given)}, which is not drawn; convert it to {', '.join(READABLE)}",
+            UrdfWarning,
+        )
+        return None
+    return MeshData(file=path, scale=float(scale[0]), **where)
+
+
+def _box(size: Array) -> tuple[Array, Faces]:
+    corners = 0.5 * size * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return corners, np.array([face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])

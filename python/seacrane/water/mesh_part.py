@@ -19,8 +19,14 @@ from seacrane.inputs.shown import shown
 from seacrane.warnings import MeshConvergenceWarning
 from seacrane.water.added_mass import ROUNDING, perforation_factor, ramp
 from seacrane.water.density import SEA_WATER, density_of
-from seacrane.water.mesh_volume import MeshShape, closed_mesh, volumes_below
-from seacrane.water.panel_added_mass import MOST_PANELS, PanelLadder, panel_ladder
+from seacrane.water.panel_added_mass import (
+    MOST_PANELS,
+    MeshShape,
+    PanelLadder,
+    closed_mesh,
+    panel_ladder,
+    volumes_below,
+)
 from seacrane.water.parts import LEAST_SLAM, MOST_PERFORATION, RAMP_KNOTS, Piece, TablePart
 
 Array = NDArray[np.float64]

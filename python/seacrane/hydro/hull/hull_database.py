@@ -12,10 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.hull.by_capytaine import capytaine_solution
 from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.parametric_hull import ParametricHull
-from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
+from seacrane.hydro.hull.solution import HullSolution, capytaine_solution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.frames import MOTIONS
@@ -111,7 +110,7 @@ def hydro_from_hull(
 
     def solve(mesh: Hull) -> HullSolution:
         found = _solution(mesh, method, frequencies, headings, rho, g, stations)
-        return symmetric_solution(found, heading=headings, reciprocal=True)
+        return symmetric_solution(found, headings)
 
     solution = solve(shape)
     if check:

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
-from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
-from seacrane.hydro.hull.panels import cut_panels
+from seacrane.hydro.hull.panels import cut_panels, mesh_triangles, require_closed
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
 from seacrane.plotting.table import Answer, Column, Table
