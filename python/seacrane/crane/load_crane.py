@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +12,12 @@ from numpy.typing import NDArray
 
 from seacrane.crane.check import check
 from seacrane.crane.crane import Crane
-from seacrane.crane.data import HOME, BodyData, CraneData, JointData, Placed, RopeData
-from seacrane.crane.file_table import FileTable, read_text, root_of
+from seacrane.crane.data import HOME, BodyData, CraneData, JointData, RopeData
+from seacrane.crane.file_table import FileTable, Frames, read_text, root_of
 from seacrane.crane.knuckle_boom import knuckle_boom
-from seacrane.crane.mass_properties import MassProperties, Point, combine
+from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
-from seacrane.errors import FileFormatError
-from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
 TOTAL = 1e-9  # of the mass, by which the members may miss it
@@ -80,64 +77,16 @@ def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = 
         case "urdf":
             data = _beside_urdf(root, folder or Path())
         case _:
-            raise FileFormatError(
-                f'{source}: kind is {shown(kind)}; write "knuckle-boom", "jointed" or "urdf".'
-            )
+            root.wrong("kind", kind, 'write "knuckle-boom", "jointed" or "urdf"')
     if kind != "urdf":  # which has the masses of its links alone
-        _check_total(source, data.bodies, root.number("total_mass"))
+        total, mass = root.number("total_mass"), math.fsum(body.properties.mass for body in data.bodies)
+        if abs(mass - total) > TOTAL * total:
+            root.refuse(
+                f"the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct a mass or total_mass"
+            )
     root.finish()
     check(source, data)
     return Crane(data)
-
-
-@dataclass(frozen=True, eq=False)
-class Frames:
-    """Frame of every body by its name, and those of frames that are fixed to one, at home.
-
-    Attributes
-    ----------
-    placed : mapping of str to Placed
-    holder : mapping of str to str
-        The body that each frame is fixed to, where that is another.
-    """
-
-    placed: Mapping[str, Placed]
-    holder: Mapping[str, str] = field(default_factory=dict)
-
-    def body(self, name: str) -> str:
-        """The body that a frame is fixed to."""
-        return self.holder.get(name, name)
-
-    def point(self, table: FileTable, body: str, at: Point) -> Array:
-        """A point of a body's frame in the crane-foot frame at home, m."""
-        return self._of(table, body).point(np.array(at))
-
-    def axis(self, table: FileTable, body: str, key: str) -> Array:
-        """A unit vector in the crane-foot frame at home; FileFormatError for none."""
-        given = np.array(table.space_point(key))
-        length = float(np.linalg.norm(given))
-        if length == 0.0:
-            raise FileFormatError(
-                f"{table.source}: {table.label(key)} is all zero; write a direction, such as [0.0, 0.0, 1.0]."
-            )
-        return np.asarray(self._of(table, body).axes @ (given / length))
-
-    def _of(self, table: FileTable, body: str) -> Placed:
-        if body not in self.placed:
-            known = ", ".join(self.placed) or "none"
-            raise FileFormatError(
-                f"{table.source}: {table.where} names body {shown(body)}; the crane has {known}."
-            )
-        return self.placed[body]
-
-
-def _check_total(source: str, bodies: Iterable[BodyData], total: float) -> None:
-    mass = math.fsum(body.properties.mass for body in bodies)
-    if abs(mass - total) > TOTAL * total:
-        raise FileFormatError(
-            f"{source}: the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct a mass or "
-            "total_mass."
-        )
 
 
 def _jointed(root: FileTable) -> CraneData:
@@ -150,9 +99,8 @@ def _jointed(root: FileTable) -> CraneData:
 
 def _beside_urdf(root: FileTable, folder: Path) -> CraneData:
     """Bodies and joints are the URDF's, closing joints and roles those of the table."""
-    name, path = root.text("name"), folder / root.text("urdf")
-    tree = read_urdf(path)
-    return _with_roles(root, name, tree.root, tree.bodies, tree.joints, Frames(tree.placed, tree.owner))
+    name = root.text("name")
+    return _with_roles(root, name, *read_urdf(folder / root.text("urdf")))
 
 
 def _with_roles(
@@ -188,8 +136,7 @@ def _with_roles(
 
 def _body(table: FileTable) -> BodyData:
     """By its members, or by mass, centre of mass and inertia."""
-    name = table.text("name")
-    table.where = f"{table.where} ({name})"
+    name = table.named()
     if "members" in table.values:
         members = table.members("members")
         properties = combine(members)
@@ -208,16 +155,12 @@ def _given_mass(table: FileTable) -> MassProperties:
     except (TypeError, ValueError, OverflowError):
         inertia = np.zeros(0)
     if inertia.shape != (3, 3) or not np.all(np.isfinite(inertia)):
-        raise FileFormatError(
-            f"{table.source}: {table.label('inertia')} is {shown(rows)}; write three rows of three numbers, "
-            "kg m2, about the centre of mass."
-        )
+        table.wrong("inertia", rows, "write three rows of three numbers, kg m2, about the centre of mass")
     return MassProperties(mass, center, inertia)
 
 
 def _joint(table: FileTable, frames: Frames, *, closes: bool = False) -> JointData:
-    name, kind = table.text("name"), table.text("kind")
-    table.where = f"{table.where} ({name})"
+    name, kind = table.named(), table.text("kind")
     first, second = table.text("first"), table.text("second")
     point = frames.point(table, first, table.space_point("point"))
     axes = {
@@ -238,12 +181,10 @@ def _range(table: FileTable) -> tuple[float, float] | None:
     if not found:
         return None
     if len(found) > 1:
-        raise FileFormatError(f"{table.source}: {table.where} has {' and '.join(found)}; write one of them.")
+        table.refuse(f"{table.where} has {' and '.join(found)}; write one of them")
     low, high = table.point(found[0])
     if not low < high:
-        raise FileFormatError(
-            f"{table.source}: {table.label(found[0])} is {low:g} to {high:g}; write the lower end first."
-        )
+        table.refuse(f"{table.label(found[0])} is {low:g} to {high:g}; write the lower end first")
     return (math.radians(low), math.radians(high)) if found[0] == "range_deg" else (low, high)
 
 
@@ -266,18 +207,14 @@ def _place(table: FileTable, frames: Frames) -> tuple[str, Array]:
 
 
 def _rope(table: FileTable, frames: Frames) -> RopeData:
-    name = table.text("name")
-    table.where = f"{table.where} ({name})"
-    falls = table.number("falls")
+    name, falls = table.named(), table.number("falls")
     if falls != int(falls) or falls < 1:
-        raise FileFormatError(
-            f"{table.source}: {table.label('falls')} is {falls:g}; write a whole number, 1 or more."
-        )
+        table.refuse(f"{table.label('falls')} is {falls:g}; write a whole number, 1 or more")
     rope = RopeData(
         name=name,
         luff=table.text("luff"),
         falls=int(falls),
-        EA=table.number("stiffness" if "stiffness" in table.values else "EA"),  # as in 0.2, or since
+        EA=table.number("EA"),
         first=_place(table.table("first"), frames),
         second=_place(table.table("second"), frames),
     )
@@ -294,15 +231,11 @@ def _pistons(
     for table in root.tables("pistons"):
         label = table.text("cylinder")
         if label not in cylinders:
-            raise FileFormatError(
-                f"{table.source}: {table.label('cylinder')} is {shown(label)}; the cylinders are "
-                f"{', '.join(map(repr, cylinders)) or 'none'}."
-            )
+            known = ", ".join(map(repr, cylinders)) or "none"
+            table.wrong("cylinder", label, f"the cylinders are {known}")
         pair, entries = table.areas(), table.hydraulics()
         if pair is None and entries is None:
-            raise FileFormatError(
-                f"{table.source}: {table.where} has no areas; write full_area and rod_side_area, m2."
-            )
+            table.refuse(f"{table.where} has no areas; write full_area and rod_side_area, m2")
         areas |= {} if pair is None else {label: pair}
         oil |= {} if entries is None else {label: entries}
         table.finish()
