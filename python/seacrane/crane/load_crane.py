@@ -214,7 +214,7 @@ def _rope(table: FileTable, frames: Frames) -> RopeData:
         name=name,
         luff=table.text("luff"),
         falls=int(falls),
-        EA=table.number("EA"),
+        EA=table.number("stiffness" if "stiffness" in table.values else "EA"),  # as in 0.2, or since
         first=_place(table.table("first"), frames),
         second=_place(table.table("second"), frames),
     )

@@ -34,12 +34,10 @@ class Tube(_Member):
 
     Attributes
     ----------
-    mass : float
-        kg.
+    mass : kg.
     start, end : (float, float, float)
         Ends of the centre line in the body's frame, m.
-    outer_diameter, inner_diameter : float
-        m; inner 0 means a solid cylinder.
+    outer_diameter, inner_diameter : m; inner 0 means a solid cylinder.
     """
 
     outer_diameter: float
@@ -59,14 +57,12 @@ class Box(_Member):
 
     Attributes
     ----------
-    mass : float
-        kg.
+    mass : kg.
     start, end : (float, float, float)
         Ends of the centre line in the body's frame, m.
     width, depth : float
         Section across the vertical plane of the member and in it, m; of an upright one along y and along x.
-    wall : float
-        Wall thickness, m; 0 means solid.
+    wall : Wall thickness, m; 0 means solid.
     """
 
     width: float
@@ -93,12 +89,9 @@ class MassProperties:
 
     Attributes
     ----------
-    mass : float
-        kg.
-    center_of_mass : ndarray, shape (3,)
-        From the body origin, m.
-    inertia : ndarray, shape (3, 3)
-        About the centre of mass, kg m2.
+    mass : kg.
+    center_of_mass : (3,) from the body origin, m.
+    inertia : (3, 3) about the centre of mass, kg m2.
     """
 
     mass: float

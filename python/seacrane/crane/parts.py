@@ -38,16 +38,11 @@ class BodyRecord:
 
     Attributes
     ----------
-    mass : float
-        kg.
-    inertia : ndarray, shape (3, 3)
-        About the centre of mass, body axes, kg m2.
-    center_of_mass : ndarray, shape (3,)
-        From the body origin, body axes, m.
-    position : ndarray, shape (3,)
-        Body origin, m.
-    quaternion : ndarray, shape (4,)
-        Scalar first, body to base frame.
+    mass : kg.
+    inertia : (3, 3) about the centre of mass, body axes, kg m2.
+    center_of_mass : (3,) from the body origin, body axes, m.
+    position : (3,) body origin, m.
+    quaternion : (4,) scalar first, body to base frame.
     """
 
     name: str
@@ -64,8 +59,7 @@ class JointRecord:
 
     Attributes
     ----------
-    point : ndarray, shape (3,)
-        Joint point, m; for "distance" the point on the first body.
+    point : (3,) joint point, m; for "distance" the point on the first body.
     second_point : ndarray, shape (3,), or None
         Point on the second body of a "distance" joint.
     axis : ndarray, shape (3,), or None
@@ -203,14 +197,10 @@ class Lean:
 
     Attributes
     ----------
-    first, second : str
-        What stands ("" the base), and what leans.
-    point : ndarray, shape (3,)
-        Where the spring pulls: as far out as the tip, at the hinge's height, m.
-    weight : float
-        Of a mass at the tip that has the moment of all that leans, kg.
-    inertia : float
-        Mass at the tip with the moment of inertia of all that leans, kg.
+    first, second : What stands ("" the base), and what leans.
+    point : (3,) where the spring pulls: as far out as the tip, at the hinge's height, m.
+    weight : Of a mass at the tip that has the moment of all that leans, kg.
+    inertia : Mass at the tip with the moment of inertia of all that leans, kg.
     """
 
     first: str

@@ -25,18 +25,12 @@ class RightingArms(Answer):
 
     Attributes
     ----------
-    heel : ndarray, shape (n,)
-        rad; positive lifts port.
-    GZ : ndarray, shape (n,)
-        m; positive brings the hull back from a positive heel.
-    sinkage : ndarray, shape (n,)
-        By which the origin is lower than upright, m.
-    trim : ndarray, shape (n,)
-        rad; positive lowers the bow.
-    volume : float
-        Displaced, m3.
-    GM : float
-        Upright, from the waterplane, m.
+    heel : (n,) rad; positive lifts port.
+    GZ : (n,) m; positive brings the hull back from a positive heel.
+    sinkage : (n,) by which the origin is lower than upright, m.
+    trim : (n,) rad; positive lowers the bow.
+    volume : Displaced, m3.
+    GM : Upright, from the waterplane, m.
     """
 
     heel: FloatArray

@@ -198,25 +198,23 @@ def _transfer(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, omega:
 
 
 def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[float, float]) -> Passivity:
-    """Smallest scaled eigenvalue of the radiation blocks' damping, 1e-3 to 1e3 rad/s, and over ``band``."""
+    """Smallest eigenvalue of the radiation blocks' damping together, which no pair's own fit keeps positive.
+
+    Scaled by the largest diagonals of the data's ``damping``, from 1e-3 to 1e3 rad/s and over ``band``.
+    """
+    peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 1e-300))
+    active = peak > 1e-6 * peak.max()
     radiation = [block for block in blocks if block.cause == RADIATION]
 
     def smallest(omega: FloatArray) -> tuple[float, float]:
         total = np.zeros((len(omega), *damping.shape[1:]))
         for block in radiation:
             total[:, block.outputs[:, None], block.inputs] += block.transfer(omega).real
-        lowest = scaled_damping(total, damping)
+        scaled = (0.5 * (total + total.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
+        lowest = np.linalg.eigvalsh(scaled)[:, 0]
         where = int(lowest.argmin())
         return float(lowest[where]), float(omega[where])
 
     minimum, at = smallest(np.geomspace(1e-3, 1e3, 4001))
     in_band, in_band_at = smallest(np.linspace(*band, 1001))
     return Passivity(minimum=minimum, omega=at, in_band=in_band, in_band_omega=in_band_at)
-
-
-def scaled_damping(damping: FloatArray, data: FloatArray) -> FloatArray:
-    """Smallest eigenvalues (n,) of ``damping`` (n, m, m), scaled by the largest diagonals of ``data``."""
-    peak = np.sqrt(np.maximum(np.diagonal(data, axis1=1, axis2=2).max(axis=0), 1e-300))
-    active = peak > 1e-6 * peak.max()
-    scaled = (0.5 * (damping + damping.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
-    return np.asarray(np.linalg.eigvalsh(scaled)[:, 0])

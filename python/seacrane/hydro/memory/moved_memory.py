@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel, MotionFit
+from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
 from seacrane.hydro.memory.certificate import joint_passivity
 from seacrane.hydro.memory.identification import (
     FEWEST_FREQUENCIES,
@@ -52,15 +52,11 @@ def moved_memory(model: MemoryModel, transform: FloatArray, moved: Hydrodynamics
     passivity = joint_passivity(list(blocks), moved.damping, model.band)
     about = dataclasses.replace(model, blocks=blocks, passivity=passivity, **matrices)
     if model.motion is not None:
-        about = dataclasses.replace(about, motion=_moved_motion(model.motion, about, moved))
+        judge = motion_judge(moved, model.band)
+        floor = judge.error_of(retardation_functions(database=moved)).worst
+        motion = dataclasses.replace(model.motion, error=judge.error_of(about), floor=floor)
+        about = dataclasses.replace(about, motion=motion)
     return dataclasses.replace(about, rows=judged_rows(about, moved))
-
-
-def _moved_motion(motion: MotionFit, model: MemoryModel, moved: Hydrodynamics) -> MotionFit:
-    """The motions of the new point judged anew."""
-    judge = motion_judge(moved, model.band)
-    floor = judge.error_of(retardation_functions(database=moved)).worst
-    return dataclasses.replace(motion, error=judge.error_of(model), floor=floor)
 
 
 def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:

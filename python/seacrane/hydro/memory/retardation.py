@@ -83,7 +83,7 @@ def _response(
     omega: ArrayLike, kernel: FloatArray, step: float, mass: FloatArray, stiffness: FloatArray | float
 ) -> tuple[FloatArray, FloatArray]:
     w = np.atleast_1d(np.asarray(omega, dtype=float))
-    transfer, by_frequency = transform(kernel, step, w), w[:, None, None]
+    transfer, by_frequency = transformer(kernel, step)(w), w[:, None, None]
     return mass + transfer.imag / by_frequency - stiffness / by_frequency**2, transfer.real
 
 
@@ -141,7 +141,7 @@ def retardation_functions(
     whole, tail_at_zero = cosine_transform(database.omega, damping, tau)
     samples = _shortest(database.omega, damping, whole, step, [_samples(d, step) for d in durations])
     radiation = _tapered(whole[:samples])
-    response = transform(radiation, step, database.omega)
+    response = transformer(radiation, step)(database.omega)
     estimates = added_mass - response.imag / database.omega[:, None, None]
     infinite = np.where(active, estimates[inside].mean(axis=0), added_mass[-1])
     misfit = estimates - infinite
@@ -205,13 +205,11 @@ def _power_law_transform(exponent: FloatArray, end: float, tau: FloatArray) -> F
     return np.asarray(end * turned.real).reshape(-1, *exponent.shape)
 
 
-def transform(kernel: FloatArray, step: float, omega: FloatArray) -> ComplexArray:
-    """``integral_0^T K(tau) exp(-i omega tau) dtau`` (m, ...) of samples (n, ...), by a cubic spline."""
-    return transformer(kernel, step)(omega)
-
-
 def transformer(kernel: FloatArray, step: float) -> Callable[[FloatArray], ComplexArray]:
-    """`transform` of one kernel, for any number of calls with ``omega`` (m,)."""
+    """``integral_0^T K(tau) exp(-i omega tau) dtau`` (m, ...) of samples (n, ...), by a cubic spline.
+
+    A function of ``omega`` (m,).
+    """
     from scipy.interpolate import CubicSpline
 
     times = step * np.arange(len(kernel))
@@ -242,7 +240,7 @@ def _shortest(
     largest = np.maximum(np.abs(damping).max(axis=0), 1e-300)
     errors = []
     for samples in candidates:
-        back = transform(_tapered(kernel[:samples]), step, omega).real
+        back = transformer(_tapered(kernel[:samples]), step)(omega).real
         errors.append(float(np.max(np.where(largest > 1e-300, np.abs(back - damping) / largest, 0.0))))
         if errors[-1] <= DAMPING_ERROR:
             return samples
@@ -263,7 +261,7 @@ def _additional(
     damping, added_mass = symmetric(part.damping), symmetric(part.added_mass)
     kernel = _tapered(cosine_transform(database.omega, damping, tau)[0])
     omega = database.omega[inside]
-    transfer = transform(kernel, float(tau[1]), omega)
+    transfer = transformer(kernel, float(tau[1]))(omega)
     rest = (added_mass[inside] - transfer.imag / omega[:, None, None]) * omega[:, None, None] ** 2
     mass, stiffness = np.zeros(rest.shape[1:]), np.zeros(rest.shape[1:])
     columns = np.stack([omega**2, -np.ones_like(omega)], axis=1)
