@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.check import check
 from seacrane.crane.crane import Crane
-from seacrane.crane.data import HOME, BodyData, CraneData, JointData, RopeData
+from seacrane.crane.data import CLOSING, FREEDOMS, HOME, BodyData, CraneData, JointData, RopeData
 from seacrane.crane.file_table import FileTable, Frames, read_text, root_of
 from seacrane.crane.knuckle_boom import knuckle_boom
 from seacrane.crane.mass_properties import MassProperties, combine
+from seacrane.crane.pose import CLOSED, extent_of, pose_of
 from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.inputs.shown import listed, shown
 
 Array = NDArray[np.float64]
 TOTAL = 1e-9  # of the mass, by which the members may miss it
 SHIPPED = Path(__file__).resolve().parent.parent / "data" / "cranes"
 DEFAULT = "knuckle_boom_250t"
+ALIGNED = 1e-6  # cosine between the axes of a universal joint
+KEYWORDS = ("foot", "payload_mass", "gravity")  # of methods that take coordinates by their labels
 
 
 def load_crane(path: str | Path = DEFAULT) -> Crane:
@@ -85,7 +89,7 @@ def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = 
                 f"the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct a mass or total_mass"
             )
     root.finish()
-    check(source, data)
+    _check(root, data)
     return Crane(data)
 
 
@@ -240,3 +244,117 @@ def _pistons(
         oil |= {} if entries is None else {label: entries}
         table.finish()
     return areas, oil
+
+
+def _check(root: FileTable, data: CraneData) -> None:
+    """FileFormatError that names the item which does not fit."""
+    if not data.bodies:
+        root.refuse("has no bodies; write [[bodies]]")
+    _different(root, "body", (body.name for body in data.bodies))
+    _different(root, "joint", ("deck", "link", *(joint.name for joint in data.joints)))
+    for joint in data.joints:
+        _check_joint(root, joint)
+    _check_tree(root, data)
+    _check_closing(root, data)
+    _check_roles(root, data)
+    _check_ropes(root, data)
+    try:
+        pose_of(data, {})
+    except SceneError as error:
+        raise FileFormatError(f"{root.source}: {error}.") from error
+
+
+def _different(root: FileTable, what: str, names: Iterable[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            root.refuse(f"the name {shown(name)} is that of two; rename one {what}")
+        seen.add(name)
+
+
+def _check_joint(root: FileTable, joint: JointData) -> None:
+    what = f"joint {joint.name!r}"
+    if joint.kind not in FREEDOMS:
+        root.refuse(f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(FREEDOMS)}")
+    needs = {"revolute": 1, "prismatic": 1, "universal": 2}.get(joint.kind, 0)
+    has = [joint.axis is not None, joint.second_axis is not None]
+    if has != [needs > 0, needs > 1]:
+        wanted = ("no axis", "axis alone", "axis and second_axis")[needs]
+        root.refuse(f"{what}: a {joint.kind} joint takes {wanted}; correct its axes")
+    if needs == 2 and abs(float(np.dot(joint.axis, joint.second_axis))) > ALIGNED:  # type: ignore[arg-type]
+        root.refuse(f"{what}: axis and second_axis are not perpendicular; turn one of them")
+    if joint.range is not None and joint.kind not in ("revolute", "prismatic"):
+        root.refuse(f"{what}: a {joint.kind} joint has no range; leave it out")
+
+
+def _check_tree(root: FileTable, data: CraneData) -> None:
+    there, names = {data.root}, {data.root, *(one.name for one in data.bodies)}
+    for joint in data.tree.values():
+        for role, body in (("first", joint.first), ("second", joint.second)):
+            if body not in names:
+                known = listed([one.name for one in data.bodies])
+                root.refuse(f"joint {joint.name!r}: its {role} body is {shown(body)}; there are {known}")
+        if joint.first not in there:
+            root.refuse(
+                f"joint {joint.name!r}: nothing carries its first body {joint.first!r} yet; write "
+                "the joint that does before it"
+            )
+        if joint.second in there:
+            root.refuse(
+                f"joint {joint.name!r} closes a loop: something carries its second body "
+                f"{joint.second!r} already; write it as one of [[closing_joints]]"
+            )
+        there.add(joint.second)
+    loose = [body.name for body in data.bodies if body.name not in there]
+    if loose:
+        root.refuse(f"no joint carries body {loose[0]!r}; add one, or take it out")
+
+
+def _check_closing(root: FileTable, data: CraneData) -> None:
+    known = {data.root, *(body.name for body in data.bodies)}
+    for joint in data.closing_joints:
+        what = f"closing joint {joint.name!r}"
+        if joint.kind not in CLOSING:
+            root.refuse(f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(CLOSING)}")
+        if not {joint.first, joint.second} <= known or joint.first == joint.second:
+            root.refuse(
+                f"{what}: joins {shown(joint.first)} and {shown(joint.second)}; name two bodies of the crane"
+            )
+        if joint.range is not None:
+            root.refuse(f"{what}: has a range; give one to a joint of the tree")
+
+
+def _check_roles(root: FileTable, data: CraneData) -> None:
+    kinds = {name: joint.kind for name, joint in data.tree.items()}
+    wanted = {"luff": (data.luffs, "revolute"), "cylinder": (data.cylinders, "prismatic")}
+    slew = {} if data.slew is None else {"slew": data.slew}
+    for role, (joints, kind) in {"slew drive": (slew, "revolute"), **wanted}.items():
+        for label, joint in joints.items():
+            if kinds.get(joint) != kind:
+                fitting = listed([name for name, one in kinds.items() if one == kind]) or "none"
+                root.refuse(
+                    f"{role} {label!r} is joint {shown(joint)}, which is no {kind} joint of the "
+                    f"tree; there are {fitting}"
+                )
+    _different(root, "coordinate", [*KEYWORDS, *slew, *data.luffs, *data.cylinders])
+    if data.tip[0] not in {body.name for body in data.bodies}:
+        root.refuse(f"the tip is on {shown(data.tip[0])}; name a body of the crane")
+
+
+def _check_ropes(root: FileTable, data: CraneData) -> None:
+    _different(root, "rope's luff", (rope.luff for rope in data.ropes))
+    for rope in data.ropes:
+        what = f"rope {rope.name!r}"
+        if rope.luff not in data.luffs:
+            root.refuse(
+                f"{what}: holds luff {shown(rope.luff)}; the luffs are "
+                f"{listed([repr(name) for name in data.luffs]) or 'none'}"
+            )
+        beyond = data.beyond(data.luffs[rope.luff])
+        if rope.first[0] in beyond or rope.second[0] not in beyond:
+            root.refuse(
+                f"{what}: runs from {shown(rope.first[0])} to {shown(rope.second[0])}; its first body must "
+                f"be before hinge {data.luffs[rope.luff]!r} and its second beyond it"
+            )
+        if np.linalg.norm(rope.second[1] - rope.first[1]) < CLOSED * extent_of(data):
+            root.refuse(f"{what}: has no length at home; move one of its blocks")
