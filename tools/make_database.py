@@ -14,10 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from seacrane.hydro import Hull, HydroDatabase, fit_memory
-from seacrane.hydro.hull.by_capytaine import capytaine_solution
 from seacrane.hydro.hull.hull_database import database_of_solution
 from seacrane.hydro.hull.shipped_hull import LINES, VOLUME, shipped_hull
-from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
+from seacrane.hydro.hull.solution import HullSolution, capytaine_solution, symmetric_solution
 
 RHO, G = 1025.0, 9.81
 MASS = VOLUME * RHO
@@ -41,7 +40,7 @@ def main() -> None:
     hull = shipped_hull()
     database = database_of_solution(
         hull,
-        symmetric_solution(solve_or_reuse(hull, arguments.raw), heading=HEADING, reciprocal=True),
+        symmetric_solution(solve_or_reuse(hull, arguments.raw), HEADING),
         omega=OMEGA,
         heading=HEADING,
         center_of_gravity=np.array([0.0, 0.0, hull.hydrostatics.metacentre_transverse - GM_TRANSVERSE]),

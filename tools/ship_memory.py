@@ -11,8 +11,8 @@ import tempfile
 from pathlib import Path
 
 from seacrane.hydro import fit_memory, shipped_database
-from seacrane.hydro.memory.cache import cache_folder, shipped_folder
-from seacrane.inputs.user_cache import VARIABLE
+from seacrane.hydro.memory.fit import FOLDER, shipped_folder
+from seacrane.inputs.user_cache import VARIABLE, user_cache
 
 
 def main() -> None:
@@ -22,7 +22,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         os.environ[VARIABLE] = folder
         model = fit_memory(database=shipped_database())
-        made = cache_folder()
+        made = user_cache(FOLDER)
         assert made is not None
         shutil.copytree(made, target)
     assert model.motion is not None

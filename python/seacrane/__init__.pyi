@@ -6,7 +6,7 @@ Describe a `Scene`, `simulate` it, look at the `Result`. SI units, radians; x fo
 # Describe a lift
 from seacrane.scene.scene import Scene as Scene
 from seacrane.lift.lift import Lift as Lift
-from seacrane.crane.payload import Payload as Payload
+from seacrane.crane.parts import Payload as Payload
 from seacrane.hydro.database.database import HydroDatabase as HydroDatabase
 from seacrane.hydro.database.database import shipped_database as shipped_database
 from seacrane.hydro.readers.load import load_database as load_database

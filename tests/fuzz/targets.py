@@ -149,7 +149,7 @@ def _crane(path: Path) -> Any:
 
 
 def _urdf(path: Path) -> Any:
-    return [body.properties for body in read_urdf(path).bodies]
+    return [body.properties for body in read_urdf(path)[1]]
 
 
 def _lift(path: Path) -> Any:

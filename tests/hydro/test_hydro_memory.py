@@ -29,8 +29,7 @@ from seacrane.hydro import (
 from seacrane.hydro.data.memory_model import RADIATION
 from seacrane.hydro.memory.certificate import certify
 from seacrane.hydro.memory.identification import IdentificationData, fit_lowest_order, fit_order, r_squared
-from seacrane.hydro.memory.oscillator_motions import MotionData, MotionProblem, fit_to_motions
-from seacrane.hydro.memory.oscillators import GroupData, Oscillators
+from seacrane.hydro.memory.oscillators import MotionData, MotionProblem, Oscillators, fit_to_motions
 from seacrane.hydro.memory.realisation import realise
 from seacrane.warnings import InfiniteFrequencyWarning, MemoryFitWarning, RollDampingWarning
 
@@ -340,9 +339,8 @@ def test_known_oscillators_are_recovered_by_a_search_with_the_right_derivatives(
     kernel = truth.transfer(omega)
     added_mass = np.array([[2.0, 0.3], [0.3, 1.5]]) + kernel.imag / omega[:, None, None]
     tables = {"added_mass": added_mass, "damping": kernel.real, "added_mass_infinite": None}
-    group = GroupData(omega=omega, trusted=(omega > 0.29) & (omega < 2.51), **tables)
     lever = np.exp(1j * np.arange(3)) * np.eye(3) / (0.3 + omega[:, None, None])
-    data = MotionData(group=group, lever=lever)
+    data = MotionData(omega=omega, trusted=(omega > 0.29) & (omega < 2.51), lever=lever, **tables)
     model = fit_to_motions(data, fit_to_motions(data, None))
     assert len(model.w) == 3
     assert np.abs(model.transfer(omega).real - kernel.real).max() < 0.01 * kernel.real.max()

@@ -21,7 +21,6 @@ from seacrane.hydro import (
     shipped_database,
 )
 from seacrane.hydro.data.packed import packed
-from seacrane.hydro.memory import cache as kept
 from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.fit import LIMIT
@@ -118,7 +117,7 @@ def never(**_: object) -> MemoryModel:
 
 def test_a_fit_is_found_on_disk_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fit(database: HydroDatabase, limit: float = 0.2) -> MemoryModel:
-        monkeypatch.setattr(kept, "_of_process", {})
+        monkeypatch.setattr(fitting, "_of_process", {})
         return fit_memory(database=database, kind="by-motion", limit=limit)
 
     monkeypatch.setenv("SEACRANE_CACHE", str(tmp_path))
@@ -190,7 +189,7 @@ def test_the_shipped_model_is_a_fresh_fit() -> None:
     The fit ends elsewhere within its limit on another processor, whose rounding differs.
     """
     database, shipped = shipped_database(), fitted()
-    assert len(list(kept.shipped_folder().iterdir())) == 1
+    assert len(list(fitting.shipped_folder().iterdir())) == 1
     fresh = fit_by_motion(database=database, band=shipped.band, known=None, limit=LIMIT)
     assert fresh.states == shipped.states
     judged = motion_judge(database, shipped.band).error_of(shipped).worst

@@ -18,7 +18,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection
 from seacrane import Scene, SceneError, simulate
 from seacrane.warnings import MeshConvergenceWarning
 from seacrane.water import BoxPart, MeshPart, from_mesh, panel_added_mass
-from seacrane.water.mesh_volume import MeshShape, volumes_below
+from seacrane.water.panel_added_mass import MeshShape, volumes_below
 
 Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0

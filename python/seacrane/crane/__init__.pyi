@@ -1,6 +1,6 @@
 """Cranes of bodies and joints, built from documented data files."""
 
-from seacrane.crane.payload import Payload as Payload
+from seacrane.crane.parts import Payload as Payload
 from seacrane.crane.load_crane import load_crane as load_crane
 from seacrane.crane.load_crane import shipped_cranes as shipped_cranes
 from seacrane.crane.crane import Crane as Crane

@@ -115,8 +115,7 @@ class JointData:
 
     Attributes
     ----------
-    name, kind, first, second : str
-        The kind is one of `FREEDOMS`; a joint of the tree carries its second body.
+    name, kind, first, second : The kind is one of `FREEDOMS`; a joint of the tree carries its second body.
     point : (3,) m.
     axis, second_axis : ndarray, shape (3,), or None
         Unit vectors; the second one of a universal joint alone, fixed on the second body.

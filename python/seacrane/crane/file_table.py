@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Mapping
-from dataclasses import fields
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.crane.data import Placed
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.description.roles import Areas, Capacity, areas_of, capacity_of
@@ -63,62 +64,70 @@ class FileTable:
 
     def take(self, key: str) -> Any:
         if key not in self.values:
-            raise FileFormatError(f"{self.source}: {self.label(key)} is missing; add it.")
+            self.refuse(f"{self.label(key)} is missing; add it")
         return self.values.pop(key)
 
     def table(self, key: str) -> FileTable:
         return FileTable(self.source, self.label(key), self.take(key))
 
+    def refuse(self, says: str) -> NoReturn:
+        raise FileFormatError(f"{self.source}: {says}.")
+
+    def wrong(self, key: str, value: object, fix: str) -> NoReturn:
+        self.refuse(f"{self.label(key)} is {shown(value)}; {fix}")
+
+    def named(self) -> str:
+        """The name of what the table describes, of which messages speak from now on."""
+        name = self.text("name")
+        self.where = f"{self.where} ({name})"
+        return name
+
     def text(self, key: str) -> str:
         value = self.take(key)
         if not isinstance(value, str) or not 0 < len(value) <= LONGEST_TEXT:
-            raise FileFormatError(
-                f"{self.source}: {self.label(key)} is {shown(value)}; write a text of 1 to {LONGEST_TEXT} "
-                "characters."
-            )
+            self.wrong(key, value, f"write a text of 1 to {LONGEST_TEXT} characters")
         return value
 
     def number(self, key: str, *, positive: bool = True) -> float:
-        value = number_at(self.source, self.label(key), self.take(key))
+        value = self._number(key, self.take(key))
         if value < 0.0 or (positive and value < SMALLEST):
             need = f"greater than zero, {SMALLEST:g} at least" if positive else "zero or more"
-            raise FileFormatError(f"{self.source}: {self.label(key)} is {value:g}; it must be {need}.")
+            self.refuse(f"{self.label(key)} is {value:g}; it must be {need}")
         return value
+
+    def _number(self, key: str, value: object) -> float:
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= LARGEST:
+            self.wrong(key, value, f"write a finite number, {LARGEST:g} at most")
+        return float(value)
 
     def head(self, *, default: str) -> str:
         """The kind of crane, of a file whose schema this version reads."""
         schema = self.take("schema")
         if schema != SCHEMA:
-            raise FileFormatError(
-                f"{self.source}: schema is {shown(schema)}; this version reads schema {SCHEMA}."
-            )
+            self.wrong("schema", schema, f"this version reads schema {SCHEMA}")
         return self.text("kind") if "kind" in self.values else default
 
     def tables(self, key: str) -> list[FileTable]:
         """A list of tables, which may be left out."""
         value = self.values.pop(key, [])
         if not isinstance(value, list):
-            raise FileFormatError(f"{self.source}: {self.label(key)} is {shown(value)}; write [[{key}]].")
+            self.wrong(key, value, f"write [[{key}]]")
         return [FileTable(self.source, f"{self.label(key)}[{i}]", item) for i, item in enumerate(value)]
 
     def space_point(self, key: str) -> Point:
         """Three numbers."""
-        value = self.take(key)
-        if not isinstance(value, list) or len(value) != 3:
-            raise FileFormatError(
-                f"{self.source}: {self.label(key)} is {shown(value)}; write three numbers [x, y, z]."
-            )
-        return tuple(number_at(self.source, self.label(key), item) for item in value)
+        return self._row(key, 3, "three numbers [x, y, z]")
 
     def point(self, key: str) -> tuple[float, float]:
         """Two numbers."""
-        value = self.take(key)
-        if not isinstance(value, list) or len(value) != 2:
-            raise FileFormatError(
-                f"{self.source}: {self.label(key)} is {shown(value)}; write two numbers [along, above], in m."
-            )
-        first, second = (number_at(self.source, self.label(key), item) for item in value)
+        first, second = self._row(key, 2, "two numbers [along, above], in m")
         return first, second
+
+    def _row(self, key: str, count: int, wanted: str) -> Point:
+        value = self.take(key)
+        if not isinstance(value, list) or len(value) != count:
+            self.wrong(key, value, f"write {wanted}")
+        return tuple(self._number(key, item) for item in value)
 
     def capacity(self) -> Capacity:
         """An optional table of its own: rows of radius and load."""
@@ -128,9 +137,7 @@ class FileTable:
         rows = table.take("rows")
         table.finish()
         if not isinstance(rows, list):
-            raise FileFormatError(
-                f"{self.source}: {table.label('rows')} is {shown(rows)}; write rows [radius, load], m and kg."
-            )
+            table.wrong("rows", rows, "write rows [radius, load], m and kg")
         try:
             return capacity_of(self.source, rows)
         except SceneError as error:
@@ -160,7 +167,7 @@ class FileTable:
         given: dict[str, Any] = {}
         for key in [one.name for one in fields(kind) if one.name in self.values]:
             value = self.take(key)
-            given[key] = value if isinstance(value, bool) else number_at(self.source, self.label(key), value)
+            given[key] = value if isinstance(value, bool) else self._number(key, value)
         self.finish()
         return kind(**given)
 
@@ -168,7 +175,7 @@ class FileTable:
         """Uniform bodies, their ends three numbers, or two along the axes (3, 2) of a plane."""
         value = self.take(key)
         if not isinstance(value, list) or not value:
-            raise FileFormatError(f"{self.source}: {self.label(key)} needs at least one member; add one.")
+            self.refuse(f"{self.label(key)} needs at least one member; add one")
         return tuple(
             _member(FileTable(self.source, f"{self.label(key)}[{index}]", item), plane)
             for index, item in enumerate(value)
@@ -176,66 +183,83 @@ class FileTable:
 
     def finish(self) -> None:
         if self.values:
-            unknown = self.label(min(self.values))[:80]
-            raise FileFormatError(f"{self.source}: unknown key {unknown}; correct its spelling or remove it.")
+            self.refuse(f"unknown key {self.label(min(self.values))[:80]}; correct its spelling or remove it")
 
 
-def number_at(source: str, label: str, value: object) -> float:
-    """A finite number that no crane is beyond."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= LARGEST:
-        raise FileFormatError(
-            f"{source}: {label} is {shown(value)}; write a finite number, {LARGEST:g} at most."
-        )
-    return float(value)
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """Frame of every body by its name, and those of frames that are fixed to one, at home.
+
+    Attributes
+    ----------
+    placed : mapping of str to Placed
+    holder : mapping of str to str
+        The body that each frame is fixed to, where that is another.
+    """
+
+    placed: Mapping[str, Placed]
+    holder: Mapping[str, str] = field(default_factory=dict)
+
+    def body(self, name: str) -> str:
+        """The body that a frame is fixed to."""
+        return self.holder.get(name, name)
+
+    def point(self, table: FileTable, body: str, at: Point) -> Array:
+        """A point of a body's frame in the crane-foot frame at home, m."""
+        return self._of(table, body).point(np.array(at))
+
+    def axis(self, table: FileTable, body: str, key: str) -> Array:
+        """A unit vector in the crane-foot frame at home; FileFormatError for none."""
+        given = np.array(table.space_point(key))
+        length = float(np.linalg.norm(given))
+        if length == 0.0:
+            table.refuse(f"{table.label(key)} is all zero; write a direction, such as [0.0, 0.0, 1.0]")
+        return np.asarray(self._of(table, body).axes @ (given / length))
+
+    def _of(self, table: FileTable, body: str) -> Placed:
+        if body not in self.placed:
+            known = ", ".join(self.placed) or "none"
+            table.refuse(f"{table.where} names body {shown(body)}; the crane has {known}")
+        return self.placed[body]
 
 
 def _member(table: FileTable, plane: Array | None) -> Member:
-    """A tube or a box."""
-    name = table.text("name")
-    table.where = f"{table.where} ({name})"
-    shape = table.text("shape")
+    name, shape = table.named(), table.text("shape")
     mass = table.number("mass")
     start, end = (
         table.space_point(key) if plane is None else tuple((plane @ table.point(key)).tolist())
         for key in ("start", "end")
     )
     if math.dist(start, end) == 0.0:
-        raise FileFormatError(f"{table.source}: {table.where} has length 0; move its start or its end.")
-    member: Member
-    if shape == "tube":
-        member = _tube(table, name, mass, start, end)
-    elif shape == "box":
-        member = _box(table, name, mass, start, end)
-    else:
-        raise FileFormatError(
-            f'{table.source}: {table.label("shape")} is {shown(shape)}; write "tube" or "box".'
-        )
+        table.refuse(f"{table.where} has length 0; move its start or its end")
+    if shape not in SHAPES:
+        table.wrong("shape", shape, 'write "tube" or "box"')
+    member = SHAPES[shape](table, {"name": name, "mass": mass, "start": start, "end": end})
     table.finish()
     return member
 
 
-def _tube(table: FileTable, name: str, mass: float, start: Point, end: Point) -> Tube:
-    outer = table.number("outer_diameter")
-    inner = table.number("inner_diameter", positive=False)
+def _tube(table: FileTable, common: dict[str, Any]) -> Tube:
+    outer, inner = table.number("outer_diameter"), table.number("inner_diameter", positive=False)
     if inner >= outer:
-        raise FileFormatError(
-            f"{table.source}: {table.label('inner_diameter')} is {inner:g} m, not below the outer diameter "
-            f"{outer:g} m; make it smaller (0: solid)."
+        table.refuse(
+            f"{table.label('inner_diameter')} is {inner:g} m, not below the outer diameter {outer:g} m; make "
+            "it smaller (0: solid)"
         )
-    return Tube(name=name, mass=mass, start=start, end=end, outer_diameter=outer, inner_diameter=inner)
+    return Tube(**common, outer_diameter=outer, inner_diameter=inner)
 
 
-def _box(table: FileTable, name: str, mass: float, start: Point, end: Point) -> Box:
+def _box(table: FileTable, common: dict[str, Any]) -> Box:
     width, depth = table.number("width"), table.number("depth")
     wall = table.number("wall", positive=False)
+    section = f"{table.label('wall')} is {wall:g} m"
     if 0.0 < wall < THINNEST * max(width, depth):
-        raise FileFormatError(
-            f"{table.source}: {table.label('wall')} is {wall:g} m in a section of {width:g} x {depth:g} m; "
-            "make it thicker (0: solid)."
-        )
+        table.refuse(f"{section} in a section of {width:g} x {depth:g} m; make it thicker (0: solid)")
     if 2.0 * wall >= min(width, depth):
-        raise FileFormatError(
-            f"{table.source}: {table.label('wall')} is {wall:g} m, half the section ({width:g} x {depth:g} m)"
-            " or more; make it thinner (0: solid)."
+        table.refuse(
+            f"{section}, half the section ({width:g} x {depth:g} m) or more; make it thinner (0: solid)"
         )
-    return Box(name=name, mass=mass, start=start, end=end, width=width, depth=depth, wall=wall)
+    return Box(**common, width=width, depth=depth, wall=wall)
+
+
+SHAPES: Mapping[str, Callable[[FileTable, dict[str, Any]], Member]] = {"tube": _tube, "box": _box}

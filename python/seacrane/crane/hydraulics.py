@@ -16,6 +16,7 @@ from seacrane.crane.mass_properties import Tube
 from seacrane.crane.pose import extent_of
 from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import place_cylinder
+from seacrane.description.roles import require_cylinders
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 
@@ -32,12 +33,7 @@ def hydraulics_of(crane: Crane, given: Hydraulics | None) -> Hydraulics:
     if not isinstance(given, Mapping) or not all(isinstance(one, Mapping) for one in given.values()):
         example = ", ".join(f"{label!r}: {{...}}" for label in labels)
         raise SceneError(f"crane: hydraulics are {shown(given)}; give {{{example}}}")
-    for label in given:
-        if label not in labels:
-            raise SceneError(
-                f"crane: hydraulics are given of cylinder {label!r}; the cylinders are "
-                f"{', '.join(map(repr, labels)) or 'none'}"
-            )
+    require_cylinders("crane: hydraulics are", given, labels)
     return given
 
 
@@ -92,16 +88,10 @@ def _ends(crane: Crane, label: str, slide: JointData) -> dict[str, Any]:
         raise SceneError(
             f"{what}: is {length:.4g} m long at home, and its range_m begins {-low:.4g} m below; correct it"
         )
-    first, second = (
-        _in_body(crane, body, at) for body, at in zip((slide.first, slide.second), pins, strict=True)
-    )
+    frames = (crane.body(body).frame for body in (slide.first, slide.second))
+    first, second = (frame.axes.T @ (at - frame.origin) for frame, at in zip(frames, pins, strict=True))
     reach = {"retracted_length": length + low, "stroke": high - low}
     return {"first_point": first, "second_point": second} | reach
-
-
-def _in_body(crane: Crane, body: str, at: Array) -> Array:
-    frame = crane.body(body).frame
-    return np.asarray(frame.axes.T @ (at - frame.origin))
 
 
 def _areas(crane: Crane, label: str, slide: JointData, entries: Mapping[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from seacrane.crane.data import BodyData, CraneData, JointData, Placed
 from seacrane.crane.file_table import FileTable
 from seacrane.crane.mass_properties import combine
-from seacrane.errors import FileFormatError
 
 Array = NDArray[np.float64]
 CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
@@ -71,8 +70,7 @@ def knuckle_boom(root: FileTable) -> CraneData:
         _joint("knuckle_cylinder", "prismatic", "knuckle_barrel", "knuckle_rod", e,
                axis=along[1], range=(0.0, knuckle_stroke)),
     )  # fmt: skip
-    areas = {"main": main.areas(), "knuckle": knuckle.areas()}
-    oil = {"main": main.hydraulics(), "knuckle": knuckle.hydraulics()}
+    pistons = {"main": (main.areas(), main.hydraulics()), "knuckle": (knuckle.areas(), knuckle.hydraulics())}
     for table in tables:
         table.finish()
     return CraneData(
@@ -84,8 +82,8 @@ def knuckle_boom(root: FileTable) -> CraneData:
         cylinders=CYLINDERS,
         tip=("knuckle_jib", _space(tip)),
         capacity=root.capacity(),
-        areas={label: pair for label, pair in areas.items() if pair is not None},
-        hydraulics={label: entries for label, entries in oil.items() if entries is not None},
+        areas={label: pair for label, (pair, _) in pistons.items() if pair is not None},
+        hydraulics={label: oil for label, (_, oil) in pistons.items() if oil is not None},
         short_names=SHORT_NAMES,
     )
 
@@ -98,22 +96,22 @@ def _jib_angle(cylinder: FileTable, foot: Array, head: Array, least: float) -> t
     end of the stroke.
     """
     retracted, stroke = cylinder.number("retracted_length"), cylinder.number("stroke")
-    what, a, b = f"{cylinder.source}: {cylinder.where}", math.hypot(*foot), math.hypot(*head)
+    a, b = math.hypot(*foot), math.hypot(*head)
     if min(a, b) < APART:
-        raise FileFormatError(f"{what} is pinned at its jib's own pivot; move its pivot or head.")
+        cylinder.refuse(f"{cylinder.where} is pinned at its jib's own pivot; move its pivot or head")
     for at in (stroke, 0.0):
         length = retracted + at
         if not abs(a - b) <= length <= a + b:
-            raise FileFormatError(
-                f"{what} cannot reach stroke {at:g} m: its length there is {length:g} m, its pivots allow "
-                f"{abs(a - b):.4g} to {a + b:.4g} m; change retracted_length, stroke or a pivot."
+            cylinder.refuse(
+                f"{cylinder.where} cannot reach stroke {at:g} m: its length there is {length:g} m, its "
+                f"pivots allow {abs(a - b):.4g} to {a + b:.4g} m; change retracted_length, stroke or a pivot"
             )
         opening = math.acos(min(max((a**2 + b**2 - length**2) / (2.0 * a * b), -1.0), 1.0))
         lever = a * b * math.sin(opening) / length
         if lever < least:
-            raise FileFormatError(
-                f"{what} has a lever arm of {lever:.4g} m at stroke {at:g} m, near its dead centre; "
-                f"minimum_lever_arm is {least:g} m: change retracted_length, stroke or a pivot."
+            cylinder.refuse(
+                f"{cylinder.where} has a lever arm of {lever:.4g} m at stroke {at:g} m, near its dead "
+                f"centre; minimum_lever_arm is {least:g} m: change retracted_length, stroke or a pivot"
             )
     return math.atan2(foot[1], foot[0]) + opening - math.atan2(head[1], head[0]), stroke
 

@@ -4,28 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.check import check
 from seacrane.crane.crane import Crane
-from seacrane.crane.data import HOME, BodyData, CraneData, JointData, Placed, RopeData
-from seacrane.crane.file_table import FileTable, read_text, root_of
+from seacrane.crane.data import CLOSING, FREEDOMS, HOME, BodyData, CraneData, JointData, RopeData
+from seacrane.crane.file_table import FileTable, Frames, read_text, root_of
 from seacrane.crane.knuckle_boom import knuckle_boom
-from seacrane.crane.mass_properties import MassProperties, Point, combine
+from seacrane.crane.mass_properties import MassProperties, combine
+from seacrane.crane.pose import CLOSED, extent_of, pose_of
 from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
-from seacrane.errors import FileFormatError
-from seacrane.inputs.shown import shown
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.inputs.shown import listed, shown
 
 Array = NDArray[np.float64]
 TOTAL = 1e-9  # of the mass, by which the members may miss it
 SHIPPED = Path(__file__).resolve().parent.parent / "data" / "cranes"
 DEFAULT = "knuckle_boom_250t"
+ALIGNED = 1e-6  # cosine between the axes of a universal joint
+KEYWORDS = ("foot", "payload_mass", "gravity")  # of methods that take coordinates by their labels
 
 
 def load_crane(path: str | Path = DEFAULT) -> Crane:
@@ -80,64 +81,16 @@ def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = 
         case "urdf":
             data = _beside_urdf(root, folder or Path())
         case _:
-            raise FileFormatError(
-                f'{source}: kind is {shown(kind)}; write "knuckle-boom", "jointed" or "urdf".'
-            )
+            root.wrong("kind", kind, 'write "knuckle-boom", "jointed" or "urdf"')
     if kind != "urdf":  # which has the masses of its links alone
-        _check_total(source, data.bodies, root.number("total_mass"))
+        total, mass = root.number("total_mass"), math.fsum(body.properties.mass for body in data.bodies)
+        if abs(mass - total) > TOTAL * total:
+            root.refuse(
+                f"the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct a mass or total_mass"
+            )
     root.finish()
-    check(source, data)
+    _check(root, data)
     return Crane(data)
-
-
-@dataclass(frozen=True, eq=False)
-class Frames:
-    """Frame of every body by its name, and those of frames that are fixed to one, at home.
-
-    Attributes
-    ----------
-    placed : mapping of str to Placed
-    holder : mapping of str to str
-        The body that each frame is fixed to, where that is another.
-    """
-
-    placed: Mapping[str, Placed]
-    holder: Mapping[str, str] = field(default_factory=dict)
-
-    def body(self, name: str) -> str:
-        """The body that a frame is fixed to."""
-        return self.holder.get(name, name)
-
-    def point(self, table: FileTable, body: str, at: Point) -> Array:
-        """A point of a body's frame in the crane-foot frame at home, m."""
-        return self._of(table, body).point(np.array(at))
-
-    def axis(self, table: FileTable, body: str, key: str) -> Array:
-        """A unit vector in the crane-foot frame at home; FileFormatError for none."""
-        given = np.array(table.space_point(key))
-        length = float(np.linalg.norm(given))
-        if length == 0.0:
-            raise FileFormatError(
-                f"{table.source}: {table.label(key)} is all zero; write a direction, such as [0.0, 0.0, 1.0]."
-            )
-        return np.asarray(self._of(table, body).axes @ (given / length))
-
-    def _of(self, table: FileTable, body: str) -> Placed:
-        if body not in self.placed:
-            known = ", ".join(self.placed) or "none"
-            raise FileFormatError(
-                f"{table.source}: {table.where} names body {shown(body)}; the crane has {known}."
-            )
-        return self.placed[body]
-
-
-def _check_total(source: str, bodies: Iterable[BodyData], total: float) -> None:
-    mass = math.fsum(body.properties.mass for body in bodies)
-    if abs(mass - total) > TOTAL * total:
-        raise FileFormatError(
-            f"{source}: the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct a mass or "
-            "total_mass."
-        )
 
 
 def _jointed(root: FileTable) -> CraneData:
@@ -150,9 +103,8 @@ def _jointed(root: FileTable) -> CraneData:
 
 def _beside_urdf(root: FileTable, folder: Path) -> CraneData:
     """Bodies and joints are the URDF's, closing joints and roles those of the table."""
-    name, path = root.text("name"), folder / root.text("urdf")
-    tree = read_urdf(path)
-    return _with_roles(root, name, tree.root, tree.bodies, tree.joints, Frames(tree.placed, tree.owner))
+    name = root.text("name")
+    return _with_roles(root, name, *read_urdf(folder / root.text("urdf")))
 
 
 def _with_roles(
@@ -188,8 +140,7 @@ def _with_roles(
 
 def _body(table: FileTable) -> BodyData:
     """By its members, or by mass, centre of mass and inertia."""
-    name = table.text("name")
-    table.where = f"{table.where} ({name})"
+    name = table.named()
     if "members" in table.values:
         members = table.members("members")
         properties = combine(members)
@@ -208,16 +159,12 @@ def _given_mass(table: FileTable) -> MassProperties:
     except (TypeError, ValueError, OverflowError):
         inertia = np.zeros(0)
     if inertia.shape != (3, 3) or not np.all(np.isfinite(inertia)):
-        raise FileFormatError(
-            f"{table.source}: {table.label('inertia')} is {shown(rows)}; write three rows of three numbers, "
-            "kg m2, about the centre of mass."
-        )
+        table.wrong("inertia", rows, "write three rows of three numbers, kg m2, about the centre of mass")
     return MassProperties(mass, center, inertia)
 
 
 def _joint(table: FileTable, frames: Frames, *, closes: bool = False) -> JointData:
-    name, kind = table.text("name"), table.text("kind")
-    table.where = f"{table.where} ({name})"
+    name, kind = table.named(), table.text("kind")
     first, second = table.text("first"), table.text("second")
     point = frames.point(table, first, table.space_point("point"))
     axes = {
@@ -238,12 +185,10 @@ def _range(table: FileTable) -> tuple[float, float] | None:
     if not found:
         return None
     if len(found) > 1:
-        raise FileFormatError(f"{table.source}: {table.where} has {' and '.join(found)}; write one of them.")
+        table.refuse(f"{table.where} has {' and '.join(found)}; write one of them")
     low, high = table.point(found[0])
     if not low < high:
-        raise FileFormatError(
-            f"{table.source}: {table.label(found[0])} is {low:g} to {high:g}; write the lower end first."
-        )
+        table.refuse(f"{table.label(found[0])} is {low:g} to {high:g}; write the lower end first")
     return (math.radians(low), math.radians(high)) if found[0] == "range_deg" else (low, high)
 
 
@@ -266,13 +211,9 @@ def _place(table: FileTable, frames: Frames) -> tuple[str, Array]:
 
 
 def _rope(table: FileTable, frames: Frames) -> RopeData:
-    name = table.text("name")
-    table.where = f"{table.where} ({name})"
-    falls = table.number("falls")
+    name, falls = table.named(), table.number("falls")
     if falls != int(falls) or falls < 1:
-        raise FileFormatError(
-            f"{table.source}: {table.label('falls')} is {falls:g}; write a whole number, 1 or more."
-        )
+        table.refuse(f"{table.label('falls')} is {falls:g}; write a whole number, 1 or more")
     rope = RopeData(
         name=name,
         luff=table.text("luff"),
@@ -294,16 +235,126 @@ def _pistons(
     for table in root.tables("pistons"):
         label = table.text("cylinder")
         if label not in cylinders:
-            raise FileFormatError(
-                f"{table.source}: {table.label('cylinder')} is {shown(label)}; the cylinders are "
-                f"{', '.join(map(repr, cylinders)) or 'none'}."
-            )
+            known = ", ".join(map(repr, cylinders)) or "none"
+            table.wrong("cylinder", label, f"the cylinders are {known}")
         pair, entries = table.areas(), table.hydraulics()
         if pair is None and entries is None:
-            raise FileFormatError(
-                f"{table.source}: {table.where} has no areas; write full_area and rod_side_area, m2."
-            )
+            table.refuse(f"{table.where} has no areas; write full_area and rod_side_area, m2")
         areas |= {} if pair is None else {label: pair}
         oil |= {} if entries is None else {label: entries}
         table.finish()
     return areas, oil
+
+
+def _check(root: FileTable, data: CraneData) -> None:
+    """FileFormatError that names the item which does not fit."""
+    if not data.bodies:
+        root.refuse("has no bodies; write [[bodies]]")
+    _different(root, "body", (body.name for body in data.bodies))
+    _different(root, "joint", ("deck", "link", *(joint.name for joint in data.joints)))
+    for joint in data.joints:
+        _check_joint(root, joint)
+    _check_tree(root, data)
+    _check_closing(root, data)
+    _check_roles(root, data)
+    _check_ropes(root, data)
+    try:
+        pose_of(data, {})
+    except SceneError as error:
+        raise FileFormatError(f"{root.source}: {error}.") from error
+
+
+def _different(root: FileTable, what: str, names: Iterable[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            root.refuse(f"the name {shown(name)} is that of two; rename one {what}")
+        seen.add(name)
+
+
+def _check_joint(root: FileTable, joint: JointData) -> None:
+    what = f"joint {joint.name!r}"
+    if joint.kind not in FREEDOMS:
+        root.refuse(f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(FREEDOMS)}")
+    needs = {"revolute": 1, "prismatic": 1, "universal": 2}.get(joint.kind, 0)
+    has = [joint.axis is not None, joint.second_axis is not None]
+    if has != [needs > 0, needs > 1]:
+        wanted = ("no axis", "axis alone", "axis and second_axis")[needs]
+        root.refuse(f"{what}: a {joint.kind} joint takes {wanted}; correct its axes")
+    if needs == 2 and abs(float(np.dot(joint.axis, joint.second_axis))) > ALIGNED:  # type: ignore[arg-type]
+        root.refuse(f"{what}: axis and second_axis are not perpendicular; turn one of them")
+    if joint.range is not None and joint.kind not in ("revolute", "prismatic"):
+        root.refuse(f"{what}: a {joint.kind} joint has no range; leave it out")
+
+
+def _check_tree(root: FileTable, data: CraneData) -> None:
+    there, names = {data.root}, {data.root, *(one.name for one in data.bodies)}
+    for joint in data.tree.values():
+        for role, body in (("first", joint.first), ("second", joint.second)):
+            if body not in names:
+                known = listed([one.name for one in data.bodies])
+                root.refuse(f"joint {joint.name!r}: its {role} body is {shown(body)}; there are {known}")
+        if joint.first not in there:
+            root.refuse(
+                f"joint {joint.name!r}: nothing carries its first body {joint.first!r} yet; write "
+                "the joint that does before it"
+            )
+        if joint.second in there:
+            root.refuse(
+                f"joint {joint.name!r} closes a loop: something carries its second body "
+                f"{joint.second!r} already; write it as one of [[closing_joints]]"
+            )
+        there.add(joint.second)
+    loose = [body.name for body in data.bodies if body.name not in there]
+    if loose:
+        root.refuse(f"no joint carries body {loose[0]!r}; add one, or take it out")
+
+
+def _check_closing(root: FileTable, data: CraneData) -> None:
+    known = {data.root, *(body.name for body in data.bodies)}
+    for joint in data.closing_joints:
+        what = f"closing joint {joint.name!r}"
+        if joint.kind not in CLOSING:
+            root.refuse(f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(CLOSING)}")
+        if not {joint.first, joint.second} <= known or joint.first == joint.second:
+            root.refuse(
+                f"{what}: joins {shown(joint.first)} and {shown(joint.second)}; name two bodies of the crane"
+            )
+        if joint.range is not None:
+            root.refuse(f"{what}: has a range; give one to a joint of the tree")
+
+
+def _check_roles(root: FileTable, data: CraneData) -> None:
+    kinds = {name: joint.kind for name, joint in data.tree.items()}
+    wanted = {"luff": (data.luffs, "revolute"), "cylinder": (data.cylinders, "prismatic")}
+    slew = {} if data.slew is None else {"slew": data.slew}
+    for role, (joints, kind) in {"slew drive": (slew, "revolute"), **wanted}.items():
+        for label, joint in joints.items():
+            if kinds.get(joint) != kind:
+                fitting = listed([name for name, one in kinds.items() if one == kind]) or "none"
+                root.refuse(
+                    f"{role} {label!r} is joint {shown(joint)}, which is no {kind} joint of the "
+                    f"tree; there are {fitting}"
+                )
+    _different(root, "coordinate", [*KEYWORDS, *slew, *data.luffs, *data.cylinders])
+    if data.tip[0] not in {body.name for body in data.bodies}:
+        root.refuse(f"the tip is on {shown(data.tip[0])}; name a body of the crane")
+
+
+def _check_ropes(root: FileTable, data: CraneData) -> None:
+    _different(root, "rope's luff", (rope.luff for rope in data.ropes))
+    for rope in data.ropes:
+        what = f"rope {rope.name!r}"
+        if rope.luff not in data.luffs:
+            root.refuse(
+                f"{what}: holds luff {shown(rope.luff)}; the luffs are "
+                f"{listed([repr(name) for name in data.luffs]) or 'none'}"
+            )
+        beyond = data.beyond(data.luffs[rope.luff])
+        if rope.first[0] in beyond or rope.second[0] not in beyond:
+            root.refuse(
+                f"{what}: runs from {shown(rope.first[0])} to {shown(rope.second[0])}; its first body must "
+                f"be before hinge {data.luffs[rope.luff]!r} and its second beyond it"
+            )
+        if np.linalg.norm(rope.second[1] - rope.first[1]) < CLOSED * extent_of(data):
+            root.refuse(f"{what}: has no length at home; move one of its blocks")

@@ -7,32 +7,39 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+from numpy.typing import NDArray
 
-Array = npt.NDArray[np.float64]
+Array = NDArray[np.float64]
 UPRIGHT = 1e-9  # level part of a unit vector, below which it is upright
 Point = tuple[float, ...]
 """(x, y, z), m."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tube:
-    """Uniform circular tube from `start` to `end`.
-
-    Attributes
-    ----------
-    mass : float
-        kg.
-    start, end : (float, float, float)
-        Ends of the centre line in the body's frame, m.
-    outer_diameter, inner_diameter : float
-        m; inner 0 means a solid cylinder.
-    """
-
+class _Member:
     name: str
     mass: float
     start: Point
     end: Point
+
+    @property
+    def length(self) -> float:
+        """From end to end, m."""
+        return math.dist(self.start, self.end)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tube(_Member):
+    """Uniform circular tube from `start` to `end`.
+
+    Attributes
+    ----------
+    mass : kg.
+    start, end : (float, float, float)
+        Ends of the centre line in the body's frame, m.
+    outer_diameter, inner_diameter : m; inner 0 means a solid cylinder.
+    """
+
     outer_diameter: float
     inner_diameter: float
 
@@ -40,30 +47,24 @@ class Tube:
         """Moments about the member's own centre: along it, across its vertical plane, normal in it, kg m2."""
         squares = (self.outer_diameter**2 + self.inner_diameter**2) / 4.0
         axial = self.mass * squares / 2.0
-        transverse = self.mass * (3.0 * squares + _length(self) ** 2) / 12.0
+        transverse = self.mass * (3.0 * squares + self.length**2) / 12.0
         return axial, transverse, transverse
 
 
 @dataclass(frozen=True, kw_only=True)
-class Box:
+class Box(_Member):
     """Uniform rectangular box, solid or hollow with open ends, from `start` to `end`.
 
     Attributes
     ----------
-    mass : float
-        kg.
+    mass : kg.
     start, end : (float, float, float)
         Ends of the centre line in the body's frame, m.
     width, depth : float
         Section across the vertical plane of the member and in it, m; of an upright one along y and along x.
-    wall : float
-        Wall thickness, m; 0 means solid.
+    wall : Wall thickness, m; 0 means solid.
     """
 
-    name: str
-    mass: float
-    start: Point
-    end: Point
     width: float
     depth: float
     wall: float
@@ -75,12 +76,8 @@ class Box:
         area = w * d - hole_w * hole_d
         across = (d * w**3 - hole_d * hole_w**3) / (12.0 * area)  # mean of the squared lateral distance
         normal = (w * d**3 - hole_w * hole_d**3) / (12.0 * area)
-        along = _length(self) ** 2 / 12.0
-        return (
-            self.mass * (across + normal),
-            self.mass * (along + normal),
-            self.mass * (along + across),
-        )
+        along = self.length**2 / 12.0
+        return self.mass * (across + normal), self.mass * (along + normal), self.mass * (along + across)
 
 
 Member = Tube | Box
@@ -92,12 +89,9 @@ class MassProperties:
 
     Attributes
     ----------
-    mass : float
-        kg.
-    center_of_mass : ndarray, shape (3,)
-        From the body origin, m.
-    inertia : ndarray, shape (3, 3)
-        About the centre of mass, kg m2.
+    mass : kg.
+    center_of_mass : (3,) from the body origin, m.
+    inertia : (3, 3) about the centre of mass, kg m2.
     """
 
     mass: float
@@ -105,18 +99,12 @@ class MassProperties:
     inertia: Array
 
 
-def _length(member: Member) -> float:
-    return math.dist(member.start, member.end)
-
-
 def combine(members: Sequence[Member]) -> MassProperties:
     """Add up members, at least one, that form one rigid body, in the axes of their ends.
 
     The parallel-axis theorem carries each member to the common centre of mass.
     """
-    centres = [
-        (np.asarray(one.start, dtype=float) + np.asarray(one.end, dtype=float)) / 2.0 for one in members
-    ]
+    centres = [(np.array(one.start) + np.array(one.end)) / 2.0 for one in members]
     mass = math.fsum(member.mass for member in members)
     center = np.sum([one.mass * c for one, c in zip(members, centres, strict=True)], axis=0) / mass
     inertia = np.zeros((3, 3))
@@ -132,7 +120,7 @@ def combine(members: Sequence[Member]) -> MassProperties:
 
 def member_axes(member: Member) -> tuple[Array, Array, Array]:
     """Unit vectors along a member in space, across its vertical plane, and in that normal to it."""
-    axis = (np.asarray(member.end, dtype=float) - np.asarray(member.start, dtype=float)) / _length(member)
+    axis = (np.array(member.end) - np.array(member.start)) / member.length
     across = np.array([-axis[1], axis[0], 0.0])
     level = float(np.linalg.norm(across))
     across = np.array([0.0, 1.0, 0.0]) if level < UPRIGHT else across / level

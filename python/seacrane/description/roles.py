@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -65,13 +65,16 @@ def areas_by_label(what: str, given: Any, cylinders: Mapping[str, str]) -> dict[
     """Areas by the labels of cylinders."""
     if not isinstance(given, Mapping):
         raise SceneError(f"{what}: areas are {shown(given)}; give {{label: (full side, rod side)}}, m2")
-    for label in given:
-        if label not in cylinders:
-            raise SceneError(
-                f"{what}: areas are given of cylinder {label!r}; the cylinders are "
-                f"{', '.join(map(repr, cylinders)) or 'none'}"
-            )
+    require_cylinders(f"{what}: areas are", given, cylinders)
     return {label: areas_of(f"{what}: cylinder {label!r}", pair) for label, pair in given.items()}
+
+
+def require_cylinders(what: str, labels: Iterable[str], cylinders: Mapping[str, str]) -> None:
+    """SceneError for something that is given of a cylinder which is not there."""
+    for label in labels:
+        if label not in cylinders:
+            known = ", ".join(map(repr, cylinders)) or "none"
+            raise SceneError(f"{what} given of cylinder {label!r}; the cylinders are {known}")
 
 
 def pressure(force: ArrayLike, areas: Areas) -> Array:

@@ -10,7 +10,7 @@ from typing import Any
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
 from seacrane.crane.knuckle_boom import CYLINDERS
-from seacrane.crane.payload import Payload
+from seacrane.crane.parts import Payload
 from seacrane.description import elements
 from seacrane.description.curves import spline_curve
 from seacrane.description.hydraulic_cylinders import VALUES

@@ -13,9 +13,17 @@ from seacrane.crane.crane import Crane, Vector
 from seacrane.crane.data import MeshData, RopeData
 from seacrane.crane.hydraulics import add_hydraulics, hydraulics_of
 from seacrane.crane.load_crane import load_crane
-from seacrane.crane.parts import BodyRecord, CraneParts, JointRecord
-from seacrane.crane.payload import Payload
-from seacrane.crane.structure import FAR, STRUCTURE, UP, Lean, leaning
+from seacrane.crane.parts import (
+    FAR,
+    STRUCTURE,
+    UP,
+    BodyRecord,
+    CraneParts,
+    JointRecord,
+    Lean,
+    Payload,
+    leaning,
+)
 from seacrane.description.description import Description
 from seacrane.description.elements import add_driver, add_joint, add_spring
 from seacrane.description.roles import CraneRoles, LuffingRope

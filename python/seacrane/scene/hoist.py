@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.crane.payload import BOX_DRAG, SWING_RATIO
+from seacrane.crane.parts import BOX_DRAG, SWING_RATIO
 from seacrane.description.description import GROUND, KINDS, Description
 from seacrane.description.elements import add_joint
 from seacrane.description.loads import changed

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
-from seacrane.crane.payload import BOX_DRAG, SWING_RATIO
+from seacrane.crane.parts import BOX_DRAG, SWING_RATIO
 from seacrane.description.curves import spline_curve
 from seacrane.description.description import Description, require
 from seacrane.description.elements import put_load

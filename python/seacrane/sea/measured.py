@@ -141,16 +141,12 @@ class MeasuredWaves:
     @property
     def _kept(self) -> NDArray[np.bool_]:
         omega = self._harmonics
-        low = (
-            0.0
-            if self.minimum_omega is None
-            else number_of(f"{self._object}: minimum_omega", self.minimum_omega)
-        )
-        high = (
-            np.inf
-            if self.maximum_omega is None
-            else number_of(f"{self._object}: maximum_omega", self.maximum_omega)
-        )
+        low, high = (
+            usual if value is None else number_of(f"{self._object}: {name}", value)
+            for name, value, usual in (
+                ("minimum_omega", self.minimum_omega, 0.0), ("maximum_omega", self.maximum_omega, np.inf),
+            )
+        )  # fmt: skip
         return np.asarray((omega > 0.0) & (omega >= low) & (omega <= high))
 
     def band_passed(self) -> Array:

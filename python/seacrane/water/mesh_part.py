@@ -19,9 +19,15 @@ from seacrane.inputs.shown import shown
 from seacrane.warnings import MeshConvergenceWarning
 from seacrane.water.added_mass import ROUNDING, perforation_factor, ramp
 from seacrane.water.density import SEA_WATER, density_of
-from seacrane.water.mesh_volume import MeshShape, closed_mesh, volumes_below
-from seacrane.water.panel_added_mass import MOST_PANELS, PanelLadder, panel_ladder
-from seacrane.water.parts import LEAST_SLAM, MOST_PERFORATION, RAMP_KNOTS, Piece, TablePart
+from seacrane.water.panel_added_mass import (
+    MOST_PANELS,
+    MeshShape,
+    PanelLadder,
+    closed_mesh,
+    panel_ladder,
+    volumes_below,
+)
+from seacrane.water.parts import LEAST_SLAM, MOST_PERFORATION, RAMP_KNOTS, Piece, TablePart, share_of
 
 Array = NDArray[np.float64]
 
@@ -160,57 +166,44 @@ def from_mesh(
     with a surface without pressure, never falls with depth; where the solution does, the panels err.
     """
     what, triangles = closed_mesh(mesh, scale)
-    asked = _Asked.of(what, wetting, slam, perforation, panels)
+    hit = _checked(what, wetting, slam, perforation, panels)
     water, own = density_of(what, density), text_of(f"{what}: source", source, "")
     origin, turn = shaped_of(f"{what}: point", point, (3,)), shaped_of(f"{what}: axes", axes, (3, 3))
     shape = MeshShape.of(triangles)
     rungs = _draughts_of(what, draughts, float(shape.size[2]))
     if slam is not None and shape.flat <= 0.0:
         raise SceneError(f"{what}: slam is {slam:g}, and nothing of its bottom is flat; give wetting instead")
-    ladder = panel_ladder(what, shape, rungs, asked.panels)
-    table = DepthTable.of(ladder, shape, wetting=asked.wetting, slam=asked.slam)
-    depths, kept = table.depths(shape.kinks), water * perforation_factor(asked.perforation)
+    ladder = panel_ladder(what, shape, rungs, int(panels))
+    table = _DepthTable(ladder, shape, wetting=float(wetting), slam=hit)
+    depths, kept = table.depths(shape.kinks), water * perforation_factor(float(perforation))
     part = MeshPart(
         height=float(shape.size[2]), size=shape.size, depths=depths, drag_area=drag_area, density=water,
         volumes=volumes_below(shape.triangles, depths), added_masses=kept * table.fast(depths),
         low_frequency_added_masses=kept * table.slow(depths), mended=table.mended,
         panel_error=ladder.error, point=origin + turn @ shape.center, axes=turn,
-        source=_source(own, what, ladder, table, asked),
+        source=_source(own, what, ladder, table, hit),
     )  # fmt: skip
     _warn(what, part)
     return part
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Asked:
-    """Numbers that were given."""
-
-    wetting: float
-    slam: float
-    perforation: float
-    panels: int
-
-    @staticmethod
-    def of(what: str, wetting: Any, slam: Any, perforation: Any, panels: Any) -> _Asked:
-        if not 1.0 <= number_of(f"{what}: wetting", wetting) <= MOST_WETTING:
-            raise SceneError(
-                f"{what}: wetting is {number_of(what, wetting):g}; give 1, without pile-up, to "
-                f"{MOST_WETTING:g}, such as pi/2 of a wedge"
-            )
-        hit = LEAST_SLAM if slam is None else finite_of(f"{what}: slam", slam)
-        if hit < LEAST_SLAM:
-            raise SceneError(f"{what}: slam is {hit:g}; a C_S of {LEAST_SLAM:g} or more is meant (flat)")
-        if not 0.0 <= number_of(f"{what}: perforation", perforation) <= MOST_PERFORATION:
-            raise SceneError(
-                f"{what}: perforation is {perforation!r}; give a share from 0 to {MOST_PERFORATION:g}"
-            )
-        whole = isinstance(panels, int | np.integer) and not isinstance(panels, bool)
-        if not whole or not FEWEST_PANELS <= int(panels) <= MOST_PANELS:
-            raise SceneError(
-                f"{what}: panels is {shown(panels)}; give a whole number from {FEWEST_PANELS} to "
-                f"{MOST_PANELS}"
-            )
-        return _Asked(wetting=float(wetting), slam=hit, perforation=float(perforation), panels=int(panels))
+def _checked(what: str, wetting: Any, slam: Any, perforation: Any, panels: Any) -> float:
+    """C_S, once all numbers are what they must be."""
+    if not 1.0 <= number_of(f"{what}: wetting", wetting) <= MOST_WETTING:
+        raise SceneError(
+            f"{what}: wetting is {number_of(what, wetting):g}; give 1, without pile-up, to "
+            f"{MOST_WETTING:g}, such as pi/2 of a wedge"
+        )
+    hit = LEAST_SLAM if slam is None else finite_of(f"{what}: slam", slam)
+    if hit < LEAST_SLAM:
+        raise SceneError(f"{what}: slam is {hit:g}; a C_S of {LEAST_SLAM:g} or more is meant (flat)")
+    share_of(f"{what}: perforation", perforation, MOST_PERFORATION)
+    whole = isinstance(panels, int | np.integer) and not isinstance(panels, bool)
+    if not whole or not FEWEST_PANELS <= int(panels) <= MOST_PANELS:
+        raise SceneError(
+            f"{what}: panels is {shown(panels)}; give a whole number from {FEWEST_PANELS} to {MOST_PANELS}"
+        )
+    return hit
 
 
 def _draughts_of(what: str, draughts: Any, height: float) -> Array | None:
@@ -235,7 +228,7 @@ def _draughts_of(what: str, draughts: Any, height: float) -> Array | None:
     return values
 
 
-def _source(given: str, what: str, ladder: PanelLadder, table: DepthTable, asked: _Asked) -> str:
+def _source(given: str, what: str, ladder: PanelLadder, table: _DepthTable, slam: float) -> str:
     """Where the numbers of a part are from, and how far they can be trusted."""
     crossed = np.abs(ladder.unbounded - np.diag(np.diag(ladder.unbounded))).max()
     share = crossed / np.diag(ladder.unbounded).max()
@@ -245,8 +238,8 @@ def _source(given: str, what: str, ladder: PanelLadder, table: DepthTable, asked
         f"{what}, {ladder.code}, infinite frequency, {ladder.panels} panels at most (half of them: "
         f"{ladder.error:.1%}; mended by {table.mended:.1%})",
         f"at zero frequency {slower} times that at half its height",
-        f"wetting {asked.wetting:.4g}",
-        f"C_S {asked.slam:g}: DNV-RP-N103 (unverified)" if table.over > 0.0 else "",
+        f"wetting {table.wetting:.4g}",
+        f"C_S {slam:g}: DNV-RP-N103 (unverified)" if table.over > 0.0 else "",
         f"couplings of its axes up to {share:.1%} left out" if share > 0.02 else "",
     ]
     return "; ".join(part for part in parts if part)
@@ -265,9 +258,8 @@ def _warn(what: str, part: MeshPart) -> None:
             )
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class DepthTable:
-    """Added mass over density (m3) over depth, from a ladder.
+class _DepthTable:
+    """Added mass over density (m3) over depth, from a ladder of a mesh; wetting and C_S as of `from_mesh`.
 
     Attributes
     ----------
@@ -277,31 +269,19 @@ class DepthTable:
     mended : largest change of added mass so that it grows, over the largest of all.
     """
 
-    height: float
-    wetting: float
-    over: float
-    mended: float
-    rungs: Array
-    added: Array
-    low: Array
-
-    @staticmethod
-    def of(ladder: PanelLadder, shape: MeshShape, *, wetting: float, slam: float) -> DepthTable:
-        """Of a ladder of a mesh; wetting and C_S as of `from_mesh`."""
+    def __init__(self, ladder: PanelLadder, shape: MeshShape, *, wetting: float, slam: float) -> None:
         size, flat = shape.size, shape.flat
         last, root = float(ladder.draughts[-1]), float(np.sqrt(size[0] * size[1]))
-        rungs = np.concatenate([[0.0], ladder.draughts, [last + max(last - size[2], root)]])
+        self.height, self.wetting = float(size[2]), wetting
+        self.rungs = np.concatenate([[0.0], ladder.draughts, [last + max(last - size[2], root)]])
         deep = np.diag(ladder.unbounded)
         touch = at_touch(ladder.draughts, ladder.added, flat)
         solved = np.concatenate([touch[None], ladder.added, deep[None]])
-        grown = np.maximum.accumulate(np.clip(solved, 0.0, deep), axis=0)
+        self.added = np.maximum.accumulate(np.clip(solved, 0.0, deep), axis=0)
+        self.over = 2.0 * touch[2] / (slam * flat) if flat > 0.0 else 0.0
+        self.mended = float(np.max(np.abs(self.added - solved)) / deep.max())
         slow = at_touch(ladder.draughts, ladder.low, flat)
-        return DepthTable(
-            height=float(size[2]), wetting=wetting, rungs=rungs, added=grown,
-            over=2.0 * touch[2] / (slam * flat) if flat > 0.0 else 0.0,
-            mended=float(np.max(np.abs(grown - solved)) / deep.max()),
-            low=np.concatenate([slow[None], ladder.low, deep[None]]),
-        )  # fmt: skip
+        self.low = np.concatenate([slow[None], ladder.low, deep[None]])
 
     def depths(self, kinks: Array) -> Array:
         """Depths for splines through volumes and added masses, beside kinks of the volume too."""

@@ -165,8 +165,8 @@ class BoxPart(_Part):
         _check_strips(self.kind, self.strips, 2)
         _check_slam(self.kind, self.slam, LEAST_SLAM)
         not_negative_of(f"{self.kind}: drag", self.drag)
-        _share_of(f"{self.kind}: perforation", self.perforation, MOST_PERFORATION)
-        _share_of(f"{self.kind}: fill", self.fill, 1.0)
+        share_of(f"{self.kind}: perforation", self.perforation, MOST_PERFORATION)
+        share_of(f"{self.kind}: fill", self.fill, 1.0)
         if self.added_mass is not None:
             for value in shaped_of(f"{self.kind}: added_mass", self.added_mass, (3,)):
                 not_negative_of(f"{self.kind}: added_mass", value, "kg")
@@ -589,6 +589,6 @@ def _length_of(what: str, value: Any) -> None:
         raise SceneError(f"{what} is {value:g} m; give a length in m, of {LONGEST:g} at the most")
 
 
-def _share_of(what: str, value: Any, most: float) -> None:
+def share_of(what: str, value: Any, most: float) -> None:
     if not 0.0 <= number_of(what, value) <= most:
         raise SceneError(f"{what} is {value!r}; give a share from 0 to {most:g}")

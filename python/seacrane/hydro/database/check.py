@@ -18,7 +18,7 @@ from seacrane.hydro.data.relations import (
     resolved_by_headings,
 )
 from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
-from seacrane.hydro.memory.motion_errors import memory_motion_errors
+from seacrane.hydro.memory.motion_judge import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel
 from seacrane.hydro.vessel.parameters import largest_growth_rate
 from seacrane.inputs.frames import MOTIONS

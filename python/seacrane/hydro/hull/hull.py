@@ -12,11 +12,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_hydrostatics, triangles_of
-from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
-from seacrane.hydro.hull.panels import along, cut_panels, end_cap, fractions, lofted, without_slivers
+from seacrane.hydro.hull.panels import (
+    Slice,
+    along,
+    cut_panels,
+    end_cap,
+    fractions,
+    lofted,
+    mesh_triangles,
+    require_closed,
+    slices,
+    without_slivers,
+)
 from seacrane.hydro.hull.parametric_hull import ParametricHull
-from seacrane.hydro.hull.sections import Slice, slices
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.mesh_files import read_stl
@@ -108,7 +117,7 @@ class Hull:
         return self.moved(-float(self.hydrostatics.center_of_buoyancy[0]))
 
     def sections(self, x: ArrayLike) -> list[Slice]:
-        """Half sections at the stations ``x`` (s,) in m; see `seacrane.hydro.hull.sections.slices`."""
+        """Half sections at the stations ``x`` (s,) in m; see `seacrane.hydro.hull.panels.slices`."""
         return slices(self.name, self.panels, np.asarray(x, dtype=float))
 
     def remeshed(self, *, stations: int, girth: int) -> Hull:
@@ -186,7 +195,7 @@ class Hull:
 
         Raises
         ------
-        ValueError : as `seacrane.hydro.hull.mesh` (open, overlapping or badly oriented) and `Hull`.
+        ValueError : as `seacrane.hydro.hull.panels` (open, overlapping or badly oriented) and `Hull`.
         """
         triangles = mesh_triangles(name, vertices, faces)
         _require_metres(name, triangles)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,10 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.hull.by_capytaine import capytaine_solution
 from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.parametric_hull import ParametricHull
-from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
+from seacrane.hydro.hull.solution import HullSolution, capytaine_solution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.frames import MOTIONS
@@ -110,8 +109,10 @@ def hydro_from_hull(
     _require_afloat(shape, _restoring(shape, weight, centre, rho, g), displaced, weight, centre, g)
 
     def solve(mesh: Hull) -> HullSolution:
-        found = _solution(mesh, method, frequencies, headings, rho, g, stations)
-        return symmetric_solution(found, heading=headings, reciprocal=True)
+        given: dict[str, Any] = {"omega": frequencies, "heading": headings, "rho": rho, "g": g}
+        if method == "capytaine":
+            return symmetric_solution(capytaine_solution(mesh, **given), headings)
+        return symmetric_solution(strip_solution(mesh, stations=stations, **given), headings)
 
     solution = solve(shape)
     if check:
@@ -177,27 +178,8 @@ def database_of_solution(
     return bare.with_roll_damping(fraction=roll_damping_fraction)
 
 
-def _solution(
-    hull: Hull,
-    method: str,
-    omega: FloatArray,
-    heading: FloatArray,
-    rho: float,
-    g: float,
-    stations: int,
-) -> HullSolution:
-    """By the method asked for."""
-    if method == "capytaine":
-        return capytaine_solution(hull, omega=omega, heading=heading, rho=rho, g=g)
-    return strip_solution(hull, omega=omega, heading=heading, rho=rho, g=g, stations=stations)
-
-
 def _source(
-    hull: Hull,
-    solution: HullSolution,
-    mass: float,
-    centre: FloatArray,
-    roll_damping_fraction: float,
+    hull: Hull, solution: HullSolution, mass: float, centre: FloatArray, roll_damping_fraction: float
 ) -> str:
     statics = hull.hydrostatics
     text = (
@@ -297,8 +279,7 @@ def strip_solution(
     heading: FloatArray,
     rho: float,
     g: float,
-    speed: float = 0.0,
-    stations: int = 41,
+    stations: int,
 ) -> HullSolution:
     """Radiation and excitation from even stations, both ends included.
 
@@ -328,7 +309,7 @@ def strip_solution(
         sections=[s.section for s in cut],
         omega=omega,
         heading=heading,
-        speed=speed,
+        speed=0.0,
         rho=rho,
         g=g,
         panels=PANELS,
@@ -347,19 +328,10 @@ def strip_solution(
     )
 
 
-def coarser(hull: Hull) -> Hull:
-    """The hull with about half the panels, even ones."""
-    size = np.sqrt(2.0) * hull.panel_size
-    girth = 0.5 * (hull.breadth + 2.0 * hull.draught)
-    return hull.remeshed(
-        stations=max(FEWEST, round(hull.length / size)), girth=max(FEWEST // 2, round(girth / size))
-    )
-
-
 def convergence_told(
     hull: Hull, solution: HullSolution, solve: Callable[[Hull], HullSolution], inside: NDArray[np.bool_]
 ) -> str:
-    """What changes with half the panels, as the end of a database's `source`.
+    """What changes with about half the panels, even ones, as the end of a database's `source`.
 
     ``solve`` solves the coarse hull at the same frequencies, of which those ``inside`` (n,) count.
 
@@ -367,7 +339,10 @@ def convergence_told(
     -----
     MeshConvergenceWarning : an entry on the diagonal changes by more than 5 % of its largest.
     """
-    coarse = coarser(hull)
+    size, around = np.sqrt(2.0) * hull.panel_size, 0.5 * (hull.breadth + 2.0 * hull.draught)
+    coarse = hull.remeshed(
+        stations=max(FEWEST, round(hull.length / size)), girth=max(FEWEST // 2, round(around / size))
+    )
     other = solve(coarse)
     changes = {
         f"{symbol}{i + 1}{i + 1}": _change(getattr(solution, name), getattr(other, name), i, inside)

@@ -1,24 +1,30 @@
-"""Quadrilateral panels of hulls: cut at a plane, lofted through half sections, closed at the ends.
+"""Panels of hulls: cut at a plane, lofted through half sections, closed at the ends, sliced across.
 
 Panels are (n, 4, 3) in m with normals into the water; a triangle repeats its last vertex. A half section is
-(p, 2), y and z from the waterline to the keel, port.
+(p, 2), y and z from the waterline to the keel, port. Meshes from outside are triangles (n, 3, 3), whose
+vertices are joined, and of which what has to be true before they are a hull is asked for.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.hull.hydrostatics import area_vectors, triangles_of
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 MIRROR = np.array([1.0, -1.0, 1.0])
 SAME_FRACTION = 1e-9  # of a section's length
 MOST_RINGS = 20
 NO_AREA = 1e-12  # of the square of the hull's size
+MERGE = 1e-7  # of the size: vertices closer than this are one
+ON_PLANE = 1e-7  # of the length: closer points are one, or on the waterline, or on the centre line
+NEXT_TO_PLANE = 10.0  # of that: vertices this close to a slice are on it, so that their edges meet there
 
 
 def cut_panels(panels: FloatArray, *, axis: int, side: int, tolerance: float) -> FloatArray:
@@ -117,3 +123,203 @@ def without_slivers(panels: FloatArray) -> FloatArray:
         return panels
     area = np.linalg.norm(area_vectors(triangles_of(panels)), axis=1).reshape(2, -1).sum(axis=0)
     return np.asarray(panels[area > NO_AREA * np.ptp(panels.reshape(-1, 3), axis=0).max() ** 2])
+
+
+def merged_points(points: FloatArray, tolerance: float) -> IntArray:
+    """Label (n,) of each point (n, d); points closer than ``tolerance`` share one."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    pairs = cKDTree(points).query_pairs(tolerance, output_type="ndarray")
+    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
+    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+
+
+def mesh_triangles(name: str, vertices: ArrayLike, faces: ArrayLike) -> FloatArray:
+    """Triangles (n, 3, 3) of a mesh of triangles or quadrilaterals.
+
+    Raises ValueError: wrong shapes, a vertex that is not finite, or a face with an index out of range.
+    """
+    points, corners = np.asarray(vertices, dtype=float), np.asarray(faces)
+    if points.ndim != 2 or points.shape[1] != 3 or len(points) == 0:
+        raise ValueError(f"hull {name!r}: vertices have shape {points.shape}; give (n, 3), x y z in m")
+    if corners.ndim != 2 or corners.shape[1] not in (3, 4) or len(corners) == 0:
+        raise ValueError(f"hull {name!r}: faces have shape {corners.shape}; give (n, 3) or (n, 4) indices")
+    if not np.issubdtype(corners.dtype, np.integer):
+        raise ValueError(f"hull {name!r}: faces are {corners.dtype}; give integer indices of vertices")
+    if corners.min() < 0 or corners.max() >= len(points):
+        wrong = int(corners.min() if corners.min() < 0 else corners.max())
+        raise ValueError(
+            f"hull {name!r}: a face names vertex {wrong} of {len(points)}; indices start at 0 "
+            "(files that start at 1 need 1 subtracted)"
+        )
+    if not np.all(np.isfinite(points)):
+        bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+        raise ValueError(f"hull {name!r}: vertex {bad} is {points[bad]}; give finite coordinates in m")
+    if corners.shape[1] == 4:
+        corners = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+    return np.asarray(points[corners])
+
+
+def require_closed(name: str, triangles: FloatArray) -> FloatArray:
+    """The triangles (n, 3, 3) of a hull with joined vertices, once they are known to be closed below z = 0.
+
+    Raises
+    ------
+    ValueError : an edge below the waterline with one face or more than two, or two faces that run along
+        their common edge in the same direction; names the number of edges and the place of the first.
+    """
+    return closed_below(f"hull {name!r}", triangles, 0.0, " below the waterline")
+
+
+def closed_below(what: str, triangles: FloatArray, level: float, where: str) -> FloatArray:
+    """As `require_closed`, of any surface below z = `level`, m, which messages call `where`."""
+    flat = triangles.reshape(-1, 3)
+    tolerance = MERGE * float(np.ptp(flat, axis=0).max())
+    labels = merged_points(flat, tolerance)
+    points = flat[np.unique(labels, return_index=True)[1]]
+    faces = labels.reshape(-1, 3)
+    distinct = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
+    faces = _without_cancelling(faces[distinct])
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    wet = points[edges][..., 2].min(axis=1) < level - tolerance
+    _require_pairs(what, where, points, edges[wet])
+    return np.asarray(points[faces])
+
+
+def _without_cancelling(faces: IntArray) -> IntArray:
+    """The faces without back-to-back pairs on the same vertices: where both sides of a stem or fin meet."""
+    sense = np.sign(np.prod(faces - np.roll(faces, 1, axis=1), axis=1))
+    same, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)[1:]
+    balance = np.bincount(same.ravel(), weights=sense)
+    return np.asarray(faces[((count != 2) | (balance != 0.0))[same.ravel()]])
+
+
+def _require_pairs(what: str, where: str, points: FloatArray, edges: IntArray) -> None:
+    """Every edge run through once in each direction."""
+    low, high = edges.min(axis=1), edges.max(axis=1)
+    pairs, which, count = np.unique(
+        np.column_stack([low, high]), axis=0, return_inverse=True, return_counts=True
+    )
+    balance = np.bincount(which.ravel(), weights=np.where(edges[:, 0] < edges[:, 1], 1.0, -1.0))
+    problems = (
+        (count == 1, f"have one face only: the surface is open; close it{where} (a mesh of one half needs "
+                     "mirroring)"),
+        (count > 2, "have more than two faces: surfaces overlap or touch; give one outer skin"),
+        (balance != 0.0, "have two faces whose normals disagree; orient all faces outwards"),
+    )  # fmt: skip
+    for wrong, problem in problems:
+        if np.any(wrong):
+            at = points[pairs[int(np.flatnonzero(wrong)[0])]].mean(axis=0)
+            raise ValueError(
+                f"{what}: {int(wrong.sum())} edges{where}, the first near x = {at[0]:.4g}, y = {at[1]:.4g}, "
+                f"z = {at[2]:.4g} m, {problem}"
+            )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Slice:
+    """Half section (p, 2) of y and z in m, waterline to keel, and the area (m2) of the half that hangs apart.
+
+    ``section`` is three points at the origin where nothing pierces the surface. ``apart`` is the area of what
+    is wholly under water: a bulb ahead of the stem, a pod.
+    """
+
+    section: FloatArray
+    apart: float
+
+
+def slices(name: str, panels: FloatArray, x: FloatArray) -> list[Slice]:
+    """Slices of a symmetric wetted surface (n, 4, 3) at the stations ``x`` (s,) in m.
+
+    Stations on the foremost and aftmost point give the hull's ends.
+
+    Raises
+    ------
+    ValueError : a section that pierces the surface more than once on each side (several hulls), or whose
+        outline does not close.
+    """
+    length = float(np.ptp(panels[..., 0]))
+    tolerance = ON_PLANE * length
+    port = triangles_of(cut_panels(panels, axis=1, side=1, tolerance=tolerance))
+    middle = 0.5 * float(panels[..., 0].min() + panels[..., 0].max())
+    return [_slice(name, port, float(station), station < middle, tolerance) for station in x]
+
+
+def _slice(name: str, triangles: FloatArray, x: float, aft: bool, tolerance: float) -> Slice:
+    """One slice; vertices on the plane count to the nearer end, so that the end itself is a section."""
+    chains = _chains(name, x, _segments(triangles, x, aft, tolerance), tolerance)
+    piercing = [_downwards(c) for c in chains if max(c[0, 1], c[-1, 1]) >= -tolerance]
+    piercing = [c for c in piercing if c[:, 1].min() < -tolerance]  # else: a bottom that just comes up
+    apart = sum(_half_area(c) for c in chains if max(c[0, 1], c[-1, 1]) < -tolerance)
+    if not piercing:
+        return Slice(section=np.zeros((3, 2)), apart=apart)
+    if len(piercing) > 1 or piercing[0][-1, 0] > tolerance:
+        raise ValueError(
+            f"hull {name!r}: the section at x = {x:.6g} m meets the waterline more than once on each side, "
+            "or does not end on the centre line; strip theory and remeshing take one hull: use "
+            "method='capytaine' with the mesh as it is"
+        )
+    section = piercing[0]
+    section[0, 1] = section[-1, 0] = 0.0
+    if len(section) == 2:
+        section = np.array([section[0], section.mean(axis=0), section[1]])
+    return Slice(section=np.column_stack([np.maximum(section[:, 0], 0.0), section[:, 1]]), apart=apart)
+
+
+def _segments(triangles: FloatArray, x: float, aft: bool, tolerance: float) -> FloatArray:
+    """Directed segments (m, 2, 2) of y, z in which the triangles meet the plane."""
+    distance = triangles[..., 0] - x
+    distance[np.abs(distance) <= NEXT_TO_PLANE * tolerance] = 0.0
+    ahead = distance > 0.0 if aft else distance >= 0.0
+    cut = ahead.any(axis=1) & ~ahead.all(axis=1)
+    t, d, front = triangles[cut], distance[cut], ahead[cut]
+    out = np.empty((len(t), 2, 2))
+    for i in range(3):
+        j = (i + 1) % 3
+        for slot, leaves in ((0, front[:, i] & ~front[:, j]), (1, ~front[:, i] & front[:, j])):
+            share = d[leaves, i] / (d[leaves, i] - d[leaves, j])
+            a, b = t[leaves, i, 1:], t[leaves, j, 1:]
+            out[leaves, slot] = a + share[:, None] * (b - a)
+    return out
+
+
+def _chains(name: str, x: float, segments: FloatArray, tolerance: float) -> list[FloatArray]:
+    """Segments joined end to start; a closed chain repeats its first point."""
+    if len(segments) == 0:
+        return []
+    labels = merged_points(segments.reshape(-1, 2), tolerance).reshape(-1, 2)
+    real = labels[:, 0] != labels[:, 1]
+    labels, segments = labels[real], segments[real]
+    following = {int(start): i for i, start in enumerate(labels[:, 0])}
+    if len(following) < len(labels):
+        raise ValueError(
+            f"hull {name!r}: the outline of the section at x = {x:.6g} m touches itself; repair the surface "
+            "there"
+        )
+    ends = set(labels[:, 1].tolist())
+    heads = [i for start, i in following.items() if start not in ends]
+    chains = []
+    while following:
+        i = heads.pop() if heads else next(iter(following.values()))
+        chain = [segments[i, 0]]
+        while (found := following.pop(int(labels[i, 0]), None)) is not None:
+            chain.append(segments[found, 1])
+            if (after := following.get(int(labels[found, 1]))) is None:
+                break
+            i = after
+        chains.append(np.array(chain))
+    return chains
+
+
+def _downwards(chain: FloatArray) -> FloatArray:
+    """The chain from its end on the waterline."""
+    return chain if chain[0, 1] >= chain[-1, 1] else chain[::-1].copy()
+
+
+def _half_area(chain: FloatArray) -> float:
+    """Area (m2) between a chain and the centre line."""
+    y, z = np.append(chain[:, 0], 0.0), np.append(chain[:, 1], chain[-1, 1])
+    y, z = np.append(y, 0.0), np.append(z, chain[0, 1])
+    return float(0.5 * abs(np.sum(y * np.roll(z, -1) - z * np.roll(y, -1))))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.hull.hydrostatics import panel_hydrostatics
+from seacrane.hydro.hull.panels import mirrored
 
 FloatArray = NDArray[np.float64]
 
@@ -85,9 +86,7 @@ class ParametricHull:
             port[i, :, 1:] = self.section(float(station), girth)
         corners = [port[:-1, :-1], port[1:, :-1], port[1:, 1:], port[:-1, 1:]]
         side = np.stack(corners, axis=2).reshape(-1, 4, 3)
-        mirror = np.array([1.0, -1.0, 1.0])
-        starboard = (side * mirror)[:, [0, 3, 2, 1]]
-        return np.concatenate([side, starboard, _transom_panels(port[0])])
+        return np.concatenate([side, mirrored(side), _transom_panels(port[0])])
 
     def scaled_to_volume(self, volume: float, *, stations: int, girth: int) -> ParametricHull:
         """Hull whose panel mesh encloses ``volume`` (m3), by solving the entrance length, origin at its LCB.
@@ -121,8 +120,7 @@ def _transom_panels(edge: FloatArray) -> FloatArray:
     strips = np.stack([top[1:-1], edge[1:-1], edge[2:], top[2:]], axis=1)
     # The outermost strip would be a sliver: it is joined to its neighbour.
     strips[0, 0], strips[0, 1] = edge[0], edge[1]
-    starboard = (strips * np.array([1.0, -1.0, 1.0]))[:, [0, 3, 2, 1]]
-    return np.concatenate([strips, starboard])
+    return np.concatenate([strips, mirrored(strips)])
 
 
 def _bisect(function: Callable[[float], float], low: float, high: float) -> float:

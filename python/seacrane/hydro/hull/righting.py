@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
-from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
-from seacrane.hydro.hull.panels import cut_panels
+from seacrane.hydro.hull.panels import cut_panels, mesh_triangles, require_closed
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
 from seacrane.plotting.table import Answer, Column, Table
@@ -26,18 +25,12 @@ class RightingArms(Answer):
 
     Attributes
     ----------
-    heel : ndarray, shape (n,)
-        rad; positive lifts port.
-    GZ : ndarray, shape (n,)
-        m; positive brings the hull back from a positive heel.
-    sinkage : ndarray, shape (n,)
-        By which the origin is lower than upright, m.
-    trim : ndarray, shape (n,)
-        rad; positive lowers the bow.
-    volume : float
-        Displaced, m3.
-    GM : float
-        Upright, from the waterplane, m.
+    heel : (n,) rad; positive lifts port.
+    GZ : (n,) m; positive brings the hull back from a positive heel.
+    sinkage : (n,) by which the origin is lower than upright, m.
+    trim : (n,) rad; positive lowers the bow.
+    volume : Displaced, m3.
+    GM : Upright, from the waterplane, m.
     """
 
     heel: FloatArray

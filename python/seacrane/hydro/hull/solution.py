@@ -1,16 +1,23 @@
-"""What a method of hydrodynamics finds for a hull, and how it is made symmetric."""
+"""What a method of hydrodynamics finds for a hull, how it is made symmetric, and the panels of Capytaine."""
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.hull.hull import Hull
+from seacrane.hydro.readers.capytaine import MOTION_NAMES
+
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
-
 ALONG = 1e-9  # rad: headings this close to 0 or 180 deg are along the ship
+MOST_PANELS = 8000  # 16 bytes for each pair of panels, two matrices: 2 GB
+PANELS_PER_WAVE = 8.0
+LID_PANEL = 1.2  # of the hull's panels
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -35,21 +42,20 @@ class HullSolution:
     trusted_band: tuple[float, float]
 
 
-def symmetric_solution(solution: HullSolution, *, heading: FloatArray, reciprocal: bool) -> HullSolution:
-    """The solution with what port-starboard symmetry forbids set to zero, and its text saying how much.
+def symmetric_solution(solution: HullSolution, heading: FloatArray) -> HullSolution:
+    """The solution with symmetric matrices, and zero where port-starboard symmetry forbids it to be other.
 
-    ``reciprocal``: the matrices are made symmetric too, as they are at zero speed.
+    Its text says how much that took.
     """
-    limits = [m for m in (solution.added_mass_zero, solution.added_mass_infinite) if m is not None]
-    limits = [_symmetrised(limit, reciprocal) for limit in limits]
-    removed = max(_asymmetry(m, reciprocal) for m in (solution.added_mass, solution.damping))
+    zero = solution.added_mass_zero
+    removed = max(_asymmetry(m) for m in (solution.added_mass, solution.damping))
     force, noise = _symmetrised_force(solution.force, heading)
     return replace(
         solution,
-        added_mass=_symmetrised(solution.added_mass, reciprocal),
-        damping=_symmetrised(solution.damping, reciprocal),
-        added_mass_zero=None if solution.added_mass_zero is None else limits[0],
-        added_mass_infinite=limits[-1],
+        added_mass=_symmetrised(solution.added_mass),
+        damping=_symmetrised(solution.damping),
+        added_mass_zero=None if zero is None else _symmetrised(zero),
+        added_mass_infinite=_symmetrised(solution.added_mass_infinite),
         force=force,
         method=(
             f"{solution.method}; matrices made symmetric, which removed up to {removed:.4f} of the geometric "
@@ -59,18 +65,18 @@ def symmetric_solution(solution: HullSolution, *, heading: FloatArray, reciproca
     )
 
 
-def _symmetrised(matrix: FloatArray, reciprocal: bool) -> FloatArray:
+def _symmetrised(matrix: FloatArray) -> FloatArray:
     """(..., 6, 6) without the entries that port-starboard symmetry forbids; its symmetric part."""
     parity = np.arange(6) % 2
     kept = np.where(parity[:, None] == parity, matrix, 0.0)
-    return 0.5 * (kept + kept.swapaxes(-1, -2)) if reciprocal else kept
+    return np.asarray(0.5 * (kept + kept.swapaxes(-1, -2)))
 
 
-def _asymmetry(matrix: FloatArray, reciprocal: bool) -> float:
+def _asymmetry(matrix: FloatArray) -> float:
     """Largest change by `_symmetrised`, by the geometric mean of the largest diagonals."""
     scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)).max(axis=0))
     product = np.outer(scale, scale)
-    change = np.abs(matrix - _symmetrised(matrix, reciprocal))
+    change = np.abs(matrix - _symmetrised(matrix))
     return float((change / np.where(product > 0.0, product, 1.0)).max())
 
 
@@ -81,3 +87,86 @@ def _symmetrised_force(force: ComplexArray, heading: FloatArray) -> tuple[Comple
     largest = np.abs(force).max(axis=(0, 1))
     change = np.abs(force - clean).max(axis=(0, 1))
     return clean, float((change / np.where(largest > 0.0, largest, 1.0)).max())
+
+
+def capytaine_solution(
+    hull: Hull,
+    *,
+    omega: FloatArray,
+    heading: FloatArray,
+    rho: float,
+    g: float,
+    lid_panel_radius: float | None = None,
+) -> HullSolution:
+    """Radiation and diffraction with a lid on the waterplane against irregular frequencies.
+
+    The trusted band ends where the wave is eight panels long.
+
+    Raises
+    ------
+    ImportError : Capytaine is not installed.
+    ValueError : too many panels for the memory of a computer.
+    """
+    capytaine = import_capytaine("method 'capytaine'", "use method 'strip', which needs nothing")
+    if len(hull.panels) > MOST_PANELS:
+        raise ValueError(
+            f"hull {hull.name!r}: {len(hull.panels)} panels are too many for Capytaine's dense matrices "
+            f"(limit {MOST_PANELS}); use hull.remeshed(stations=..., girth=...)"
+        )
+    vertices = hull.panels.reshape(-1, 3)
+    faces = np.arange(len(vertices)).reshape(-1, 4)
+    mesh = capytaine.Mesh(vertices=vertices, faces=faces, name=hull.name)
+    lid = mesh.generate_lid(faces_max_radius=lid_panel_radius or LID_PANEL * hull.panel_size)
+    dofs = capytaine.rigid_body_dofs(rotation_center=(0.0, 0.0, 0.0))
+    body = capytaine.FloatingBody(mesh=mesh, lid_mesh=lid, dofs=dofs, name=hull.name)
+    solved = _solved(capytaine, body, omega, heading, rho, g)
+    order = ("omega", "influenced_dof", "radiating_dof")
+    names = list(MOTION_NAMES)
+    matrices = {"influenced_dof": names, "radiating_dof": names}
+    added_mass = solved.added_mass.transpose(*order).sel(matrices)
+    damping = solved.radiation_damping.transpose(*order).sel(matrices).sel(omega=omega)
+    force = (solved.diffraction_force + solved.Froude_Krylov_force).sel(omega=omega, influenced_dof=names)
+    force = force.transpose("wave_direction", "omega", "influenced_dof")
+    shortest = PANELS_PER_WAVE * hull.panel_size
+    return HullSolution(
+        added_mass=added_mass.sel(omega=omega).values,
+        damping=damping.values,
+        added_mass_zero=added_mass.sel(omega=0.0).values,
+        added_mass_infinite=added_mass.sel(omega=np.inf).values,
+        force=np.conj(force.values),  # Capytaine's time factor is exp(-i omega t)
+        method=f"Capytaine {capytaine.__version__}, {mesh.nb_faces} hull and {lid.nb_faces} lid panels",
+        trusted_band=(float(omega[0]), float(np.sqrt(2.0 * np.pi * g / shortest))),
+    )
+
+
+def _solved(capytaine: Any, body: Any, omega: FloatArray, heading: FloatArray, rho: float, g: float) -> Any:
+    """Capytaine's dataset at the frequencies, at zero and at infinity (where it leaves out diffraction)."""
+    import xarray
+
+    wanted = xarray.Dataset(
+        coords={
+            "omega": np.concatenate([omega, [0.0, np.inf]]),
+            "radiating_dof": list(MOTION_NAMES),
+            "wave_direction": heading,
+            "water_depth": [np.inf],
+            "rho": [rho],
+            "g": g,
+        }
+    )
+    solved = capytaine.BEMSolver().fill_dataset(wanted, body, progress_bar=False)
+    for axis in ("omega", "wave_direction"):
+        if axis not in solved.dims:
+            solved = solved.expand_dims(axis)
+    return solved.squeeze([axis for axis in ("water_depth", "rho", "g") if axis in solved.dims], drop=True)
+
+
+def import_capytaine(what: str, instead: str) -> Any:
+    """The module, which reports errors alone; or an ImportError that says what to do."""
+    try:
+        import capytaine
+    except ImportError as error:
+        raise ImportError(
+            f"{what} needs Capytaine 3, which is not installed: pip install 'seacrane[hydro]'; or {instead}"
+        ) from error
+    logging.getLogger("capytaine").setLevel(logging.ERROR)
+    return capytaine

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +19,28 @@ from seacrane.hydro.data.memory_model import (
     MotionError,
     MotionFit,
 )
-from seacrane.hydro.memory.entries import dissipation_limit, memory_entries, motion_groups
-from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_order, r_squared
-from seacrane.hydro.memory.joined_oscillators import Parts, joined, with_more
-from seacrane.hydro.memory.joint_passivity import joint_passivity
+from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.memory.identification import (
+    IdentificationData,
+    RationalFit,
+    dissipation_limit,
+    fit_order,
+    fit_row,
+    memory_entries,
+    motion_groups,
+    symmetric,
+    within,
+)
 from seacrane.hydro.memory.motion_judge import MotionJudge, motion_judge
-from seacrane.hydro.memory.oscillator_motions import MotionData, MotionProblem, fit_to_motions
-from seacrane.hydro.memory.oscillators import GroupData, Oscillators
-from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states, realise
+from seacrane.hydro.memory.oscillators import (
+    MotionData,
+    MotionProblem,
+    Oscillators,
+    fit_to_motions,
+    joined,
+    with_more,
+)
+from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states, realise_pair
 from seacrane.hydro.memory.retardation import retardation_functions
 
 FloatArray = NDArray[np.float64]
@@ -59,12 +74,12 @@ def fit_by_motion(
     kept, left_out = felt_pairs(database, judge, limit)
     blocks: list[MemoryBlock] = []
     infinite = _constant(database, judge)
+    of_motions = partial(_Group, judge, grid, band, known)
     for group in motion_groups(kept):
-        fit = _Group(judge, grid, band, group, known)
-        model = fit.lowest_order(SHARE * limit, _by_hull(judge, grid, band, group, known, SHARE * limit))
-        block, inner = fit.block(model), fit.infinite(model)
-        blocks.append(block)
-        infinite[np.ix_(group, group)] = inner
+        fit = of_motions(group)
+        masses = fit.lowest_order(SHARE * limit, _by_hull(of_motions, group, SHARE * limit))
+        blocks.append(fit.block(masses))
+        infinite[np.ix_(group, group)] = fit.infinite(masses)
     if known is not None:
         infinite = known
     mass, stiffness = np.zeros_like(infinite), np.zeros_like(infinite)
@@ -72,7 +87,7 @@ def fit_by_motion(
         more, inertia, spring = _additional(database, part, judge, grid, band, 0.5 * limit)
         blocks += more
         mass, stiffness = mass + inertia, stiffness + spring
-    bare = MemoryModel(
+    model = MemoryModel(
         blocks=tuple(blocks),
         added_mass=infinite,
         additional_added_mass=mass,
@@ -82,7 +97,11 @@ def fit_by_motion(
         rows=(),
         passivity=joint_passivity(blocks, database.damping, band),
     )
-    return _judged(database, bare, judge, kept, limit, left_out)
+    floor = judge.error_of(retardation_functions(database=database)).worst
+    motion = MotionFit(limit=limit, error=judge.error_of(model), floor=floor, left_out=left_out)
+    rows = tuple(_rows(database, model, kept, motion.reached))
+    worst = min((min(row.r2_added_mass, row.r2_damping) for row in rows), default=1.0)
+    return dataclasses.replace(model, rows=rows, r2=max(worst, 0.0), motion=motion)
 
 
 def felt_pairs(
@@ -93,7 +112,7 @@ def felt_pairs(
     A panel code's noise in a pair that the hull's shape makes zero is such a pair. A motion that radiates
     nothing has no memory.
     """
-    added_mass, damping = (0.5 * (x + x.swapaxes(1, 2)) for x in (database.added_mass, database.damping))
+    added_mass, damping = symmetric(database.added_mass), symmetric(database.damping)
     pairs = [(min(pair), max(pair)) for pair in memory_entries(added_mass, damping, database.omega)]
     radiates = np.diagonal(damping, axis1=1, axis2=2).max(axis=0) > 0.0
     forbidden = [
@@ -138,13 +157,8 @@ def _grid(database: Hydrodynamics, judge: MotionJudge, band: tuple[float, float]
 
 
 def _by_hull(
-    judge: MotionJudge,
-    omega: FloatArray,
-    band: tuple[float, float],
-    group: list[int],
-    known: FloatArray | None,
-    limit: float,
-) -> Parts:
+    of_motions: Callable[[list[int]], _Group], group: list[int], limit: float
+) -> list[tuple[list[int], Oscillators]]:
     """Models of the motions that a hull alone keeps apart, where a group has motions of several hulls.
 
     Surge, heave and pitch of each hull, and sway, roll and yaw: a few masses each, found quickly.
@@ -154,10 +168,7 @@ def _by_hull(
         return []
     sets = [[m for m in group if m // 6 == hull and m % 2 == side] for hull in hulls for side in (0, 1)]
     return [
-        (
-            [group.index(m) for m in motions],
-            _Group(judge, omega, band, motions, known).lowest_order(limit, []),
-        )
+        ([group.index(m) for m in motions], of_motions(motions).lowest_order(limit, []))
         for motions in sets
         if motions
     ]
@@ -171,8 +182,8 @@ class _Group:
         judge: MotionJudge,
         omega: FloatArray,
         band: tuple[float, float],
-        group: list[int],
         known: FloatArray | None,
+        group: list[int],
     ) -> None:
         self.judge, self.group = judge, group
         a, b = (
@@ -180,17 +191,16 @@ class _Group:
         )
         self.scale = np.sqrt(np.maximum(b.max(axis=0).diagonal(), 1e-300))
         self.product = np.outer(self.scale, self.scale)
-        data = GroupData(
+        self.data = MotionData(
             omega=omega,
             added_mass=a / self.product,
             damping=b / self.product,
-            trusted=(omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9),
+            trusted=within(omega, band),
             added_mass_infinite=None if known is None else known[np.ix_(group, group)] / self.product,
+            lever=judge.lever(omega, group) * self.product[np.triu_indices(len(group))],
         )
-        pair = np.triu_indices(len(group))
-        self.data = MotionData(group=data, lever=judge.lever(omega, group) * self.product[pair])
 
-    def lowest_order(self, limit: float, parts: Parts) -> Oscillators:
+    def lowest_order(self, limit: float, parts: list[tuple[list[int], Oscillators]]) -> Oscillators:
         """Model of the fewest masses that keeps the limit, beginning with those of ``parts`` together."""
         best: tuple[float, Oscillators] | None = None
         model: Oscillators | None = None
@@ -210,6 +220,7 @@ class _Group:
         return best[1]
 
     def infinite(self, model: Oscillators) -> FloatArray:
+        """Infinite-frequency added mass (m, m) in SI units."""
         inner = MotionProblem(self.data, len(model.w)).infinite(model)
         return np.asarray(inner * self.product)
 
@@ -224,7 +235,7 @@ class _Group:
 
     def block(self, model: Oscillators) -> MemoryBlock:
         """Block in SI units; its states carry the root of an energy, ``|x|^2 / 2`` in joule."""
-        a, b, _ = model.state_space()
+        a, b = model.state_space()
         b = b * self.scale
         motions = np.array(self.group)
         return MemoryBlock(
@@ -250,10 +261,11 @@ def _additional(
     """Blocks, instantaneous added mass and static stiffness (6, 6) of one additional cause."""
     from scipy.interpolate import CubicSpline
 
-    a, b = (0.5 * (x + x.swapaxes(1, 2)) for x in (part.added_mass, part.damping))
-    inside = (omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9)
-    at_grid = [CubicSpline(database.omega, table)(omega) for table in (a, b)]
-    at_judge = [CubicSpline(database.omega, table)(judge.omega) for table in (a, b)]
+    a, b = symmetric(part.added_mass), symmetric(part.damping)
+    inside = within(omega, band)
+    at_grid, at_judge = (
+        [CubicSpline(database.omega, table)(w) for table in (a, b)] for w in (omega, judge.omega)
+    )
     blocks: list[MemoryBlock] = []
     fits: dict[tuple[int, int], RationalFit] = {}
     mass, stiffness = np.zeros_like(a[0]), np.zeros_like(a[0])
@@ -274,10 +286,7 @@ def _additional(
         fit = fits[j, k] = _lowest_additional(data, judge, (j, k), at_judge, limit, inertia)
         mass[j, k] = mass[k, j] = fit.added_mass_infinite
         stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
-        for output, input_ in dict.fromkeys([(j, k), (k, j)]):
-            blocks.append(
-                realise(fit.numerator, fit.denominator, output=output, input=input_, cause=part.cause)
-            )
+        blocks += realise_pair(fit, j, k, part.cause)
     return blocks, mass, stiffness
 
 
@@ -311,29 +320,8 @@ def _lowest_additional(
     return best[1]
 
 
-def _judged(
-    database: Hydrodynamics,
-    model: MemoryModel,
-    judge: MotionJudge,
-    pairs: Pairs,
-    limit: float,
-    left_out: tuple[tuple[int, int], ...],
-) -> MemoryModel:
-    """The model with its rows and with how it meets its limit."""
-    motion = MotionFit(
-        limit=limit,
-        error=judge.error_of(model),
-        floor=judge.error_of(retardation_functions(database=database)).worst,
-        left_out=left_out,
-    )
-    rows = tuple(_rows(database, model, pairs, motion.reached))
-    worst = min((min(row.r2_added_mass, row.r2_damping) for row in rows), default=1.0)
-    return dataclasses.replace(model, rows=rows, r2=max(worst, 0.0), motion=motion)
-
-
-def _rows(database: Hydrodynamics, model: MemoryModel, pairs: Pairs, accepted: bool) -> Iterator[FitRow]:
-    low, high = model.band
-    inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+def _rows(database: Hydrodynamics, model: MemoryModel, pairs: Pairs, reached: bool) -> Iterator[FitRow]:
+    inside = within(database.omega, model.band)
     tables = {RADIATION: (database.added_mass, database.damping)}
     tables |= {part.cause: (part.added_mass, part.damping) for part in database.additional}
     fitted = {RADIATION: model.frequency_response(database.omega)}
@@ -346,22 +334,6 @@ def _rows(database: Hydrodynamics, model: MemoryModel, pairs: Pairs, accepted: b
         if j <= k
     }
     for (cause, j, k), block in blocks.items():
-        if cause == RADIATION and (j, k) not in pairs:
-            continue
-        a, b = (
-            (0.5 * (table[:, j, k] + table[:, k, j]), model_table[:, j, k])
-            for table, model_table in zip(tables[cause], fitted[cause], strict=True)
-        )
-        yield FitRow(
-            cause=cause,
-            output=j,
-            input=k,
-            order=len(block.A),
-            r2_added_mass=r_squared(a[0][inside], a[1][inside]),
-            r2_damping=r_squared(b[0][inside], b[1][inside]),
-            r2_added_mass_all=r_squared(*a),
-            r2_damping_all=r_squared(*b),
-            slowest_decay=float(-block.poles.real.max()),
-            fastest_pole=float(np.abs(block.poles).max()),
-            accepted=accepted,
-        )
+        if cause != RADIATION or (j, k) in pairs:
+            least = -np.inf if reached else np.inf
+            yield fit_row(cause, (j, k), block.poles, tables[cause], fitted[cause], inside, least)

@@ -15,17 +15,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import PassivityError
-from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock, MemoryModel
+from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock, MemoryModel, Passivity
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
-
 SYMMETRY = 1e-8
 NEAR_AXIS = 1e-4  # of 1 + |eigenvalue|: generous, as every candidate is followed up by a sample
 
@@ -52,9 +53,9 @@ class PassivityCertificate:
     passive: bool
     energy: bool
     margin: float
-    crossings: tuple[float, ...]
-    zero_at_origin: bool
-    zero_at_infinity: bool
+    crossings: tuple[float, ...] = ()
+    zero_at_origin: bool = False
+    zero_at_infinity: bool = False
     reason: str
 
 
@@ -88,22 +89,23 @@ def require_passive(model: MemoryModel) -> PassivityCertificate:
 def certify(blocks: Sequence[MemoryBlock]) -> PassivityCertificate:
     """`passivity_certificate` of a sequence of blocks whose loads add up."""
     a, b, c, d = _side_by_side(blocks)
-    energy = all(is_energy_form(block) for block in blocks)
+    verdict = partial(PassivityCertificate, energy=all(is_energy_form(block) for block in blocks))
     unstable = float(np.linalg.eigvals(a).real.max())
     if unstable >= 0.0:
-        return _verdict(False, energy, -np.inf, (), f"a pole grows with {unstable:.3g} 1/s")
+        return verdict(passive=False, margin=-np.inf, reason=f"a pole grows with {unstable:.3g} 1/s")
     static = d - c @ np.linalg.solve(a, b)
     origin = bool(np.abs(static).max() < SYMMETRY * max(np.abs(c @ b).max(), np.abs(d).max()))
     infinity = not np.any(d)
-    zeros = {"zero_at_origin": origin, "zero_at_infinity": infinity}
+    verdict = partial(verdict, zero_at_origin=origin, zero_at_infinity=infinity)
     skewed = _skew_limit(a, b, c, origin=origin, infinity=infinity)
     if skewed:
-        return _verdict(False, energy, -np.inf, (), skewed, **zeros)
+        return verdict(passive=False, margin=-np.inf, reason=skewed)
     shaped, feed = _divide_out(a, b, c, d, origin=origin, infinity=infinity)
-    if np.linalg.eigvalsh(feed)[0] <= 0.0:
-        at = f"its damping is not positive towards infinite frequency ({np.linalg.eigvalsh(feed)[0]:.3g})"
-        return _verdict(False, energy, float(np.linalg.eigvalsh(feed)[0] / 2.0), (), at, **zeros)
-    return _examine(a, shaped, c, feed, energy, zeros)
+    least = float(np.linalg.eigvalsh(feed)[0])
+    if least <= 0.0:
+        reason = f"its damping is not positive towards infinite frequency ({least:.3g})"
+        return verdict(passive=False, margin=least / 2.0, reason=reason)
+    return verdict(**_examine(a, shaped, c, feed))
 
 
 @one_thread
@@ -160,22 +162,22 @@ def _divide_out(
     return b, d + d.T
 
 
-def _examine(
-    a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray, energy: bool, zeros: dict[str, bool]
-) -> PassivityCertificate:
+def _examine(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> dict[str, Any]:
     """Samples between all frequencies where a sign could change, and on a grid for the margin."""
     at = _singular_frequencies(a, b, c, feed)
     ends = np.concatenate([[0.0], at, [1e4 * (1.0 + np.abs(np.linalg.eigvals(a)).max())]])
     middles = 0.5 * (ends[1:] + ends[:-1])
     omega = np.unique(np.concatenate([[0.0], at, middles, np.geomspace(1e-4, 1e4, 2001)]))
-    lowest = np.linalg.eigvalsh(_hermitian(_transfer(a, b, c, 0.5 * feed, omega)))[:, 0]
+    kernel = _transfer(a, b, c, 0.5 * feed, omega)
+    lowest = np.linalg.eigvalsh(0.5 * (kernel + kernel.conj().swapaxes(1, 2)))[:, 0]
     margin = float(min(lowest.min(), 0.5 * np.linalg.eigvalsh(feed)[0]))
     if margin > 0.0:
-        return _verdict(True, energy, margin, (), "no eigenvalue of its damping changes sign", **zeros)
+        reason = "no eigenvalue of its damping changes sign"
+        return {"passive": True, "margin": margin, "reason": reason}
     signs = np.flatnonzero((lowest[1:] > 0.0) != (lowest[:-1] > 0.0))
     crossings = tuple(float(0.5 * (omega[i] + omega[i + 1])) for i in signs)
     reason = f"its damping has a negative eigenvalue at {omega[lowest.argmin()]:.3g} rad/s"
-    return _verdict(False, energy, margin, crossings, reason, **zeros)
+    return {"passive": False, "margin": margin, "reason": reason, "crossings": crossings}
 
 
 def _singular_frequencies(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> FloatArray:
@@ -195,26 +197,24 @@ def _transfer(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, omega:
     return np.asarray(c @ states + d)
 
 
-def _hermitian(matrices: ComplexArray) -> ComplexArray:
-    return np.asarray(0.5 * (matrices + matrices.conj().swapaxes(1, 2)))
+def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[float, float]) -> Passivity:
+    """Smallest eigenvalue of the radiation blocks' damping together, which no pair's own fit keeps positive.
 
+    Scaled by the largest diagonals of the data's ``damping``, from 1e-3 to 1e3 rad/s and over ``band``.
+    """
+    peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 1e-300))
+    active = peak > 1e-6 * peak.max()
+    radiation = [block for block in blocks if block.cause == RADIATION]
 
-def _verdict(
-    passive: bool,
-    energy: bool,
-    margin: float,
-    crossings: tuple[float, ...],
-    reason: str,
-    *,
-    zero_at_origin: bool = False,
-    zero_at_infinity: bool = False,
-) -> PassivityCertificate:
-    return PassivityCertificate(
-        passive=passive,
-        energy=energy,
-        margin=margin,
-        crossings=crossings,
-        zero_at_origin=zero_at_origin,
-        zero_at_infinity=zero_at_infinity,
-        reason=reason,
-    )
+    def smallest(omega: FloatArray) -> tuple[float, float]:
+        total = np.zeros((len(omega), *damping.shape[1:]))
+        for block in radiation:
+            total[:, block.outputs[:, None], block.inputs] += block.transfer(omega).real
+        scaled = (0.5 * (total + total.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
+        lowest = np.linalg.eigvalsh(scaled)[:, 0]
+        where = int(lowest.argmin())
+        return float(lowest[where]), float(omega[where])
+
+    minimum, at = smallest(np.geomspace(1e-3, 1e3, 4001))
+    in_band, in_band_at = smallest(np.linspace(*band, 1001))
+    return Passivity(minimum=minimum, omega=at, in_band=in_band, in_band_omega=in_band_at)

@@ -1,8 +1,20 @@
-"""`fit_memory`: memory of radiation and roll tanks of a database, by motion, per entry or per group."""
+"""`fit_memory`: memory of radiation and roll tanks of a database, by motion or per entry.
+
+A model that was made before is found again by a digest of all that its fit looks at: the database's numbers,
+the settings of the fit, and the version of the fit. The package holds that of the shipped hull; others are in
+the folder ``memory`` of the user's cache (`seacrane.inputs.user_cache`). A file that cannot be read is made
+anew.
+"""
 
 from __future__ import annotations
 
-from typing import Literal
+import hashlib
+import json
+from contextlib import suppress
+from dataclasses import fields
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,23 +23,47 @@ from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics, in_trusted_band
 from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
 from seacrane.hydro.data.motion import require_zero_speed
+from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
 from seacrane.hydro.memory.by_motion import fit_by_motion
-from seacrane.hydro.memory.cache import FitSettings, keep_fit, kept_fit
-from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, dissipation_limit, memory_entries
-from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_lowest_order
-from seacrane.hydro.memory.joint_passivity import joint_passivity
-from seacrane.hydro.memory.realisation import realise
+from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.memory.identification import (
+    FEWEST_FREQUENCIES,
+    IdentificationData,
+    RationalFit,
+    dissipation_limit,
+    fit_lowest_order,
+    memory_entries,
+    symmetric,
+    within,
+)
+from seacrane.hydro.memory.motion_judge import SHIP, length_of, peak_periods
+from seacrane.hydro.memory.realisation import realise_pair
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 from seacrane.one_thread import one_thread
 from seacrane.warnings import InfiniteFrequencyWarning
 
 FloatArray = NDArray[np.float64]
-
 ORDERS = range(2, 9)
 BY_MOTION = "by-motion"
 KINDS = (BY_MOTION, "per-pair")
 LIMIT = 0.01  # of the motions
 R2 = 0.99
+VERSION = 2  # raised with every change of a fit
+USED = (
+    "omega",
+    "heading",
+    "added_mass",
+    "damping",
+    "restoring",
+    "mass_matrix",
+    "force",
+    "infinite_frequency_added_mass",
+    "linear_damping",
+    "port_starboard_symmetric",
+)
+FOLDER, SUFFIX = "memory", ".memory"
+_of_process: dict[str, MemoryModel] = {}
 
 
 @one_thread
@@ -92,11 +128,12 @@ def fit_memory(
             "keeps all motions together passive"
         )
     target = _target(kind, r2=r2, limit=limit)
-    low, high = band or database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
-    trusted = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
-    if trusted.sum() < FEWEST_FREQUENCIES:
+    given = band or database.trusted_band or (database.omega[0], database.omega[-1])
+    low, high = (float(end) for end in given)
+    inside = np.count_nonzero(within(database.omega, (low, high)))
+    if inside < FEWEST_FREQUENCIES:
         raise ValueError(
-            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {trusted.sum()} "
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside} "
             "frequencies; widen it to eight or more"
         )
     known = database.infinite_frequency_added_mass if infinite_frequency == "known" else None
@@ -112,20 +149,22 @@ def fit_memory(
             "acceleration. Look at the rows memory_motion_* of database.check()",
             InfiniteFrequencyWarning,
         )
-    settings = FitSettings(
-        kind=kind,
-        band=(float(low), float(high)),
-        target=target,
-        known=infinite_frequency == "known",
-    )
-    model = kept_fit(database, settings)
+    settings: dict[str, Any] = {
+        "kind": kind,
+        "band": (low, high),
+        "target": target,  # the R2, or the limit
+        "known": infinite_frequency == "known",
+    }
+    name = _digest(database, settings)
+    model = _kept(name)
     if model is None:
-        symmetric = None if known is None else 0.5 * (known + known.T)
         if not isinstance(database, HydroData) or kind == BY_MOTION:
-            model = fit_by_motion(database=database, band=settings.band, known=symmetric, limit=target)
+            inner = None if known is None else symmetric(known)
+            model = fit_by_motion(database=database, band=(low, high), known=inner, limit=target)
         else:
-            model = _fit_to_data(database, known, settings.band, trusted, target)
-        keep_fit(database, settings, model)
+            model = _fit_per_pair(database, known, (low, high), target)
+        _of_process[name] = model
+        keep_file(user_cache(FOLDER), f"{name}{SUFFIX}", packed(model))
     return model
 
 
@@ -148,26 +187,18 @@ def _target(kind: str, *, r2: float | None, limit: float | None) -> float:
     return next((value for value in (r2, limit) if value is not None), usual)
 
 
-def _fit_to_data(
-    database: HydroData,
-    known: FloatArray | None,
-    band: tuple[float, float],
-    trusted: NDArray[np.bool_],
-    r2: float,
+def _fit_per_pair(
+    database: HydroData, known: FloatArray | None, band: tuple[float, float], r2: float
 ) -> MemoryModel:
-    """Model of kind "per-pair"."""
-    blocks, rows, added_mass = _fit_radiation(database, known, trusted, r2)
-    extra_mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    blocks, rows, infinite, _ = _fit_cause(database, RADIATION, database, known, band, r2)
+    stiffness = np.zeros((6, 6))
     for part in database.additional:
-        more = _fit_additional(database, part, trusted, r2)
-        blocks += more[0]
-        rows += more[1]
-        extra_mass += more[2]
-        stiffness += more[3]
+        more = _fit_cause(database, part.cause, part, np.zeros((6, 6)), band, r2)
+        blocks, rows, stiffness = blocks + more[0], rows + more[1], stiffness + more[3]
     return MemoryModel(
         blocks=tuple(blocks),
-        added_mass=added_mass,
-        additional_added_mass=extra_mass,
+        added_mass=infinite,
+        additional_added_mass=np.zeros((6, 6)),
         additional_stiffness=stiffness,
         band=band,
         r2=r2,
@@ -182,93 +213,92 @@ def enough_frequencies(database: Hydrodynamics) -> bool:
     return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
 
 
-def _fit_radiation(
-    database: HydroData, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
-) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
-    """Blocks, rows and infinite-frequency added mass (6, 6) of the radiation matrices."""
+def _fit_cause(
+    database: HydroData,
+    cause: str,
+    table: HydroData | AdditionalMatrices,
+    known: FloatArray | None,
+    band: tuple[float, float],
+    r2: float,
+) -> tuple[list[MemoryBlock], list[FitRow], FloatArray, FloatArray]:
+    """Blocks, rows, infinite-frequency added mass and static stiffness (6, 6) of one cause.
+
+    Entries without memory keep their (constant) added mass where that at infinite frequency is not known.
+    """
     blocks: list[MemoryBlock] = []
     rows: list[FitRow] = []
     fits: dict[tuple[int, int], RationalFit] = {}
-    infinite = np.zeros((6, 6)) if known is None else 0.5 * (known + known.T)
-    symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
-    symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
-    symmetric = database.port_starboard_symmetric
-    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega, symmetric=symmetric):
+    radiation, trusted = cause == RADIATION, within(database.omega, band)
+    added_mass, damping = symmetric(table.added_mass), symmetric(table.damping)
+    infinite = added_mass[-1].copy() if known is None else symmetric(known)
+    stiffness = np.zeros((6, 6))
+    mirrored = radiation and database.port_starboard_symmetric
+    for j, k in memory_entries(added_mass, damping, database.omega, mirrored=mirrored):
         data = IdentificationData(
             omega=database.omega,
-            added_mass=symmetric_a[:, j, k],
-            damping=symmetric_b[:, j, k],
+            added_mass=added_mass[:, j, k],
+            damping=damping[:, j, k],
             trusted=trusted,
             added_mass_infinite=None if known is None else float(infinite[j, k]),
+            zero_at_origin=radiation,
+            static_stiffness=not radiation,
             dissipation_limit=dissipation_limit(fits, j, k),
         )
         fit = fits[j, k] = fit_lowest_order(data, r2=r2, orders=ORDERS)
         infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
-        _append(blocks, rows, fit, j, k, cause=RADIATION, r2=r2)
-    if known is None:
-        infinite = _keep_constant_entries(infinite, symmetric_a, blocks)
-    return blocks, rows, infinite
-
-
-def _fit_additional(
-    database: HydroData, part: AdditionalMatrices, trusted: NDArray[np.bool_], r2: float
-) -> tuple[list[MemoryBlock], list[FitRow], FloatArray, FloatArray]:
-    """Blocks, rows, instantaneous added mass and static stiffness (6, 6) of one additional cause."""
-    blocks: list[MemoryBlock] = []
-    rows: list[FitRow] = []
-    fits: dict[tuple[int, int], RationalFit] = {}
-    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
-    symmetric_a = 0.5 * (part.added_mass + part.added_mass.swapaxes(1, 2))
-    symmetric_b = 0.5 * (part.damping + part.damping.swapaxes(1, 2))
-    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega):
-        data = IdentificationData(
-            omega=database.omega,
-            added_mass=symmetric_a[:, j, k],
-            damping=symmetric_b[:, j, k],
-            trusted=trusted,
-            added_mass_infinite=0.0,
-            zero_at_origin=False,
-            static_stiffness=True,
-            dissipation_limit=dissipation_limit(fits, j, k),
-        )
-        fit = fits[j, k] = fit_lowest_order(data, r2=r2, orders=ORDERS)
         stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
-        _append(blocks, rows, fit, j, k, cause=part.cause, r2=r2)
-    return blocks, rows, mass, stiffness
-
-
-def _keep_constant_entries(
-    infinite: FloatArray, added_mass: FloatArray, blocks: list[MemoryBlock]
-) -> FloatArray:
-    """Entries without memory keep their (constant) added mass."""
-    fitted = {(int(j), int(k)) for block in blocks for j in block.outputs for k in block.inputs}
-    kept = infinite.copy()
-    for j in range(6):
-        for k in range(6):
-            if (j, k) not in fitted:
-                kept[j, k] = added_mass[-1, j, k]
-    return kept
-
-
-def _append(
-    blocks: list[MemoryBlock], rows: list[FitRow], fit: RationalFit, j: int, k: int, *, cause: str, r2: float
-) -> None:
-    """Add the blocks (j, k) and (k, j) of one fit, and its row."""
-    for output, input_ in dict.fromkeys([(j, k), (k, j)]):
-        blocks.append(realise(fit.numerator, fit.denominator, output=output, input=input_, cause=cause))
-    poles = np.roots(fit.denominator)
-    rows.append(
-        FitRow(
-            cause=cause,
-            output=j,
-            input=k,
-            order=fit.order,
-            r2_added_mass=fit.r2_added_mass,
-            r2_damping=fit.r2_damping,
-            r2_added_mass_all=fit.r2_added_mass_all,
-            r2_damping_all=fit.r2_damping_all,
-            slowest_decay=float(-poles.real.max()),
-            fastest_pole=float(np.abs(poles).max()),
-            accepted=fit.worst >= r2,
+        blocks += realise_pair(fit, j, k, cause)
+        poles = np.roots(fit.denominator)
+        rows.append(
+            FitRow(
+                cause=cause,
+                output=j,
+                input=k,
+                order=fit.order,
+                r2_added_mass=fit.r2_added_mass,
+                r2_damping=fit.r2_damping,
+                r2_added_mass_all=fit.r2_added_mass_all,
+                r2_damping_all=fit.r2_damping_all,
+                slowest_decay=float(-poles.real.max()),
+                fastest_pole=float(np.abs(poles).max()),
+                accepted=fit.worst >= r2,
+            )
         )
-    )
+    return blocks, rows, infinite, stiffness
+
+
+def shipped_folder() -> Path:
+    """Models that come with the package; `tools/ship_memory.py` writes them."""
+    return Path(str(files("seacrane") / "data" / "memory"))
+
+
+def _kept(name: str) -> MemoryModel | None:
+    """The model of that digest which was made before, or None."""
+    for folder in (shipped_folder(), user_cache(FOLDER)):
+        if folder is not None and name not in _of_process:
+            with suppress(OSError, *NOT_PACKED):
+                _of_process[name] = unpacked(read_kept(folder / f"{name}{SUFFIX}"), (MemoryModel,))
+    return _of_process.get(name)
+
+
+def _digest(database: Hydrodynamics, settings: dict[str, Any]) -> str:
+    """Of everything that a fit depends on, as hexadecimal text."""
+    parts = hashlib.sha256(json.dumps([VERSION, settings]).encode())
+    length = length_of(database)
+    if length < SHIP:  # whose fit is judged in seas of its own
+        parts.update(peak_periods(length).tobytes())
+    for name in USED:
+        _add(parts, name, getattr(database, name))
+    if database.roll_damping is not None:
+        for entry in fields(database.roll_damping):
+            _add(parts, entry.name, getattr(database.roll_damping, entry.name))
+    for part in database.additional:
+        for name in ("cause", "added_mass", "damping", "restoring"):
+            _add(parts, name, getattr(part, name))
+    return parts.hexdigest()
+
+
+def _add(parts: Any, name: str, value: Any) -> None:
+    array = np.asarray("none" if value is None else value)
+    parts.update(f"{name} {array.dtype} {array.shape} ".encode())
+    parts.update(np.ascontiguousarray(array).tobytes())

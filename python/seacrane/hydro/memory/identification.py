@@ -14,21 +14,23 @@ for ships compare Perez & Fossen 2009, doi 10.4173/mic.2009.1.1).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.memory_model import FitRow
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
-
 OUTSIDE_WEIGHT = 0.2
 AUDIT_WEIGHT = 3.0
 NATURAL_FREQUENCY_RANGE = (0.1, 4.0)
 DAMPING_RATIO_RANGE = (0.01, 1.2)
+NEGLIGIBLE = 1e-4  # a panel code's noise in pairs that a box makes zero is a fifth of it
+FEWEST_FREQUENCIES = 8
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,7 +45,6 @@ class RationalFit:
     r2_damping: float
     r2_added_mass_all: float
     r2_damping_all: float
-    cost: float
 
     @property
     def order(self) -> int:
@@ -115,7 +116,7 @@ def fit_order(
         if best is None or found.cost < best[0]:
             best = (float(found.cost), found.x)
     assert best is not None
-    return problem.result(best[1], best[0]), best[1]
+    return problem.result(best[1]), best[1]
 
 
 class _Problem:
@@ -211,7 +212,7 @@ class _Problem:
         excess = np.maximum(damping - self.audit_high, 0.0) + np.minimum(damping - self.audit_low, 0.0)
         return np.asarray(np.concatenate([misfit, AUDIT_WEIGHT * self.scale_b.max() * excess]))
 
-    def result(self, parameters: FloatArray, cost: float) -> RationalFit:
+    def result(self, parameters: FloatArray) -> RationalFit:
         """Coefficients and R2 of one set of parameters."""
         data = self.data
         denominator = self.denominator(parameters)
@@ -234,7 +235,6 @@ class _Problem:
             r2_damping=r_squared(data.damping[inside], kernel.real[inside]),
             r2_added_mass_all=r_squared(data.added_mass, added_mass),
             r2_damping_all=r_squared(data.damping, kernel.real),
-            cost=cost,
         )
 
 
@@ -246,6 +246,109 @@ def r_squared(data: FloatArray, model: FloatArray) -> float:
     return 1.0 - float(np.sum((data - model) ** 2)) / total
 
 
+def fit_row(
+    cause: str,
+    pair: tuple[int, int],
+    poles: ComplexArray,
+    data: tuple[FloatArray, FloatArray],
+    fitted: tuple[FloatArray, FloatArray],
+    inside: NDArray[np.bool_],
+    least: float,
+) -> FitRow:
+    """Row of a pair (j, k): added mass and damping (n, m, m) of the data, made symmetric, and of the model.
+
+    It is accepted where both R2 over the frequencies ``inside`` (n,) are not below ``least``.
+    """
+    r2 = pair_r2(pair, data, fitted, inside)
+    r2_all = pair_r2(pair, data, fitted, np.ones_like(inside))
+    return FitRow(
+        cause=cause,
+        output=pair[0],
+        input=pair[1],
+        order=len(poles),
+        r2_added_mass=r2[0],
+        r2_damping=r2[1],
+        r2_added_mass_all=r2_all[0],
+        r2_damping_all=r2_all[1],
+        slowest_decay=float(-poles.real.max()),
+        fastest_pole=float(np.abs(poles).max()),
+        accepted=min(r2) >= least,
+    )
+
+
+def pair_r2(
+    pair: tuple[int, int],
+    data: tuple[FloatArray, FloatArray],
+    fitted: tuple[FloatArray, FloatArray],
+    inside: NDArray[np.bool_],
+) -> tuple[float, float]:
+    """R2 of added mass and damping of a pair; see `fit_row`."""
+    j, k = pair
+    a, b = (
+        r_squared((0.5 * (x[:, j, k] + x[:, k, j]))[inside], model[inside, j, k])
+        for x, model in zip(data, fitted, strict=True)
+    )
+    return a, b
+
+
+def symmetric(matrices: FloatArray) -> FloatArray:
+    """The symmetric part of matrices (..., m, m)."""
+    return np.asarray(0.5 * (matrices + matrices.swapaxes(-1, -2)))
+
+
+def within(omega: FloatArray, band: tuple[float, float]) -> NDArray[np.bool_]:
+    """Which frequencies (n,) lie in a band, ends included."""
+    return np.asarray((omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9))
+
+
 def _spread(values: FloatArray) -> float:
     """Root of the sum of squared deviations, the unit in which 1 - R2 is the squared misfit."""
     return float(np.sqrt(np.sum((values - values.mean()) ** 2))) or 1.0
+
+
+def memory_entries(
+    added_mass: FloatArray, damping: FloatArray, omega: FloatArray, *, mirrored: bool = False
+) -> Iterator[tuple[int, int]]:
+    """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals.
+
+    ``mirrored``: of a vessel alike to port and starboard, whose surge, heave and pitch know nothing of sway,
+    roll and yaw; what a file holds there is noise.
+    """
+    variation = np.ptp(added_mass, axis=0) * float(np.mean(omega)) + np.abs(damping).max(axis=0)
+    diagonal = np.sqrt(np.diag(variation))
+    motions = len(diagonal)
+    for offset in range(motions):  # diagonals first: they bound the damping of the others
+        for j in range(motions - offset):
+            k = j + offset
+            if mirrored and offset % 2:
+                continue
+            if variation[j, k] > NEGLIGIBLE * diagonal[j] * diagonal[k] and variation[j, k] > 0.0:
+                yield j, k
+
+
+def motion_groups(pairs: list[tuple[int, int]]) -> list[list[int]]:
+    """Motions that hang together through ``pairs``, each group in increasing order."""
+    groups: list[set[int]] = []
+    for pair in pairs:
+        touched = [group for group in groups if group & set(pair)]
+        groups = [group for group in groups if group not in touched]
+        groups.append(set(pair).union(*touched))
+    return sorted(sorted(group) for group in groups)
+
+
+def dissipation_limit(
+    fits: dict[tuple[int, int], RationalFit], j: int, k: int
+) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:
+    """Bounds of the fitted damping: a 2 x 2 damping matrix is positive if b_jk^2 <= b_jj b_kk."""
+
+    def limit(omega: FloatArray) -> tuple[FloatArray, FloatArray]:
+        if j == k:
+            return np.zeros_like(omega), np.full_like(omega, np.inf)
+        bound = np.zeros_like(omega)
+        if (j, j) in fits and (k, k) in fits:
+            bound = np.sqrt(
+                np.maximum(fits[j, j].damping(omega), 0.0) * np.maximum(fits[k, k].damping(omega), 0.0)
+            )
+        return -bound, bound
+
+    return limit

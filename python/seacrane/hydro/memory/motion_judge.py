@@ -7,13 +7,16 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData, in_trusted_band
 from seacrane.hydro.data.memory_model import MemoryModel, MotionError
+from seacrane.hydro.data.motion import motion_errors, motion_response
+from seacrane.hydro.memory.identification import symmetric, within
 from seacrane.hydro.memory.retardation import RetardationModel
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
-
 SHORTEST, LONGEST, SEAS = 5.0, 18.0, 9  # peak periods of the seas of a ship, s, and how many
 SHIP, MODELLED = 60.0, 115.0  # m: a ship's least length, and what a shorter hull may be a model of
 PEAK_ENHANCEMENT = 3.3
@@ -43,7 +46,7 @@ class MotionJudge:
         self.table = _Table(database)
         coarse = np.linspace(*band, 4 * GRID)
         peaks = _Solved(self.table, coarse).peak_frequencies()
-        inner = database.omega[(database.omega >= band[0] - 1e-9) & (database.omega <= band[1] + 1e-9)]
+        inner = database.omega[within(database.omega, band)]
         self.about_peaks = np.concatenate([[w * (1.0 + z * ABOUT_PEAK)] for w, z in peaks] or [[]]).ravel()
         every = np.concatenate([inner, np.linspace(*band, GRID), self.about_peaks])
         self.omega = np.unique(np.clip(every, *band))
@@ -87,7 +90,7 @@ class MotionJudge:
         band.
         """
         solved = _Solved(self.table, omega)
-        inside = (omega >= self.omega[0] - 1e-9) & (omega <= self.omega[-1] + 1e-9)
+        inside = within(omega, (self.omega[0], self.omega[-1]))
         energies = _sea_energies(omega, self.periods) * inside
         weight = energies.T @ np.where(self.moves, 1.0 / self.variance, 0.0)
         square = np.ix_(range(len(omega)), group, group)
@@ -124,9 +127,6 @@ class _Table:
 
         def spline(values: FloatArray | ComplexArray, axis: int = 0) -> CubicSpline:
             return CubicSpline(database.omega, values, axis=axis)
-
-        def symmetric(values: FloatArray) -> FloatArray:
-            return np.asarray(0.5 * (values + values.swapaxes(1, 2)))
 
         self.database = database
         self.added_mass = spline(symmetric(database.added_mass))
@@ -222,3 +222,20 @@ def _jonswap(omega: FloatArray, tp: float) -> FloatArray:
     width = np.where(omega <= peak, 0.07, 0.09)
     near = np.exp(-0.5 * ((omega - peak) / (width * peak)) ** 2)
     return np.asarray(omega**-5.0 * np.exp(-1.25 * (peak / omega) ** 4) * PEAK_ENHANCEMENT**near)
+
+
+@one_thread
+def memory_motion_errors(database: HydroData, model: MemoryModel | RetardationModel) -> FloatArray:
+    """Motions (6,) with the memory's matrices against those with the data, within the trusted band.
+
+    As `motion_errors`: the largest difference by the largest motion.
+    """
+    added_mass, damping = model.frequency_response(database.omega)
+    more_mass, more_damping = model.additional_response(database.omega)
+    static = sum((part.restoring for part in database.additional), np.zeros((len(database.omega), 6, 6)))
+    fitted = motion_response(
+        database,
+        added_mass=added_mass + more_mass - static / database.omega[:, None, None] ** 2,
+        damping=damping + more_damping,
+    )
+    return motion_errors(database, fitted, motion_response(database), inside=in_trusted_band(database))

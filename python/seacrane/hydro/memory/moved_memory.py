@@ -1,25 +1,40 @@
-"""A memory model about another reference point, or of the mirrored vessel: exact, with the same states."""
+"""A memory model about another reference point, or of the mirrored vessel: exact, with the same states.
+
+And whether a model is that of a database.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
+from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.data.memory_model import MemoryBlock, MemoryModel, MotionFit
-from seacrane.hydro.memory.audit import judged_rows
-from seacrane.hydro.memory.joint_passivity import joint_passivity
+from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
+from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.memory.identification import (
+    FEWEST_FREQUENCIES,
+    fit_row,
+    memory_entries,
+    pair_r2,
+    symmetric,
+    within,
+)
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
 from seacrane.hydro.memory.retardation import retardation_functions
+from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
+from seacrane.warnings import MemoryMismatchWarning
 
 FloatArray = NDArray[np.float64]
-
 MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
+CLAIMED_R2 = 0.9  # pairs that never followed their data say nothing about where the model belongs
+LOST_R2 = 0.05
 
 
 @one_thread
@@ -37,15 +52,11 @@ def moved_memory(model: MemoryModel, transform: FloatArray, moved: Hydrodynamics
     passivity = joint_passivity(list(blocks), moved.damping, model.band)
     about = dataclasses.replace(model, blocks=blocks, passivity=passivity, **matrices)
     if model.motion is not None:
-        about = dataclasses.replace(about, motion=_moved_motion(model.motion, about, moved))
+        judge = motion_judge(moved, model.band)
+        floor = judge.error_of(retardation_functions(database=moved)).worst
+        motion = dataclasses.replace(model.motion, error=judge.error_of(about), floor=floor)
+        about = dataclasses.replace(about, motion=motion)
     return dataclasses.replace(about, rows=judged_rows(about, moved))
-
-
-def _moved_motion(motion: MotionFit, model: MemoryModel, moved: Hydrodynamics) -> MotionFit:
-    """The motions of the new point judged anew."""
-    judge = motion_judge(moved, model.band)
-    floor = judge.error_of(retardation_functions(database=moved)).worst
-    return dataclasses.replace(motion, error=judge.error_of(model), floor=floor)
 
 
 def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
@@ -83,3 +94,69 @@ def mirrored_memory(model: MemoryModel) -> MemoryModel:
     return dataclasses.replace(
         model, blocks=blocks, **{name: getattr(model, name) * sign for name in MATRICES}
     )
+
+
+def judged_rows(model: MemoryModel, database: Hydrodynamics) -> tuple[FitRow, ...]:
+    """Rows of a model's radiation pairs against another database's data, beside its other rows as they are.
+
+    A pair is accepted if all fits that the model came from were, or if it reaches the model's R2 itself.
+    Pairs (j <= k) are those that the model has blocks for, and in which the data vary.
+    """
+    kept = tuple(row for row in model.rows if row.cause != RADIATION)
+    before = all(row.accepted for row in model.rows if row.cause == RADIATION)
+    data = database.added_mass, database.damping
+    fitted, inside = model.frequency_response(database.omega), within(database.omega, model.band)
+    radiation = [block for block in model.blocks if block.cause == RADIATION]
+    rows = []
+    for j, k in memory_entries(symmetric(data[0]), symmetric(data[1]), database.omega):
+        poles = [block.poles for block in radiation if j in block.outputs and k in block.inputs]
+        if poles:
+            least = -np.inf if before else model.r2
+            rows.append(fit_row(RADIATION, (j, k), np.concatenate(poles), data, fitted, inside, least))
+    return (*rows, *kept)
+
+
+def warn_of_mismatch(database: HydroData, model: MemoryModel) -> None:
+    """Name the first reason why a memory model cannot be this database's.
+
+    A model states the R2 with which each pair followed its data. Where this database's data give a pair less,
+    by more than 0.05, they are not the data that it was fitted to: another reference point shows first in the
+    pairs off the diagonal.
+    """
+    reason = _mismatch(database, model)
+    if reason:
+        warn_caller(
+            f"database {database.name!r}: the memory model is not of these data: {reason}. Radiation loads "
+            "will be those of the other data; use fit_memory(database=...) with this database, or its at() "
+            "and mirror(), which move the memory along",
+            MemoryMismatchWarning,
+        )
+
+
+@lru_cache(maxsize=8)  # both are immutable, and every scene of a study asks
+def _mismatch(database: HydroData, model: MemoryModel) -> str:
+    causes = {part.cause for part in database.additional}
+    modelled = {row.cause for row in model.rows} - {RADIATION}
+    unknown = sorted(modelled - causes)
+    if unknown:
+        return f"it holds {', '.join(unknown)}, of which the database has no matrices"
+    missing = sorted(
+        part.cause
+        for part in database.additional
+        if part.cause not in modelled and (np.any(part.added_mass) or np.any(part.damping))
+    )
+    if missing:
+        return f"it holds nothing of {', '.join(missing)}, of which the database has matrices"
+    inside = within(database.omega, model.band)
+    if np.count_nonzero(inside) < FEWEST_FREQUENCIES:
+        return ""
+    data, fitted = (database.added_mass, database.damping), model.frequency_response(database.omega)
+    for row in model.rows:
+        pair, claimed = (row.output, row.input), min(row.r2_added_mass, row.r2_damping)
+        if row.cause != RADIATION or claimed < CLAIMED_R2:
+            continue
+        found = min(pair_r2(pair, data, fitted, inside))
+        if found < claimed - LOST_R2:
+            name = f"{pair[0] + 1}{pair[1] + 1}"
+            return f"it states R2 = {claimed:.3f} for pair {name}, and follows these with {found:.3f}"
+    return ""

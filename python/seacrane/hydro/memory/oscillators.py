@@ -18,8 +18,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.one_thread import one_thread
+
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+Places = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 OUTSIDE_WEIGHT = 0.2
 FLOOR = 0.02  # 1/s, smallest eigenvalue of R: decays; more would dissipate in long waves, as no data do
@@ -27,16 +30,24 @@ SMALL_PAIR = 0.02  # spreads below this share of the geometric mean of their dia
 LOWEST_FREQUENCY = 0.15  # rad/s of a hidden spring and mass
 HIGHEST_FREQUENCY = 1.6  # the same, over the last frequency of the data
 DAMPER_WEIGHT = 3e-3  # of the diagonal of R in the least squares: no fast poles beyond the data
+DATA_WEIGHT = 0.05  # of the misfit of A and B, beside that of the motions: keeps what no motion feels sane
 LARGEST = 30.0
 SLOWEST_DECAY = 0.05  # 1/s; models that forget more slowly are taken only where there is no other
+PLACES = 6  # tried for each new mass
+GLANCE, LOOK, SEARCH = 10, 40, 120  # evaluations: every place, the best two or many masses, the best
+SMALL_GAIN = 1e-4  # of the sum of squares in one step, below which a search ends
+MOST_DAMPING = 1e12
+MORE, APART = 6, 1.08  # masses added at a time to several hulls, and the least ratio of their frequencies
+FAINT = 0.01  # least damping of a new mass, of the group's scale
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class GroupData:
-    """Symmetric, scaled data of one group of m motions, at n frequencies.
+class MotionData:
+    """Symmetric, scaled data of a group of m motions at n frequencies, and how its kernel moves them.
 
     ``omega`` (n,) rad/s; ``added_mass`` and ``damping`` (n, m, m), both divided by the outer product of the
-    same scale; ``trusted`` (n,) bool; ``added_mass_infinite`` (m, m) on the same scale, None: estimated.
+    same scale; ``trusted`` (n,) bool; ``added_mass_infinite`` (m, m) on the same scale, None: estimated;
+    ``lever`` (n, p, p) complex: weighted motions by misfit of the p pairs ``np.triu_indices`` of ``K(i w)``.
     """
 
     omega: FloatArray
@@ -44,6 +55,7 @@ class GroupData:
     damping: FloatArray
     trusted: NDArray[np.bool_]
     added_mass_infinite: FloatArray | None
+    lever: ComplexArray
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,11 +65,6 @@ class Oscillators:
     w: FloatArray
     dampers: FloatArray
     coupling: FloatArray
-
-    @property
-    def states(self) -> int:
-        """A position and a velocity of every mass."""
-        return 2 * len(self.w)
 
     @property
     def slowest_decay(self) -> float:
@@ -75,34 +82,53 @@ class Oscillators:
         force = np.broadcast_to(self.coupling.astype(complex), (len(omega), *self.coupling.shape))
         return np.asarray(np.linalg.solve(stiffness, force))
 
-    def state_space(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """``A = [[0, W], [-W, -R]]``, ``B = [0; b]``, ``C = B^T``: as A + A^T <= 0, P = I certifies it."""
+    def state_space(self) -> tuple[FloatArray, FloatArray]:
+        """``A = [[0, W], [-W, -R]]``, ``B = [0; b]``; with C = B^T P = I certifies it, as A + A^T <= 0."""
         n = len(self.w)
         a = np.zeros((2 * n, 2 * n))
         a[:n, n:], a[n:, :n], a[n:, n:] = np.diag(self.w), -np.diag(self.w), -self.dampers
-        b = np.vstack([np.zeros_like(self.coupling), self.coupling])
-        return a, b, b.T.copy()
+        return a, np.vstack([np.zeros_like(self.coupling), self.coupling])
+
+    def with_mass(self, w: float, damper: float, coupling: FloatArray) -> Oscillators:
+        """One mass more, coupled to motions alone."""
+        n = len(self.w)
+        dampers = np.zeros((n + 1, n + 1))
+        dampers[:n, :n], dampers[n, n] = self.dampers, damper
+        return Oscillators(
+            w=np.append(self.w, w), dampers=dampers, coupling=np.vstack([self.coupling, coupling])
+        )
 
 
-def first_guess(data: GroupData) -> Oscillators:
+def _first_guess(data: MotionData) -> Oscillators:
     """One uncoupled mass per motion, at the peak of its damping."""
     peaks = data.omega[np.diagonal(data.damping, axis1=1, axis2=2).argmax(axis=0)]
     w = np.clip(peaks, LOWEST_FREQUENCY, None)
     return Oscillators(w=w, dampers=np.diag(w), coupling=np.diag(np.sqrt(w)))
 
 
-class Problem:
-    """What a search over log w, L and b goes through: its parameters, weights of B and A, and derivatives."""
+class MotionProblem:
+    """Least squares of the misfit of the motions, and a little of that of B and A, over log w, L and b.
 
-    def __init__(self, data: GroupData, masses: int) -> None:
+    The infinite-frequency added mass enters both linearly and is eliminated from them together. ``damped``
+    are the entries of L that are searched, all of the lower triangle where it is None.
+    """
+
+    def __init__(self, data: MotionData, masses: int, damped: Places | None = None) -> None:
         self.data, self.n, self.m = data, masses, data.damping.shape[1]
-        self.j, self.k = np.triu_indices(self.m)
-        self.lower = np.tril_indices(masses)
+        self.j, self.k = j, k = np.triu_indices(self.m)
+        self.lower = np.tril_indices(masses) if damped is None else damped
         self.bottom = np.log(LOWEST_FREQUENCY)
         self.span = np.log(HIGHEST_FREQUENCY * data.omega[-1]) - self.bottom
         weight = np.where(data.trusted, 1.0, OUTSIDE_WEIGHT)[:, None]
         self.weight_a = weight / self._spread(data.added_mass)
         self.weight_b = weight / self._spread(data.damping)
+        w, known = data.omega[:, None], data.added_mass_infinite
+        self.weigh = self._weights(data.lever)
+        fixed = 0.0 if known is None else known[j, k]
+        self.target = data.damping[:, j, k] + 1j * w * (data.added_mass[:, j, k] - fixed)
+        pairs = len(j)
+        self.columns = self._rows(np.broadcast_to(1j * w[:, :, None] * np.eye(pairs), (len(w), pairs, pairs)))
+        self.unit = np.linalg.qr(self.columns)[0]
 
     def _spread(self, matrices: FloatArray) -> FloatArray:
         """Unit (entries,) in which the squared misfit is 1 - R2."""
@@ -161,3 +187,139 @@ class Problem:
         out[:, entry, :, self.j] += np.moveaxis(right, 1, 0)
         out[:, entry, :, self.k] += np.moveaxis(left, 1, 0)
         return np.asarray(s * out.reshape(len(s), len(self.j), -1))
+
+    def _weights(self, lever: ComplexArray) -> FloatArray:
+        """Weights (n, 2 p, 2 p) of the kernel's real and imaginary parts: of the motions, and of the data."""
+        n, p = len(lever), len(self.j)
+        out = np.zeros((n, 4 * p, 2 * p))
+        out[:, :p, :p], out[:, :p, p:] = lever.real, -lever.imag
+        out[:, p : 2 * p, :p], out[:, p : 2 * p, p:] = lever.imag, lever.real
+        pair = np.arange(p)
+        out[:, 2 * p + pair, pair] = DATA_WEIGHT * self.weight_b
+        out[:, 3 * p + pair, p + pair] = DATA_WEIGHT * self.weight_a / self.data.omega[:, None]
+        return np.asarray(np.linalg.qr(out)[1])
+
+    def _rows(self, kernel: ComplexArray) -> FloatArray:
+        """Weighted motions and data of a kernel (n, p, ...), two rows for each pair and frequency."""
+        parts = np.concatenate([kernel.real, kernel.imag], axis=1)
+        weighted = self.weigh @ parts.reshape(*parts.shape[:2], -1)
+        return np.asarray(weighted.reshape(-1, *kernel.shape[2:]))
+
+    def _left(self, rows: FloatArray) -> FloatArray:
+        """What the best infinite-frequency added mass leaves; in place, the rows are large."""
+        if self.data.added_mass_infinite is None:
+            rows -= self.unit @ (self.unit.T @ rows)
+        return rows
+
+    def misfit(self, parameters: FloatArray) -> FloatArray:
+        """Rows of the model less the data, and the dampers' sizes."""
+        kernel = self.oscillators(parameters).transfer(self.data.omega)[:, self.j, self.k]
+        return np.concatenate([self._left(self._rows(kernel - self.target)), self.sizes(parameters)[0]])
+
+    def slope(self, parameters: FloatArray) -> FloatArray:
+        """Derivative of `misfit`."""
+        rows = self._left(self._rows(self.kernel_slope(parameters)))
+        return np.concatenate([rows, self.sizes(parameters)[1]])
+
+    def infinite(self, model: Oscillators) -> FloatArray:
+        """Infinite-frequency added mass (m, m) that goes best with a model."""
+        if self.data.added_mass_infinite is not None:
+            return self.data.added_mass_infinite
+        kernel = model.transfer(self.data.omega)[:, self.j, self.k]
+        values = np.linalg.lstsq(self.columns, self._rows(self.target - kernel), rcond=None)[0]
+        out = np.zeros((self.m, self.m))
+        out[self.j, self.k] = out[self.k, self.j] = values
+        return out
+
+    def search(self, start: FloatArray, evaluations: int) -> tuple[FloatArray, float]:
+        """Parameters and half the sum of squares after a Levenberg-Marquardt search (normal equations)."""
+        x, damping = start, 1e-2
+        residual = self.misfit(x)
+        cost = float(residual @ residual)
+        for _ in range(evaluations):
+            jacobian = self.slope(x)
+            square, right = jacobian.T @ jacobian, jacobian.T @ residual
+            scale = np.diag(square) + 1e-9 * np.trace(square) / len(square)
+            before = cost
+            while damping < MOST_DAMPING:
+                step = np.linalg.solve(square + damping * np.diag(scale), -right)
+                tried = self.misfit(x + step)
+                new = float(tried @ tried)
+                if new < cost:
+                    x, residual, cost, damping = x + step, tried, new, max(0.2 * damping, 1e-9)
+                    break
+                damping *= 4.0
+            if cost > before * (1.0 - SMALL_GAIN):
+                break
+        return x, 0.5 * cost
+
+
+@one_thread
+def fit_to_motions(data: MotionData, lower: Oscillators | None) -> Oscillators:
+    """Best fit with one mass more than ``lower``, or with one per motion where there is no lower one."""
+    guesses = [_first_guess(data)] if lower is None else _one_more(data, lower)
+    problem = MotionProblem(data, len(guesses[0].w))
+    found = [problem.search(problem.pack(guess), GLANCE) for guess in guesses]
+    found = [problem.search(each[0], LOOK) for each in sorted(found, key=lambda each: each[1])[:2]]
+    quick = [each for each in found if problem.oscillators(each[0]).slowest_decay >= SLOWEST_DECAY]
+    best = min(quick or found, key=lambda each: each[1])
+    last = problem.search(best[0], SEARCH)
+    slow = problem.oscillators(last[0]).slowest_decay < SLOWEST_DECAY
+    return problem.oscillators(best[0] if quick and slow else last[0])
+
+
+def _one_more(data: MotionData, lower: Oscillators) -> list[Oscillators]:
+    """``lower`` and one mass at several frequencies, coupled to what the damping lacks most there."""
+    missing = data.damping - lower.transfer(data.omega).real
+    guesses = []
+    for w in np.geomspace(1.6 * LOWEST_FREQUENCY, 0.9 * float(data.omega[data.trusted][-1]), PLACES):
+        values, vectors = np.linalg.eigh(missing[np.abs(data.omega - w).argmin()])
+        row = vectors[:, -1] * np.sqrt(max(values[-1], 0.01) * 0.5 * w)
+        guesses.append(lower.with_mass(w, 0.5 * w + FLOOR, row))
+    return guesses
+
+
+@one_thread
+def joined(data: MotionData, parts: list[tuple[list[int], Oscillators]]) -> Oscillators:
+    """Best fit with the masses of all parts, each of some of the motions, by their place in the group.
+
+    A wave from one hull reaches the other later, so that their coupling takes many masses. A search over all
+    dampers among them would take long: only those within a part are searched, and every coupling to a motion.
+    """
+    masses = sum(len(part.w) for _, part in parts)
+    dampers, coupling = np.zeros((masses, masses)), np.zeros((masses, data.damping.shape[1]))
+    start = 0
+    for motions, part in parts:
+        own = slice(start, start + len(part.w))
+        dampers[own, own], coupling[own, motions] = part.dampers, part.coupling
+        start = own.stop
+    return _searched(
+        data,
+        Oscillators(w=np.concatenate([part.w for _, part in parts]), dampers=dampers, coupling=coupling),
+    )
+
+
+@one_thread
+def with_more(data: MotionData, lower: Oscillators) -> Oscillators:
+    """Best fit with some masses more, coupled to what the damping lacks most at as many frequencies."""
+    missing = data.damping - lower.transfer(data.omega).real
+    values, vectors = np.linalg.eigh(missing)
+    high = data.omega[data.trusted][-1]
+    inside = (data.omega >= LOWEST_FREQUENCY) & (data.omega <= high)
+    model = lower
+    chosen: list[float] = []
+    for i in np.argsort(-np.where(inside, values[:, -1], -np.inf)):
+        w = float(data.omega[i])
+        if len(chosen) == MORE or not inside[i]:
+            break
+        if all(max(w / other, other / w) > APART for other in chosen):
+            chosen.append(w)
+            row = vectors[i, :, -1] * np.sqrt(max(values[i, -1], FAINT) * 0.15 * w)
+            model = model.with_mass(w, 0.15 * w + FLOOR, row)
+    return _searched(data, model)
+
+
+def _searched(data: MotionData, guess: Oscillators) -> Oscillators:
+    rows, columns = np.nonzero(np.tril(guess.dampers))
+    problem = MotionProblem(data, len(guess.w), (rows, columns))
+    return problem.oscillators(problem.search(problem.pack(guess), LOOK)[0])

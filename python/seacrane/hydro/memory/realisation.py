@@ -1,16 +1,19 @@
-"""State-space realisation of a rational function: balanced, then scaled to the size of its output."""
+"""State-space realisation of a rational function, and a block as several that do not feel each other."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.memory_model import MemoryBlock
+from seacrane.hydro.memory.identification import RationalFit
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
-
 TYPICAL_VELOCITY = np.array([0.1, 0.1, 0.1, 0.01, 0.01, 0.01])
+MOST_STATES = 12  # of parts that share a block: each block costs its motions besides, each state the others
 
 
 def realise(
@@ -67,6 +70,14 @@ def _square_root(gramian: FloatArray) -> FloatArray:
     return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
+def realise_pair(fit: RationalFit, j: int, k: int, cause: str) -> list[MemoryBlock]:
+    """Blocks (j, k) and (k, j) of one fit."""
+    return [
+        realise(fit.numerator, fit.denominator, output=output, input=input_, cause=cause)
+        for output, input_ in dict.fromkeys([(j, k), (k, j)])
+    ]
+
+
 @one_thread
 def largest_states(a: FloatArray, b: FloatArray) -> FloatArray:
     """Largest amplitude of every state under a unit harmonic input of any frequency."""
@@ -74,3 +85,34 @@ def largest_states(a: FloatArray, b: FloatArray) -> FloatArray:
     resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
     states = np.linalg.solve(resolvent, np.broadcast_to(b.astype(complex), (len(omega), *b.shape)))
     return np.asarray(np.abs(states).max(axis=(0, 2)))
+
+
+def independent_blocks(block: MemoryBlock) -> list[MemoryBlock]:
+    """Blocks that make the same loads together: A falls apart where no state feels another.
+
+    The passive model of a group is one block of oscillators, of which few share a damper. A block costs the
+    square of its states, so that small parts share one, first fit by size.
+    """
+    from scipy.sparse.csgraph import connected_components
+
+    count, part_of = connected_components(block.A != 0.0, directed=False)
+    sizes = np.bincount(part_of, minlength=count)
+    shared: list[list[int]] = []
+    for part in np.argsort(-sizes, kind="stable"):
+        room = (one for one in shared if sizes[one].sum() + sizes[part] <= MOST_STATES)
+        found = next(room, None)
+        if found is None:
+            shared.append([part])
+        else:
+            found.append(part)
+    blocks = []
+    for place, parts in enumerate(shared):
+        own = np.flatnonzero(np.isin(part_of, parts))
+        direct = block.D if place == 0 else np.zeros_like(block.D)
+        blocks.append(
+            replace(
+                block, A=block.A[np.ix_(own, own)], B=block.B[own], C=block.C[:, own], D=direct,
+                state_scale=block.state_scale[own],
+            )
+        )  # fmt: skip
+    return blocks

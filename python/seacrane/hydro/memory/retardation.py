@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.hydro_data import AdditionalMatrices
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, memory_entries
+from seacrane.hydro.memory.identification import FEWEST_FREQUENCIES, memory_entries, symmetric, within
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
@@ -70,17 +70,21 @@ class RetardationModel:
 
     def frequency_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Radiation added mass and damping (m, 6, 6) that the samples give at positive ``omega`` (m,)."""
-        w = np.atleast_1d(np.asarray(omega, dtype=float))
-        transfer = transform(self.radiation, self.step, w)
-        return self.added_mass + transfer.imag / w[:, None, None], transfer.real
+        return _response(omega, self.radiation, self.step, self.added_mass, 0.0)
 
     def additional_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """The response of all other causes, stiffness counted as added mass."""
-        w = np.atleast_1d(np.asarray(omega, dtype=float))
-        transfer = transform(self.additional, self.step, w)
-        by_frequency = w[:, None, None]
-        mass = self.additional_added_mass + transfer.imag / by_frequency
-        return mass - self.additional_stiffness / by_frequency**2, transfer.real
+        return _response(
+            omega, self.additional, self.step, self.additional_added_mass, self.additional_stiffness
+        )
+
+
+def _response(
+    omega: ArrayLike, kernel: FloatArray, step: float, mass: FloatArray, stiffness: FloatArray | float
+) -> tuple[FloatArray, FloatArray]:
+    w = np.atleast_1d(np.asarray(omega, dtype=float))
+    transfer, by_frequency = transformer(kernel, step)(w), w[:, None, None]
+    return mass + transfer.imag / by_frequency - stiffness / by_frequency**2, transfer.real
 
 
 @one_thread
@@ -122,13 +126,13 @@ def retardation_functions(
         DURATIONS if duration is None else (positive_of("retardation functions: duration", duration, "s"),)
     )
     low, high = database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
-    inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    inside = within(database.omega, (low, high))
     if inside.sum() < FEWEST_FREQUENCIES:
         raise ValueError(
             f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside.sum()} "
             f"frequencies; retardation functions need {FEWEST_FREQUENCIES} or more"
         )
-    added_mass, damping = _symmetric(database.added_mass), _symmetric(database.damping)
+    added_mass, damping = symmetric(database.added_mass), symmetric(database.damping)
     active = np.zeros(added_mass.shape[1:], dtype=bool)
     for j, k in memory_entries(added_mass, damping, database.omega):
         active[j, k] = active[k, j] = True
@@ -137,7 +141,7 @@ def retardation_functions(
     whole, tail_at_zero = cosine_transform(database.omega, damping, tau)
     samples = _shortest(database.omega, damping, whole, step, [_samples(d, step) for d in durations])
     radiation = _tapered(whole[:samples])
-    response = transform(radiation, step, database.omega)
+    response = transformer(radiation, step)(database.omega)
     estimates = added_mass - response.imag / database.omega[:, None, None]
     infinite = np.where(active, estimates[inside].mean(axis=0), added_mass[-1])
     misfit = estimates - infinite
@@ -201,13 +205,11 @@ def _power_law_transform(exponent: FloatArray, end: float, tau: FloatArray) -> F
     return np.asarray(end * turned.real).reshape(-1, *exponent.shape)
 
 
-def transform(kernel: FloatArray, step: float, omega: FloatArray) -> ComplexArray:
-    """``integral_0^T K(tau) exp(-i omega tau) dtau`` (m, ...) of samples (n, ...), by a cubic spline."""
-    return transformer(kernel, step)(omega)
-
-
 def transformer(kernel: FloatArray, step: float) -> Callable[[FloatArray], ComplexArray]:
-    """`transform` of one kernel, for any number of calls with ``omega`` (m,)."""
+    """``integral_0^T K(tau) exp(-i omega tau) dtau`` (m, ...) of samples (n, ...), by a cubic spline.
+
+    A function of ``omega`` (m,).
+    """
     from scipy.interpolate import CubicSpline
 
     times = step * np.arange(len(kernel))
@@ -238,7 +240,7 @@ def _shortest(
     largest = np.maximum(np.abs(damping).max(axis=0), 1e-300)
     errors = []
     for samples in candidates:
-        back = transform(_tapered(kernel[:samples]), step, omega).real
+        back = transformer(_tapered(kernel[:samples]), step)(omega).real
         errors.append(float(np.max(np.where(largest > 1e-300, np.abs(back - damping) / largest, 0.0))))
         if errors[-1] <= DAMPING_ERROR:
             return samples
@@ -256,10 +258,10 @@ def _additional(
     database: Hydrodynamics, part: AdditionalMatrices, tau: FloatArray, inside: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Kernel (n, 6, 6), instantaneous added mass and static stiffness (6, 6) of one additional cause."""
-    damping, added_mass = _symmetric(part.damping), _symmetric(part.added_mass)
+    damping, added_mass = symmetric(part.damping), symmetric(part.added_mass)
     kernel = _tapered(cosine_transform(database.omega, damping, tau)[0])
     omega = database.omega[inside]
-    transfer = transform(kernel, float(tau[1]), omega)
+    transfer = transformer(kernel, float(tau[1]))(omega)
     rest = (added_mass[inside] - transfer.imag / omega[:, None, None]) * omega[:, None, None] ** 2
     mass, stiffness = np.zeros(rest.shape[1:]), np.zeros(rest.shape[1:])
     columns = np.stack([omega**2, -np.ones_like(omega)], axis=1)
@@ -269,10 +271,6 @@ def _additional(
         target = rest[:, j, k] * weight
         mass[j, k], stiffness[j, k] = np.linalg.lstsq(columns * weight[:, None], target, rcond=None)[0]
     return kernel, mass, stiffness
-
-
-def _symmetric(matrices: FloatArray) -> FloatArray:
-    return np.asarray(0.5 * (matrices + matrices.swapaxes(1, 2)))
 
 
 def _relative(misfit: FloatArray, data: FloatArray, active: NDArray[np.bool_]) -> FloatArray:

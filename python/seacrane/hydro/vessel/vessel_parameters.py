@@ -11,7 +11,7 @@ from seacrane.hydro.data.data_warnings import warn_of_matrices, warn_of_resonanc
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import PEAK_ALLOWANCE, MemoryModel, MotionFit
 from seacrane.hydro.data.motion import natural_frequency
-from seacrane.hydro.memory.audit import warn_of_mismatch
+from seacrane.hydro.memory.moved_memory import warn_of_mismatch
 from seacrane.hydro.memory.retardation import RetardationModel
 from seacrane.hydro.vessel.parameters import RigidPart, VesselParameters, growth_rate, time_domain_vessel
 from seacrane.inputs.caller import warn_caller
