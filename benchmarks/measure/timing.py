@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from seacrane import Model, Scene
 from seacrane.accuracy.case import Case, timed
 from seacrane.analysis import Evaluator
-from seacrane.run.shorthand import settled
+from seacrane.run.method import settled
 
 Array = NDArray[np.float64]
 

@@ -38,8 +38,8 @@ from seacrane import run as run
 
 # Run it in stages
 from seacrane.run.stage import Stage as Stage
-from seacrane.run.move import Move as Move
-from seacrane.run.until import Until as Until
+from seacrane.run.commands import Move as Move
+from seacrane.run.stage import Until as Until
 
 # Look at what came of it
 from seacrane.result.result import Result as Result

@@ -31,6 +31,7 @@ DAMPING_RATIO = 0.8
 MOVE_END = 45.0  # s
 OSCILLATION_START, OSCILLATION_PERIOD = 50.0, 5.0  # s, case 3
 CASE_END = 100.0  # s
+MOORING_PERIOD = 200.0  # s
 SLEW_END = -np.pi / 2.0
 STROKE_END = 2.0  # m, cases 1 and 2
 
@@ -64,7 +65,7 @@ def vessel(
     memory: str = "per-pair",
     kinematics: str = "yaw_following",
     database: str | os.PathLike[str] | HydroDatabase | None = None,
-    mooring_period: float | None = 200.0,
+    mooring_period: float | None = MOORING_PERIOD,
     **sea: Any,
 ) -> Scene:
     """The vessel alone in waves.
@@ -83,15 +84,23 @@ def vessel(
         hs (2 m), tp (8 s), gamma (3.3), wave_direction_deg (135), seed (1), count (200), and the other
         arguments of `add_sea`; hs = 0 is calm water.
     """
-    return _afloat("vessel", memory, kinematics, database, mooring_period, sea)
+    return _afloat(
+        "vessel", memory=memory, kinematics=kinematics, database=database, mooring_period=mooring_period,
+        **sea,
+    )  # fmt: skip
 
 
 def _afloat(
-    name: str, memory: str, kinematics: str, database: Any, mooring_period: float | None, sea: dict[str, Any]
+    name: str,
+    *,
+    memory: str = "per-pair",
+    kinematics: str = "yaw_following",
+    database: Any = None,
+    mooring_period: float | None = MOORING_PERIOD,
+    **sea: Any,
 ) -> Scene:
-    chosen = _database(database)
     scene = Scene(name=name)
-    scene.add_vessel(chosen, memory=memory, kinematics=kinematics, mooring_period=mooring_period)
+    scene.add_vessel(_database(database), memory=memory, kinematics=kinematics, mooring_period=mooring_period)
     if "wave_direction_deg" in sea:
         sea["direction_deg"] = sea.pop("wave_direction_deg")
     scene.add_sea(**({} if "sea" in sea else {"hs": 2.0, "tp": 8.0, "direction_deg": 135.0}) | sea)
@@ -111,9 +120,7 @@ def _crane_afloat(
     name: str, *, payload: Payload | None, foot: Any, options: dict[str, Any]
 ) -> tuple[Scene, Balance]:
     """Vessel and crane, balanced at the start, its actuators without control; and what balances it."""
-    fixed = {key: options.get(key, default) for key, default in _OPTIONS.items()}
-    sea = {key: value for key, value in options.items() if key not in _OPTIONS}
-    scene = _afloat(name, sea=sea, **fixed)
+    scene = _afloat(name, **options)
     scene.add_crane(base="vessel", foot=foot, payload=payload, damping=False)
     for actuator, joint in ACTUATORS.items():
         scene.add_actuator(name=actuator, joint=joint)
@@ -135,7 +142,7 @@ def _lift(
     scene, start = _crane_afloat(name, payload=payload, foot=foot, options=options)
     loads = {actuator: _core.Curve.constant(value=load) for actuator, load in start.loads.items()}
     if feed_forward == "references":
-        mooring_period = options.get("mooring_period", _OPTIONS["mooring_period"])
+        mooring_period = options.get("mooring_period", MOORING_PERIOD)
         load = payload and replace(payload, size=(payload.size[0], payload.size[1], payload.size[2]))
         try:
             loads = _quasi_static(motion, load, tuple(foot), database, mooring_period)
@@ -174,21 +181,14 @@ def _quasi_static(
     )
 
 
-_OPTIONS: dict[str, Any] = {
-    "memory": "per-pair",
-    "kinematics": "yaw_following",
-    "database": None,
-    "mooring_period": 200.0,
-}
-
-
 def _move(end: float) -> _core.Curve:
     return _core.Curve.quintic(start_time=0.0, end_time=MOVE_END, start=0.0, end=end)
 
 
-def _swing_out() -> _Motion:
-    references = {"slew": _move(SLEW_END), "main": _move(STROKE_END), "knuckle": _move(STROKE_END)}
-    return _Motion(references, np.linspace(0.0, MOVE_END, 10))
+_SWING_OUT = _Motion(
+    {"slew": _move(SLEW_END), "main": _move(STROKE_END), "knuckle": _move(STROKE_END)},
+    np.linspace(0.0, MOVE_END, 10),
+)
 
 
 def _swing_out_and_oscillate() -> _Motion:
@@ -200,7 +200,6 @@ def _swing_out_and_oscillate() -> _Motion:
     return _Motion(references, np.append(move, rest[1:]), OSCILLATION_PERIOD)
 
 
-_SWING_OUT = _swing_out()
 _SWING_OUT_AND_OSCILLATE = _swing_out_and_oscillate()
 
 

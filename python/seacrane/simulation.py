@@ -15,16 +15,13 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.result.result import Result
 from seacrane.run.advance import finished
-from seacrane.run.method import Method
+from seacrane.run.method import Method, Shorthand, Start, settled
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
-from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
-from seacrane.run.stages_to_file import require_free, stages_to_file
-from seacrane.run.start import Start
-from seacrane.run.to_file import StreamedResult, run_to_file
+from seacrane.run.to_file import StreamedResult, require_free, run_to_file, stages_to_file
 from seacrane.scene.scene import Scene
 
 UNWRITTEN = "nothing is written; give the file by to="
@@ -227,20 +224,17 @@ def _require_use(
     **given: object,
 ) -> None:
     """Refuse words that this kind of run has no use for."""
+    whole = UNWRITTEN if to is None else ""
+    if to is not None and accuracy is not None:
+        whole = "what an accuracy asks for is run more than once, and written at its end"
+    elif to is not None and stages is not None:
+        whole = "stages are written one by one"
     reasons = {
         "first": "it names a stage, and no stages are given" if stages is None else "",
-        "checkpoint_every": _no_pieces(stages, to, accuracy),
-        "resume": _no_pieces(stages, to, accuracy),
+        "checkpoint_every": whole,
+        "resume": whole,
         "overwrite": UNWRITTEN if to is None else "",
     }
     for word, reason in reasons.items():
         if given[word] not in (None, False) and reason:
             raise SceneError(f"{word} is {shown(given[word])}: {reason}; leave it out")
-
-
-def _no_pieces(stages: Sequence[Stage] | None, to: object, accuracy: Mapping[str, float] | None) -> str:
-    if to is None:
-        return UNWRITTEN
-    if accuracy is not None:
-        return "what an accuracy asks for is run more than once, and written at its end"
-    return "" if stages is None else "stages are written one by one"

@@ -229,7 +229,7 @@ def test_a_run_whose_line_goes_slack_begins_anew_elastic() -> None:
     how: dict[str, Any] = {"t_end": 2.5, "dt_out": 0.1, "rtol": 1e-6}
     elastic = simulate(expected, **how)
     assert np.min(elastic["line_tension"]) == 0.0
-    with pytest.warns(LineRungWarning, match=r"slack at t = 1\.\d+ s.*a second run from"):
+    with pytest.warns(LineRungWarning, match=r"slack.* at t = 1\.\d+ s.*a second run from"):
         result = simulate(over_the_top(), **how)
     assert np.array_equal(result["position"], elastic["position"]) and result.time[0] == 0.0
     assert result.stats["line_rungs"].startswith("hoist: elastic: a first run was not: line 'hoist'")
@@ -240,7 +240,7 @@ def test_a_run_whose_line_goes_slack_begins_anew_elastic() -> None:
         run.advance(2.5)
     start = simulate(over_the_top(), 0.5, dt_out=0.1).state
     assert "hoist.strain_rate" in start.load_states
-    with pytest.warns(LineRungWarning, match=r"goes slack at t = 1\.\d+ s"):
+    with pytest.warns(LineRungWarning, match=r"goes slack.* at t = 1\.\d+ s"):
         result = simulate(over_the_top(), 1.6, start=start, dt_out=0.1)
     assert result.time[0] == 0.5 and result.state.load_states == {}
     assert np.min(result["line_tension"]) == 0.0

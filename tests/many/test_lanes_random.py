@@ -17,8 +17,7 @@ from seacrane import Result, Run, Scene, SceneError, SeacraneError, Stage, Until
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.study import _paths, with_values
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.lanes import advance_side_by_side
-from seacrane.run.lifts_in_lanes import LiftsInLanes
+from seacrane.run.lanes import LiftsInLanes, advance_side_by_side
 from seacrane.run.staged_run import StagedRun
 
 pytestmark = [needs_lanes, pytest.mark.filterwarnings("ignore::UserWarning")]

@@ -13,7 +13,7 @@ from scipy.stats import genpareto, gumbel_r
 
 import seacrane as sc
 from seacrane import Result, SceneError
-from seacrane.result.checked_parts import ALWAYS_STATED
+from seacrane.result.about import ALWAYS_STATED
 from seacrane.statistics.record import start_differs
 from seacrane.statistics.seeds import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.tail import Tail, extremal_index, peaks_over_threshold

@@ -11,7 +11,6 @@ import pytest
 # Functions that read the text of an error, or hand it to one that does; fields are to take its place.
 KNOWN = {
     "hydro/readers/orcaflex_model.py:_document",
-    "run/advance.py:ended",
 }
 
 

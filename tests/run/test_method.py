@@ -10,7 +10,7 @@ import pytest
 from trade_scenes import pendulum
 
 from seacrane import Method, Outputs, Run, SceneError, simulate, step_error
-from seacrane.run.shorthand import METHOD_WORDS, OUTPUT_WORDS, Shorthand
+from seacrane.run.method import METHOD_WORDS, OUTPUT_WORDS, Shorthand
 
 METHOD = Method(integrator="rk4", dt=0.05, formulation="redundant", maximum_step=0.5)
 OUTPUTS = Outputs(dt_out=0.25, channels=["position"])

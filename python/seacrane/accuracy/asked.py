@@ -19,9 +19,9 @@ from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
 from seacrane.run.advance import finished
+from seacrane.run.method import start_state
 from seacrane.run.run import Run
 from seacrane.run.staged_run import StagedRun
-from seacrane.run.start import start_state
 from seacrane.validity.after_run import require_finite
 
 if TYPE_CHECKING:

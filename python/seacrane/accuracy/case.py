@@ -15,12 +15,11 @@ from seacrane.accuracy.quantities import offered_channels
 from seacrane.errors import SimulationError
 from seacrane.result.result import Result
 from seacrane.run.channel_names import missing_names
-from seacrane.run.method import Method
+from seacrane.run.method import Method, Start
 from seacrane.run.outputs import DEFAULT_INTERVAL, Outputs
 from seacrane.run.run import Run
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
-from seacrane.run.start import Start
 from seacrane.scene.scene import Scene
 
 

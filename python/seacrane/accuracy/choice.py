@@ -22,8 +22,7 @@ from seacrane.accuracy.model_error import model_errors
 from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.caller import warn_caller
-from seacrane.run.method import Method
-from seacrane.run.shorthand import settled
+from seacrane.run.method import Method, settled
 from seacrane.validity.after_run import Finding, tried, warn_of
 from seacrane.warnings import AnotherCourseWarning
 

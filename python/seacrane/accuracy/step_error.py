@@ -15,10 +15,9 @@ from seacrane.accuracy.quantities import channels_of, compare, motion_of, quanti
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.keywords import named
 from seacrane.run.advance import finished
-from seacrane.run.method import Method
+from seacrane.run.method import Method, Shorthand, settled
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
-from seacrane.run.shorthand import Shorthand, settled
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -32,11 +32,9 @@ from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.frames import heading_of, rotation_matrix
 from seacrane.inputs.keywords import named
 from seacrane.result.result import Result
-from seacrane.run.method import Method
+from seacrane.run.method import Method, Start, settled
 from seacrane.run.outputs import Outputs
-from seacrane.run.shorthand import settled
 from seacrane.run.stage import Stage
-from seacrane.run.start import Start
 from seacrane.scene.file import scene_digest
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite

@@ -16,7 +16,7 @@ from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.result import Result
 from seacrane.result.history import marks_of, title_of
 from seacrane.result.traces import NO_ENERGY, NO_MOTION, Bounded, Trace, beyond_rounding, traces
-from seacrane.run.hanging import swing_of
+from seacrane.run.derived import swing_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -30,7 +30,8 @@ from seacrane.description.rungs import ELASTIC, RIGID
 from seacrane.description.suspension import ROD, Suspension, hung_loads, names_of_suspensions
 from seacrane.inputs.frames import heading_of, heel_and_trim, rotation_matrix
 from seacrane.one_thread import one_thread
-from seacrane.run.hook_loads import hook_loads, lowest_segments
+from seacrane.run.channel_names import lowest_segments
+from seacrane.run.derived import hook_loads
 
 Array = NDArray[np.float64]
 LINES = {"line_tension": ("tension", "N"), "line_length": ("length", "m"),

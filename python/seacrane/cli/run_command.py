@@ -47,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _settings(arguments: argparse.Namespace, source: Source) -> tuple[Method, Outputs]:
-    from seacrane.run.shorthand import overridden
+    from seacrane.run.method import overridden
 
     words = {word: getattr(arguments, word) for word in SETTINGS}
     return overridden(source.method, source.outputs, words)

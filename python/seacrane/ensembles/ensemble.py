@@ -43,10 +43,8 @@ from seacrane.inputs.checked import not_negative_of, number_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.run.channel_names import require_channels
-from seacrane.run.method import Method
+from seacrane.run.method import REST, Method, Shorthand, settled
 from seacrane.run.outputs import Outputs
-from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.start import REST
 from seacrane.scene.scene import Scene
 from seacrane.statistics.distribution import Distribution, distribution
 from seacrane.warnings import FailedMembersWarning

@@ -19,10 +19,9 @@ from seacrane.ensembles.study import START_TIME, Study, Values
 from seacrane.errors import SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.advance import ended
-from seacrane.run.alike_stages import AlikeStages
+from seacrane.run.carry import AlikeStages
 from seacrane.run.interrupts import Interrupts, interrupts_kept
-from seacrane.run.lanes import advance_side_by_side, note_apart
-from seacrane.run.lifts_in_lanes import LiftsInLanes
+from seacrane.run.lanes import LiftsInLanes, advance_side_by_side, note_apart
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.plan import first_scene

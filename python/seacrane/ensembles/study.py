@@ -17,8 +17,8 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
+from seacrane.run.commands import Move
 from seacrane.run.method import Method
-from seacrane.run.move import Move
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene

@@ -14,11 +14,9 @@ from seacrane.lift.calls import Keywords, keywords, require_unit_of_channel
 from seacrane.lift.check_keys import Entry
 from seacrane.lift.keys import DEGREES, EITHER
 from seacrane.lift.stage_keys import COMMANDS, STAGE, UNTIL, WAITS
-from seacrane.run.commands import HOLE, Command, targets
-from seacrane.run.move import Move
+from seacrane.run.commands import HOLE, Command, Move, targets
 from seacrane.run.plan import checked_stages
-from seacrane.run.stage import Stage
-from seacrane.run.until import Condition, Until
+from seacrane.run.stage import Condition, Stage, Until
 from seacrane.scene.scene import Scene
 
 LIMITED = {

@@ -19,11 +19,9 @@ from seacrane.needs import in_air, in_water
 from seacrane.needs.answer import FAILED, Loss, Requirements
 from seacrane.needs.bench import Bench, Told, asked, asked_of, reason
 from seacrane.needs.choice import Choice
-from seacrane.run.method import Method
+from seacrane.run.method import Method, Start, settled
 from seacrane.run.outputs import Outputs
-from seacrane.run.shorthand import settled
 from seacrane.run.stage import Stage
-from seacrane.run.start import Start
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 

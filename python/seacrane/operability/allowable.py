@@ -30,8 +30,7 @@ from seacrane.operability.criterion import Criterion
 from seacrane.operability.linear_channels import LinearSeas
 from seacrane.operability.time_domain import ByTime, allowable_in, differences, storms_in
 from seacrane.plotting.table import Column, Table
-from seacrane.run.method import Method
-from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.method import Method, Shorthand, settled
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:

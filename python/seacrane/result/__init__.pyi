@@ -5,7 +5,7 @@ from seacrane.run.to_file import StreamedResult as StreamedResult
 from seacrane.result.about import About as About
 from seacrane.result.events import Event as Event
 from seacrane.result.utilisation import Utilisation as Utilisation
-from seacrane.result.heavy_lines import heavy_line_tension as heavy_line_tension
+from seacrane.result.traces import heavy_line_tension as heavy_line_tension
 from seacrane.description.channels import Channel as Channel
 from seacrane.description.channels import CHANNELS as CHANNELS
 from seacrane.description.channels import AXES as AXES

@@ -110,15 +110,10 @@ class Piece:
         if len({len(array) for array in arrays.values()}) != 1:
             raise ValueError("arrays differ in their outputs")
         return cls(
-            arrays=arrays,
-            coords=header["coords"],
-            stats=stats,
-            about=about,
-            events=[Event(**event) for event in header["events"]],
+            arrays=arrays, coords=header["coords"], stats=stats, about=about, state=body[end:last],
+            events=[Event(**event) for event in header["events"]], scene=body[last:],
             interrupted=bool(header["interrupted"]),
-            state=body[end:last],
-            scene=body[last:],
-        )
+        )  # fmt: skip
 
 
 def partial_path(path: Path) -> Path:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields
+from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -23,16 +24,21 @@ from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_to_bytes
 from seacrane.plotting.panel import draw
 from seacrane.plotting.table import Answer, Column, Table
-from seacrane.result.about import About, StageSpan
-from seacrane.result.checked_parts import Stat, checked_array, checked_names, checked_stats, checked_time
-from seacrane.result.curves import curves_of
+from seacrane.result.about import (
+    About,
+    StageSpan,
+    checked_array,
+    checked_names,
+    checked_stats,
+    checked_time,
+)
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
-from seacrane.result.extremes import Extremes, as_arrays, inside, parted
 from seacrane.result.history import axes_note, history_sheet
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
-from seacrane.result.partial_file import is_partial, partial_path, read_partial
-from seacrane.result.result_file import Contents, read_arrays, write_netcdf
+from seacrane.result.partial_file import Piece, is_partial, partial_path, read_partial
+from seacrane.result.result_file import read_arrays, write_netcdf
+from seacrane.result.traces import Record, as_arrays, curves_of, inside, parted
 from seacrane.result.utilisation import Utilisation, utilisation_of
 
 if TYPE_CHECKING:
@@ -47,13 +53,13 @@ Array = NDArray[np.float64]
 LARGEST_RESULT = 4 * 2**30  # bytes
 
 
-def _dims(channels: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
-    return {name: CHANNELS[channel_of(name)].dims_of(array.ndim) for name, array in channels.items()}
+def _dims(channels: Mapping[str, ArrayLike]) -> dict[str, tuple[str, ...]]:
+    return {name: CHANNELS[channel_of(name)].dims_of(np.ndim(array)) for name, array in channels.items()}
 
 
 @named
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Result(Mapping[str, Array], Answer):
+class Result(Record, Mapping[str, Array], Answer):
     """What one run recorded, a mapping of its channels by name.
 
     Build it with `Result.from_arrays`, or read it with `Result.load`.
@@ -86,23 +92,12 @@ class Result(Mapping[str, Array], Answer):
         What `scene` is read from.
     """
 
-    time: Array
-    channels: Mapping[str, Array]
-    coords: Mapping[str, tuple[str, ...]]
-    stats: Mapping[str, Stat]
-    interrupted: bool = False
-    events: tuple[Event, ...] = ()
     state: State | None = None
     kept_scene: KeptScene | None = None
-    about: About = field(default_factory=About)
-    extremes: Extremes = field(default_factory=dict)
-    dims: Mapping[str, tuple[str, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "channels", MappingProxyType(dict(self.channels)))
-        object.__setattr__(self, "coords", MappingProxyType(dict(self.coords)))
-        object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
-        object.__setattr__(self, "extremes", MappingProxyType(dict(self.extremes)))
+        for name in ("channels", "coords", "stats", "extremes"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
         object.__setattr__(self, "dims", MappingProxyType(_dims(self.channels)))
 
     def __repr__(self) -> str:
@@ -135,18 +130,9 @@ class Result(Mapping[str, Array], Answer):
         return (float(finite.min()), float(finite.max())) if finite.size else (np.nan, np.nan)
 
     def __reduce__(self) -> tuple[Any, ...]:  # read-only mapping views cannot be pickled themselves
-        parts = (
-            self.time,
-            dict(self.channels),
-            dict(self.coords),
-            dict(self.stats),
-            self.interrupted,
-            self.events,
-            self.state,
-            self.about,
-            dict(self.extremes),
-        )
-        return _rebuild, parts
+        parts = {one.name: getattr(self, one.name) for one in fields(self) if one.init}
+        views = {name: dict(one) for name, one in parts.items() if isinstance(one, MappingProxyType)}
+        return _rebuild, ({**parts, **views, "kept_scene": None},)
 
     @property
     def scene(self) -> Scene | None:
@@ -171,12 +157,10 @@ class Result(Mapping[str, Array], Answer):
         state: State | None = None,
         scene: Scene | KeptScene | None = None,
     ) -> Result:
-        """Check and wrap the arrays that the run loop filled.
+        """Check and wrap the arrays that the run loop filled; what is not told here is as of the attributes.
 
         Parameters
         ----------
-        time : array_like, shape (n,)
-            Output times, s, strictly increasing.
         arrays : mapping of str to array_like
             Channels by the names of `CHANNELS`, and their `extremes` as "hook_load_least" and
             "hook_load_largest". Arrays of float64 are taken over without a copy and
@@ -184,17 +168,11 @@ class Result(Mapping[str, Array], Answer):
         coords : mapping of str to sequence of str
             Names along the dimensions that a scene names, such as `body` and `joint`, in the order of the
             arrays.
-        events : sequence of Event
-            In order of time.
         stats : mapping
             Numbers and words, at least `ALWAYS_STATED`; values that are None are left out.
-        about : About, optional
-            What is structured.
         interrupted : bool
             True if the run did not reach its end. Only then, in a run of stages, and where the stat
             `not_finite` names them, may channels hold values that are not finite.
-        state : State, optional
-            Where the run stopped.
         scene : Scene or KeptScene, optional
             What was run.
 
@@ -211,8 +189,7 @@ class Result(Mapping[str, Array], Answer):
         for name in arrays:
             if channel_of(name) not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
-        all_dims = {name: CHANNELS[channel_of(name)].dims_of(np.ndim(values))
-                    for name, values in arrays.items()}  # fmt: skip
+        all_dims = _dims(arrays)
         used = dict.fromkeys(dim for dims in all_dims.values() for dim in dims[1:])
         given = {dim: checked_names(dim, coords[dim]) for dim in used if dim in coords}
         names = given | dict(FIXED)
@@ -223,17 +200,11 @@ class Result(Mapping[str, Array], Answer):
             checked[name] = checked_array(name, values, shape, gaps or channel_of(name) in gappy)
         channels, extremes = parted(checked)
         return cls(
-            time=times,
-            channels=channels,
-            extremes=extremes,
-            coords={dim: names[dim] for dim in used},
-            stats=checked_stats(stats),
-            about=about,
-            interrupted=bool(interrupted),
-            events=checked_events(events),
-            state=state,
+            time=times, channels=channels, extremes=extremes, coords={dim: names[dim] for dim in used},
+            stats=checked_stats(stats), about=about, interrupted=bool(interrupted),
+            events=checked_events(events), state=state,
             kept_scene=scene if scene is None or isinstance(scene, KeptScene) else KeptScene.of(scene),
-        )
+        )  # fmt: skip
 
     def __getitem__(self, name: str) -> Array:
         """The channel of that name; the error lists what was recorded."""
@@ -318,7 +289,11 @@ class Result(Mapping[str, Array], Answer):
             if pick.parts:
                 raise SceneError(f"select {channel!s}: a view has all outputs; index it by time")
             channel, names = pick.channel, dict(pick.names)
-        array = self[channel]
+        picked: Array = self[channel][self._index(channel, names)]
+        return picked
+
+    def _index(self, channel: str, names: Mapping[str, str]) -> tuple[Any, ...]:
+        """The place of names in the array of a channel."""
         dims = self.dims[channel]
         for dim in names:
             if dim not in dims[1:]:
@@ -330,8 +305,7 @@ class Result(Mapping[str, Array], Answer):
                     f"no {dim} {name!r} in this result; choose from {', '.join(self.coords[dim])}"
                 )
             index[dims.index(dim)] = self.coords[dim].index(name)
-        picked: Array = array[tuple(index)]
-        return picked
+        return tuple(index)
 
     def reached(
         self, channel: str | Pick, /, *, part: slice | None = None, **names: str
@@ -358,11 +332,7 @@ class Result(Mapping[str, Array], Answer):
         whole = slice(0, self.time.size) if part is None else part
         if pick.channel not in self.extremes:
             return values[whole], values[whole]
-        at = [pick.names.get(dim) for dim in self.dims[pick.channel]]
-        index = tuple(
-            slice(None) if name is None else self.coords[dim].index(name)
-            for dim, name in zip(self.dims[pick.channel], at, strict=True)
-        )
+        index = self._index(pick.channel, pick.names)
         least, largest = (inside(self, whole, values, one[index]) for one in self.extremes[pick.channel])
         return least, largest
 
@@ -478,7 +448,7 @@ class Result(Mapping[str, Array], Answer):
             )
         (after, stage) = next(iter(parts), (None, None))
         part = self.part(after=after, stage=stage)
-        return curves_of(self.time, picks, self.channels, self.dims, self.coords, part)
+        return curves_of(self, picks, part)
 
     def to_csv(self, path: str | os.PathLike[str], *channels: str | Pick) -> Path:
         """Write curves as comma-separated values: a line for each output, time first, SI.
@@ -504,9 +474,7 @@ class Result(Mapping[str, Array], Answer):
     @property
     def utilisation(self) -> Utilisation:
         """How far every limit state of the scene was used, 1 at the limit; see `Scene.add_limit_state`."""
-        return utilisation_of(
-            self.about.limit_states, self.time, self.channels, self.extremes, self.dims, self.coords
-        )
+        return utilisation_of(self)
 
     def to_xarray(self) -> xarray.Dataset:
         """The result as a dataset with named coordinates, units and descriptions (copies the arrays)."""
@@ -553,18 +521,18 @@ class Result(Mapping[str, Array], Answer):
         OSError
             If it cannot be written (no such folder, no permission, disk full); the older file stays.
         """
-        path = Path(path)
+        path, whole = Path(path), self._whole()
         with atomic_write(path) as draft:
             try:
-                write_netcdf(draft, self._contents(), [{"time": self.time, **self.arrays}])
+                write_netcdf(draft, whole, [whole.arrays], self.time.size)
             except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
                 raise OSError(f"the NetCDF library reports: {error}") from error
         return path
 
-    def _contents(self) -> Contents:
+    def _whole(self) -> Piece:
         scene, lacks = (b"", "") if self.kept_scene is None else self.kept_scene.written()
-        return Contents(
-            outputs=self.time.size, dims=_dims(self.arrays), coords=self.coords, events=self.events,
+        return Piece(
+            arrays={"time": self.time, **self.arrays}, coords=self.coords, events=self.events,
             stats={**self.stats, **({NOT_KEPT: lacks} if lacks else {})}, about=self.about,
             interrupted=self.interrupted,
             state=b"" if self.state is None else state_to_bytes(self.state), scene=scene,
@@ -618,20 +586,8 @@ class Result(Mapping[str, Array], Answer):
             raise FileFormatError(f"{path} is not a seacrane result: {str(error)[:200]}") from error
 
 
-def _rebuild(
-    time: Array,
-    channels: dict[str, Array],
-    coords: dict[str, Any],
-    stats: dict[str, Stat],
-    interrupted: bool,
-    events: tuple[Event, ...],
-    state: State | None,
-    about: About,
-    extremes: Extremes,
-) -> Result:
-    for array in (time, *channels.values(), *(array for both in extremes.values() for array in both)):
+def _rebuild(parts: dict[str, Any]) -> Result:
+    every = [*parts["channels"].values(), *chain.from_iterable(parts["extremes"].values())]
+    for array in (parts["time"], *every):
         array.setflags(write=False)
-    return Result(
-        time=time, channels=channels, coords=coords, stats=stats, interrupted=interrupted, events=events,
-        state=state, about=about, extremes=extremes,
-    )  # fmt: skip
+    return Result(**parts)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +13,10 @@ from seacrane.description.channels import NAMED, attributes, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs.netcdf_limits import open_netcdf
 from seacrane.inputs.state import state_from_bytes
-from seacrane.result.about import About, parted
+from seacrane.result.about import parted
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 from seacrane.result.kept_scene import KeptScene
+from seacrane.result.partial_file import Piece
 from seacrane.scene.file import LARGEST_FILE
 
 STATE, STATE_DIMENSION = "state", "state_byte"
@@ -25,77 +25,54 @@ LARGEST_CHUNKS = 2**21  # bytes of one chunk of all channels
 MOST_ROWS, LEAST_ROWS = 4096, 16
 
 
-@dataclass(frozen=True, kw_only=True)
-class Contents:
-    """What a result's file holds beside its outputs; names as in `Result`.
-
-    Attributes
-    ----------
-    outputs : How many.
-    dims : mapping of str to tuple of str
-        Of each channel.
-    state : As a state file; empty where there is none.
-    scene : As a scene file; empty where there is none.
-    """
-
-    outputs: int
-    dims: Mapping[str, tuple[str, ...]]
-    coords: Mapping[str, Sequence[str]]
-    stats: Mapping[str, Any]
-    about: About
-    events: Sequence[Event]
-    interrupted: bool
-    state: bytes
-    scene: bytes
-
-    def shape(self, dims: Sequence[str]) -> tuple[int, ...]:
-        """The shape of one output of a channel."""
-        return tuple(len(self.coords[dim]) for dim in dims[1:])
-
-    @property
-    def rows(self) -> int:
-        """Outputs that a chunk of the file holds."""
-        width = 1 + sum(math.prod(self.shape(dims)) for dims in self.dims.values())
-        return min(max(LEAST_ROWS, min(MOST_ROWS, LARGEST_CHUNKS // (8 * width))), self.outputs)
+def _shape(told: Piece, dims: Sequence[str]) -> tuple[int, ...]:
+    """The shape of one output of a channel."""
+    return tuple(len(told.coords[dim]) for dim in dims[1:])
 
 
-def write_netcdf(path: Path, contents: Contents, blocks: Iterable[Mapping[str, Any]]) -> None:
-    """Write a result under exactly this name.
+def rows_of_chunk(told: Piece, outputs: int) -> int:
+    """Outputs that a chunk of a file with so many holds."""
+    width = 1 + sum(math.prod(_shape(told, dims)) for dims in told.dims.values())
+    return min(max(LEAST_ROWS, min(MOST_ROWS, LARGEST_CHUNKS // (8 * width))), outputs)
 
-    Blocks hold "time" and the channels of outputs that follow each other, whole chunks except for the last.
+
+def write_netcdf(path: Path, told: Piece, blocks: Iterable[Mapping[str, Any]], outputs: int) -> None:
+    """Write a result of so many outputs under exactly this name.
+
+    `told` has all but the outputs, which blocks hold one after the other: "time" and the channels, whole
+    chunks except for the last.
     """
     import netCDF4
 
     with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
-        told = {**contents.about.to_attributes(), "interrupted": int(contents.interrupted)}
-        file.setncatts({**contents.stats, **told})
-        file.createDimension("time", contents.outputs)
-        _add_variable(file, "time", ("time",), contents)
-        for dim, names in contents.coords.items():
+        file.setncatts({**told.stats, **told.about.to_attributes(), "interrupted": int(told.interrupted)})
+        file.createDimension("time", outputs)
+        rows = rows_of_chunk(told, outputs)
+        _add_variable(file, "time", ("time",), (rows,))
+        for dim, names in told.coords.items():
             file.createDimension(dim, len(names))
             file.createVariable(dim, str, (dim,))[:] = np.array(names, dtype=object)
-        for name, dims in contents.dims.items():
-            _add_variable(file, name, dims, contents)
+        for name, dims in told.dims.items():
+            _add_variable(file, name, dims, (rows, *_shape(told, dims)))
         at = 0
         for block in blocks:
             count = len(block["time"])
-            for name in ("time", *contents.dims):
+            for name in ("time", *told.dims):
                 file[name][at : at + count] = block[name]
             at += count
-        if contents.events:
-            _add_events(file, contents.events)
-        if contents.state:
-            file.createDimension(STATE_DIMENSION, len(contents.state))
-            file.createVariable(STATE, "u1", (STATE_DIMENSION,))[:] = np.frombuffer(contents.state, "u1")
-        if contents.scene:
-            file.createDimension(SCENE_DIMENSION, len(contents.scene))
+        if told.events:
+            _add_events(file, told.events)
+        if told.state:
+            file.createDimension(STATE_DIMENSION, len(told.state))
+            file.createVariable(STATE, "u1", (STATE_DIMENSION,))[:] = np.frombuffer(told.state, "u1")
+        if told.scene:
+            file.createDimension(SCENE_DIMENSION, len(told.scene))
             scene = file.createVariable(SCENE, "u1", (SCENE_DIMENSION,), compression="zlib")
             scene.setncatts({"long_name": "what was run, as the text of a scene file"})
-            scene[:] = np.frombuffer(contents.scene, "u1")
+            scene[:] = np.frombuffer(told.scene, "u1")
 
 
-def _add_variable(file: Any, name: str, dims: tuple[str, ...], contents: Contents) -> None:
-    chunks = (contents.rows, *contents.shape(dims))
+def _add_variable(file: Any, name: str, dims: tuple[str, ...], chunks: tuple[int, ...]) -> None:
     variable = file.createVariable(
         name, "f8", dims, compression="zlib", complevel=1, chunksizes=chunks, fill_value=False
     )
@@ -122,39 +99,25 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
         if "time" not in file.variables:
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
         stats, about = parted(path, {name: file.getncattr(name) for name in file.ncattrs()})
-        interrupted = bool(stats.pop("interrupted", 0))
+        held = {
+            name: one for name, one in file.variables.items() if name not in (*file.dimensions, STATE, SCENE)
+        }
+        told = {name: one[:] for name, one in held.items() if "event" in one.dimensions}
         return {
             "time": np.asarray(file["time"][:]),
             "arrays": {
                 name: variable[:]
-                for name, variable in file.variables.items()
-                if name not in ("time", STATE, SCENE)
-                and name not in file.dimensions
-                and "event" not in variable.dimensions
-                and (channels is None or channel_of(name) in channels)
+                for name, variable in held.items()
+                if name not in told and (channels is None or channel_of(name) in channels)
             },
             "coords": {dim: [str(name) for name in file[dim][:]] for dim in NAMED if dim in file.variables},
-            "events": events_from_arrays(
-                {
-                    name: variable[:]
-                    for name, variable in file.variables.items()
-                    if "event" in variable.dimensions
-                }
-            )
-            if "event" in file.dimensions
-            else (),
+            "events": events_from_arrays(told) if "event" in file.dimensions else (),
+            "interrupted": bool(stats.pop("interrupted", 0)),
             "stats": stats,
             "about": about,
-            "interrupted": interrupted,
-            "state": _state(path, file),
+            "state": state_from_bytes(file[STATE][:].tobytes(), path) if STATE in file.variables else None,
             "scene": _scene(path, file),
         }
-
-
-def _state(path: Path, file: Any) -> Any:
-    if STATE not in file.variables:
-        return None
-    return state_from_bytes(file[STATE][:].tobytes(), path)
 
 
 def _scene(path: Path, file: Any) -> KeptScene | None:

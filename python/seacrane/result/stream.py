@@ -20,7 +20,7 @@ from seacrane.result.about import About, parted
 from seacrane.result.events import Event
 from seacrane.result.partial_file import PartialFile, Piece, partial_path
 from seacrane.result.result import Result
-from seacrane.result.result_file import Contents, write_netcdf
+from seacrane.result.result_file import rows_of_chunk, write_netcdf
 
 Array = NDArray[np.float64]
 LARGEST_PIECE = 2**21  # bytes
@@ -28,6 +28,7 @@ LARGEST = 2**50  # bytes: a file without end is read piece by piece
 MOST_ROWS, LEAST_ROWS = 4096, 16
 COUNTERS = ("wall_s", "evaluations", "steps", "rejected_steps", "jacobians",
             "newton_iterations", "projections", "restarts", "dense_solves")  # fmt: skip
+ANOTHER_SCENE = "is of another scene"
 DIGEST = "scene_digest"  # of a scene's description, among the stats of a result
 METHOD = (DIGEST, "formulation", "integrator")
 SETTINGS = ("dt_out", "rtol", "dt", "maximum_step", "spectral_radius", "energy_limit", "baumgarte")
@@ -109,7 +110,7 @@ class ResultFile:
                 "overwrite=True (--overwrite) drops it"
             )
 
-    def require_same(self, new: Told, unlike: str) -> None:
+    def require_same(self, new: Piece, unlike: str) -> None:
         """Raise FileExistsError unless the result of that name may be replaced by one that tells this.
 
         It may where it is of the same scene, method and outputs, and does not end later. `unlike` says why
@@ -118,7 +119,7 @@ class ResultFile:
         if not self.path.exists():
             return
         try:
-            old, _ = _told(self.path)
+            old = _told(self.path)
             reason = unlike or difference(old, new)
             ends = [some.about.settings["t_end"] for some in (old, new)]
             if not reason and ends[0] > ends[1]:
@@ -162,7 +163,7 @@ class ResultFile:
 
     def _left_in_result(self) -> Left:
         try:
-            told, coords = _told(self.path)
+            told = _told(self.path)
             result = Result.load(self.path, channels=[], largest=LARGEST)
             if DIGEST not in told.stats:
                 raise ValueError("it does not tell its scene")
@@ -173,10 +174,8 @@ class ResultFile:
                 f"{self.path} holds no state to go on from: overwrite=True starts the run anew"
             )
         until = result.state.time
-        piece = Piece(
-            arrays={name: np.empty(0) for name in ("time", *told.channels)}, coords=coords,
-            stats=told.stats, about=told.about,
-            events=[event for event in result.events if event.time <= until],
+        piece = dataclasses.replace(
+            told, events=[event for event in result.events if event.time <= until],
             state=state_to_bytes(result.state),
         )  # fmt: skip
         return Left(source=self.path, piece=piece, first=float(result.time[0]),
@@ -305,10 +304,9 @@ class ResultFile:
             events += piece.events
             last, state = piece, piece.state or state
         assert last is not None
-        contents = Contents(outputs=outputs, dims=last.dims, coords=last.coords, stats=last.stats,
-                            about=last.about, events=events, interrupted=last.interrupted,
-                            state=state, scene=self.scene)  # fmt: skip
-        write_netcdf(draft, contents, _blocks((piece for piece, _ in self._partial.pieces()), contents.rows))
+        told = dataclasses.replace(last, events=events, state=state, scene=self.scene)
+        blocks = _blocks((piece for piece, _ in self._partial.pieces()), rows_of_chunk(told, outputs))
+        write_netcdf(draft, told, blocks, outputs)
 
     def _stats(self, stats: Mapping[str, Any], events: int) -> dict[str, Any]:
         """The stats of all pieces of the run: counters and simulated time of the one before are added."""
@@ -332,23 +330,14 @@ def _continued(angle: Array, last: Array) -> Array:
     return continued
 
 
-@dataclass(frozen=True, kw_only=True)
-class Told:
-    """By which runs are told apart."""
-
-    stats: Mapping[str, Any]
-    about: About
-    channels: Sequence[str] = ()
-
-
-def difference(old: Told, new: Told) -> str:
-    """What tells two runs apart, in words; empty: they are the same but for their ends."""
+def difference(old: Piece, new: Piece) -> str:
+    """What tells the runs of two pieces apart, in words; empty: they are the same but for their ends."""
     if old.stats.get(DIGEST) != new.stats[DIGEST]:
-        return "is of another scene"
+        return ANOTHER_SCENE
     settings = [some.about.settings for some in (old, new)]
     pairs = {name: (old.stats.get(name), new.stats.get(name)) for name in METHOD}
     pairs |= {name: (settings[0].get(name), settings[1].get(name)) for name in SETTINGS}
-    held = [sorted({channel_of(name) for name in some.channels}) for some in (old, new)]
+    held = [sorted({channel_of(name) for name in some.arrays if name != "time"}) for some in (old, new)]
     pairs["channels"] = (", ".join(held[0]), ", ".join(held[1]))
     for name, (there, here) in pairs.items():
         if there != here:
@@ -356,19 +345,18 @@ def difference(old: Told, new: Told) -> str:
     return ""
 
 
-def _told(path: Path) -> tuple[Told, dict[str, list[str]]]:
-    """What a result's file tells, and names along dimensions."""
+def _told(path: Path) -> Piece:
+    """What a result's file tells, without outputs."""
     with open_netcdf(path, LARGEST) as file:
         attributes = {name: file.getncattr(name) for name in file.ncattrs() if name != "interrupted"}
         stats, about = parted(path, attributes)
         stats = {
             name: value.item() if isinstance(value, np.generic) else value for name, value in stats.items()
         }
-        channels = [name for name, variable in file.variables.items()
-                    if variable.dimensions[:1] == ("time",) and name != "time"]  # fmt: skip
-        dims = {dim for name in channels for dim in file[name].dimensions[1:]}
+        names = [name for name, variable in file.variables.items() if variable.dimensions[:1] == ("time",)]
+        dims = {dim for name in names for dim in file[name].dimensions[1:]}
         coords = {dim: [str(name) for name in file[dim][:]] for dim in sorted(dims)}
-        return Told(stats=stats, about=about, channels=channels), coords
+        return Piece(arrays=dict.fromkeys(names, np.empty(0)), coords=coords, stats=stats, about=about)
 
 
 def _blocks(pieces: Iterator[Piece], rows: int) -> Iterator[dict[str, Array]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +13,7 @@ from seacrane.description.limit_state import LimitState
 from seacrane.description.pick import Pick
 from seacrane.errors import FileFormatError
 from seacrane.plotting.table import Rows, Table, Verdict, read_as
-from seacrane.result.extremes import Extremes
+from seacrane.result.traces import Record
 
 Array = NDArray[np.float64]
 
@@ -87,51 +86,35 @@ def _verdict(one: Utilised) -> Verdict:
     return Verdict(words[one.kept], one.kept)
 
 
-def utilisation_of(
-    limit_states: Sequence[LimitState],
-    time: Array,
-    channels: Mapping[str, Array],
-    extremes: Extremes,
-    dims: Mapping[str, Sequence[str]],
-    coords: Mapping[str, Sequence[str]],
-) -> Utilisation:
+def utilisation_of(result: Record) -> Utilisation:
     """Utilisation of the limit states that a run noted; FileFormatError for notes that no run writes."""
     try:
-        return Utilisation(
-            tuple(_utilised(state, time, channels, extremes, dims, coords) for state in limit_states)
-        )
+        return Utilisation(tuple(_utilised(state, result) for state in result.about.limit_states))
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         raise FileFormatError(f"the result's limit states are none that a run writes: {error}") from error
 
 
-def _utilised(
-    state: LimitState,
-    time: Array,
-    channels: Mapping[str, Array],
-    extremes: Extremes,
-    dims: Mapping[str, Sequence[str]],
-    coords: Mapping[str, Sequence[str]],
-) -> Utilised:
+def _utilised(state: LimitState, result: Record) -> Utilised:
     channel, where = state.channel, state.names
     known = (("maximum", state.maximum), ("minimum", state.minimum))
     bounds = [(key, float(value)) for key, value in known if value is not None]
-    if channel not in channels:
+    if channel not in result.channels:
         return Utilised(
             name=state.name, channel=channel, curve="", unit=unit_of(channel, tuple(where.values())),
             limit=bounds[0][1],
             reached=math.nan, at=math.nan, utilisation=math.nan,
         )  # fmt: skip
-    least, largest = extremes.get(channel, (channels[channel], channels[channel]))
-    pick = Pick(channel=channel, names=where)
+    least, largest = result.extremes.get(channel, (result.channels[channel],) * 2)
+    pick, dims = Pick(channel=channel, names=where), result.dims[channel]
     found = [
         (*_worst(values, kind, bound), bound, [name for dim, name in names.items() if dim not in where])
         for kind, bound in bounds
-        for names, values in pick.curves(largest if kind == "maximum" else least, dims[channel], coords)
+        for names, values in pick.curves(largest if kind == "maximum" else least, dims, result.coords)
     ]
     used, at, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])
     return Utilised(
         name=state.name, channel=channel, curve=" ".join(names), limit=bound, reached=reached,
-        unit=unit_of(channel, (*where.values(), *names)), at=float(time[at]), utilisation=used,
+        unit=unit_of(channel, (*where.values(), *names)), at=float(result.time[at]), utilisation=used,
     )  # fmt: skip
 
 

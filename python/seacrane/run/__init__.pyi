@@ -9,6 +9,6 @@ from seacrane._core import Model as Model
 from seacrane._core import State as State
 from seacrane._core import integrator_names as integrator_names
 from seacrane.run.stage import Stage as Stage
-from seacrane.run.move import Move as Move
-from seacrane.run.until import Until as Until
+from seacrane.run.commands import Move as Move
+from seacrane.run.stage import Until as Until
 from seacrane.run.staged_run import StagedRun as StagedRun

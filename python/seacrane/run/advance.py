@@ -4,25 +4,16 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
-from seacrane._core import integrator
-from seacrane._core import integrator as integrator_of
+from seacrane import _core
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.errors import LineSlackError, SimulationError
 from seacrane.result.result import Result
-from seacrane.run.controller_calls import Calls
-from seacrane.run.growth import FEWEST_STEPS, growing
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.modes import Modes
+from seacrane.run.modes import FEWEST_STEPS, Modes, growing, stiffness, unsteady_oil
 from seacrane.run.run import Run
-from seacrane.run.sampled_controller import SampledController
-from seacrane.run.stiffness import stiffness
-from seacrane.run.unsteady_oil import unsteady_oil
+from seacrane.run.sampled_controller import Calls, SampledController
 from seacrane.validity.after_run import Finding, tried, warn_of
-
-if TYPE_CHECKING:
-    from seacrane.run.run import Run
 
 Look = Callable[[float], None]
 NEAR = 0.8  # of a limit: from there on a run in another sea is looked at by itself
@@ -53,12 +44,12 @@ def ended(
         try:
             drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
             what = "" if run.interrupted else run.unsettled()
-            if not what:
-                return run
         except LineSlackError as error:
             if not run.settled:
                 raise
-            what = f"{str(error).partition(';')[0]} at t = {run.core.time:.6g} s"
+            what = f"{error}"
+    if not what:
+        return run
     again = run.with_elastic_lines(what)
     with _carrying(again):
         drive(again, Calls(controllers, again.start.time), interrupts, progress=progress)
@@ -81,8 +72,8 @@ def drive(
     interrupts: Interrupts,
     *,
     progress: bool = False,
-    watch: Look | None = None,
-    halt: Callable[[], bool] | None = None,
+    watch: Look = lambda _: None,
+    halt: Callable[[], object] | None = None,
 ) -> None:
     """Advance a run to its end, or to where Ctrl-C stops it.
 
@@ -91,8 +82,7 @@ def drive(
     """
     try:
         with _bar(run.start.time, run.t_end, progress) as report:
-            looks = [look for look in (watch, report) if look]
-            _advance(run, calls, interrupts, looks, watch, halt)
+            _advance(run, calls, interrupts, report, watch, halt)
     except KeyboardInterrupt:  # between two pieces of the loop, or inside a controller
         run.interrupted = True
     except MemoryError as error:
@@ -109,10 +99,10 @@ def drive(
 
 
 @contextlib.contextmanager
-def _bar(t_start: float, t_end: float, wanted: bool) -> Iterator[Look | None]:
+def _bar(t_start: float, t_end: float, wanted: bool) -> Iterator[Look]:
     """What shows the progress of a run."""
     if not wanted:
-        yield None
+        yield lambda _: None
         return
     from tqdm.auto import tqdm
 
@@ -124,13 +114,13 @@ def _advance(
     run: Run,
     calls: Calls,
     interrupts: Interrupts,
-    looks: Sequence[Look],
-    watch: Look | None,
-    halt: Callable[[], bool] | None,
+    report: Look,
+    watch: Look,
+    halt: Callable[[], object] | None,
 ) -> None:
     def look(now: float) -> None:
-        for one in looks:
-            one(now)
+        watch(now)
+        report(now)
         interrupts.take()
 
     while True:
@@ -138,22 +128,25 @@ def _advance(
         calls.call(run, interrupts)
         stop = min(run.t_end, calls.next(run.core.time))
         reached = run.advance(stop, look)
-        if watch is not None:
-            watch(run.core.time)
+        watch(run.core.time)
         if not reached or stop >= run.t_end or (halt is not None and halt()):
             return
 
 
 def _advise(run: Run, error: BaseException) -> None:
     """Say in the error of an explicit method of fixed step how long its step could be."""
-    method = run.method
-    if not isinstance(error, SimulationError) or not integrator(method.integrator).stable_up_to:
+    name, dt = run.method.integrator, run.method.dt
+    limit = _core.integrator(name).stable_up_to
+    if not isinstance(error, SimulationError) or not limit:
         return
-    taken = max(int(run.core.statistics()["steps"]), 1)
-    step = method.dt or (run.core.time - run.start.time) / taken
-    advice = step_advice(method.integrator, step, fastest_mode(run.model))
-    if advice:
-        error.args = (f"{error}. {advice}",)
+    step = dt or (run.core.time - run.start.time) / max(int(run.core.statistics()["steps"]), 1)
+    fastest = fastest_mode(run.model)
+    if fastest and fastest * step > limit:
+        error.args = (
+            f"{error}. The fastest mode at the start is {fastest:.4g} per s: {name} is unstable with steps "
+            f"longer than about {limit / fastest:.3g} s, and took {step:.3g} s; give "
+            f"dt={0.5 * limit / fastest:.1g}, or an adaptive integrator",
+        )
 
 
 def slow_findings(run: Run) -> list[Finding]:
@@ -176,21 +169,3 @@ def _found(run: Run, modes: Modes, near: float = 1.0) -> list[Finding]:
     remembering = [vessel.body for vessel in run.scene.vessels.values()] if stats["history_samples"] else []
     found = stiffness(run.scene.loads, modes, stats, settings, near=near)
     return found + growing(modes, stats, settings, undamped=remembering, near=near)
-
-
-def step_advice(integrator: str, step: float, fastest: float | None) -> str:
-    """A sentence on the step of an explicit fixed-step method; empty where it is not too long.
-
-    Parameters
-    ----------
-    step : s.
-    fastest : Largest |eigenvalue| at the start, 1/s.
-    """
-    limit = integrator_of(integrator).stable_up_to
-    if not limit or not fastest or fastest * step <= limit:
-        return ""
-    return (
-        f"The fastest mode at the start is {fastest:.4g} per s: {integrator} is unstable with steps longer "
-        f"than about {limit / fastest:.3g} s, and took {step:.3g} s; give dt={0.5 * limit / fastest:.1g}, or "
-        "an adaptive integrator"
-    )

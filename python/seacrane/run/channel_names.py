@@ -1,57 +1,48 @@
-"""From the core's generic channels to the names that results carry."""
+"""Names of channels: what the core records for those that are wanted, and what a scene needs to have them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from difflib import get_close_matches
+from operator import attrgetter
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from seacrane import _core
 from seacrane.analysis.least_pulls import least_pulls, weighed_suspensions
 from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
-from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
-from seacrane.description.loads import winches_of
+from seacrane.description.description import Description
+from seacrane.description.loads import lines_of, whole_of, winches_of
 from seacrane.description.once import once, once_in_any_sea
-from seacrane.description.places import position_of
-from seacrane.description.roles import pressure
-from seacrane.description.suspension import names_of_suspensions
-from seacrane.description.wet_parts import immersed_depths, wet_names
+from seacrane.description.roles import CraneRoles
+from seacrane.description.suspension import Hung, hung_loads, names_of_suspensions
+from seacrane.description.wet_parts import wet_names
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
-from seacrane.inputs.frames import rotation_matrix
-from seacrane.run.hanging import (
-    lead_angles,
-    on_cranes,
-    rated_hooks,
-    slewing_hooks,
-    sling_angles,
-    swings,
-    tip_velocities,
-    utilisations,
-)
-from seacrane.run.hook_loads import hook_loads, link_tensions, lowest_segments, slack_margins
-from seacrane.run.motions import motions
-from seacrane.run.own import require_own, with_sources
-from seacrane.scene.recorded import Clearance, distance_from_box
+from seacrane.scene.own_channels import picks
 
-if TYPE_CHECKING:
-    from seacrane import _core
-    from seacrane.description.description import Description
 
-Array = NDArray[np.float64]
-NEEDED = ("position", "quaternion")
+def sources_of(name: str) -> tuple[str, ...]:
+    """The core's channels that a channel is made of, as far as a scene has them."""
+    return DERIVED[name].made_of if name in DERIVED else (name,)
+
+
+def with_sources(scene: Description, channels: Iterable[str]) -> list[str]:
+    """Channels with those that expressions are made of in the place of the expressions."""
+    out = list(dict.fromkeys(channels))
+    if OWN not in out:
+        return out
+    made_of = [pick.channel for curves in picks(scene).values() for pick in curves]
+    return list(dict.fromkeys([*(name for name in out if name != OWN), *made_of]))
 
 
 def core_channels(scene: Description, wanted: Sequence[str], known: Sequence[str]) -> set[str]:
     """The core's channels that the wanted ones are made of; raises SceneError for an unknown name."""
     made_of: set[str] = set()
     for name in wanted:
-        made_from = DERIVED[name].made_of if name in DERIVED else (name,)
-        sources = [source for source in made_from if source in known]
+        sources = [source for source in sources_of(name) if source in known]
         if not sources:
             missing = missing_names(scene, DERIVED)
             derived = [one for one, channel in DERIVED.items() if set(channel.made_of) & set(known)]
@@ -66,26 +57,13 @@ def core_channels(scene: Description, wanted: Sequence[str], known: Sequence[str
 @once_in_any_sea
 def derived_coords(scene: Description) -> Mapping[str, list[str]]:
     """Names along the dimensions of derived channels."""
-    return {
-        "cylinder": list(cylinders(scene)),
-        "piston": list(piston_areas(scene)),
-        "suspension": list(names_of_suspensions(scene)),
-        "weighed": weighed_suspensions(scene),
-        "immersed": list(wet_names(scene)),
-        "gap": list(scene.clearances),
-        "pair": list(scene.relatives),
-        "expression": list(scene.channels),
-        "winch": list(winches_of(scene.loads)),
-        "slew": list(slews(scene)),
-        "hook": [one.label for one in on_cranes(scene)],
-        "tip": list(tips(scene)),
-    }
+    return {dim: list(names(scene)) for dim, (names, _) in ALONG.items()}
 
 
 @once
-def all_names(scene: Description, model: _core.Model) -> Mapping[str, list[str]]:
-    """Names along the dimensions of all channels but those that every scene has."""
-    return {**model.axes, **derived_coords(scene)}
+def all_names(scene: Description, model: _core.Model) -> Mapping[str, Sequence[str]]:
+    """Names along every dimension of the channels but time."""
+    return {**model.axes, **derived_coords(scene), **FIXED}
 
 
 @once
@@ -100,28 +78,62 @@ def recorded_channels(scene: Description, model: _core.Model, asked: tuple[str, 
     return made_of if ends or "end_tension" in wanted else made_of - {"end_tension"}
 
 
-NEEDS = {  # what a channel of Python's own has its names from, by the dimension
-    "cylinder": "a crane with cylinders: add_crane, or name them by add_roles(cylinders=...)",
-    "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
-    "suspension": "a link, a wire or a line: add one",
-    "weighed": "a link, a wire or lines that carry a load which nothing else holds: add one",
-    "immersed": "parts in water: add_immersed them",
-    "gap": "a clearance: add_clearance one",
-    "pair": "two points: add_relative them",
-    "expression": "an expression: add_channel one",
-    "winch": "a line on a winch: add_winch one",
-}
-_SLEW = "a slew drive: add_crane, or name it by add_roles(slew=...)"
+def on_cranes(scene: Description) -> list[Hung]:
+    """What hangs on the cranes, in their order."""
+    return [one for one in hung_loads(scene) if one.crane is not None]
+
+
+def is_rated(crane: CraneRoles | None) -> bool:
+    """Whether its capacity over the radius of its tip is known."""
+    return crane is not None and bool(crane.capacity) and crane.slew is not None and crane.tip is not None
+
+
+def has_slew(scene: Description, crane: CraneRoles | None) -> bool:
+    """Whether it slews, with a tip."""
+    if crane is None or crane.slew is None or crane.tip is None:
+        return False
+    return crane.slew[0] in scene.joints and crane.tip[0] in scene.bodies
+
+
+def _rated_hooks(scene: Description) -> list[Hung]:
+    return [one for one in on_cranes(scene) if is_rated(one.crane)]
+
+
+def _slewing_hooks(scene: Description) -> list[Hung]:
+    return [one for one in on_cranes(scene) if has_slew(scene, one.crane)]
+
+
+@once_in_any_sea
+def lowest_segments(scene: Description) -> Mapping[str, int]:
+    """The last segment of each line with mass: the place of the line along `whole_line`."""
+    wholes = list(dict.fromkeys(whole_of(name, line) for name, line in lines_of(scene.loads).items()))
+    last = {whole_of(name, line): name for name, line in lines_of(scene.loads).items()}
+    return {name: wholes.index(whole) for whole, name in last.items() if name != whole}
+
+
 _HOOK = "a load on a crane: add_hoist one, or name link or line by add_roles"
-PARTS: Mapping[str, tuple[Callable[[Description], Any], str]] = {  # of those that have no names where one is
-    "slew_angle": (slews, _SLEW),
-    "slew_torque": (slews, _SLEW),
-    "tip_velocity": (tips, "the tip of a crane: add_crane, or name it by add_roles(tip=...)"),
+_SLEWING_HOOK = f"{_HOOK}, on a crane with a tip and a slew drive"
+Names = tuple[Callable[[Description], Iterable[Any]], str]
+ALONG: Mapping[str, Names] = {  # by dimension of derived channels: its names, and what a scene has them from
+    "cylinder": (cylinders, "a crane with cylinders: add_crane, or name them by add_roles(cylinders=...)"),
+    "piston": (piston_areas, "areas of pistons: give add_roles(areas=...), or a crane's file with them"),
+    "suspension": (names_of_suspensions, "a link, a wire or a line: add one"),
+    "weighed": (weighed_suspensions,
+                "a link, a wire or lines that carry a load which nothing else holds: add one"),
+    "immersed": (wet_names, "parts in water: add_immersed them"),
+    "gap": (attrgetter("clearances"), "a clearance: add_clearance one"),
+    "pair": (attrgetter("relatives"), "two points: add_relative them"),
+    "expression": (attrgetter("channels"), "an expression: add_channel one"),
+    "winch": (lambda scene: winches_of(scene.loads), "a line on a winch: add_winch one"),
+    "slew": (slews, "a slew drive: add_crane, or name it by add_roles(slew=...)"),
+    "hook": (lambda scene: [one.label for one in on_cranes(scene)], _HOOK),
+    "tip": (tips, "the tip of a crane: add_crane, or name it by add_roles(tip=...)"),
+}  # fmt: skip
+PARTS: Mapping[str, Names] = {  # of those that some of these names have, and others not
     "link_tension": (hooks, "a link on a crane: name a distance joint by add_roles(link=...)"),
-    "swing": (on_cranes, _HOOK),
-    "offlead": (slewing_hooks, f"{_HOOK}, on a crane with a tip and a slew drive"),
-    "sidelead": (slewing_hooks, f"{_HOOK}, on a crane with a tip and a slew drive"),
-    "utilisation": (rated_hooks, f"{_HOOK}, on a crane with a tip, a slew drive and a capacity table"),
+    "offlead": (_slewing_hooks, _SLEWING_HOOK),
+    "sidelead": (_slewing_hooks, _SLEWING_HOOK),
+    "utilisation": (_rated_hooks, f"{_HOOK}, on a crane with a tip, a slew drive and a capacity table"),
 }
 
 
@@ -152,10 +164,10 @@ def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
     names = derived_coords(scene)
     derived = [channel for channel in wanted if channel in DERIVED]
     unnamed = {
-        channel: NEEDS[dim]
+        channel: ALONG[dim][1]
         for channel in derived
-        for dim in CHANNELS[channel].dims
-        if dim in NEEDS and not names[dim]
+        for dim in CHANNELS[channel].dims_of_several
+        if dim in ALONG and not names[dim]
     }
     parts = {channel: PARTS[channel] for channel in derived if channel in PARTS}
     return unnamed | {channel: need for channel, (there, need) in parts.items() if not there(scene)}
@@ -165,8 +177,8 @@ def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
     """SceneError where a limit state or an expression has a channel or a place that the scene has not."""
     known = model.channel_names(defaults_only=False)
-    axes = {**all_names(scene, model), **FIXED}
-    require_own(scene, axes)
+    axes = all_names(scene, model)
+    _require_own(scene, axes)
     require_names(scene, [OWN] if scene.channels else [])
     for name, state in scene.limit_states.items():
         try:
@@ -175,142 +187,22 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
         except SceneError as error:
             raise SceneError(f"limit state {name!r}: {error}") from error
         for dim, chosen in state.names.items():
-            if chosen not in axes.get(dim, ()):
-                raise SceneError(
-                    f"limit state {name!r}: there is no {dim} {chosen!r}; choose from "
-                    f"{', '.join(axes.get(dim, ()))}"
-                )
+            _require_name(f"limit state {name!r}", dim, chosen, axes.get(dim, ()))
 
 
-def named_channels(
-    scene: Description, arrays: dict[str, Array], asked: Collection[str] | None = None
-) -> dict[str, Array]:
-    """Adds what results call by the roles of cranes: strokes, drives, tensions, tips and how payloads hang.
-
-    Slew and hook have no axis of their own where there is one of them. `asked`: which of those that cost most
-    are wanted; None: all.
-    """
-    strokes = {label: (joint, "displacement") for label, joint in cylinders(scene).items()}
-    drives = slews(scene)
-    wanted = set(DERIVED if asked is None else asked)
-    loads = hook_loads(scene, arrays)
-    leads = lead_angles(scene, arrays) if wanted & {"offlead", "sidelead"} else None
-    offlead, sidelead = leads or (None, None)
-    found: dict[str, Array | None] = {
-        "stroke": _recorded(scene, arrays.get("coordinate"), strokes),
-        "stroke_rate": _recorded(scene, arrays.get("coordinate_rate"), strokes),
-        "cylinder_force": _loads(scene, arrays, strokes),
-        "cylinder_pressure": _pressures(scene, arrays, strokes),
-        **turning_channels(scene, arrays),
-        "slew_torque": _without_axis_of_one(_loads(scene, arrays, drives)),
-        "link_tension": _without_axis_of_one(link_tensions(scene, arrays, loads)),
-        "hook_load": loads,
-        "slack_margin": slack_margins(scene, loads)
-        if loads is not None and "slack_margin" in wanted
-        else None,
-        "utilisation": _without_axis_of_one(
-            None if loads is None or "utilisation" not in wanted else utilisations(scene, arrays, loads)
-        ),
-        "clearance": clearances(scene, arrays),
-        "immersed_depth": immersed_depths(scene, arrays) if "immersed_depth" in wanted else None,
-        "tip_velocity": _without_axis_of_one(
-            tip_velocities(scene, arrays) if "tip_velocity" in wanted else None
-        ),
-        "swing": _without_axis_of_one(swings(scene, arrays) if "swing" in wanted else None),
-        "sling_angle": sling_angles(scene, arrays) if "sling_angle" in wanted else None,
-        "offlead": _without_axis_of_one(offlead),
-        "sidelead": _without_axis_of_one(sidelead),
-    }
-    out = arrays | {name: values for name, values in found.items() if values is not None}
-    out |= motions(scene, arrays, asked)
-    return {name: np.ascontiguousarray(values) for name, values in out.items()}
+def _require_own(scene: Description, names: Mapping[str, Sequence[str]]) -> None:
+    """SceneError where an expression has a name that the scene has not, or leaves one of several open."""
+    for channel, curves in picks(scene).items():
+        for pick in curves:
+            for dim in CHANNELS[pick.channel].dims_of_several[1:]:
+                known = names.get(dim, ())
+                _require_name(f"channel {channel!r}: {pick}", dim, pick.names.get(dim), known)
 
 
-def turning_channels(scene: Description, arrays: Mapping[str, Array]) -> dict[str, Array]:
-    """Those of `named_channels` that count turns."""
-    angle = _turned(_recorded(scene, arrays.get("coordinate"), slews(scene)))
-    return {} if angle is None else {"slew_angle": angle}
-
-
-def _columns(array: Array | None, places: Sequence[int]) -> Array | None:
-    return None if array is None or not places else array[:, places]
-
-
-def _recorded(scene: Description, array: Array | None, wanted: Mapping[str, tuple[str, str]]) -> Array | None:
-    """Columns of joint coordinates; None unless all of them are recorded."""
-    recorded = list(scene.recorded.values())
-    if not all(place in recorded for place in wanted.values()):
-        return None
-    return _columns(array, [recorded.index(place) for place in wanted.values()])
-
-
-def _loads(
-    scene: Description, arrays: Mapping[str, Array], wanted: Mapping[str, tuple[str, str]]
-) -> Array | None:
-    """Loads along joint coordinates; None unless something is known to act along all of them."""
-    columns = [_drive_load(scene, arrays, place) for place in wanted.values()]
-    known = [column for column in columns if column is not None]
-    return np.column_stack(known) if known and len(known) == len(columns) else None
-
-
-def _pressures(
-    scene: Description, arrays: Mapping[str, Array], cylinders: Mapping[str, tuple[str, str]]
-) -> Array | None:
-    """In the loaded chambers of the cylinders whose areas are known."""
-    areas = piston_areas(scene)
-    forces = _loads(scene, arrays, {label: cylinders[label] for label in areas})
-    if forces is None:
-        return None
-    return np.column_stack([pressure(forces[:, i], pair) for i, pair in enumerate(areas.values())])
-
-
-def _drive_load(scene: Description, arrays: Mapping[str, Array], wanted: tuple[str, str]) -> Array | None:
-    """What actuators and the driver apply along a joint coordinate together."""
-    actuators = [(actuator.joint, actuator.coordinate) for actuator in scene.actuators.values()]
-    drivers = [(driver.joint, driver.coordinate) for driver in scene.drivers.values()]
-    loads = [
-        arrays[channel][:, i]
-        for channel, places in (
-            ("actuator_force", actuators),
-            ("driver_force", drivers),
-            ("hydraulic_force", _pushed(scene)),
-        )
-        for i, place in enumerate(places)
-        if place == wanted and channel in arrays
-    ]
-    return sum(loads[1:], loads[0].copy()) if loads else None
-
-
-def _pushed(scene: Description) -> list[tuple[str, str] | None]:
-    """The joint coordinates along which hydraulic cylinders push: those of the bodies that they join."""
-    slides = [slide_of(scene, one) for one in hydraulic_cylinders(scene).values()]
-    return [None if slide is None else (slide, "displacement") for slide in slides]
-
-
-def _turned(angles: Array | None) -> Array | None:
-    """Angles counted on over whole turns."""
-    return _without_axis_of_one(None if angles is None else np.unwrap(angles, axis=0))
-
-
-def _without_axis_of_one(array: Array | None) -> Array | None:
-    return array[:, 0] if array is not None and array.shape[1] == 1 else array
-
-
-def clearances(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
-    """Clearances (time, gap), m; None where there is none, or the core recorded too little."""
-    if not scene.clearances or not all(name in arrays for name in NEEDED):
-        return None
-    return np.stack([_clearance(scene, arrays, one) for one in scene.clearances.values()], axis=1)
-
-
-def _clearance(scene: Description, arrays: Mapping[str, Array], gap: Clearance) -> Array:
-    center = position_of(scene, arrays, gap.body, gap.center)
-    turn = np.eye(3)[None]
-    if gap.body in scene.bodies:
-        turn = rotation_matrix(arrays["quaternion"][:, list(scene.bodies).index(gap.body)])
-    found = []
-    for name in gap.points:
-        point = scene.points[name]
-        away = position_of(scene, arrays, point.body, point.point) - center
-        found.append(distance_from_box((away[:, None, :] @ turn)[:, 0], gap.size))
-    return np.asarray(np.min(found, axis=0))
+def _require_name(what: str, dim: str, name: str | None, known: Sequence[str]) -> None:
+    if name is None and len(known) != 1:
+        raise SceneError(f"{what}: says not which {dim}; name one of {', '.join(known) or 'none'}")
+    if name is not None and name not in known:
+        near = get_close_matches(name, known, n=1)
+        fix = f"did you mean {near[0]!r}?" if near else f"choose from {', '.join(known) or 'none'}"
+        raise SceneError(f"{what}: there is no {dim} {name!r}; {fix}")

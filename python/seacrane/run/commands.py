@@ -14,14 +14,73 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, winch_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of
+from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
-from seacrane.run.move import Move
 from seacrane.scene.edit import replace_element
 from seacrane.scene.scene import Scene
 
 RATE_TIME = 1.0  # s, in which a rate, a force or a brake that is commanded by a number is reached
 JUMP = 1e-6  # m or rad, of a commanded place
 HOLE = "rupture_area"  # of a hose that a stage lets burst: no curve, it opens at once
+
+
+@named
+@dataclass(frozen=True, kw_only=True)
+class Move:
+    """A smooth way of a commanded value from where it is to another, held from there on.
+
+    A quintic that takes over value, rate and acceleration as they are, and arrives at rest.
+
+    Attributes
+    ----------
+    to : float, optional
+        Where to, in the unit of what is commanded (m, rad, N, N m or m/s).
+    by : float, optional
+        How far from the present value, instead of `to`.
+    over : float
+        s.
+
+    Raises
+    ------
+    SceneError
+    """
+
+    to: float | None = None
+    by: float | None = None
+    over: float
+
+    def __post_init__(self) -> None:
+        if (self.to is None) == (self.by is None):
+            raise SceneError(f"move: to is {self.to} and by is {self.by}; give one of them")
+        for name in ("to", "by", "over"):
+            value = getattr(self, name)
+            if value is None:
+                continue
+            number = finite_of(f"move: {name}", value)
+            object.__setattr__(self, name, number)
+        if not self.over > 0.0:
+            raise SceneError(f"move: over is {self.over:g} s; give the positive time that it takes")
+
+    def from_where_it_is(self, curve: _core.Curve, time: float) -> _core.Curve:
+        """The curve until a time (s), and this move from there."""
+        value, rate, acceleration = curve.evaluate([time])[0]
+        end = self.to if self.to is not None else value + self.by
+        start = [value, rate, 0.5 * acceleration, *_closing(end - value, rate, acceleration, self.over)]
+        hold = [end, 0.0, 0.0, 0.0, 0.0, 0.0]
+        move = _core.Curve.pieces(starts=[time, time + self.over], coefficients=[start, hold])
+        return curve.then(time=time, curve=move)
+
+
+def _closing(way: float, rate: float, acceleration: float, over: float) -> list[float]:
+    """Coefficients 3 to 5 of the quintic that arrives at rest."""
+    left = way - rate * over - 0.5 * acceleration * over**2
+    slope = -rate - acceleration * over
+    return [
+        (10.0 * left - 4.0 * slope * over - 0.5 * acceleration * over**2) / over**3,
+        (-15.0 * left + 7.0 * slope * over + acceleration * over**2) / over**4,
+        (6.0 * left - 3.0 * slope * over - 0.5 * acceleration * over**2) / over**5,
+    ]
+
 
 Command = Move | _core.Curve | float
 

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Set
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.channels import CHANNELS, DERIVED
-from seacrane.result.extremes import Extremes
-from seacrane.run.channel_names import named_channels
-from seacrane.run.own import with_sources
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description
+from seacrane.description.description import Description
+from seacrane.description.places import POSE
+from seacrane.result.traces import Extremes
+from seacrane.run.channel_names import sources_of, with_sources
+from seacrane.run.derived import named_channels
 
 Array = NDArray[np.float64]
 USUAL = (
@@ -26,7 +24,6 @@ MONOTONE = (
     "stroke", "stroke_rate", "cylinder_force", "cylinder_pressure", "slew_torque", "link_tension",
     "hook_load", "slack_margin", "utilisation", "wire_paid_out", "wire_spare",
 )  # fmt: skip
-POSES = ("position", "quaternion")  # with which the others are taken along
 
 
 def _limited(scene: Description) -> tuple[str, ...]:
@@ -36,8 +33,8 @@ def _limited(scene: Description) -> tuple[str, ...]:
 def wanted_extremes(scene: Description, recorded: Set[str], asked: tuple[str, ...] | None) -> set[str]:
     """Those of the core's recorded channels, for the channels that are asked for; None: the usual ones."""
     names = (*USUAL, *_limited(scene)) if asked is None else asked
-    made_of = {source for name in names if name in MONOTONE for source in DERIVED[name].made_of}
-    wanted = {*names, *(made_of - {*POSES})}
+    made_of = {source for name in names if name in MONOTONE for source in sources_of(name)}
+    wanted = {*names, *made_of.difference(POSE)}
     return {name for name in recorded & wanted if CHANNELS[name].has_extremes}
 
 
@@ -48,10 +45,7 @@ def followed(scene: Description, recorded: Set[str], asked: tuple[str, ...] | No
     for name in names:
         if name not in DERIVED or name in MONOTONE or DERIVED[name].turns:
             continue
-        parts = with_sources(scene, [name])
-        made_of = {
-            source for part in parts for source in (DERIVED[part].made_of if part in DERIVED else (part,))
-        }
+        made_of = {source for part in with_sources(scene, [name]) for source in sources_of(part)}
         found[name] = made_of & recorded
     return found
 
@@ -95,11 +89,7 @@ def derived_extremes(
     wanted: Set[str] | Mapping[str, Array],
 ) -> dict[str, tuple[Array, Array]]:
     """Least and largest values of derived channels, from those of what they rise or fall with."""
-    names = [
-        name
-        for name in MONOTONE
-        if name in wanted and any(source in extremes for source in DERIVED[name].made_of)
-    ]
+    names = [one for one in MONOTONE if one in wanted and any(part in extremes for part in sources_of(one))]
     if not names:
         return {}
     known = {name: values for name, values in arrays.items() if name != "time"}

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.channels import CHANNELS, COUNTED_ON, NAMED, channel_of
+from seacrane.description.channels import CHANNELS, COUNTED_ON, DERIVED, NAMED, channel_of
 from seacrane.result.about import About, StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
-from seacrane.run.channel_names import turning_channels
-from seacrane.run.lifts_in_lanes import joined_lanes
+from seacrane.run.derived import derived_channels, squeezed
+from seacrane.run.lanes import joined_lanes
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 
@@ -34,7 +34,7 @@ class Piece:
 
     Attributes
     ----------
-    names : dict of str to tuple of str
+    names : dict of str to sequence of str
         All names along each dimension, also of channels that are not recorded.
     start, end : dict of str to array
         Values of `COUNTED_ON` and of angles that count turns.
@@ -45,7 +45,7 @@ class Piece:
     """
 
     result: Result
-    names: Mapping[str, tuple[str, ...]]
+    names: Mapping[str, Sequence[str]]
     start: Mapping[str, Array]
     end: Mapping[str, Array]
     reached: Mapping[str, Any]
@@ -66,14 +66,12 @@ class Piece:
             return state
         added = self.added
         record = _core.RecordHistory(
-            start_energy=record.start_energy - float(added["energy_balance"]), start_work=record.start_work,
-            residual=record.residual, quaternions=record.quaternions, extremes=record.extremes,
-            impact_loss=float(self.end.get("impact_loss", 0.0) + added["impact_loss"]),
+            **record.__getstate__() | {
+                "start_energy": record.start_energy - float(added["energy_balance"]),
+                "impact_loss": float(self.end.get("impact_loss", 0.0) + added["impact_loss"]),
+            }
         )  # fmt: skip
-        return _core.State(
-            time=state.time, values=state.values, inputs=state.inputs, histories=state.histories,
-            steps=state.steps, closed=state.closed, record=record, parts=state.parts,
-        )  # fmt: skip
+        return _core.State(**state.__getstate__() | {"record": record})
 
 
 def counters(run: Run) -> dict[str, Array]:
@@ -84,7 +82,8 @@ def counters(run: Run) -> dict[str, Array]:
 def counted(scene: Scene, model: _core.Model, snapshot: Mapping[str, Array]) -> dict[str, Array]:
     """The same of a snapshot of the core."""
     wanted = [name for name in model.channel_names() if name in COUNTED_ON and name in snapshot]
-    now = {name: snapshot[name] for name in wanted} | turning_channels(scene, snapshot)
+    turning = [name for name, channel in DERIVED.items() if channel.turns]
+    now = {name: snapshot[name] for name in wanted} | derived_channels(scene, snapshot, turning)
     return {name: values[0] for name, values in now.items()}
 
 
@@ -113,7 +112,7 @@ def joined(
             _whole(channel, piece, names) + offsets[i].get(channel, 0.0) for i, piece in enumerate(pieces)
         ]
         array = np.concatenate([part[keep] for part, keep in zip(parts, kept, strict=True)])
-        arrays[channel] = _squeezed(channel, array)
+        arrays[channel] = squeezed(channel, array)
     events = [event for piece in pieces for event in (*piece.before, *piece.result.events)]
     return Result.from_arrays(
         time=np.concatenate([piece.result.time[keep] for piece, keep in zip(pieces, kept, strict=True)]),
@@ -176,15 +175,6 @@ def _whole(name: str, piece: Piece, names: Mapping[str, Sequence[str]]) -> Array
     place = [[names[dim].index(name) for name in part] for dim, part in zip(dims[1:], own, strict=False)]
     out[np.ix_(range(count), *place, *(range(n) for n in fixed))] = array
     return out
-
-
-def _squeezed(channel: str, array: Array) -> Array:
-    """Without the axis that only several vessels, slews or hooks have, where there is one of them."""
-    kind = CHANNELS[channel_of(channel)]
-    several = len(kind.dims_of_several) > len(kind.dims)
-    return (
-        array[:, 0] if several and array.ndim == len(kind.dims_of_several) and array.shape[1] == 1 else array
-    )
 
 
 def _lost_in_impacts(piece: Piece) -> float:

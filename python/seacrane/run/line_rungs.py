@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.polynomial import polyder, polyval
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane._core import Integrator, integrator
+from seacrane._core import Integrator
 from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
 from seacrane.analysis.linearise import LARGEST
 from seacrane.description.compilation import compiled
@@ -80,18 +81,14 @@ def line_rungs(
         return {}
     if start is not None and start.time > 0.0:
         return {name: _kept(name, start) for name in lines}
-    if start is not None:
-        return _chosen(scene, known, end, start, in_memory, controlled)
-    return dict(_chosen_from_described(scene, known.name, end, in_memory, controlled))
-
-
-def _chosen(
-    scene: Scene, known: Integrator, end: float, start: _core.State | None, in_memory: bool, controlled: bool
-) -> dict[str, LineRung]:
-    lines = automatic(scene)
     reason = _why_elastic(scene, known, in_memory=in_memory, controlled=controlled)
     if reason:
         return all_elastic(lines, reason)
+    return dict(_chosen_from_described(scene, end)) if start is None else _chosen(scene, end, start)
+
+
+def _chosen(scene: Scene, end: float, start: _core.State | None) -> dict[str, LineRung]:
+    lines = automatic(scene)
     found = _by_their_own(scene, lines, end, start)
     settled = [name for name, rung in found.items() if rung.name == QUASI_STATIC]
     try:
@@ -102,10 +99,8 @@ def _chosen(
 
 
 @once
-def _chosen_from_described(
-    scene: Scene, method: str, end: float, in_memory: bool, controlled: bool
-) -> Mapping[str, LineRung]:
-    return _chosen(scene, integrator(method), end, None, in_memory, controlled)
+def _chosen_from_described(scene: Scene, end: float) -> Mapping[str, LineRung]:
+    return _chosen(scene, end, None)
 
 
 def as_told(rungs: Mapping[str, LineRung]) -> str:
@@ -363,16 +358,10 @@ def curve_frequency(curve: _core.Curve, derivative: int, *, start: float, end: f
     low[0] = min(max(begins[0], start), end)
     times = 0.5 * (high + low)[:, None] + 0.5 * (high - low)[:, None] * NODES - begins[:, None]
     share = 0.5 * (high - low)[:, None] * WEIGHTS
-    size, rate = (float((share * _nth(powers, n, times) ** 2).sum()) for n in (derivative, derivative + 1))
+    size, rate = (
+        float((share * polyval(times, polyder(powers.T, n)[:, :, None], tensor=False) ** 2).sum())
+        for n in (derivative, derivative + 1)
+    )
     cosines = np.asarray(parts["cosines"], dtype=float).reshape(-1, 3)
     waving = [abs(omega) for amplitude, omega, _ in cosines[: begins.size] if amplitude != 0.0]
     return float(max([np.sqrt(rate / size) if size > 0.0 else 0.0, *waving]))
-
-
-def _nth(powers: Array, order: int, times: Array) -> Array:
-    """The derivative of each row's polynomial at its times."""
-    out = np.zeros_like(times)
-    for exponent in range(powers.shape[1] - 1, order - 1, -1):
-        factor = float(np.prod(np.arange(exponent - order + 1, exponent + 1)))
-        out = out * times + factor * powers[:, exponent, None]
-    return out

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -11,13 +12,12 @@ from seacrane import _core
 from seacrane.errors import SimulationError
 from seacrane.inputs.caller import silently
 from seacrane.run.advance import drive
-from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
-from seacrane.run.stage import Stage
-from seacrane.run.until import Condition, Contact, Level
+from seacrane.run.sampled_controller import Calls
+from seacrane.run.stage import Condition, Contact, Level, Stage
 from seacrane.scene.scene import Scene
 
 LOOK = 50  # outputs between two looks at the conditions
@@ -111,9 +111,10 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> Generator[Ru
         run = course.run(state, stop)
         course.began(run)
         yield run
-        looks = _Looks(run, stage.conditions, {one: start.time + MOMENT for one in left})
-        drive(run, course.calls, course.interrupts, halt=looks.any if course.calls.controllers else None)
-        found = looks.hits()
+        look = partial(_hits, run, stage.conditions, {one: start.time + MOMENT for one in left})
+        # No controller is called beyond the end of its stage.
+        drive(run, course.calls, course.interrupts, halt=look if course.calls.controllers else None)
+        found = look()
         if found and not run.interrupted:
             try:
                 return _located(course, state, min(found, key=lambda hit: hit.by), found)
@@ -177,22 +178,12 @@ class _Hit:
     by: float
 
 
-class _Looks:
-    """Looks at the conditions of a stage in one of its runs, at some from a time on, s."""
-
-    def __init__(self, run: Run, conditions: tuple[Condition, ...], since: Mapping[Condition, float]) -> None:
-        self._run, self._conditions, self._since = run, conditions, since
-
-    def any(self) -> bool:
-        """Whether one is met by now: no controller is called beyond the end of its stage."""
-        return bool(self.hits())
-
-    def hits(self) -> list[_Hit]:
-        """The bounds that are met by now, in the outputs, at events or at this instant."""
-        start = float(self._run.start.time)
-        asked = [(one, max(start, self._since.get(one, start))) for one in self._conditions]
-        found = (_found(self._run, *one) or _found_now(self._run, *one) for one in asked)
-        return [hit for hit in found if hit is not None]
+def _hits(run: Run, conditions: tuple[Condition, ...], since: Mapping[Condition, float]) -> list[_Hit]:
+    """Conditions met by now, in the outputs, at events or at this instant; some from a time on, s."""
+    start = float(run.start.time)
+    asked = [(one, max(start, since.get(one, start))) for one in conditions]
+    found = (_found(run, *one) or _found_now(run, *one) for one in asked)
+    return [hit for hit in found if hit is not None]
 
 
 def _found_now(run: Run, condition: Condition, start: float) -> _Hit | None:

@@ -1,19 +1,46 @@
-"""Method: how a scene is stepped."""
+"""How a scene is stepped: Method, words of a call that stand for it and for Outputs, formulation, start."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+import sys
+from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import dataclass, replace
+from typing import Any, Literal, TypeAlias, TypedDict
 
 from seacrane import _core
-from seacrane.errors import SceneError
+from seacrane._core import Integrator, integrator
+from seacrane.analysis.rest_state import equilibrium
+from seacrane.errors import KeywordError, SceneError
 from seacrane.inputs.checked import number_of
-from seacrane.inputs.keywords import named
+from seacrane.inputs.keywords import named, no_keyword
+from seacrane.inputs.shown import shown
+from seacrane.run.outputs import Outputs
+from seacrane.scene.scene import Scene
 
 DEFAULT_INTEGRATOR, DEFAULT_TOLERANCE = "dopri5", 1e-6
 LARGEST_TOLERANCE = 0.1
 FORMULATIONS = ("auto", "recursive", "redundant")
+REST: Literal["rest"] = "rest"
+Start: TypeAlias = _core.State | Literal["rest"] | None
+BOUNDS = {  # of what is above zero: the largest value, the unit, the fix
+    "rtol": (LARGEST_TOLERANCE, "", "give a positive number up to 0.1, e.g. 1e-6"),
+    "dt": (sys.float_info.max, " s", "give a finite positive number, or leave it out"),
+    "maximum_step": (sys.float_info.max, " s", "give a finite positive number, or leave it out"),
+    "spectral_radius": None,
+    "energy_limit": (math.inf, "", "give a positive number, such as 1e-3"),
+}
+BAUMGARTE = 5.0  # 1/s: of methods that cannot project, where the scene names none
+SOLVES_FOR_MULTIPLIERS = "ida"
+# Multiplications, each about as many as a count of the loops of the core gives.
+PER_BODY = 2000.0  # kinematics, inertia and loads, in either form
+PER_RESPONSE = 150.0  # of one body to one row of a loop
+EIGENVECTORS = 9.0  # times the rows cubed, where rows depend on each other
+FEW_ROWS = 12  # of loops, up to which the core takes them densely
+LOST_DIGITS = 1e5  # S_ii / d_i beyond which the redundant form is solved by a dense LU, as in the core
+# An evaluation of the redundant form must be this much dearer before it is left: where a mechanism folds, it
+# can take a hundred times fewer steps.
+MARGIN = 50.0
 
 
 @named
@@ -65,9 +92,13 @@ class Method:
             raise SceneError(f"integrator is {self.integrator!r}; choose one of {names}")
         if self.formulation not in FORMULATIONS:
             raise SceneError(f"formulation {self.formulation!r} is unknown; choose {', '.join(FORMULATIONS)}")
-        for name, check in CHECKS.items():
-            value = getattr(self, name)
-            object.__setattr__(self, name, None if value is None else check(name, value))
+        for name, bound in BOUNDS.items():
+            if getattr(self, name) is None:
+                continue
+            value = number_of(name, getattr(self, name))
+            if bound and not 0.0 < value <= bound[0]:
+                raise SceneError(f"{name} is {value:g}{bound[1]}; {bound[2]}")
+            object.__setattr__(self, name, value)
 
     @property
     def used_rtol(self) -> float:
@@ -86,34 +117,197 @@ class Method:
         return " ".join(part for part in (self.formulation, self.integrator, self.setting) if part)
 
 
-def tolerance_of(name: str, value: Any) -> float:
-    """A tolerance; raises SceneError."""
-    tolerance = number_of(name, value)
-    if not 0.0 < tolerance <= LARGEST_TOLERANCE:
-        raise SceneError(f"{name} is {tolerance:g}; give a positive number up to 0.1, e.g. 1e-6")
-    return tolerance
+class Shorthand(TypedDict, total=False):
+    """Each as the attribute of `Method` or `Outputs` that it stands for; None: not given."""
+
+    integrator: str | None
+    rtol: float | None
+    dt: float | None
+    formulation: str | None
+    maximum_step: float | None
+    spectral_radius: float | None
+    energy_limit: float | None
+    dt_out: float | None
+    channels: Sequence[str] | None
 
 
-def step_of(name: str, value: Any) -> float:
-    """A step length, s; raises SceneError."""
-    step = number_of(name, value)
-    if not (math.isfinite(step) and step > 0.0):
-        raise SceneError(f"{name} is {step} s; give a finite positive number, or leave it out")
-    return step
+METHOD_WORDS = tuple(Method.__dataclass_fields__)
 
 
-def energy_limit_of(name: str, value: Any) -> float:
-    """A share of the energy; raises SceneError."""
-    limit = number_of(name, value)
-    if not limit > 0.0:
-        raise SceneError(f"{name} is {limit}; give a positive number, such as 1e-3")
-    return limit
+OUTPUT_WORDS = tuple(Outputs.__dataclass_fields__)
 
 
-CHECKS = {
-    "rtol": tolerance_of,
-    "dt": step_of,
-    "maximum_step": step_of,
-    "spectral_radius": number_of,
-    "energy_limit": energy_limit_of,
-}
+def settled(
+    method: Method | None, outputs: Outputs | None, shorthand: Mapping[str, Any]
+) -> tuple[Method, Outputs]:
+    """The method and the outputs of a call: the objects given, or those that the shorthand makes.
+
+    Raises
+    ------
+    SceneError
+        For an object of another type, a value that makes no sense, or a word beside the object that it
+        contradicts.
+    KeywordError
+        For a word that is none.
+    """
+    for word in shorthand:
+        if word not in METHOD_WORDS and word not in OUTPUT_WORDS:
+            known = ["method", "outputs", *METHOD_WORDS, *OUTPUT_WORDS]
+            error = KeywordError(f"settings: {no_keyword(word, shorthand[word], known)}")
+            error.known = (*METHOD_WORDS, *OUTPUT_WORDS)
+            raise error
+    return (
+        _settled("method", Method, method, METHOD_WORDS, shorthand),
+        _settled("outputs", Outputs, outputs, OUTPUT_WORDS, shorthand),
+    )
+
+
+def overridden(
+    method: Method | None, outputs: Outputs | None, shorthand: Mapping[str, Any]
+) -> tuple[Method, Outputs]:
+    """The objects, or defaults, with what the shorthand says in their place; raises SceneError."""
+    return (
+        _changed(Method() if method is None else method, METHOD_WORDS, shorthand),
+        _changed(Outputs() if outputs is None else outputs, OUTPUT_WORDS, shorthand),
+    )
+
+
+def _settled(name: str, kind: Any, given: Any, words: Iterable[str], shorthand: Mapping[str, Any]) -> Any:
+    if given is not None and not isinstance(given, kind):
+        raise SceneError(f"{name} is {given!r}; give a seacrane.{kind.__name__}")
+    made = _changed(kind() if given is None else given, words, shorthand)
+    if given is not None and made != given:
+        word = next(word for word in words if getattr(made, word) != getattr(given, word))
+        raise SceneError(
+            f"{word}={shorthand[word]!r} contradicts {name}, whose {word} is {getattr(given, word)!r}: "
+            f"leave {word} out, or change {name}"
+        )
+    return made
+
+
+def _changed(whole: Any, words: Iterable[str], shorthand: Mapping[str, Any]) -> Any:
+    """The object with the attributes that the words given stand for."""
+    values = {word: shorthand[word] for word in words if shorthand.get(word) is not None}
+    return replace(whole, **values)
+
+
+def start_state(scene: Scene, start: Any, *, time: float = 0.0) -> _core.State | None:
+    """The state that is meant; None for the assembled start.
+
+    Raises SceneError for something else, and where the scene has no state at rest.
+    """
+    if start is None or isinstance(start, _core.State):
+        return start
+    if isinstance(start, str) and start == REST:
+        return equilibrium(scene, time=time)
+    raise SceneError(f"start is {shown(start)}; give a seacrane.State, or {REST!r} for the state at rest")
+
+
+def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Scene, _core.Model, str]:
+    """The scene, its compiled model and the formulation that a run with this method steps.
+
+    The scene is another one, stabilised by Baumgarte's method, where its joints have to be kept by an
+    integrator that cannot project.
+
+    Raises SceneError for a combination that does not exist.
+    """
+    model = scene.compile() if model is None else model
+    known = integrator(method.integrator)
+    formulation = _formulation(model, method, known)
+    if not known.projects and formulation == "redundant" and scene.baumgarte == 0.0 and scene.joints:
+        scene = scene.copy(baumgarte=BAUMGARTE)
+        model = scene.compile()
+    if known.name == SOLVES_FOR_MULTIPLIERS:
+        _refuse_redundant_joints(model)
+    return scene, model, formulation
+
+
+def _formulation(model: _core.Model, method: Method, known: Integrator) -> str:
+    """The formulation to step; SceneError where the recursive one is asked for and does not exist."""
+    reason = _redundant_because(model, known)
+    if method.formulation == "recursive" and reason:
+        raise SceneError(f"formulation 'recursive' is not available here: {reason}; choose 'redundant'")
+    if method.formulation != "auto":
+        return method.formulation
+    if reason:
+        return "redundant"
+    return "recursive" if model.tree["loop_rows"] == 0 or recursive_pays(model) else "redundant"
+
+
+def _redundant_because(model: _core.Model, known: Integrator) -> str | None:
+    """Why only the redundant formulation will do; None where both will."""
+    if known.residual_form:
+        return f"integrator {known.name!r} solves the redundant equations"
+    if model.paper_kinematics:
+        return "kinematics 'paper' has no symmetric mass matrix"
+    if model.baumgarte > 0.0:
+        return "Baumgarte stabilisation belongs to the redundant equations"
+    if model.tree["refused"]:
+        return str(model.tree["refused"])
+    if model.euler_angles:
+        return "orientation 'euler_xyz' is a choice of the redundant state"
+    if not known.projects and (model.tree["loop_rows"] or model.limits):
+        return f"integrator {known.name!r} cannot project, and this scene keeps constraints or limits"
+    if model.tree["speeds"] == 0:
+        return "the joints and drivers of this scene leave nothing to move"
+    return None
+
+
+def _refuse_redundant_joints(model: _core.Model) -> None:
+    """SceneError where joints that are stepped depend on each other: each multiplier is solved for."""
+    joints = ", ".join(name for name in model.redundant if name not in model.merge["dropped"])
+    if joints:
+        raise SceneError(
+            f"integrator {SOLVES_FOR_MULTIPLIERS!r} is not available here: the joints {joints} are "
+            "redundant, and it solves for every reaction; give one of them more freedom, or choose a method "
+            "that projects, as 'cvode-bdf' does"
+        )
+
+
+def recursive_pays(model: _core.Model) -> bool:
+    """Whether the redundant form would be solved densely and the recursive one costs far less.
+
+    Dense: constraints that depend on each other, or masses so different that the sparse factors lose their
+    digits. One such joint makes all of the scene dense, so a chain pays for a door on two hinges beside it;
+    the recursive form keeps its tree and solves the rows of its loops alone. Many rows are never dense: those
+    that the others hold are left out.
+    """
+    dependent = model.assembly["rank"] < model.constraints
+    if model.merge["left_out"] or not (dependent or model.assembly["condition"] > LOST_DIGITS):
+        return False
+    bodies, rows = model.merge["coordinates"] / 6.0, float(model.merge["constraints"])
+    loops = float(model.tree["loop_rows"])
+    unknowns = 6.0 * bodies + rows
+    dense = PER_BODY * bodies + 2.0 / 3.0 * unknowns**3
+    if dependent:
+        dense += EIGENVECTORS * rows**3
+    if loops > FEW_ROWS and model.tree["loop_trees"] > 1:  # sparse: a row feels two trees
+        tree = PER_BODY * bodies + PER_RESPONSE * loops * 2.0 * bodies / model.tree["loop_trees"]
+    else:
+        tree = PER_BODY * bodies + PER_RESPONSE * bodies * loops + loops**3 / 3.0
+        if dependent:
+            tree += PER_RESPONSE * bodies * loops + EIGENVECTORS * loops**3
+    return bool(dense > MARGIN * tree)
+
+
+def core_options(
+    method: Method,
+    formulation: str,
+    *,
+    channels: Set[str],
+    times: Any,
+    capacity: int | None = None,
+    extremes: Set[str] = frozenset(),
+    trail: Set[str] = frozenset(),
+) -> _core.RunOptions:
+    """The options of the core for a method, with the channels that it records and when (s).
+
+    `extremes`: those of the channels of which it keeps least and largest values between outputs. `trail`:
+    those whose values at every step it keeps.
+    """
+    return _core.RunOptions(
+        formulation=formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
+        fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
+        energy_limit=method.energy_limit, output_times=times, channels=channels,
+        extremes=extremes, trail=trail, capacity=capacity,
+    )  # fmt: skip

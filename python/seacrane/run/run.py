@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -12,11 +12,9 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
-from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
+from seacrane.description.channels import CHANNELS, DERIVED, OWN
 from seacrane.description.compilation import compiled, compiled_in_sea
-from seacrane.description.description import Description
 from seacrane.description.holding import with_holds
-from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.description.once import forgetting
 from seacrane.description.references import check_references
@@ -27,24 +25,20 @@ from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import finite_of, number_of
 from seacrane.inputs.keywords import named
-from seacrane.result.about import About
-from seacrane.result.checked_parts import plain_stats
+from seacrane.result.about import About, plain_stats
 from seacrane.result.events import Event
-from seacrane.result.extremes import Extremes, as_arrays
 from seacrane.result.result import Result
-from seacrane.run.boiling import boiled
-from seacrane.run.carried_state import carried
+from seacrane.result.traces import Extremes, as_arrays
+from seacrane.run.carried_state import carried, changed_inputs, steered
 from seacrane.run.channel_names import (
     all_names,
-    named_channels,
     recorded_channels,
     require_limited_channels,
     require_names,
+    with_sources,
 )
-from seacrane.run.core_options import core_options
+from seacrane.run.derived import named_channels, own_values
 from seacrane.run.extremes import derived_extremes, followed, followed_extremes, wanted_extremes
-from seacrane.run.formulation import stepped
-from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.line_rungs import (
     COMPILED,
     LineRung,
@@ -53,22 +47,19 @@ from seacrane.run.line_rungs import (
     line_rungs,
     warn_of_quasi_static,
 )
-from seacrane.run.method import Method
+from seacrane.run.method import REST, Method, Shorthand, Start, core_options, settled, start_state, stepped
 from seacrane.run.modes import Modes
-from seacrane.run.output_times import output_times
-from seacrane.run.outputs import Outputs
-from seacrane.run.own import own_values, with_sources
-from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.start import REST, Start, start_state
+from seacrane.run.outputs import Outputs, output_times
 from seacrane.run.stats import (
     about_of,
+    boiled,
+    fallen_through,
     lasting_stats,
     require_plain,
+    ruptures,
     settings_in_sea,
     settings_of,
-    stats_of,
 )
-from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import NOT_FINITE, Finding, as_text, not_finite, tried
 from seacrane.validity.implausible import warn_of_description
@@ -348,8 +339,7 @@ class Run:
         wanted = None if asked is None else with_sources(scene, asked)
         out = named_channels(scene, known, wanted)
         if scene.channels and (asked is None or OWN in asked):
-            names = {**all_names(scene, self.model), **FIXED}
-            own = own_values(scene, out, names, len(arrays["time"]))
+            own = own_values(scene, out, all_names(scene, self.model), len(arrays["time"]))
             out |= {} if own is None else {OWN: own}
         return out
 
@@ -397,7 +387,8 @@ class Run:
     def _stats(self, counted: Mapping[str, Any]) -> dict[str, Any]:
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
         warned = {"described": "\n".join(self._warned)} if self._warned else {}
-        return told | stats_of(self._lasting.stats, self.scene.waves, counted) | warned | self.lanes
+        sea = {} if self.scene.waves is None else self.scene.waves.provenance.stats()
+        return {**told, **self._lasting.stats, **counted, **sea, **warned, **self.lanes}
 
     @property
     def about(self) -> About:
@@ -421,9 +412,8 @@ class Run:
             arrays, extremes = self.core.channels(*every), self.core.extremes(*every)
             scene, met, stats = self.scene, self.events(), self.stats()
             found: list[Finding] = []
-            channels = tried(
-                "making derived channels", lambda: self.wanted(arrays), self._recorded(arrays), found
-            )
+            recorded = {name: values for name, values in arrays.items() if name in CHANNELS}
+            channels = tried("making derived channels", lambda: self.wanted(arrays), recorded, found)
             found += findings(scene, arrays["time"], channels, stats, self.steered, described=self.described)
             reached = [(time, name) for time, name, *_ in self.core.events()]
             for what, look in (
@@ -439,16 +429,11 @@ class Run:
             if found:
                 stats["validity"] = as_text(found)
             result = Result.from_arrays(
-                time=arrays["time"],
+                time=arrays["time"], coords=self._lasting.coords, events=met, stats=stats, about=self.about,
                 arrays={**channels, **as_arrays(self._reached(arrays, extremes, channels))},
-                coords=self._lasting.coords,
-                events=met,
-                stats=stats,
-                about=self.about,
-                interrupted=self.interrupted,
-                state=self.last_state() if most is None else None,
+                interrupted=self.interrupted, state=self.last_state() if most is None else None,
                 scene=forgetting(scene.copy(notes={})),
-            )
+            )  # fmt: skip
         return result, found
 
     def _reached(
@@ -460,10 +445,6 @@ class Run:
             outputs = {**channels, "time": arrays["time"]}
             derived |= followed_extremes(self.core.trail(), outputs, self._lasting.followed, self.named)
         return {name: both for name, both in {**extremes, **derived}.items() if name in channels}
-
-    def _recorded(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
-        """Channels as the core recorded them, those that a result knows."""
-        return {name: values for name, values in arrays.items() if name in CHANNELS}
 
     def _require_plain_stats(self) -> None:
         """What a result could not hold is refused now, not when the run is over."""
@@ -490,7 +471,7 @@ class _Lasting:
     """
 
     options: _core.RunOptions
-    coords: Mapping[str, list[str]]
+    coords: Mapping[str, Sequence[str]]
     followed: Mapping[str, set[str]]
     steered: frozenset[str]
     stats: Mapping[str, Any]
@@ -502,13 +483,10 @@ class _Lasting:
         asked = None if run.outputs.channels is None else tuple(run.outputs.channels)
         made_of = followed(scene, recorded_channels(scene, model, asked), asked)
         return cls(
-            options=_options(run, made_of),
-            followed=made_of,
-            coords=all_names(scene, model),
+            options=_options(run, made_of), followed=made_of, coords=all_names(scene, model),
             steered=frozenset(steered(scene, model, run.start.inputs)),
-            stats=lasting_stats(scene, model, run.formulation, run.method),
-            about=about_of(scene),
-        )
+            stats=lasting_stats(scene, model, run.formulation, run.method), about=about_of(scene),
+        )  # fmt: skip
 
 
 def _options(run: Run, followed: Mapping[str, set[str]]) -> _core.RunOptions:
@@ -524,15 +502,3 @@ def _options(run: Run, followed: Mapping[str, set[str]]) -> _core.RunOptions:
         method, run.formulation, channels=channels, times=times, capacity=capacity,
         extremes=wanted_extremes(run.scene, channels, asked), trail=set().union(*followed.values()),
     )  # fmt: skip
-
-
-def ruptures(scene: Description, start: float, now: float) -> list[Event]:
-    """Events of hoses that burst from `start` (s) on and before `now` (s).
-
-    A hose that bursts at `now` is left to the run that continues from there.
-    """
-    return [
-        Event(time=cylinder.rupture_time, name=f"{name}.rupture", kind="limit")
-        for name, cylinder in hydraulic_cylinders(scene).items()
-        if cylinder.rupture_area > 0.0 and start <= cylinder.rupture_time < now
-    ]

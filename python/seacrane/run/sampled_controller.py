@@ -1,8 +1,8 @@
-"""Python controllers, called between integration steps."""
+"""Python controllers, called between integration steps, in a run or in runs that follow each other."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,9 +12,13 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
+from seacrane.run.interrupts import Interrupts
+from seacrane.run.run import Run
 
 Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
+Inputs = Mapping[str, Any]
+ROUNDING = 1e-9  # of a period
 
 
 @named
@@ -52,12 +56,11 @@ def checked_controllers(controllers: Any) -> list[SampledController]:
     return given
 
 
-def called_at(
-    controller: SampledController, now: float, measure: Callable[[], Snapshot]
-) -> Mapping[str, Any]:
+def _inputs_of(controller: SampledController, run: Run) -> Inputs:
     """The inputs it returns; SimulationError when it raises, or returns something else."""
+    now = run.core.time
     try:
-        inputs = controller.function(now, measure())
+        inputs = controller.function(now, run.measure())
     except (Exception, SystemExit) as error:  # sys.exit() would take the outputs along
         raise SimulationError(
             f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}"
@@ -67,8 +70,8 @@ def called_at(
     return inputs
 
 
-def only_setter(
-    inputs: Mapping[str, Any], controller: SampledController, setters: dict[str, SampledController]
+def _require_alone(
+    inputs: Inputs, controller: SampledController, setters: dict[str, SampledController]
 ) -> None:
     """Note who sets each input; SimulationError where another controller of the run has set it before."""
     for name in inputs:
@@ -84,7 +87,7 @@ def _called(controller: SampledController) -> str:
     return repr(getattr(controller.function, "__qualname__", controller.function))
 
 
-def next_call(controller: SampledController, now: float, start: float) -> float:
+def _next_call(controller: SampledController, now: float, start: float) -> float:
     """When it is due after `now`, s."""
     with np.errstate(over="ignore"):
         after = start + controller.period * (np.round((now - start) / controller.period) + 1.0)
@@ -93,3 +96,71 @@ def next_call(controller: SampledController, now: float, start: float) -> float:
             f"controller: period is {controller.period} s, below the resolution of time; make it longer"
         )
     return float(after)
+
+
+class Calls:
+    """Which controllers are due when, and what they set.
+
+    Parameters
+    ----------
+    controllers : sequence of SampledController
+    begin : float
+        Time from which their periods count, s.
+    start : float, optional
+        Of the run, s: none is called before; default: `begin`.
+    kept : callable, optional
+        What of the inputs that they return is set in a run; default: all.
+    """
+
+    def __init__(
+        self,
+        controllers: Sequence[SampledController],
+        begin: float,
+        *,
+        start: float | None = None,
+        kept: Callable[[Run, Inputs], Inputs] | None = None,
+    ) -> None:
+        self.controllers, self._begin, self._kept = controllers, begin, kept
+        past = 0.0 if start is None else start - begin
+        self._due = [begin + one.period * np.ceil(past / one.period - ROUNDING) for one in controllers]
+        self._setters: dict[str, SampledController] = {}
+        self._made: dict[float, dict[str, Any]] = {}
+        self._replayed = False
+
+    def begin(self, now: float, *, replayed: bool) -> None:
+        """Begin a piece of the run, at a time (s).
+
+        Where it is replayed, runs over times at which controllers were called already set what they returned
+        then, and call none.
+        """
+        self._made = {time: inputs for time, inputs in self._made.items() if time >= now}
+        self._replayed = replayed
+
+    def call(self, run: Run, interrupts: Interrupts) -> None:
+        """Set what the controllers that are due now return."""
+        now = run.core.time
+        if now >= run.t_end or not self.controllers:
+            return
+        if now not in self._made:
+            self._ask(run, now, interrupts)
+        inputs = self._made.get(now, {})
+        if inputs:
+            run.set_inputs(inputs if self._kept is None else self._kept(run, inputs))
+        if not self._replayed:
+            self._made.clear()
+
+    def next(self, now: float) -> float:
+        """The time of the next call after `now`, s; infinity without controllers."""
+        return min([*self._due, *(time for time in self._made if time > now)], default=float("inf"))
+
+    def _ask(self, run: Run, now: float, interrupts: Interrupts) -> None:
+        called: dict[str, Any] = {}
+        for i, controller in enumerate(self.controllers):
+            if self._due[i] <= now:
+                with interrupts.at_once():
+                    inputs = _inputs_of(controller, run)
+                _require_alone(inputs, controller, self._setters)
+                called.update(inputs)
+                self._due[i] = _next_call(controller, now, self._begin)
+        if called:
+            self._made[now] = called

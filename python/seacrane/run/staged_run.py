@@ -19,28 +19,29 @@ from seacrane.inputs.checked import number_of
 from seacrane.result.about import StageSpan
 from seacrane.result.events import Event
 from seacrane.result.result import Result
-from seacrane.run.alike_stages import AlikeStages, Key
-from seacrane.run.before import Begin, There, rest_after
 from seacrane.run.carried_state import carried
-from seacrane.run.carry import compiled_there, lifted_seats, redescribed
-from seacrane.run.channel_names import require_channels
+from seacrane.run.carry import (
+    MOST_RUNS,
+    AlikeStages,
+    Begin,
+    Key,
+    There,
+    compiled_there,
+    lifted_seats,
+    redescribed,
+    rest_after,
+)
+from seacrane.run.channel_names import all_names, require_channels
 from seacrane.run.commands import commanded
-from seacrane.run.connections import without
-from seacrane.run.controller_calls import Calls
-from seacrane.run.core_options import core_options
-from seacrane.run.formulation import stepped
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.joined import Piece, counted, counters, joined
 from seacrane.run.locate import Course, to_its_end
+from seacrane.run.method import REST, Method, Shorthand, Start, core_options, settled, start_state, stepped
 from seacrane.run.outputs import Outputs
-from seacrane.run.plan import checked_stages, place_of, waiting
+from seacrane.run.plan import check_lengths, check_limits, checked_stages, place_of, waiting, without
 from seacrane.run.run import Run
-from seacrane.run.sampled_controller import SampledController, checked_controllers
-from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.stage import Stage
-from seacrane.run.start import REST, Start, start_state
-from seacrane.run.unreachable import check_lengths, check_limits
-from seacrane.run.until import Level, names_along
+from seacrane.run.sampled_controller import Calls, SampledController, checked_controllers
+from seacrane.run.stage import Level, Stage
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import Finding, as_text, warn_of
 from seacrane.validity.contact_starts import check_contact_connected
@@ -49,8 +50,6 @@ from seacrane.validity.line_checks import warn_of_connected
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-    from seacrane.run.method import Method
 
 LARGEST_GAP = 0.01  # m times the scene's length scale, or rad: joints that open wider do not connect
 
@@ -75,6 +74,8 @@ class StagedRun:
     ----------
     stages : tuple of Stage
         Those that are carried out.
+    state, scene, model
+        The present state, and what is there at present.
     begun : dict of str to Begin
         Scene and state in which each stage began.
     interrupted : bool
@@ -113,27 +114,26 @@ class StagedRun:
             self._whole, begin = rest.scene, rest.state
         require_channels(self._whole, self.outputs.channels or ())
         self._absent = waiting(self.stages)
-        self._scene = without(self._whole, self._absent)
+        self.scene = without(self._whole, self._absent)
         self._alike = AlikeStages() if alike is None else alike
         self._shares = alike is not None and scene.waves is not None
         if not self._shares or self._alike.model is None:
             time = begin.time if isinstance(begin, _core.State) else 0.0
             self._warn_of_description(time, start, begins=first is None)
-        self._model = compiled_there(self._scene) if count else self._first_model()
-        begin = start_state(self._scene, begin)
-        self._state = _core.initial_state(self._model) if begin is None else begin
+        self.model = compiled_there(self.scene) if count else self._first_model()
+        begin = start_state(self.scene, begin)
+        self.state = _core.initial_state(self.model) if begin is None else begin
         self._described = begin is None
         self._reached = self._counted()
-        self._first = self._state.time if outputs_from is None else number_of("outputs_from", outputs_from)
+        self._first = self.state.time if outputs_from is None else number_of("outputs_from", outputs_from)
         self._calls = Calls(
-            checked_controllers(controllers), self._first, start=self._state.time, kept=self._kept
+            checked_controllers(controllers), self._first, start=self.state.time, kept=self._kept
         )
         self._pieces: list[Piece] = []
         self._changes: list[Event] = []
         self._open: tuple[Run, dict[str, Any]] | None = None
         self._found, self._before = list(before), tuple(before)
         self._spans: list[StageSpan] = []
-        self._redescribed = False
         self._seen: tuple[str, Run | None] | None = None  # see `_like`
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
@@ -149,22 +149,7 @@ class StagedRun:
 
     def __repr__(self) -> str:
         done = f"{len(self._spans)} of {len(self.stages)} stages"
-        return f"<StagedRun of {self._given.name!r}: {done}, at {self._state.time:g} s>"
-
-    @property
-    def state(self) -> _core.State:
-        """The present state."""
-        return self._state
-
-    @property
-    def scene(self) -> Scene:
-        """What is there at present."""
-        return self._scene
-
-    @property
-    def model(self) -> _core.Model:
-        """Of what is there at present."""
-        return self._model
+        return f"<StagedRun of {self._given.name!r}: {done}, at {self.state.time:g} s>"
 
     def advance(self) -> bool:
         """Carry out the next stage; False when none is left, or Ctrl-C stopped it.
@@ -203,8 +188,8 @@ class StagedRun:
             if self.interrupted:
                 raise KeyboardInterrupt
         return There(
-            whole=self._whole, absent=frozenset(self._absent), scene=self._scene, model=self._model,
-            state=self._state,
+            whole=self._whole, absent=frozenset(self._absent), scene=self.scene, model=self.model,
+            state=self.state,
         )  # fmt: skip
 
     @property
@@ -231,9 +216,9 @@ class StagedRun:
         if self._over:
             return
         stage = self.stages[len(self._spans)]
-        begin = self._state.time
+        begin = self.state.time
         gone = self._absent - waiting(self.stages[len(self._spans) :])
-        self.begun[stage.name] = Begin(without(self._whole, gone), self._state)
+        self.begun[stage.name] = Begin(without(self._whole, gone), self.state)
         try:
             self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
             self._connect(stage)
@@ -243,7 +228,7 @@ class StagedRun:
                 course = self._course(stage, interrupts)
                 ended = yield from to_its_end(course, stage, start)
             if not self._pieces:  # met at once, or stopped before anything was stepped
-                course.stand(self._state)
+                course.stand(self.state)
         except GeneratorExit:  # nobody asks for the rest
             self.interrupted = True
             raise
@@ -253,7 +238,7 @@ class StagedRun:
             with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
                 error.result = self._result_of_an_error()  # type: ignore[attr-defined]
             raise
-        self._spans.append(StageSpan(name=stage.name, start=begin, end=self._state.time, ended_by=ended))
+        self._spans.append(StageSpan(name=stage.name, start=begin, end=self.state.time, ended_by=ended))
         self.interrupted = not ended
 
     def result(self) -> Result:
@@ -277,7 +262,7 @@ class StagedRun:
         warn_of({kind: (kind, text) for kind, text in reversed(self._found)}.values())
 
     def _now(self) -> float:
-        return self._state.time if self._open is None else self._open[0].core.time
+        return self.state.time if self._open is None else self._open[0].core.time
 
     def _result_of_an_error(self) -> Result | None:
         if self._open is not None and self._open[0].core.recorded:
@@ -287,13 +272,13 @@ class StagedRun:
 
     def _counted(self) -> dict[str, Any]:
         """Energy balance and losses at the present state, from the start that its record tells of."""
-        record = self._state.record
+        record = self.state.record
         if record is None:
             return dict.fromkeys(COUNTED_ON, 0.0)
-        _, model, formulation = stepped(self._scene, self._model, self.method)
+        _, model, formulation = stepped(self.scene, self.model, self.method)
         options = core_options(self.method, formulation, channels=set(), times=[])
-        core = _core.Simulation(model=model, start=self._state, options=options)
-        now = counted(self._scene, model, core.snapshot())
+        core = _core.Simulation(model=model, start=self.state, options=options)
+        now = counted(self.scene, model, core.snapshot())
         known = {"energy_balance": 0.0, "impact_loss": record.impact_loss}
         return {name: now.get(name, value) for name, value in known.items()}
 
@@ -306,13 +291,13 @@ class StagedRun:
         for name in stage.connect:
             self._absent.discard(name)
             if name in self._whole.joints:
-                self._redescribed = True
-                self._absent |= lifted_seats(self._scene, self._state)
-                self._whole = redescribed(self._whole, self._measured(), self._state)
+                self._shares = False
+                self._absent |= lifted_seats(self.scene, self.state)
+                self._whole = redescribed(self._whole, self._measured(), self.state)
             self._change(stage, name, "connection")
 
     def _measured(self) -> Any:
-        return self._still(self._scene, self._model, self._state).measure()
+        return self._still(self.scene, self.model, self.state).measure()
 
     def _still(self, scene: Scene, model: _core.Model, state: _core.State) -> Run:
         """A run that stands at a state: on its joints, with the limits that hold there."""
@@ -322,10 +307,10 @@ class StagedRun:
         """Go over to the scene with a connection made or released, and note the energy that it took."""
         scene = without(self._whole, self._absent)
         model = compiled_there(scene)
-        start, speed = carried(self._state, self._model, model), 0.0
+        start, speed = carried(self.state, self.model, model), 0.0
         if kind == "connection" and name in scene.joints:
             speed = self._check_gap(stage, name, model, start)
-        before = _core.Evaluator(self._model).energy(start.time, self._state.values)
+        before = _core.Evaluator(self.model).energy(start.time, self.state.values)
         run = self._still(scene, model, start)
         met = run.events()
         state = run.state
@@ -336,14 +321,14 @@ class StagedRun:
         lost = (
             before - _core.Evaluator(model).energy(start.time, state.values) - sum(e.energy_lost for e in met)
         )
-        self._scene, self._model, self._state = scene, model, state
+        self.scene, self.model, self.state = scene, model, state
         event = Event(time=start.time, name=name, kind=kind, speed=speed, energy_lost=lost)
         self._changes += [event, *met]
 
     def _check_gap(self, stage: Stage, name: str, model: _core.Model, start: _core.State) -> float:
         """The rate (m/s or rad/s) at which a joint parts as it connects; SceneError where it is open."""
         gap, rate = _core.Evaluator(model).residual(start.time, start.values)
-        if gap > LARGEST_GAP * self._scene.length_scale:
+        if gap > LARGEST_GAP * self.scene.length_scale:
             raise SceneError(
                 f"{stage.title}: joint {name!r} is open by {gap:.4g} (m or rad) at t = {start.time:.6g} s "
                 f"and would jump; end the stage before where it closes to {LARGEST_GAP:g}, correct its "
@@ -356,17 +341,17 @@ class StagedRun:
     def _command(self, stage: Stage) -> None:
         if not stage.commands:
             return
-        self._whole = commanded(self._whole, stage.title, stage.commands, self._state.time)
-        self._scene = without(self._whole, self._absent)
+        self._whole = commanded(self._whole, stage.title, stage.commands, self.state.time)
+        self.scene = without(self._whole, self._absent)
         like = self._like(stage)
-        self._model = compiled_there(self._scene) if like is None else like.model
+        self.model = compiled_there(self.scene) if like is None else like.model
 
     def _checked_start(self, stage: Stage) -> _core.State:
-        check_limits(stage, self._scene)
-        begin, lengths = self._state.time, dict(self._state.load_states)
-        own = {name: length_at(line, begin, lengths) for name, line in lines_of(self._scene.loads).items()}
-        check_lengths(stage, self._scene, own, begin)
-        return self._state
+        check_limits(stage, self.scene)
+        begin, lengths = self.state.time, dict(self.state.load_states)
+        own = {name: length_at(line, begin, lengths) for name, line in lines_of(self.scene.loads).items()}
+        check_lengths(stage, self.scene, own, begin)
+        return self.state
 
     def _course(self, stage: Stage, interrupts: Interrupts) -> Course:
         wanted = self._channels()
@@ -375,30 +360,30 @@ class StagedRun:
             wanted = [*wanted, *(name for name in looked_at if name not in wanted)]
         outputs = Outputs(dt_out=self.outputs.dt_out, channels=wanted)
         course = Course(
-            scene=self._scene, model=self._model, method=self.method, outputs=outputs, first=self._first,
+            scene=self.scene, model=self.model, method=self.method, outputs=outputs, first=self._first,
             interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
             first_run=self._like(stage),
         )  # fmt: skip
-        if self._shares and course.first_run is None and not self._redescribed and self._alike.has_room:
+        if self._shares and course.first_run is None and len(self._alike.runs) < MOST_RUNS:
             longest = stage.duration or stage.maximum_duration or 0.0
-            known = course.run(self._state, self._state.time + longest, capacity=1)
+            known = course.run(self.state, self.state.time + longest, capacity=1)
             if not known.rungs:
                 self._alike.runs[self._key(stage)] = known
         return course
 
     def _first_model(self) -> _core.Model:
         if self._shares and self._alike.model is not None:
-            return compiled_in_sea(self._scene, self._alike.model)
-        self._alike.model = self._scene.compile()
+            return compiled_in_sea(self.scene, self._alike.model)
+        self._alike.model = self.scene.compile()
         return self._alike.model
 
     def _key(self, stage: Stage) -> Key:
-        return stage.name, self._state.time, frozenset(self._absent)
+        return stage.name, self.state.time, frozenset(self._absent)
 
     def _like(self, stage: Stage) -> Run | None:
         """The run of the same stage of an alike lift that began at the same time, in this sea."""
         if self._seen is None or self._seen[0] != stage.name:
-            waves = self._scene.waves if self._shares and not self._redescribed else None
+            waves = self.scene.waves if self._shares else None
             known = None if waves is None else self._alike.runs.get(self._key(stage))
             self._seen = (stage.name, None if known is None or waves is None else known.in_sea(waves))
         return self._seen[1]
@@ -414,7 +399,7 @@ class StagedRun:
             return None
         absent, known = frozenset(self._absent), self._alike.channels
         if absent not in known:
-            still = self._still(self._scene, self._model, self._state)
+            still = self._still(self.scene, self.model, self.state)
             names = still.model.channel_names(defaults_only=False)
             known[absent] = {*still.named(still.core.snapshot()), OWN, *names}
         there = known[absent]
@@ -429,14 +414,14 @@ class StagedRun:
         assert self._open is not None
         result, found = run.judged_result()
         end = counters(run)
-        lost = sum(e.energy_lost for e in self._changes)
-        piece = Piece(result, names_along(run), self._open[1], end, self._reached, float(lost), self._changes)
+        names, lost = all_names(run.scene, run.model), sum(e.energy_lost for e in self._changes)
+        piece = Piece(result, names, self._open[1], end, self._reached, float(lost), self._changes)
         self._pieces.append(piece)
         self._changes, self._open = [], None
         self._found += [one for one in found if one not in self._found]
         state = piece.counting_on()
         if state is not None:
-            self._state = state
+            self.state = state
             self._reached = self._counted()
 
 

@@ -1,33 +1,39 @@
-"""What a result says about its run: version, settings, sizes, counters."""
+"""What a result says about its run: version, settings, sizes, counters, and what events tell."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Description
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.once import once
 from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
 from seacrane.description.suspension import hung_loads, static_weights
-from seacrane.description.waves import Waves
 from seacrane.inputs.plain_data import plain_data, plain_notes
 from seacrane.result.about import About
+from seacrane.result.events import Event
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 from seacrane.version import __version__
+from seacrane.warnings import BoilingOilWarning, ThroughSeatWarning
+
+OPTIONAL = ("dt", "maximum_step", "spectral_radius", "energy_limit")
+Channels = Mapping[str, NDArray[np.float64]]
+Finding = tuple[type[Warning], str]
+SIDES = {"vapour": "full", "vapour_rod": "rod"}  # by what its event is called
+VOIDS = "hydraulic_void"
 
 
 def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) -> dict[str, Any]:
     """The settings of a run by the words of `simulate`; a word that is absent was left to its default."""
-    given = {
-        "dt": method.dt,
-        "maximum_step": method.maximum_step,
-        "spectral_radius": method.spectral_radius,
-        "energy_limit": method.energy_limit,
-    }
+    given = {word: getattr(method, word) for word in OPTIONAL}
     notes = plain_notes(scene.name, scene.notes)
     return {
         "t_end": t_end,
@@ -51,13 +57,10 @@ def settings_in_sea(settings: Mapping[str, Any], scene: Scene) -> dict[str, Any]
 def about_of(scene: Scene) -> About:
     """What a result notes of a scene; of its settings nothing."""
     return About(
-        limit_states=tuple(scene.limit_states.values()),
-        cranes=plain_data("cranes", [*scene.roles.values()]),
-        outline=outline_of(scene),
-        bounds=bounds_of(scene),
-        hung=hung_notes(scene),
+        limit_states=tuple(scene.limit_states.values()), outline=outline_of(scene), bounds=bounds_of(scene),
+        cranes=plain_data("cranes", [*scene.roles.values()]), hung=hung_notes(scene),
         hanging_weight=static_weights(scene),
-    )
+    )  # fmt: skip
 
 
 @once
@@ -85,11 +88,6 @@ def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Me
         "memory_states": model.memory_states,
         "history_samples": model.history_samples,
     }
-
-
-def stats_of(lasting: Mapping[str, Any], waves: Waves | None, counted: Mapping[str, Any]) -> dict[str, Any]:
-    """`Result.stats` of a run so far, from its lasting ones and what was counted in it."""
-    return {**lasting, **counted, **({} if waves is None else waves.provenance.stats())}
 
 
 @once
@@ -129,3 +127,54 @@ def _one(by_body: dict[str, Any]) -> Any:
     """The value of all bodies, or the mapping where they differ."""
     first, *others = by_body.values()
     return first if all(other == first for other in others) else by_body
+
+
+def boiled(scene: Description, events: Sequence[Event], channels: Channels) -> Iterator[Finding]:
+    """Every chamber that reached its vapour pressure, and how large the void grew where that was recorded."""
+    cylinders = hydraulic_cylinders(scene)
+    for number, (name, one) in enumerate(cylinders.items()):
+        for chamber, (bound, side) in enumerate(SIDES.items()):
+            times = [event.time for event in events if event.name == f"{name}.{bound}"]
+            if not times:
+                continue
+            often = f", and {len(times) - 1} time(s) more" if len(times) > 1 else ""
+            size = ""
+            if VOIDS in channels:
+                size = f", of up to {1e3 * channels[VOIDS][:, number, chamber].max():.3g} l"
+            yield (
+                BoilingOilWarning,
+                f"hydraulic cylinder {name!r}: the oil of its {side} side boils at t = {times[0]:.6g} s"
+                f"{often}: a void opens{size}, at the vapour pressure of {one.vapour_pressure:.4g} Pa, and "
+                "holds no load. Give makeup_flow or a higher tank_pressure, or move slower; refuse_void=True "
+                "ends a run here",
+            )
+
+
+def fallen_through(scene: Description, events: Sequence[Event]) -> list[Finding]:
+    """Seats that what left them went through, each once."""
+    found: list[Finding] = []
+    for name in dict.fromkeys(event.name for event in events if event.kind == "through"):
+        times = [event.time for event in events if event.kind == "through" and event.name == name]
+        load = scene.joints[scene.loads[name].joint].second
+        found.append(
+            (
+                ThroughSeatWarning,
+                f"seat {name!r}: {load!r} had left it, and goes below its plane at t = {times[0]:.6g} s"
+                f"{f' and {len(times) - 1} more time(s)' if len(times) > 1 else ''}: it would hit the deck "
+                "there, and a seat that let go holds nothing, so that loads from then on are too small. Lift "
+                "faster or at a better moment, or take the run as failed; see docs/events.md",
+            )
+        )
+    return found
+
+
+def ruptures(scene: Description, start: float, now: float) -> list[Event]:
+    """Events of hoses that burst from `start` (s) on and before `now` (s).
+
+    A hose that bursts at `now` is left to the run that continues from there.
+    """
+    return [
+        Event(time=cylinder.rupture_time, name=f"{name}.rupture", kind="limit")
+        for name, cylinder in hydraulic_cylinders(scene).items()
+        if cylinder.rupture_area > 0.0 and start <= cylinder.rupture_time < now
+    ]

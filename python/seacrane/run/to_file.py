@@ -1,13 +1,13 @@
-"""Runs of any length to a file, in bounded memory and with nothing lost when they stop."""
+"""Runs and lifts of any length to a file, with nothing lost when they stop."""
 
 from __future__ import annotations
 
 import contextlib
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -15,24 +15,21 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_from_bytes, state_to_bytes
-from seacrane.result.about import About
-from seacrane.result.checked_parts import checked_stats
+from seacrane.result.about import About, checked_stats
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
+from seacrane.result.partial_file import Piece
 from seacrane.result.result import Result
-from seacrane.result.stream import DIGEST, Left, ResultFile, Told, difference, rows_of_piece
+from seacrane.result.stream import ANOTHER_SCENE, DIGEST, Left, ResultFile, difference, rows_of_piece
 from seacrane.run.advance import drive
-from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.method import Method
+from seacrane.run.method import REST, Method, Start
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
-from seacrane.run.sampled_controller import SampledController
-from seacrane.run.start import REST
+from seacrane.run.sampled_controller import Calls, SampledController
+from seacrane.run.staged_run import StagedRun
 from seacrane.scene.file import scene_digest
+from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import Finding, as_text, warn_of
-
-if TYPE_CHECKING:
-    from seacrane.scene.scene import Scene
 
 CAPACITY = 1024  # outputs to take memory for at first
 
@@ -140,15 +137,15 @@ def _begun(
     start: Literal["rest"] | None,
 ) -> Run:  # fmt: skip
     """The run, from its start or from where one that was stopped left it."""
-    if left is None:
-        return Run(scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=start)
-    old = Told(stats=left.piece.stats, about=left.piece.about)
-    if old.stats.get(DIGEST) != digest:
-        _refuse(left, difference(old, replace(old, stats={**old.stats, DIGEST: digest})))
-    state = state_from_bytes(left.piece.state, left.source)
+    begin: Start = start
+    if left is not None:
+        if left.piece.stats.get(DIGEST) != digest:
+            _refuse(left, ANOTHER_SCENE)
+        begin = state_from_bytes(left.piece.state, left.source)
     return Run(
-        scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=state, outputs_from=left.first
-    )
+        scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=begin,
+        outputs_from=None if left is None else left.first,
+    )  # fmt: skip
 
 
 def _refuse(left: Left, reason: str) -> None:
@@ -173,18 +170,17 @@ class _Writer:
         self._run, self._file, self._every = run, file, every
         self._digest = digest
         file.scene, self._lacks = KeptScene.of(run.scene).written()
-        arrays = run.wanted(run.core.channels(0))
-        self._widths = {name: int(np.prod(values.shape[1:])) for name, values in arrays.items()}
-        self._rows = rows_of_piece(sum(self._widths.values()))
+        self._nothing = run.wanted(run.core.channels(0))
+        self._rows = rows_of_piece(sum(int(np.prod(one.shape[1:])) for one in self._nothing.values()))
         self._due = run.start.time + every
 
     def begin(self, left: Left | None, *, overwrite: bool, unlike: str) -> None:
         """Begin the file, or continue it; FileFormatError or FileExistsError where it is of another run."""
-        new = Told(stats=checked_stats(self._stats()), about=self._run.about, channels=list(self._widths))
+        new = Piece(
+            arrays=self._nothing, coords={}, stats=checked_stats(self._stats()), about=self._run.about
+        )
         if left is not None:
-            channels = [name for name in left.piece.arrays if name != "time"]
-            old = Told(stats=left.piece.stats, about=left.piece.about, channels=channels)
-            _refuse(left, difference(old, new))
+            _refuse(left, difference(left.piece, new))
         if not (overwrite or (left is not None and not left.end)):
             self._file.require_same(new, unlike)
         if left is None:
@@ -234,3 +230,31 @@ class _Writer:
         validity = {"validity": as_text(self.found)} if self.found else {}
         lacks = {NOT_KEPT: self._lacks} if self._lacks else {}
         return {**self._run.stats(), DIGEST: self._digest, **lacks, **validity}
+
+
+def require_free(path: Path, *, overwrite: bool) -> None:
+    """FileExistsError for a name that is taken, FileNotFoundError without its folder."""
+    if path.exists() and not overwrite:
+        raise FileExistsError(f"{path.name} is there already; give another name, or overwrite=True")
+    if not path.parent.is_dir():
+        raise FileNotFoundError(f"{path}: there is no folder {path.parent}; make it first")
+
+
+def stages_to_file(run: StagedRun, path: Path, *, overwrite: bool) -> StreamedResult:
+    """Carry out a lift, and write its result after each stage.
+
+    The file is whole whenever the process is killed: it then holds the stages that were over, with
+    `interrupted` set. Ctrl-C and errors keep the stage that they end, too. The outputs stay in memory.
+    """
+    require_free(path, overwrite=overwrite)
+    try:
+        while run.advance():
+            run.result().save(path)
+    except BaseException as error:
+        recorded = getattr(error, "result", None)
+        if isinstance(recorded, Result):
+            with contextlib.suppress(OSError):  # the error at hand tells more
+                recorded.save(path)
+        raise
+    run.warn()
+    return StreamedResult.saved(run.result(), path)

@@ -16,8 +16,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of, text_of, vector_of
 from seacrane.inputs.shown import listed, shown
 from seacrane.plotting.table import Answer, Column, Table
-from seacrane.series.clock import BROKEN, step_of
-from seacrane.series.mending import ALIASED, is_even, low_passed, on_grid, share_above
+from seacrane.series.mending import ALIASED, BROKEN, is_even, low_passed, on_grid, share_above, step_of
 from seacrane.series.reading import FEWEST, Columns, read_series
 
 Array = NDArray[np.float64]
@@ -140,10 +139,7 @@ class MeasuredSeries(Answer):
             Path(path), columns=columns, units=units, after=after, before=before, maximum_gap=maximum_gap,
             drop_outliers=drop_outliers, rate_hz=rate_hz,
         )  # fmt: skip
-        found = cls(
-            time=read.time, columns=read.columns, units=read.units, source=Path(path).name, done=read.done,
-            headers=read.headers,
-        )  # fmt: skip
+        found = cls(**read)
         if np.diff(found.time).max() > BROKEN * found.interval:  # a gap that was accepted
             found = found._even()
         found = found if filter_hz is None else found.filtered(filter_hz)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +14,17 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import finite_of, flag_of, not_negative_of, positive_of
 from seacrane.inputs.shown import listed, shown
-from seacrane.series.clock import POSIX, RATE, breaks_of, counted, drift_of, step_of, unit_since_1970
-from seacrane.series.mending import filled, outliers
+from seacrane.series.mending import (
+    POSIX,
+    RATE,
+    breaks_of,
+    counted,
+    drift_of,
+    filled,
+    outliers,
+    step_of,
+    unit_since_1970,
+)
 from seacrane.series.series_file import Heading, SeriesFile, plain_words, unit_of_words
 from seacrane.warnings import ClockDriftWarning, FilledGapWarning, OutlierWarning
 
@@ -31,17 +41,6 @@ SHORTEST = 1e-9  # s between two times that differ
 ROUNDING = 1e-9  # of a gap
 
 
-@dataclass(frozen=True, kw_only=True)
-class Read:
-    """What a file held: times (n,), columns by name, their SI units, and what was done in words."""
-
-    time: Array
-    columns: Mapping[str, Array]
-    units: Mapping[str, str]
-    headers: Mapping[str, str]
-    done: tuple[str, ...]
-
-
 def read_series(
     path: Path,
     *,
@@ -52,8 +51,8 @@ def read_series(
     maximum_gap: float,
     drop_outliers: bool,
     rate_hz: float | None,
-) -> Read:
-    """As `MeasuredSeries.load`, without filter and resampling."""
+) -> dict[str, Any]:
+    """What `MeasuredSeries.load` makes a series of, without filter and resampling."""
     asked = _asked(columns)
     file = SeriesFile(path, time=next(iter(asked.pop("time", ())), None))
     clocks = file.clocks()
@@ -82,12 +81,12 @@ def read_series(
     longest = not_negative_of("maximum_gap", maximum_gap, "s")
     values, done = mended(rows, longest, flag_of("drop_outliers", drop_outliers))
     require_possible(rows, values, list(wanted))
-    return Read(
-        time=rows.time, columns=dict(zip(wanted, values.T, strict=True)),
-        units={name: unit for name, (_, unit) in scales.items()},
-        headers={name: one.text for name, one in wanted.items()},
-        done=(*((f"times from {start} on",) if start else ()), *done),
-    )  # fmt: skip
+    return {
+        "time": rows.time, "columns": dict(zip(wanted, values.T, strict=True)),
+        "units": {name: unit for name, (_, unit) in scales.items()},
+        "headers": {name: one.text for name, one in wanted.items()},
+        "done": (*((f"times from {start} on",) if start else ()), *done), "source": path.name,
+    }  # fmt: skip
 
 
 def _asked(columns: Columns | None) -> dict[str, tuple[str, ...]]:

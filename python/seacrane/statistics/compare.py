@@ -19,8 +19,8 @@ from seacrane.inputs.shown import listed, shown
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.plotting.table import Answer, Column, Table, read_as
 from seacrane.result import Result
-from seacrane.series.clock import step_of
 from seacrane.series.measured_series import MeasuredSeries
+from seacrane.series.mending import step_of
 from seacrane.statistics.record import SpectrumEstimate, spectrum_estimate
 from seacrane.warnings import UncertainShiftWarning
 
