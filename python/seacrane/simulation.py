@@ -169,8 +169,8 @@ def simulate(
     GrowingModeWarning
         After a long run, when its method fed an oscillation with little damping; in `stats` likewise.
     LineRungWarning
-        After a second run, with elastic lines, in the place of one in which a line with rung="auto" went
-        slack; in `stats` likewise.
+        After a run in which water struck what hangs on a line that rung="auto" made quasi-static; in `stats`
+        likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
     LoadInHullWarning, FreeCraneWarning, ContactStartWarning, LiftedStartWarning, QuasiStaticLineWarning,
     ScatteredWavesWarning, DragAxesWarning

@@ -48,7 +48,7 @@ def stepped(run: Run | StagedRun) -> Run | StagedRun:
             raise KeyboardInterrupt
         return run
     with Interrupts() as interrupts:
-        run = ended(run, (), interrupts)
+        ended(run, (), interrupts)
     interrupts.take()  # pressed as the run ended: the members after it are not to be run
     if run.interrupted:
         raise KeyboardInterrupt

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from seacrane import _core
 from seacrane.analysis.linearise import fastest_mode
-from seacrane.errors import LineSlackError, SimulationError
+from seacrane.errors import SimulationError
 from seacrane.result.result import Result
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.modes import FEWEST_STEPS, Modes, growing, stiffness, unsteady_oil
@@ -25,7 +25,7 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
     What ends it otherwise is raised as by `simulate`, with the outputs until then as its `result`.
     """
     with Interrupts() as interrupts:
-        run = ended(run, controllers, interrupts, progress=progress)
+        ended(run, controllers, interrupts, progress=progress)
         result, found = run.judged_result()
     warn_of(found)
     return result
@@ -33,33 +33,13 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
 
 def ended(
     run: Run, controllers: Sequence[SampledController], interrupts: Interrupts, *, progress: bool = False
-) -> Run:
-    """Advance a run to its end, or to where Ctrl-C stops it, and return it.
+) -> None:
+    """Advance a run to its end, or to where Ctrl-C stops it.
 
-    Where a line that rung "auto" made quasi-static went slack or pushed, or water struck what hangs on it, it
-    is another run that is returned: one from the same start with elastic lines. Errors carry the outputs
-    until then as their `result`.
+    Errors carry the outputs until then as their `result`.
     """
-    with _carrying(run):
-        try:
-            drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
-            what = "" if run.interrupted else run.unsettled()
-        except LineSlackError as error:
-            if not run.settled:
-                raise
-            what = f"{error}"
-    if not what:
-        return run
-    again = run.with_elastic_lines(what)
-    with _carrying(again):
-        drive(again, Calls(controllers, again.start.time), interrupts, progress=progress)
-    return again
-
-
-@contextlib.contextmanager
-def _carrying(run: Run) -> Iterator[None]:
     try:
-        yield
+        drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
     except BaseException as error:
         with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
             error.result = run.result()  # type: ignore[attr-defined]

@@ -63,7 +63,6 @@ def line_rungs(
     *,
     end: float,
     start: _core.State | None,
-    in_memory: bool,
     controlled: bool,
 ) -> dict[str, LineRung]:
     """The rungs of a run, by line; none where no line has rung "auto".
@@ -73,7 +72,6 @@ def line_rungs(
     known : That steps it.
     end : s.
     start : Where it begins; default: the assembled start of the scene.
-    in_memory : Whether its outputs stay in memory, so that another run can take its place.
     controlled : Whether inputs are set during the run.
     """
     lines = automatic(scene)
@@ -81,7 +79,7 @@ def line_rungs(
         return {}
     if start is not None and start.time > 0.0:
         return {name: _kept(name, start) for name in lines}
-    reason = _why_elastic(scene, known, in_memory=in_memory, controlled=controlled)
+    reason = _why_elastic(scene, known, controlled=controlled)
     if reason:
         return all_elastic(lines, reason)
     return dict(_chosen_from_described(scene, end)) if start is None else _chosen(scene, end, start)
@@ -118,12 +116,10 @@ def _kept(name: str, start: _core.State) -> LineRung:
     return LineRung(name=known, reason=f"as in the state it goes on from, at {start.time:g} s")
 
 
-def _why_elastic(scene: Scene, known: Integrator, *, in_memory: bool, controlled: bool) -> str:
+def _why_elastic(scene: Scene, known: Integrator, *, controlled: bool) -> str:
     """What keeps every line elastic; empty: nothing."""
     if known.residual_form:
         return f"integrator {known.name!r} has no accelerations for lines"
-    if not in_memory:
-        return "outputs leave memory during the run, and no other could take its place if a line went slack"
     if controlled:
         return "inputs are set during the run, and their jumps may make it ring"
     if scene.orientation != "quaternion":

@@ -15,7 +15,6 @@ from seacrane._core import integrator
 from seacrane.description.channels import CHANNELS, DERIVED, OWN
 from seacrane.description.compilation import compiled, compiled_in_sea
 from seacrane.description.holding import with_holds
-from seacrane.description.loads import lines_of
 from seacrane.description.once import forgetting
 from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
@@ -221,7 +220,6 @@ class Run:
         self.interrupted = False
         self.steered = set(self._lasting.steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
-        self.slack: list[Finding] = []  # that it repeats a run whose line went slack, and why
         self.lanes: dict[str, Any] = {}  # how it was stepped beside others, where that was asked for
 
     def _simulation(self) -> _core.Simulation:
@@ -232,7 +230,7 @@ class Run:
             return all_elastic(automatic(self._given), COMPILED)
         return line_rungs(
             self._given, integrator(self.method.integrator), end=self.t_end, start=self._given_start,
-            in_memory=self._capacity is None, controlled=self._controlled,
+            controlled=self._controlled,
         )  # fmt: skip
 
     def _step(self, model: _core.Model | None) -> None:
@@ -260,42 +258,18 @@ class Run:
         """Lines that rung "auto" made quasi-static."""
         return [name for name, rung in self.rungs.items() if rung.name == QUASI_STATIC]
 
-    def unsettled(self) -> str:
-        """What in a run so far shows that a line which "auto" settled is not quasi-static; or nothing."""
-        if not self.settled:
-            return ""
-        struck = {f"{name}.touch": name for name in immersed_parts(self.scene)}
+    def _struck(self) -> list[Finding]:
+        """Whether water struck what hangs on a line that "auto" settled, as it had not as the run began."""
+        parts = {f"{name}.touch": name for name in immersed_parts(self.scene)} if self.settled else {}
         for time, name, *_ in self.core.events():
-            if name in struck and time > self.start.time:
-                return f"immersed part {struck[name]!r}: slam is fast, and it met water at t = {time:.6g} s"
-        arrays = self.core.channels()
-        if "line_tension" not in arrays:
-            return ""
-        least = arrays["line_tension"].min(axis=0, initial=0.0)
-        pushed = [name for name, value in zip(lines_of(self.scene.loads), least, strict=False) if value < 0.0]
-        line = next((name for name in pushed if name in self.rungs), "")
-        return line and f"line {line!r}: its stretch is quasi-static, and it pushed for a moment"
-
-    def with_elastic_lines(self, what: str) -> Run:
-        """This run at its start, with elastic lines in the place of those that "auto" settled.
-
-        Parameters
-        ----------
-        what : str
-            What showed that a line cannot be quasi-static; the result of the new run tells it.
-        """
-        out = copy(self)
-        out.rungs = all_elastic(self.rungs, f"a first run was not: {what}")
-        out._step(None)
-        out._lasting = _Lasting.of(out)
-        out.core = out._simulation()
-        out.interrupted, out.slow = False, []
-        text = (
-            f"{what}. 'auto' had chosen its rung; this is a second run from the same start, with elastic "
-            "lines. Give rung='elastic' to save the first one"
-        )
-        out.slack = [(LineRungWarning, text)]
-        return out
+            if name in parts and time > self.start.time:
+                lines = ", ".join(map(repr, self.settled))
+                text = (
+                    f"immersed part {parts[name]!r}: met water at t = {time:.6g} s, and slam is fast; 'auto' "
+                    f"had made {lines} quasi-static, whose peaks are then too small. Give rung='elastic'"
+                )
+                return [(LineRungWarning, text)]
+        return []
 
     def __repr__(self) -> str:
         method = f"{self.formulation}, {self.method.integrator}"
@@ -307,8 +281,7 @@ class Run:
         Raises
         ------
         LineSlackError
-            Where a line of rung "quasi-static", also one that "auto" made so, cannot go on; `simulate` then
-            makes a second run, `with_elastic_lines`, where "auto" had chosen.
+            Where a line of rung "quasi-static", also one that "auto" made so, cannot go on.
         """
         reached = self.core.advance(float(t_end), progress)
         if not reached:
@@ -422,7 +395,7 @@ class Run:
                 ("looking at bounds", lambda: list(bound_findings(scene, reached))),
             ):
                 found += tried(what, look, [], found)
-            found += self.slow + self.slack
+            found += self.slow + self._struck()
             if not self.interrupted and (wrong := not_finite(channels)):
                 stats[NOT_FINITE] = ", ".join(wrong)
                 found += wrong.values()
