@@ -182,5 +182,5 @@ def _rope(rope: RopeData, foot: Array, pose: Pose) -> RopeData:
 def _point(name: str, value: Vector | Array) -> Array:
     point = numbers_of(f"crane: {name}", value).copy()
     if point.shape != (3,) or not np.all(np.isfinite(point)):
-        raise SceneError(f"crane: {name} is {value!r}; give three finite numbers (x, y, z) in m.")
+        raise SceneError.of(f"crane: {name}", f"is {value!r}; give three finite numbers (x, y, z) in m.")
     return point

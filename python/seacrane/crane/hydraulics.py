@@ -32,7 +32,7 @@ def hydraulics_of(crane: Crane, given: Hydraulics | None) -> Hydraulics:
     labels = crane.data.cylinders
     if not isinstance(given, Mapping) or not all(isinstance(one, Mapping) for one in given.values()):
         example = ", ".join(f"{label!r}: {{...}}" for label in labels)
-        raise SceneError(f"crane: hydraulics are {shown(given)}; give {{{example}}}")
+        raise SceneError.of("crane: hydraulics", f"are {shown(given)}; give {{{example}}}")
     require_cylinders("crane: hydraulics are", given, labels)
     return given
 

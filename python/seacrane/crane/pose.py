@@ -165,9 +165,10 @@ def _given(data: CraneData, coordinates: Mapping[str, float]) -> dict[str, Array
         value = number_of(f"crane {data.name!r}: {label}", given)
         low, high = joint.range or (-np.inf, np.inf)
         if not (np.isfinite(value) and low <= value <= high):
-            raise SceneError(
-                f"crane {data.name!r}: {label} is {value:g} {UNITS[joint.kind]}, outside its range of "
-                f"{low:g} to {high:g}; give one within"
+            raise SceneError.of(
+                f"crane {data.name!r}: {label}",
+                f"is {value:g} {UNITS[joint.kind]}, outside its range of "
+                f"{low:g} to {high:g}; give one within",
             )
         if joint.kind == "revolute":
             angle_of(f"crane: {label}", value)

@@ -40,7 +40,9 @@ def database_of(
     vessel = next((one for one in scene.vessels.values() if one.body == body), None)
     if given is not None:
         if not isinstance(given, HydroDatabase):
-            raise SceneError(f"database is {shown(given)}; give a HydroDatabase, as load_database reads")
+            raise SceneError.of(
+                "database", f"is {shown(given)}; give a HydroDatabase, as load_database reads"
+            )
         if vessel is not None and given.speed == 0.0:
             require_alike(scene, vessel, given)
         return given

@@ -123,7 +123,7 @@ def _pose(scene: Description, joint: str, body: str) -> tuple[Array, Array]:
         return np.zeros(3), np.eye(3)
     described = scene.bodies[require(scene, f"joint {joint!r}", "body", body)]
     if not np.linalg.norm(described.quaternion) > 0.0:
-        raise SceneError(f"body {body!r}: quaternion is {described.quaternion.tolist()}; normalise it")
+        raise SceneError.of(f"body {body!r}: quaternion", f"is {described.quaternion.tolist()}; normalise it")
     return described.position, rotation_matrix(described.quaternion)
 
 
@@ -256,12 +256,12 @@ def _force_of(what: str, force: Any) -> tuple[partial[Any], tuple[str, ...]]:
         address = ctypes.cast(function, ctypes.c_void_p).value or 0
         return partial(_core.FunctionForce, address=address), ("parameters",)
     if callable(force):
-        raise SceneError(f"{what} is {shown(force)}; make a C function of it by numba.cfunc or ctypes")
+        raise SceneError.of(what, f"is {shown(force)}; make a C function of it by numba.cfunc or ctypes")
     numbers = numbers_of(what, force)
     if numbers.ndim == 2 and numbers.shape[1] == 6:
         return partial(_core.ForceTable, wrenches=numbers, times=()), ("times", "point")
     if numbers.shape != (3,):
-        raise SceneError(f"{what} has shape {numbers.shape}; give (3,), or (n, 6) with times")
+        raise SceneError.of(what, f"has shape {numbers.shape}; give (3,), or (n, 6) with times")
     return partial(_core.PointForce, force=numbers), ("point", "body_axes")
 
 

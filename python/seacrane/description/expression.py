@@ -293,5 +293,5 @@ class _Parser:
         self.close()
         if count != FUNCTIONS[name] and (FUNCTIONS[name] or count < 2):
             takes = FUNCTIONS[name] or "two or more"
-            raise SceneError(f"{self.what}: {name} has {count} arguments; it takes {takes}")
+            raise SceneError.of(f"{self.what}: {name}", f"has {count} arguments; it takes {takes}")
         self.steps.append(Call(name, count))

@@ -246,9 +246,10 @@ def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, f
     if "pressure" in settings:
         given = number_of(f"{what}: pressure", settings["pressure"])
         if given > 0.0 and not given * full > force:
-            raise SceneError(
-                f"{what}: pressure is {given:g} Pa, which cannot hold the {force:.4g} N that it carries; "
-                f"give more than {force / full:.4g} Pa, or leave it out"
+            raise SceneError.of(
+                f"{what}: pressure",
+                f"is {given:g} Pa, which cannot hold the {force:.4g} N that it carries; "
+                f"give more than {force / full:.4g} Pa, or leave it out",
             )
         return {"pressure_rod": (given * full - force) / ring}
     at_rod = number_of(f"{what}: pressure_rod", settings.get("pressure_rod", back))

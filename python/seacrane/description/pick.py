@@ -117,7 +117,7 @@ def _read(what: str, text: str) -> tuple[str, list[tuple[str, str]], dict[str, A
     """Channel, (dimension or nothing, name), and `after` and `stage` of a text."""
     found = WHOLE.fullmatch(text_of(what, text))
     if not found:
-        raise SceneError(f"{what} is {shown(text)}; give a channel, such as 'position[load, z]'")
+        raise SceneError.of(what, f"is {shown(text)}; give a channel, such as 'position[load, z]'")
     channel, inner = found.groups()
     items: list[tuple[str, str]] = []
     parts: dict[str, Any] = {"after": None, "stage": None}
@@ -125,13 +125,15 @@ def _read(what: str, text: str) -> tuple[str, list[tuple[str, str]], dict[str, A
     while inner and at < len(inner):
         item = ITEM.match(inner, at)
         if not item or not item[2]:
-            raise SceneError(f"{what} is {shown(text)}; give names with commas between, such as 'load, z'")
+            raise SceneError.of(
+                f"{what}", f"is {shown(text)}; give names with commas between, such as 'load, z'"
+            )
         at = item.end()
         key, value = item[1] or "", item[2].strip("\"'")
         if key not in parts:
             items.append((key, value))
         elif parts[key] is not None:
-            raise SceneError(f"{what} is {shown(text)}; give {key} once")
+            raise SceneError.of(what, f"is {shown(text)}; give {key} once")
         else:
             parts[key] = value if key == "stage" else _time(what, value)
     return channel, items, parts
@@ -141,7 +143,7 @@ def _time(what: str, text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise SceneError(f"{what}: after is {shown(text)}; give a time in s") from None
+        raise SceneError.of(f"{what}: after", f"is {shown(text)}; give a time in s") from None
 
 
 def _by_dimension(what: str, channel: str, items: Sequence[tuple[str, str]]) -> dict[str, str]:
@@ -152,11 +154,11 @@ def _by_dimension(what: str, channel: str, items: Sequence[tuple[str, str]]) -> 
         if dim not in dims:
             has = ", ".join(dims) or "none but time"
             asked = f"dimension {key!r}" if key else f"{shown(name)}"
-            raise SceneError(f"{what}: {channel} has no {asked}; its dimensions are {has}")
+            raise SceneError.of(f"{what}: {channel}", f"has no {asked}; its dimensions are {has}")
         if dim in found:
-            raise SceneError(f"{what}: {channel} is given two names along {dim}; give one")
+            raise SceneError.of(f"{what}: {channel}", f"is given two names along {dim}; give one")
         if dim in FIXED and name not in FIXED[dim]:
-            raise SceneError(f"{what}: {dim} is {shown(name)}; choose from {', '.join(FIXED[dim])}")
+            raise SceneError.of(f"{what}: {dim}", f"is {shown(name)}; choose from {', '.join(FIXED[dim])}")
         found[dim] = text_of(f"{what}: {dim}", name)
     return {dim: found[dim] for dim in dims if dim in found}
 

@@ -26,9 +26,9 @@ def capacity_of(what: str, given: Any) -> Capacity:
     """Rows of radius and load, the radii increasing; SceneError for anything else."""
     rows = rows_of(f"{what}: capacity", given, 2)
     if not np.all(np.isfinite(rows)) or np.any(rows <= 0.0) or np.any(np.diff(rows[:, 0]) <= 0.0):
-        raise SceneError(
-            f"{what}: capacity is {rows.tolist()}; give rows of radius (m, increasing) and load (kg), all "
-            "above zero"
+        raise SceneError.of(
+            f"{what}: capacity",
+            f"is {rows.tolist()}; give rows of radius (m, increasing) and load (kg), all above zero",
         )
     return tuple((float(radius), float(load)) for radius, load in rows)
 
@@ -37,9 +37,10 @@ def design_factor_of(what: str, given: Any) -> float:
     """The dynamic factor that a table contains; SceneError below 1."""
     factor = number_of(f"{what}: design_factor", given)
     if not 1.0 <= factor <= LARGEST_FACTOR:
-        raise SceneError(
-            f"{what}: design_factor is {factor:g}; give the dynamic factor that the capacity contains, from "
-            f"1 to {LARGEST_FACTOR:g}"
+        raise SceneError.of(
+            f"{what}: design_factor",
+            f"is {factor:g}; give the dynamic factor that the capacity contains, from "
+            f"1 to {LARGEST_FACTOR:g}",
         )
     return factor
 
@@ -54,9 +55,10 @@ def areas_of(what: str, given: Any) -> Areas:
     """Full side and rod side of a piston, m2; SceneError for what is no cylinder."""
     full, ring = (float(value) for value in shaped_of(f"{what}: areas", given, (2,)))
     if not (np.isfinite(full) and 0.0 < ring <= full):
-        raise SceneError(
-            f"{what}: areas are {full:g} and {ring:g} m2; give the full side and then the rod side, which is "
-            "above zero and not larger"
+        raise SceneError.of(
+            f"{what}: areas",
+            f"are {full:g} and {ring:g} m2; give the full side and then the rod side, which is "
+            "above zero and not larger",
         )
     return full, ring
 
@@ -64,7 +66,9 @@ def areas_of(what: str, given: Any) -> Areas:
 def areas_by_label(what: str, given: Any, cylinders: Mapping[str, str]) -> dict[str, Areas]:
     """Areas by the labels of cylinders."""
     if not isinstance(given, Mapping):
-        raise SceneError(f"{what}: areas are {shown(given)}; give {{label: (full side, rod side)}}, m2")
+        raise SceneError.of(
+            f"{what}: areas", f"are {shown(given)}; give {{label: (full side, rod side)}}, m2"
+        )
     require_cylinders(f"{what}: areas are", given, cylinders)
     return {label: areas_of(f"{what}: cylinder {label!r}", pair) for label, pair in given.items()}
 

@@ -24,9 +24,9 @@ class VesselHydrodynamics(_core.VesselHydrodynamics):
     def __init__(self, *, database: Source | None = None, **matrices: Any) -> None:
         super().__init__(**matrices)
         if database is not None and not isinstance(database, Source):
-            raise SceneError(
-                f"vessel {self.name!r}: database is {shown(database)}; give a HydroDatabase, as "
-                "load_database reads, or MotionRaos"
+            raise SceneError.of(
+                f"vessel {self.name!r}: database",
+                f"is {shown(database)}; give a HydroDatabase, as load_database reads, or MotionRaos",
             )
         self._database = database
 

@@ -133,14 +133,15 @@ class HullLoads(_ReadOnly):
     def __post_init__(self) -> None:
         finite_of("waves: heading", self.heading, "rad")
         if not_negative_of("waves: cutoff", self.cutoff, "rad/s") and self.force_by_heading is None:
-            raise SceneError(
-                f"waves: cutoff is {self.cutoff} rad/s and there is no force_by_heading; loads at one place "
-                "have no slow position, take phase='slow' in add_sea, or cutoff=0"
+            raise SceneError.of(
+                "waves: cutoff",
+                f"is {self.cutoff} rad/s and there is no force_by_heading; loads at one place "
+                "have no slow position, take phase='slow' in add_sea, or cutoff=0",
             )
         for name in ("force_by_heading", "drift_by_heading"):
             table = getattr(self, name)
             if table is not None and not isinstance(table, ByHeading):
-                raise SceneError(f"waves: {name} is {shown(table)}; give a seacrane.scene.ByHeading")
+                raise SceneError.of(f"waves: {name}", f"is {shown(table)}; give a seacrane.scene.ByHeading")
         self._close()
 
 
@@ -190,16 +191,18 @@ class Waves(_ReadOnly):
     def __post_init__(self) -> None:
         hulls = self.hulls
         if not isinstance(hulls, Mapping) or not all(isinstance(h, HullLoads) for h in hulls.values()):
-            raise SceneError(f"waves: hulls is {shown(hulls)}; give HullLoads by the vessel's body")
+            raise SceneError.of("waves: hulls", f"is {shown(hulls)}; give HullLoads by the vessel's body")
         if not (self.current is None or isinstance(self.current, Current)):
-            raise SceneError(f"waves: current is {shown(self.current)}; give a seacrane.sea.Current")
+            raise SceneError.of("waves: current", f"is {shown(self.current)}; give a seacrane.sea.Current")
         for name, known in (("evaluation", EVALUATIONS), ("stretching", STRETCHING)):
             value = getattr(self, name)
             if not (isinstance(value, str) and value in known):
-                raise SceneError(f"waves: {name} is {shown(value)}; choose {' or '.join(map(repr, known))}")
+                raise SceneError.of(
+                    f"waves: {name}", f"is {shown(value)}; choose {' or '.join(map(repr, known))}"
+                )
         if not isinstance(self.provenance, SeaProvenance):
-            raise SceneError(
-                f"waves: provenance is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
+            raise SceneError.of(
+                "waves: provenance", f"is {shown(self.provenance)}; give a seacrane.scene.SeaProvenance"
             )
         self._require_shapes()
         object.__setattr__(self, "hulls", ReadOnly(hulls))
@@ -218,8 +221,8 @@ class Waves(_ReadOnly):
                     shapes[f"{key} of {body!r}"] = table.values, (np.size(table.heading), n, 6)
         for key, (values, shape) in shapes.items():
             if values is not None and np.shape(values) != shape:
-                raise SceneError(
-                    f"waves: {key} has shape {np.shape(values)}; the sea has {n} components, give {shape}"
+                raise SceneError.of(
+                    f"waves: {key}", f"has shape {np.shape(values)}; the sea has {n} components, give {shape}"
                 )
 
     def __repr__(self) -> str:

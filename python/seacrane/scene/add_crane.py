@@ -128,7 +128,7 @@ def add_crane(
     if prefix in scene.roles:
         raise SceneError(f"crane: there is one with prefix {prefix!r}; give this one another, such as 'aft '")
     if not isinstance(crane, Crane):
-        raise SceneError(f"crane is {shown(crane)}; give what load_crane returns, or leave it out")
+        raise SceneError.of("crane", f"is {shown(crane)}; give what load_crane returns, or leave it out")
     place = _place(crane, {"slew": slew, "s1": s1, "s2": s2}, coordinates)
     parts = crane.parts(foot=foot, **place)
     damped = flag_of("crane: damping", damping)
@@ -189,14 +189,14 @@ def _place(
 ) -> dict[str, float]:
     """Coordinates by name; those that have a keyword of their own are left out where they are 0."""
     if not isinstance(coordinates, Mapping | None):
-        raise SceneError(f"crane: coordinates are {shown(coordinates)}; give {{label: rad or m}}")
+        raise SceneError.of("crane: coordinates", f"are {shown(coordinates)}; give {{label: rad or m}}")
     found = dict(coordinates or {})
     for label in found:
         crane.data.led_by(label)
     for name, value in given.items():
         if number_of(f"crane: {name}", value) != 0.0:
             if name in found:
-                raise SceneError(f"crane: {name} is given, and one of the coordinates; give it once")
+                raise SceneError.of(f"crane: {name}", "is given, and one of the coordinates; give it once")
             found[name] = value
     return found
 

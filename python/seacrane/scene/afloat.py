@@ -63,7 +63,7 @@ def add_hydrodynamics(
     known = [field.name for field in VesselHydrodynamics.FIELDS if field.role == "value"]
     for key in hydrodynamics:
         if key not in (*known, "database"):
-            raise SceneError(f"vessel {name!r}: {key} is unknown; a vessel takes {', '.join(known)}")
+            raise SceneError.of(f"vessel {name!r}: {key}", f"is unknown; a vessel takes {', '.join(known)}")
     element = VesselHydrodynamics(name=name, body=body, **hydrodynamics)
     return insert("vessel", scene.vessels, element)
 

@@ -179,9 +179,10 @@ def _target(**given: Any) -> dict[str, float]:
     for motion, (key, value) in zip(ATTITUDE, given.items(), strict=True):
         angle = 0.0 if value is None else number_of(f"ballast: {key}", value)
         if not abs(angle) <= np.degrees(LARGEST):
-            raise SceneError(
-                f"ballast: {key} is {angle:g}; give an angle within {np.degrees(LARGEST):.0f} deg, as far as "
-                "linear restoring holds"
+            raise SceneError.of(
+                f"ballast: {key}",
+                f"is {angle:g}; give an angle within {np.degrees(LARGEST):.0f} deg, as far as "
+                "linear restoring holds",
             )
         if value is not None:
             found[motion] = float(np.radians(angle))
@@ -284,7 +285,9 @@ def _fitted(
     moments = " and ".join(
         f"{size:.3g} N m about {motion}" for size, motion in zip(left, target, strict=True)
     )
-    raise SceneError(f"ballast: {moments} are left at the heel and trim asked for; ask for smaller angles")
+    raise SceneError.of(
+        f"ballast: {moments}", "are left at the heel and trim asked for; ask for smaller angles"
+    )
 
 
 def _moments_left(

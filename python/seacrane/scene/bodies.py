@@ -89,7 +89,7 @@ def add_body(
         top = np.add(middle, (0.0, 0.0, 0.5 * edges[2])) if edges.any() else edges
         given["position"] = _below(scene, what, below, drop, position, quaternion, top)
     elif drop:
-        raise SceneError(f"{what}: drop is {drop:g} m, below nothing; give below=, or leave drop out")
+        raise SceneError.of(f"{what}: drop", f"is {drop:g} m, below nothing; give below=, or leave drop out")
     given |= {
         "size": edges,
         "inertia": _box(what, mass, edges) if inertia is None else _tensor(what, inertia),
@@ -115,8 +115,9 @@ def _tensor(what: str, inertia: Any) -> Array:
     """Shape (3, 3), of a tensor or of its diagonal."""
     tensor = numbers_of(f"{what}: inertia", inertia)
     if tensor.shape not in ((3,), (3, 3)):
-        raise SceneError(
-            f"{what}: inertia has shape {tensor.shape}; give its diagonal, shape (3,), or all of it, (3, 3)"
+        raise SceneError.of(
+            f"{what}: inertia",
+            f"has shape {tensor.shape}; give its diagonal, shape (3,), or all of it, (3, 3)",
         )
     return np.diag(tensor) if tensor.shape == (3,) else tensor
 
@@ -229,10 +230,10 @@ def _given(what: str, file: Any, vertices: Any, faces: Any) -> tuple[Array, Face
     try:
         path = Path(file)
     except TypeError as error:
-        raise SceneError(f"{what}: file is {shown(file)}; give a path") from error
+        raise SceneError.of(f"{what}: file", f"is {shown(file)}; give a path") from error
     reader = READERS.get(path.suffix.lower())
     if reader is None:
-        raise SceneError(f"{what}: file is {shown(path.name)}; give {', '.join(READERS)}")
+        raise SceneError.of(f"{what}: file", f"is {shown(path.name)}; give {', '.join(READERS)}")
     soup = np.float32(reader(path, most=MOST_TRIANGLES).reshape(-1, 3))
     points, corners = np.unique(soup, axis=0, return_inverse=True)
     return points.astype(float), corners.reshape(-1, 3)
@@ -241,10 +242,10 @@ def _given(what: str, file: Any, vertices: Any, faces: Any) -> tuple[Array, Face
 def _from_arrays(what: str, vertices: Any, faces: Any) -> tuple[Array, Faces]:
     points, corners = numbers_of(f"{what}: vertices", vertices), np.asarray(faces)
     if points.ndim != 2 or points.shape[1] != 3 or not len(points):
-        raise SceneError(f"{what}: vertices has shape {points.shape}; give (n, 3), m")
+        raise SceneError.of(f"{what}: vertices", f"has shape {points.shape}; give (n, 3), m")
     if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
-        raise SceneError(
-            f"{what}: faces has shape {corners.shape} of {corners.dtype}; give (m, 3) whole numbers"
+        raise SceneError.of(
+            f"{what}: faces", f"has shape {corners.shape} of {corners.dtype}; give (m, 3) whole numbers"
         )
     return points, corners
 
@@ -253,9 +254,9 @@ def _placed(what: str, points: Array, faces: Faces, scale: Any, frame: Any) -> A
     """Points in body coordinates, m."""
     factor = number_of(f"{what}: scale", scale)
     if not (np.isfinite(factor) and factor > 0.0):
-        raise SceneError(f"{what}: scale is {factor:g}; give a positive number, such as 1e-3 for mm")
+        raise SceneError.of(f"{what}: scale", f"is {factor:g}; give a positive number, such as 1e-3 for mm")
     if frame is not None and not isinstance(frame, _core.Frame):
-        raise SceneError(f"{what}: frame is {shown(frame)}; give a seacrane.Frame")
+        raise SceneError.of(f"{what}: frame", f"is {shown(frame)}; give a seacrane.Frame")
     if not np.isfinite(points).all():
         raise SceneError(f"{what}: vertices hold a coordinate that is not finite; repair it")
     with np.errstate(over="ignore"):

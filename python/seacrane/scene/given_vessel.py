@@ -106,8 +106,9 @@ def _kind_of(what: str, motion: Any) -> str:
         return "history"
     if isinstance(motion, str) and motion == "rest":
         return "rest"
-    raise SceneError(
-        f"{what}: motion is {shown(motion)}; give a HydroDatabase or MotionRaos, a MotionHistory, or 'rest'"
+    raise SceneError.of(
+        f"{what}: motion",
+        f"is {shown(motion)}; give a HydroDatabase or MotionRaos, a MotionHistory, or 'rest'",
     )
 
 
@@ -118,7 +119,9 @@ def _size_of(what: str, motion: Any, size: Any) -> tuple[float, float, float] | 
         return None
     length, breadth, draught = (float(one) for one in shaped_of(f"{what}: size", size, (3,)))
     if not (np.isfinite([length, breadth, draught]).all() and min(length, breadth, draught) > 0.0):
-        raise SceneError(f"{what}: size is {shown(size)}; give positive length, breadth and draught, m")
+        raise SceneError.of(
+            f"{what}: size", f"is {shown(size)}; give positive length, breadth and draught, m"
+        )
     return length, breadth, draught
 
 

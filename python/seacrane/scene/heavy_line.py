@@ -315,19 +315,19 @@ def _at_rest(
 def _ends(scene: Description, what: str, bodies: Any, points: Any) -> tuple[_End, _End]:
     names = texts_of(f"{what}: bodies", bodies)
     if len(names) != 2:
-        raise SceneError(f"{what}: bodies has {len(names)} names; give those of its two ends")
+        raise SceneError.of(f"{what}: bodies", f"has {len(names)} names; give those of its two ends")
     if names[0] == names[1]:
         raise SceneError(f"{what}: both ends are on {names[0]!r}; name two bodies")
     rows = shaped_of(f"{what}: points", points, (2, 3))
     first, last = (_end(scene, what, *end) for end in zip(names, rows, strict=True))
     if not np.any(last.place - first.place):
-        raise SceneError(f"{what}: points are both at {first.place.tolist()} m; give two places")
+        raise SceneError.of(f"{what}: points", f"are both at {first.place.tolist()} m; give two places")
     return first, last
 
 
 def _end(scene: Description, what: str, name: str, point: Array) -> _End:
     if not np.all(np.isfinite(point)):
-        raise SceneError(f"{what}: points holds {point.tolist()}; give finite numbers")
+        raise SceneError.of(f"{what}: points", f"holds {point.tolist()}; give finite numbers")
     if name == GROUND:
         return _End(body=name, point=point, place=point, velocity=np.zeros(3))
     body = scene.bodies[require(scene, what, "bodies", name)]
@@ -357,17 +357,18 @@ def _shape(what: str, chain: Chain) -> Array:
     if forces is not None:
         return chain.points(forces)
     if not chain.segment * chain.count < (1.0 + STRAIGHT) * np.linalg.norm(chain.span):
-        raise SceneError(
-            f"{what}: length is {chain.segment * chain.count:.6g} m over a span of "
+        raise SceneError.of(
+            f"{what}: length",
+            f"is {chain.segment * chain.count:.6g} m over a span of "
             f"{np.linalg.norm(chain.span):.6g} m, and it has no rest shape; give it less length, ends that "
-            "are not one above the other, or gravity"
+            "are not one above the other, or gravity",
         )
     return np.arange(1, chain.count)[:, None] / chain.count * chain.span
 
 
 def _count(what: str, segments: Any) -> int:
     if isinstance(segments, bool) or not isinstance(segments, (int, np.integer)):
-        raise SceneError(f"{what}: segments is {segments!r}; give a whole number")
+        raise SceneError.of(f"{what}: segments", f"is {segments!r}; give a whole number")
     if not 1 <= segments <= MOST_SEGMENTS:
-        raise SceneError(f"{what}: segments is {segments}; give 1 to {MOST_SEGMENTS}")
+        raise SceneError.of(f"{what}: segments", f"is {segments}; give 1 to {MOST_SEGMENTS}")
     return int(segments)

@@ -91,8 +91,9 @@ class Slings:
         if self.length is not None:
             positive_of("slings: length", self.length)
         elif not 0.0 < number_of("slings: angle_deg", self.angle_deg) < 90.0:
-            raise SceneError(
-                f"slings: angle_deg is {self.angle_deg:g}; give an angle from the horizontal between 0 and 90"
+            raise SceneError.of(
+                "slings: angle_deg",
+                f"is {self.angle_deg:g}; give an angle from the horizontal between 0 and 90",
             )
 
     def height(self, points: Array) -> float:
@@ -103,9 +104,10 @@ class Slings:
             return reach * math.tan(math.radians(self.angle_deg))
         assert self.length is not None
         if self.length <= reach:
-            raise SceneError(
-                f"slings: length is {self.length:g} m, and their points are {reach:.4g} m from the middle of "
-                f"the load; give more than {reach:.4g} m"
+            raise SceneError.of(
+                "slings: length",
+                f"is {self.length:g} m, and their points are {reach:.4g} m from the middle of "
+                f"the load; give more than {reach:.4g} m",
             )
         return math.sqrt(self.length**2 - reach**2)
 
@@ -215,13 +217,14 @@ def add_hoist(
     what = f"hoist {name_of('hoist', name)!r}"
     roles = _crane(scene, what, crane)
     if not isinstance(falls, int) or isinstance(falls, bool) or falls < 1:
-        raise SceneError(f"{what}: falls is {shown(falls)}; give a whole number from 1 on")
+        raise SceneError.of(f"{what}: falls", f"is {shown(falls)}; give a whole number from 1 on")
     if falls > 1 and rung in (RIGID, WITH_MASS):
         raise SceneError(f"{what}: rung {rung!r} has one fall, and falls is {falls}; choose rung 'elastic'")
     if not_negative_of(f"{what}: slack", slack) and (on is None or block_mass > 0.0 or rung != ELASTIC):
-        raise SceneError(
-            f"{what}: slack is {slack:g} m, and a line is slack by its length where it is elastic and has no "
-            "block, and its load stands on a deck; leave slack out, or give on= and rung 'elastic'"
+        raise SceneError.of(
+            f"{what}: slack",
+            f"is {slack:g} m, and a line is slack by its length where it is elastic and has no "
+            "block, and its load stands on a deck; leave slack out, or give on= and rung 'elastic'",
         )
     stand, drive = _keywords_of(what, "feet", feet), _keywords_of(what, "winch", winch)
     if stand is not None and on is None:
@@ -279,14 +282,14 @@ def _keywords_of(what: str, word: str, given: Any) -> dict[str, Any] | None:
     if isinstance(given, bool):
         return {} if given else None
     if not isinstance(given, Mapping):
-        raise SceneError(f"{what}: {word} is {shown(given)}; give its keywords, or True")
+        raise SceneError.of(f"{what}: {word}", f"is {shown(given)}; give its keywords, or True")
     return dict(given)
 
 
 def _require_keys(what: str, word: str, given: Mapping[str, Any] | None, known: Iterable[str]) -> None:
     unknown = [key for key in given or () if key not in known]
     if unknown:
-        raise SceneError(f"{what}: {word} has {unknown[0]!r}; give some of {', '.join(known)}")
+        raise SceneError.of(f"{what}: {word}", f"has {unknown[0]!r}; give some of {', '.join(known)}")
 
 
 def _crane(scene: Description, what: str, crane: CraneRoles | str | None) -> CraneRoles:
@@ -298,7 +301,9 @@ def _crane(scene: Description, what: str, crane: CraneRoles | str | None) -> Cra
         crane.prefix if isinstance(crane, CraneRoles) else next(iter(scene.roles)) if crane is None else crane
     )
     if prefix not in scene.roles:
-        raise SceneError(f"{what}: crane is {shown(prefix)}; the prefixes of the scene's cranes are {known}")
+        raise SceneError.of(
+            f"{what}: crane", f"is {shown(prefix)}; the prefixes of the scene's cranes are {known}"
+        )
     roles = scene.roles[prefix]
     if roles.tip is None:
         raise SceneError(f"{what}: crane {prefix!r} has no tip; give it one by add_roles")
@@ -409,8 +414,8 @@ def _add_block(scene: Description, what: str, name: str, load: str, mass: float,
     at = place_of(scene, body=load, point=hung_from(scene, load))
     if rig is not None:
         if rig.points is None and not np.any(body.size):
-            raise SceneError(
-                f"{what}: slings are tied to corners, and body {load!r} has no size; give points"
+            raise SceneError.of(
+                f"{what}: slings", f"are tied to corners, and body {load!r} has no size; give points"
             )
         ends = _corners(rig, np.asarray(body.size, dtype=float))
         centre = np.asarray(body.position) + rotation_matrix(body.quaternion) @ ends.mean(axis=0)

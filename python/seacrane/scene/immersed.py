@@ -80,7 +80,7 @@ def add_immersed(
     label = owner if name is None else name_of("immersed parts", name)
     density_of(what, density)
     if isinstance(parts, Mapping | str) or not isinstance(parts, Sequence) or not parts:
-        raise SceneError(f"{what}: parts is {shown(parts)}; give a list of parts of seacrane.water")
+        raise SceneError.of(f"{what}: parts", f"is {shown(parts)}; give a list of parts of seacrane.water")
     made = [_part(what, one) for one in parts]
     for part in made:
         _check_place(what, scene.bodies[owner], part)
@@ -105,11 +105,11 @@ def _part(what: str, given: Any) -> Part:
     if isinstance(given, BoxPart | PlatePart | CylinderPart | SpherePart | TablePart):
         return given
     if not isinstance(given, Mapping):
-        raise SceneError(f"{what}: parts holds {shown(given)}; give parts of seacrane.water")
+        raise SceneError.of(f"{what}: parts", f"holds {shown(given)}; give parts of seacrane.water")
     entries = dict(given)
     kind = entries.pop("kind", None)
     if kind not in MAKERS:
-        raise SceneError(f"{what}: kind is {shown(kind)}; choose one of {', '.join(MAKERS)}")
+        raise SceneError.of(f"{what}: kind", f"is {shown(kind)}; choose one of {', '.join(MAKERS)}")
     if "strips" in entries:  # numbers of a file
         given = entries["strips"]
         strips = [
@@ -221,7 +221,7 @@ def add_entrapped_water(
 
 def _openings(what: str, given: Any) -> list[Opening]:
     if isinstance(given, Mapping | str) or not isinstance(given, Sequence) or not given:
-        raise SceneError(f"{what}: openings is {shown(given)}; give a list of seacrane.water.Opening")
+        raise SceneError.of(f"{what}: openings", f"is {shown(given)}; give a list of seacrane.water.Opening")
     return [_opening(what, one) for one in given]
 
 
@@ -229,7 +229,7 @@ def _opening(what: str, given: Any) -> Opening:
     if isinstance(given, Opening):
         return given
     if not isinstance(given, Mapping):
-        raise SceneError(f"{what}: openings holds {shown(given)}; give seacrane.water.Opening")
+        raise SceneError.of(f"{what}: openings", f"holds {shown(given)}; give seacrane.water.Opening")
     try:
         return Opening(**given)
     except TypeError as error:
@@ -241,14 +241,14 @@ def _air(what: str, given: str | None, heights: list[float], top: float) -> str:
     if given is None:  # "" is asked for when the scene is compiled
         return "vented" if max(heights) > (1.0 - IN_LID) * top else ""
     if given not in AIR:
-        raise SceneError(f"{what}: air is {shown(given)}; give one of {', '.join(AIR)}")
+        raise SceneError.of(f"{what}: air", f"is {shown(given)}; give one of {', '.join(AIR)}")
     return given
 
 
 def _exponent(what: str, air: str, given: float | None) -> float:
     if (air == "shut") == (given is None):
         asked = "give exponent, 1 (slow) to 1.4 (quick)" if given is None else "leave exponent out"
-        raise SceneError(f"{what}: air is {air!r}, and exponent is {shown(given)}; {asked}")
+        raise SceneError.of(f"{what}: air", f"is {air!r}, and exponent is {shown(given)}; {asked}")
     return 0.0 if given is None else finite_of(f"{what}: exponent", given)
 
 

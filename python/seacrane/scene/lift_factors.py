@@ -45,8 +45,9 @@ def rating_of(name: str, breaking_load: float | None, safety_factor: float | Non
         return None
     load = positive_of(f"{what}: breaking_load", breaking_load, "N")
     if safety_factor is not None and not number_of(f"{what}: safety_factor", safety_factor) >= 1.0:
-        raise SceneError(
-            f"{what}: safety_factor is {safety_factor:g}; give breaking load over largest tension, 1 or more"
+        raise SceneError.of(
+            f"{what}: safety_factor",
+            f"is {safety_factor:g}; give breaking load over largest tension, 1 or more",
         )
     factor = None if safety_factor is None else float(safety_factor)
     return Rating(name=name, breaking_load=load, safety_factor=factor)
@@ -145,13 +146,15 @@ def add_lift_factors(
     if shackle_breaking_load is not None:
         positive_of(f"{what}: shackle_breaking_load", shackle_breaking_load, "N")
     if not 0.0 < number_of(f"{what}: alpha", alpha) <= 1.0:
-        raise SceneError(f"{what}: alpha is {alpha:g}; give operational over design Hs, above 0 to 1")
+        raise SceneError.of(f"{what}: alpha", f"is {alpha:g}; give operational over design Hs, above 0 to 1")
     skews = vector_of(f"{what}: skew_load", np.atleast_1d(np.asarray(skew_load, dtype=object)))
     for skew in skews:
         _factor(what, "skew_load", skew)
     x, y, z = np.abs(shaped_of(f"{what}: center_of_gravity", center_of_gravity, (3,))).tolist()
     if not all(map(math.isfinite, (x, y, z))):
-        raise SceneError(f"{what}: center_of_gravity is {shown(center_of_gravity)}; give finite numbers, m")
+        raise SceneError.of(
+            f"{what}: center_of_gravity", f"is {shown(center_of_gravity)}; give finite numbers, m"
+        )
     given |= {"center_of_gravity": (x, y, z), "skew_load": tuple(skews), "alpha": float(alpha)}
     factors = LiftFactors(name=load, **given | {"sources": _sources(what, sources or {})})
     return insert("lift factors", scene.lift_factors, factors)
@@ -159,13 +162,13 @@ def add_lift_factors(
 
 def _factor(what: str, key: str, value: Any) -> None:
     if value is not None and not 1.0 <= number_of(f"{what}: {key}", value) <= LARGEST:
-        raise SceneError(f"{what}: {key} is {value:g}; give a factor from 1 to {LARGEST:g}")
+        raise SceneError.of(f"{what}: {key}", f"is {value:g}; give a factor from 1 to {LARGEST:g}")
 
 
 def _sources(what: str, given: Any) -> dict[str, str]:
     if not isinstance(given, Mapping):
-        raise SceneError(f"{what}: sources are {shown(given)}; give texts by the names of factors")
+        raise SceneError.of(f"{what}: sources", f"are {shown(given)}; give texts by the names of factors")
     for key in given:
         if key not in NUMBERS:
-            raise SceneError(f"{what}: sources has {shown(key)}; the factors are {', '.join(NUMBERS)}")
+            raise SceneError.of(f"{what}: sources", f"has {shown(key)}; the factors are {', '.join(NUMBERS)}")
     return {key: text_of(f"{what}: source of {key}", value) for key, value in given.items()}

@@ -257,8 +257,8 @@ def add_contact(
     at = shaped_of(f"{what}: place", place, (3,))
     bed = other == SEABED and SEABED not in scene.bodies
     if bed != (depth is not None):
-        raise SceneError(
-            f"{what}: on is {other!r} and depth {shown(depth)}; a seabed has a depth, m below z = 0"
+        raise SceneError.of(
+            f"{what}: on", f"is {other!r} and depth {shown(depth)}; a seabed has a depth, m below z = 0"
         )
     if bed:
         if surface != "plane" or at.any():
@@ -272,7 +272,7 @@ def add_contact(
         raise SceneError(f"{what}: has body and on {other!r}; give two bodies, or one and 'ground'")
     rows = rows_of(f"{what}: points", points, 3)
     if not len(rows):
-        raise SceneError(f"{what}: points is empty; give at least one")
+        raise SceneError.of(f"{what}: points", "is empty; give at least one")
     shape = text_of(f"{what}: surface", surface)
     extent = _extent(what, shape, size)
     share = borne_mass(scene, owner, other) / len(rows)
@@ -302,7 +302,7 @@ def _extent(what: str, surface: str, size: Any) -> Array:
     """The size as the core has it: of what is round, inner and outer diameter and length."""
     given = {"box": 3, "post": 2, "pipe": 3}.get(surface, 0)
     if surface not in SURFACES:
-        raise SceneError(f"{what}: surface is {surface!r}; choose one of {', '.join(SURFACES)}")
+        raise SceneError.of(f"{what}: surface", f"is {surface!r}; choose one of {', '.join(SURFACES)}")
     if given == 0:
         if size is not None:
             raise SceneError(f"{what}: a plane has no size; leave it out, or choose another surface")
@@ -334,5 +334,7 @@ def _stiffness(what: str, given: float | None, steps: Array | None, weight: floa
     if steps is not None and len(steps) > 1 and steps[1, 0] > 0.0 and steps[1, 1] > 0.0:
         return float(steps[1, 1] / steps[1, 0])
     if not weight > 0.0:
-        raise SceneError(f"{what}: nothing has weight, from which a stiffness could follow; give one, N/m")
+        raise SceneError.of(
+            f"{what}: nothing", "has weight, from which a stiffness could follow; give one, N/m"
+        )
     return weight / SINKS

@@ -51,13 +51,13 @@ class Fluid:
     def checked(self, what: str, *, wound: bool) -> Fluid:
         """The same with a density in kg/m3."""
         if text_of(f"{what}: medium", self.medium) not in MEDIA:
-            raise SceneError(f"{what}: medium is {self.medium!r}; choose 'air' or 'sea'")
+            raise SceneError.of(f"{what}: medium", f"is {self.medium!r}; choose 'air' or 'sea'")
         number_of(f"{what}: diameter", self.diameter)
         if not self.in_sea:
             for name, usual in OF_THE_SEA.items():
                 if getattr(self, name) != usual:
-                    raise SceneError(
-                        f"{what}: {name} is of a line in water; leave it out, or choose medium 'sea'"
+                    raise SceneError.of(
+                        f"{what}: {name}", "is of a line in water; leave it out, or choose medium 'sea'"
                     )
             if wound and self.diameter > 0.0:
                 raise SceneError(
@@ -163,17 +163,19 @@ class Seabed:
     def of(what: str, given: Seabed | Mapping[str, Any]) -> Seabed:
         """The seabed of a line; SceneError for keywords that are not there, are missing, or out of range."""
         if not isinstance(given, (Seabed, Mapping)):
-            raise SceneError(
-                f"{what}: seabed is {shown(given)}; give depth, stiffness and friction, such as "
-                "seabed={'depth': 50.0, 'stiffness': 25e3, 'friction': 0.5}"
+            raise SceneError.of(
+                f"{what}: seabed",
+                f"is {shown(given)}; give depth, stiffness and friction, such as "
+                "seabed={'depth': 50.0, 'stiffness': 25e3, 'friction': 0.5}",
             )
         keywords = given if isinstance(given, Mapping) else vars(given)
         try:
             bed = Seabed(**keywords)
         except TypeError as error:
-            raise SceneError(
-                f"{what}: seabed has {', '.join(map(repr, keywords))}; it takes depth, stiffness, friction, "
-                "and damping_ratio and give, the first three always"
+            raise SceneError.of(
+                f"{what}: seabed",
+                f"has {', '.join(map(repr, keywords))}; it takes depth, stiffness, friction, "
+                "and damping_ratio and give, the first three always",
             ) from error
         finite_of(f"{what}: seabed depth", bed.depth, "m")
         positive_of(f"{what}: seabed stiffness", bed.stiffness, "N/m2")

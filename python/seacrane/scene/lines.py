@@ -234,7 +234,7 @@ def add_line(
 def _check_rung(what: str, rung: str, given: Mapping[str, Any]) -> None:
     """Refuse a rung that there is not, and what it does not take."""
     if rung not in RUNGS:
-        raise SceneError(f"{what}: rung is {shown(rung)}; choose one of {', '.join(map(repr, RUNGS))}")
+        raise SceneError.of(f"{what}: rung", f"is {shown(rung)}; choose one of {', '.join(map(repr, RUNGS))}")
     usual = inspect.signature(add_line).parameters
     for keyword, value in given.items():
         if rung in TAKEN_BY[keyword] or _alike(value, usual[keyword].default):
@@ -332,7 +332,7 @@ def starting_length(scene: Description, line: _core.Line, tension: float | None)
     what = f"line {line.name!r}"
     pull = 0.0 if tension is None else number_of(f"{what}: tension_at_start", tension)
     if not (np.isfinite(pull) and pull >= 0.0):
-        raise SceneError(f"{what}: tension_at_start is {pull!r} N; give zero or more")
+        raise SceneError.of(f"{what}: tension_at_start", f"is {pull!r} N; give zero or more")
     absent = [body for body in line.bodies if body != GROUND and body not in scene.bodies]
     if absent:
         raise SceneError(

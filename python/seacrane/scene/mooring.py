@@ -85,9 +85,10 @@ def check_mooring(what: str, matrix: Array) -> None:
     scaled = matrix / np.outer(*[np.where(size > 0.0, size, 1.0)] * 2)
     lowest = float(np.linalg.eigvalsh(0.5 * (scaled + scaled.T))[0])
     if lowest < -SYMMETRIC:
-        raise SceneError(
-            f"{what}: mooring has a negative stiffness, {lowest:.3g} of its diagonals: it pushes the vessel "
-            "away; check signs and couplings"
+        raise SceneError.of(
+            f"{what}: mooring",
+            f"has a negative stiffness, {lowest:.3g} of its diagonals: it pushes the vessel "
+            "away; check signs and couplings",
         )
 
 
@@ -185,9 +186,9 @@ def mooring_of(what: str, given: Any) -> Mooring:
             left=np.zeros(3),
         )  # fmt: skip
     if isinstance(given, str) or np.ndim(given) != 2:
-        raise SceneError(
-            f"{what}: mooring is {shown(given)}; give a natural period in s, a matrix (6, 6), or a list of "
-            "MooringSpring"
+        raise SceneError.of(
+            f"{what}: mooring",
+            f"is {shown(given)}; give a natural period in s, a matrix (6, 6), or a list of MooringSpring",
         )
     matrix = shaped_of(f"{what}: mooring", given, (6, 6))
     check_mooring(what, matrix)
@@ -220,7 +221,7 @@ def chosen_mooring(
     if np.ndim(mooring) > 0 or isinstance(mooring, str):
         return mooring_of(what, mooring)
     if not number_of(f"{what}: mooring", mooring) > 0.0:
-        raise SceneError(f"{what}: mooring is a period of {mooring:g} s; give a positive one")
+        raise SceneError.of(f"{what}: mooring", f"is a period of {mooring:g} s; give a positive one")
     return float(mooring)
 
 

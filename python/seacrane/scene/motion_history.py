@@ -39,7 +39,7 @@ def _motions(what: str, names: Sequence[str]) -> list[str]:
     found = texts_of(what, names)
     unknown = [one for one in found if one not in MOTIONS]
     if unknown:
-        raise SceneError(f"{what} holds {listed(unknown)}; give some of {', '.join(MOTIONS)}")
+        raise SceneError.of(what, f"holds {listed(unknown)}; give some of {', '.join(MOTIONS)}")
     return found
 
 
@@ -98,18 +98,18 @@ class MotionHistory:
         time = np.array(vector_of("motion history: time", self.time))
         motion = np.array(rows_of("motion history: motion", self.motion, 6))
         if time.size < FEWEST:
-            raise SceneError(f"motion history: time has {time.size} samples; give at least {FEWEST}")
+            raise SceneError.of("motion history: time", f"has {time.size} samples; give at least {FEWEST}")
         if motion.shape[0] != time.size:
-            raise SceneError(
-                f"motion history: motion has {motion.shape[0]} rows and time {time.size}; give one row for "
-                "each time"
+            raise SceneError.of(
+                "motion history: motion",
+                f"has {motion.shape[0]} rows and time {time.size}; give one row for each time",
             )
         if not (np.isfinite(time).all() and np.isfinite(motion).all()):
             raise SceneError("motion history: holds a value that is not finite; leave such samples out")
         if np.any(np.diff(time) <= 0.0):
             at = int(np.argmax(np.diff(time) <= 0.0))
-            raise SceneError(
-                f"motion history: time is {time[at + 1]:.6g} s after {time[at]:.6g} s; times must increase"
+            raise SceneError.of(
+                "motion history: time", f"is {time[at + 1]:.6g} s after {time[at]:.6g} s; times must increase"
             )
         if time[0] > 0.0:
             raise SceneError(
@@ -172,7 +172,9 @@ class MotionHistory:
         """
         still, turned = _motions("zero", zero), _motions("negated", negated)
         if columns is not None and not isinstance(columns, Mapping):
-            raise SceneError("columns is no mapping; give the names in the file by those of the motions")
+            raise SceneError.of(
+                "columns", "is no mapping; give the names in the file by those of the motions"
+            )
         unknown = sorted(set(columns or {}) - {*MOTIONS, "time"})
         if unknown:
             raise SceneError(

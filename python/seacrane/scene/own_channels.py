@@ -114,9 +114,9 @@ def picked(scene: Description, what: str, curve: Curve) -> Pick:
         channel, dim = {"points": ("point_position", "point"), "bodies": ("position", "body")}[there[0]]
         pick = Pick(channel=channel, names={dim: curve.text, "axis": curve.axis})
     if pick.parts:
-        raise SceneError(f"{what}: {pick} is of a part of a run; leave {pick.parts} out")
+        raise SceneError.of(f"{what}: {pick}", f"is of a part of a run; leave {pick.parts} out")
     if pick.channel == OWN:
-        raise SceneError(f"{what}: {pick} is a channel of your own too; write its expression here")
+        raise SceneError.of(f"{what}: {pick}", "is a channel of your own too; write its expression here")
     if CHANNELS[pick.channel].turns or pick.channel in COUNTED_ON:
         raise SceneError(
             f"{what}: {pick.channel} counts on over a whole run, which an expression does not; take another"
@@ -141,7 +141,9 @@ def _dimension(scene: Description, what: str, pick: Pick) -> Dimension:
     if angular and (coordinate := _coordinate(scene, pick)):
         unit = angular if coordinate in ANGLES else straight
     if unit not in UNITS:
-        raise SceneError(f"{what}: {pick} is in {unit}, which says not what it is; name a curve of one unit")
+        raise SceneError.of(
+            f"{what}: {pick}", f"is in {unit}, which says not what it is; name a curve of one unit"
+        )
     return UNITS[unit][1]
 
 

@@ -102,7 +102,9 @@ def slow_below(waves: Waves, cutoff: float | None) -> float:
     if cutoff is None:
         return SLOW_SHARE * peak_frequency(waves)
     if not (np.isfinite(number_of("sea: cutoff", cutoff)) and cutoff > 0.0):
-        raise SceneError(f"sea: cutoff is {cutoff} rad/s; give a frequency between slow drift and waves")
+        raise SceneError.of(
+            "sea: cutoff", f"is {cutoff} rad/s; give a frequency between slow drift and waves"
+        )
     return float(cutoff)
 
 

@@ -60,7 +60,7 @@ def realised_sea(
     elif isinstance(sea, SeaState):
         made_from = SeaProvenance(sea=sea.description())
     else:
-        raise SceneError(f"sea is {sea!r}; give a SeaState")
+        raise SceneError.of("sea", f"is {sea!r}; give a SeaState")
     realised = sea.realise()
     waves = realised.waves
     several = {system.name: system.hs for system in realised.systems} if len(realised.systems) > 1 else None
@@ -181,7 +181,7 @@ def sea_at(
     names, places = _places(scene, points)
     moments = np.atleast_1d(numbers_of("sea_at: times", times))
     if moments.ndim != 1:
-        raise SceneError(f"sea_at: times has shape {moments.shape}; give one row")
+        raise SceneError.of("sea_at: times", f"has shape {moments.shape}; give one row")
     if len(places) * moments.size > MOST_FLOWS:
         raise SceneError(
             f"sea_at: {len(places):,} points at {moments.size:,} times would take minutes; give fewer, "

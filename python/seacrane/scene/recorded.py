@@ -77,8 +77,8 @@ def add_range(
     low = number_of(f"range {name!r}: minimum", minimum)
     high = number_of(f"range {name!r}: maximum", maximum)
     if not low < high:
-        raise SceneError(
-            f"range {name!r}: minimum is {low} and maximum {high}; the minimum must be below the maximum"
+        raise SceneError.of(
+            f"range {name!r}: minimum", f"is {low} and maximum {high}; the minimum must be below the maximum"
         )
     element = Range(name=name, joint=joint, coordinate=coordinate, minimum=low, maximum=high)
     return insert("range", scene.ranges, element)
@@ -135,9 +135,11 @@ def add_clearance(
         shaped_of(f"{what}: {key}", value, (3,)) for key, value in (("center", center), ("size", size))
     )
     if not np.all(np.isfinite(place)):
-        raise SceneError(f"{what}: center is {place.tolist()}; give three finite numbers, m")
+        raise SceneError.of(f"{what}: center", f"is {place.tolist()}; give three finite numbers, m")
     if not (np.all(np.isfinite(extent)) and np.all(extent >= 0.0)):
-        raise SceneError(f"{what}: size is {extent.tolist()} m; give three numbers that are not negative")
+        raise SceneError.of(
+            f"{what}: size", f"is {extent.tolist()} m; give three numbers that are not negative"
+        )
     element = Clearance(name=name, points=names, body=body, center=_vector(place), size=_vector(extent))
     return insert("clearance", scene.clearances, element)
 
@@ -227,7 +229,7 @@ def add_limit_state(
         name that the scene does not have is refused when a run starts.
     """
     if not isinstance(names or {}, Mapping):
-        raise SceneError(f"limit state: names is {shown(names)}; give names by dimension")
+        raise SceneError.of("limit state: names", f"is {shown(names)}; give names by dimension")
     word, bracket, rest = channel.partition("[") if isinstance(channel, str) else ("", "", "")
     if word.strip() == SLACK:
         channel = f"slack_margin{bracket}{rest}"
@@ -241,8 +243,9 @@ def add_limit_state(
     if high is None and low is None:
         raise SceneError(f"limit state {name!r}: has neither maximum nor minimum; give one")
     if high is not None and low is not None and not low < high:
-        raise SceneError(
-            f"limit state {name!r}: minimum is {low:g} and maximum {high:g}; minimum must be below maximum"
+        raise SceneError.of(
+            f"limit state {name!r}: minimum",
+            f"is {low:g} and maximum {high:g}; minimum must be below maximum",
         )
     state = LimitState(name=name, channel=pick.channel, maximum=high, minimum=low, names=pick.names)
     return insert("limit state", scene.limit_states, state)
@@ -253,8 +256,9 @@ def _bound(name: str, key: str, value: Any) -> float | None:
         return None
     number = number_of(f"limit state {name!r}: {key}", value)
     if not math.isfinite(number) or number == 0.0:
-        raise SceneError(
-            f"limit state {name!r}: {key} is {number:g}; a utilisation is over a finite value that is not "
-            "zero: give a small one for a load that may just not vanish"
+        raise SceneError.of(
+            f"limit state {name!r}: {key}",
+            f"is {number:g}; a utilisation is over a finite value that is not "
+            "zero: give a small one for a load that may just not vanish",
         )
     return number

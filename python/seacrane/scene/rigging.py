@@ -75,7 +75,9 @@ def add_bridle(
     require(scene, what, "hook", hook, ground=True)
     require(scene, what, "load", load)
     if rung not in STRETCHING:
-        raise SceneError(f"{what}: rung is {shown(rung)}; choose one of {', '.join(map(repr, STRETCHING))}")
+        raise SceneError.of(
+            f"{what}: rung", f"is {shown(rung)}; choose one of {', '.join(map(repr, STRETCHING))}"
+        )
     poses = described_poses(scene)
     top = shaped_of(f"{what}: hook_point", hook_point, (3,))
     origin, rotation = poses(hook)
@@ -100,7 +102,9 @@ def add_bridle(
 def _for_each(what: str, values: ArrayLike, count: int) -> list[float]:
     numbers = vector_of(what, np.atleast_1d(np.asarray(values, dtype=object)))
     if len(numbers) not in (1, count):
-        raise SceneError(f"{what} are {len(numbers)} numbers; give one for each of {count} points, or one")
+        raise SceneError.of(
+            f"{what}", f"are {len(numbers)} numbers; give one for each of {count} points, or one"
+        )
     return numbers * count if len(numbers) == 1 else numbers
 
 

@@ -227,7 +227,7 @@ def _which(scene: Description, luff: str | None) -> str:
     label = next(iter(known)) if luff is None and len(known) == 1 else luff
     if label not in known:
         which = ", ".join(map(repr, known)) or "none"
-        raise SceneError(f"luffing rope: luff is {shown(luff)}; the hinges with a rope are {which}")
+        raise SceneError.of("luffing rope: luff", f"is {shown(luff)}; the hinges with a rope are {which}")
     return str(label)
 
 

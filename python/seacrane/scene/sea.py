@@ -155,12 +155,14 @@ def add_sea(
     if vessel is not None:
         text_of("sea: vessel", vessel)
     if text_of("sea: phase", phase) not in ("mean", "slow", "actual"):
-        raise SceneError(f"sea: phase is {phase!r}; choose 'mean', 'slow' or 'actual'")
+        raise SceneError.of("sea: phase", f"is {phase!r}; choose 'mean', 'slow' or 'actual'")
     flag_of("sea: drift", drift)
     if cutoff is not None and phase != "slow":
-        raise SceneError(f"sea: cutoff is {shown(cutoff)} and phase {phase!r}; it belongs to phase='slow'")
+        raise SceneError.of(
+            "sea: cutoff", f"is {shown(cutoff)} and phase {phase!r}; it belongs to phase='slow'"
+        )
     if current is not None and not isinstance(current, Current):
-        raise SceneError(f"sea: current is {shown(current)}; give a seacrane.sea.Current")
+        raise SceneError.of("sea: current", f"is {shown(current)}; give a seacrane.sea.Current")
     if sea is not None and given:
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
     if sea is None and (given or scene.waves is None) and number_of("sea: hs", _known(hs)) == 0.0:
@@ -221,9 +223,10 @@ def as_put(scene: Description, waves: Waves, vessel: str) -> dict[str, Any]:
 def _known(hs: Any) -> Any:
     """The height of a sea; SceneError where it is not given."""
     if hs is None:
-        raise SceneError(
-            "sea: hs is None; give the significant wave height in m (0: still water), or sea=SeaState(...); "
-            "leave out all that describes a sea to put a vessel into the one that is there"
+        raise SceneError.of(
+            "sea: hs",
+            "is None; give the significant wave height in m (0: still water), or sea=SeaState(...); "
+            "leave out all that describes a sea to put a vessel into the one that is there",
         )
     return hs
 
@@ -280,9 +283,10 @@ def _require_few(sea: SeaState | None, given: dict[str, Any]) -> None:
     counts = [one.count for one in sea.systems] if isinstance(sea, SeaState) else [given.get("count", 1)]
     count = sum(one for one in counts if isinstance(one, int | np.integer))
     if count > MOST_COMPONENTS:
-        raise SceneError(
-            f"sea: count is {count:,}, components whose loads would take minutes to make; give at most "
-            f"{MOST_COMPONENTS:,}: with 5,000 three hours do not repeat"
+        raise SceneError.of(
+            "sea: count",
+            f"is {count:,}, components whose loads would take minutes to make; give at most "
+            f"{MOST_COMPONENTS:,}: with 5,000 three hours do not repeat",
         )
 
 
@@ -299,9 +303,10 @@ def _evaluated(waves: Waves, **given: Any) -> Waves:
         checked = number_of if name == "relative_bound" else text_of
         checked(f"sea: {name}", value)
         if waves.hulls and value != getattr(waves, name):
-            raise SceneError(
-                f"sea: {name} is {value!r}, that of {', '.join(map(repr, waves.hulls))} is "
-                f"{getattr(waves, name)!r}; vessels in one sea share it, leave it out"
+            raise SceneError.of(
+                f"sea: {name}",
+                f"is {value!r}, that of {', '.join(map(repr, waves.hulls))} is "
+                f"{getattr(waves, name)!r}; vessels in one sea share it, leave it out",
             )
     return replace(waves, **given)
 
@@ -425,8 +430,9 @@ def require_depth(waves: Waves, database: Source, vessel: str) -> None:
     )
     difference = float(np.max(np.abs(there / computed - 1.0)))
     if difference > LEAST_DIFFERENCE:
-        raise SceneError(
-            f"sea of vessel {vessel!r}: it is {waves.depth:g} m deep, the forces of database "
+        raise SceneError.of(
+            f"sea of vessel {vessel!r}: it",
+            f"is {waves.depth:g} m deep, the forces of database "
             f"{database.name!r} are for {database.depth:g} m, and wavenumbers differ by up to "
-            f"{difference:.0%}; take SeaState(depth={database.depth:g}), or a database of the sea's depth"
+            f"{difference:.0%}; take SeaState(depth={database.depth:g}), or a database of the sea's depth",
         )

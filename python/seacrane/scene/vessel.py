@@ -212,8 +212,8 @@ def add_slack_tank(
     chosen = {name: one for name, one in floating.items() if vessel in (None, one.body)}
     if len(chosen) != 1:
         known = ", ".join(repr(one.body) for one in floating.values()) or "none"
-        raise SceneError(
-            f"slack tank: vessel is {vessel!r}, and the vessels afloat are {known}; name one of them"
+        raise SceneError.of(
+            "slack tank: vessel", f"is {vessel!r}, and the vessels afloat are {known}; name one of them"
         )
     name, afloat = next(iter(chosen.items()))
     restoring = np.array(afloat.restoring)
@@ -221,9 +221,10 @@ def add_slack_tank(
     for key, value, motion in (("moment", moment, 3), ("trim_moment", trim_moment, 4)):
         taken.append(scene.gravity * number_of(f"slack tank: {key}", value))
         if not 0.0 <= taken[-1] < max(restoring[motion, motion], 1e-300):
-            raise SceneError(
-                f"slack tank: {key} is {value:g} kg m, and the restoring of vessel {name!r} is that of "
-                f"{restoring[motion, motion] / scene.gravity:.6g} kg m; give a moment from 0 to below that"
+            raise SceneError.of(
+                f"slack tank: {key}",
+                f"is {value:g} kg m, and the restoring of vessel {name!r} is that of "
+                f"{restoring[motion, motion] / scene.gravity:.6g} kg m; give a moment from 0 to below that",
             )
     restoring[[3, 4], [3, 4]] -= taken
     changed = VesselHydrodynamics(**{**afloat.__getstate__(), "restoring": restoring})

@@ -124,7 +124,7 @@ class FlowCoefficients:
         for key in ("angle", "x", "y", "yaw"):
             array = shaped_of(f"flow coefficients: {key}", getattr(self, key), (size,)).copy()
             if not np.all(np.isfinite(array)):
-                raise SceneError(f"flow coefficients: {key} holds {array}; give finite numbers")
+                raise SceneError.of(f"flow coefficients: {key}", f"holds {array}; give finite numbers")
             array.setflags(write=False)
             object.__setattr__(self, key, array)
 

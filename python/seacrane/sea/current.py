@@ -50,8 +50,8 @@ class Current:
         for key in ("depth", "speed", "direction_deg"):
             array = np.atleast_1d(numbers_of(f"current: {key}", getattr(self, key)))
             if array.shape not in ((size,), (1,)) or not np.all(np.isfinite(array)):
-                raise SceneError(
-                    f"current: {key} is {array.tolist()}; give {size} finite numbers, one for each depth"
+                raise SceneError.of(
+                    f"current: {key}", f"is {array.tolist()}; give {size} finite numbers, one for each depth"
                 )
             array = np.array(np.broadcast_to(array, (size,)))
             array.setflags(write=False)

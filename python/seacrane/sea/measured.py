@@ -85,20 +85,20 @@ class MeasuredWaves:
             )
         self._check_steps()
         if not 0.0 <= number_of(f"{self._object}: taper", self.taper) <= 1.0:
-            raise SceneError(f"{self._object}: taper is {self.taper}; give a share from 0 to 1")
+            raise SceneError.of(f"{self._object}: taper", f"is {self.taper}; give a share from 0 to 1")
         point = shaped_of(f"{self._object}: position", self.position, (2,))
         angle = direction_of(f"{self._object}: direction_deg", self.direction_deg)
         for name, value in (("direction_deg", angle), ("position", point)):
             if not np.all(np.isfinite(value)):
-                raise SceneError(f"{self._object}: {name} is {value}; give finite numbers")
+                raise SceneError.of(f"{self._object}: {name}", f"is {value}; give finite numbers")
         highest = float(np.abs(self.elevation).max())
         if highest > HIGHEST:
             raise SceneError(
                 f"{self._object}: elevation reaches {highest:.4g} m, above {HIGHEST:g}; give metres"
             )
         if not np.ptp(self.elevation) > 0.0:
-            raise SceneError(
-                f"{self._object}: elevation is {self.elevation[0]} throughout; leave the sea out"
+            raise SceneError.of(
+                f"{self._object}: elevation", f"is {self.elevation[0]} throughout; leave the sea out"
             )
         if not self._kept.any():
             raise SceneError(
@@ -119,9 +119,10 @@ class MeasuredWaves:
         off = np.abs(self.time - (self.time[0] + step * np.arange(self.time.size))) / step
         worst = int(np.argmax(off))
         if off[worst] > UNIFORM:
-            raise SceneError(
-                f"{self._object}: time[{worst}] is {self.time[worst]:.6g} s, {off[worst]:.3g} steps off the "
-                f"uniform grid of {step:.6g} s; resample the record with a uniform step"
+            raise SceneError.of(
+                f"{self._object}: time[{worst}]",
+                f"is {self.time[worst]:.6g} s, {off[worst]:.3g} steps off the "
+                f"uniform grid of {step:.6g} s; resample the record with a uniform step",
             )
 
     @property
@@ -192,9 +193,9 @@ class MeasuredWaves:
 
         length = int(2 * self.time.size // (segments + 1)) if segments >= 1 else 0
         if length < 8:
-            raise SceneError(
-                f"{self._object}: segments is {segments} for {self.time.size} samples; give 1 or more, with "
-                "8 samples or more in each"
+            raise SceneError.of(
+                f"{self._object}: segments",
+                f"is {segments} for {self.time.size} samples; give 1 or more, with 8 samples or more in each",
             )
         hertz, density = welch(self.elevation, fs=1.0 / self.step, nperseg=min(length, self.time.size))
         return tabulated_spectrum(frequency=hertz[1:], density=density[1:])

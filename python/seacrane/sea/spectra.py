@@ -43,7 +43,7 @@ def jonswap(*, hs: float, tp: float, gamma: float | Literal["dnv"] = 3.3) -> _co
     hs, tp = number_of("JONSWAP spectrum: hs", hs), number_of("JONSWAP spectrum: tp", tp)
     if isinstance(gamma, str):
         if gamma != "dnv":
-            raise SceneError(f"JONSWAP spectrum: gamma is {gamma!r}; give a number or 'dnv'")
+            raise SceneError.of("JONSWAP spectrum: gamma", f"is {gamma!r}; give a number or 'dnv'")
         gamma = _core.dnv_gamma(hs=hs, tp=tp)
     return _core.jonswap(hs=hs, tp=tp, gamma=number_of("JONSWAP spectrum: gamma", gamma))
 

@@ -37,12 +37,13 @@ class Spreading:
 
     def __post_init__(self) -> None:
         if self.kind not in ("cos-2s", "cos-n"):
-            raise SceneError(f"spreading: kind is {self.kind!r}; give 'cos-2s' or 'cos-n'")
+            raise SceneError.of("spreading: kind", f"is {self.kind!r}; give 'cos-2s' or 'cos-n'")
         value = number_of("spreading: exponent", self.exponent)
         if not 0.0 < value <= LARGEST_EXPONENT:
-            raise SceneError(
-                f"spreading: exponent is {value}; give one above 0 up to {LARGEST_EXPONENT:g}, "
-                "or no spreading for long-crested waves"
+            raise SceneError.of(
+                "spreading: exponent",
+                f"is {value}; give one above 0 up to {LARGEST_EXPONENT:g}, "
+                "or no spreading for long-crested waves",
             )
         object.__setattr__(self, "exponent", value)
 

@@ -66,16 +66,22 @@ class WaveSystem:
     def __post_init__(self) -> None:
         what = f"wave system {text_of('wave system: name', self.name)!r}"
         if not isinstance(self.spectrum, _core.Spectrum):
-            raise SceneError(f"{what}: spectrum is {self.spectrum!r}; give a Spectrum, such as jonswap(...)")
+            raise SceneError.of(
+                f"{what}: spectrum", f"is {self.spectrum!r}; give a Spectrum, such as jonswap(...)"
+            )
         if self.spreading is not None and not isinstance(self.spreading, Spreading):
-            raise SceneError(f"{what}: spreading is {self.spreading!r}; give cos_2s(...), cos_n(...) or None")
+            raise SceneError.of(
+                f"{what}: spreading", f"is {self.spreading!r}; give cos_2s(...), cos_n(...) or None"
+            )
         if not np.isfinite(direction_of(f"{what}: direction_deg", self.direction_deg)):
-            raise SceneError(f"{what}: direction_deg is {self.direction_deg}; give a finite angle in deg")
+            raise SceneError.of(
+                f"{what}: direction_deg", f"is {self.direction_deg}; give a finite angle in deg"
+            )
         if not (type(self.count) is int or isinstance(self.count, np.integer)) or not (
             1 <= self.count <= MOST_COMPONENTS
         ):
-            raise SceneError(
-                f"{what}: count is {shown(self.count)}; give a whole number from 1 to {MOST_COMPONENTS:,}"
+            raise SceneError.of(
+                f"{what}: count", f"is {shown(self.count)}; give a whole number from 1 to {MOST_COMPONENTS:,}"
             )
         warn_if_breaking(what, self.spectrum)
 
@@ -178,7 +184,9 @@ class SeaState:
     def __post_init__(self) -> None:
         given = self.systems
         if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
-            raise SceneError(f"sea state: systems is {given!r}; give a list of WaveSystem or MeasuredWaves")
+            raise SceneError.of(
+                "sea state: systems", f"is {given!r}; give a list of WaveSystem or MeasuredWaves"
+            )
         systems = tuple(given)
         if not systems:
             raise SceneError("sea state: has no wave system; give at least one, or leave the sea out")
@@ -186,11 +194,17 @@ class SeaState:
             if not isinstance(one, (WaveSystem, MeasuredWaves)):
                 raise SceneError(f"sea state: {one!r} is no wave system; give WaveSystem or MeasuredWaves")
         if not number_of("sea state: depth", self.depth) > 0.0:
-            raise SceneError(f"sea state: depth is {self.depth}; give a depth above zero in m, or infinity")
+            raise SceneError.of(
+                "sea state: depth", f"is {self.depth}; give a depth above zero in m, or infinity"
+            )
         if self.placement not in ("jittered", "uniform"):
-            raise SceneError(f"sea state: placement is {self.placement!r}; give 'jittered' or 'uniform'")
+            raise SceneError.of(
+                "sea state: placement", f"is {self.placement!r}; give 'jittered' or 'uniform'"
+            )
         if not isinstance(self.seed, (int, np.integer)) or not 0 <= self.seed < 2**64:
-            raise SceneError(f"sea state: seed is {self.seed!r}; give a whole number from 0 to 2^64 - 1")
+            raise SceneError.of(
+                "sea state: seed", f"is {self.seed!r}; give a whole number from 0 to 2^64 - 1"
+            )
         object.__setattr__(self, "systems", systems)
 
     def realise(self) -> RealisedSea:

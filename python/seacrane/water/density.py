@@ -15,5 +15,5 @@ def density_of(what: str, value: Any) -> float:
     """A density in kg/m3; raises SceneError for one that looks like t/m3."""
     density = positive_of(f"{what}: density", value, "kg/m3")
     if density < LEAST_DENSITY:
-        raise SceneError(f"{what}: density is {density:g}, which looks like t/m3; give kg/m3")
+        raise SceneError.of(f"{what}: density", f"is {density:g}, which looks like t/m3; give kg/m3")
     return density

@@ -172,7 +172,9 @@ def from_mesh(
     shape = MeshShape.of(triangles)
     rungs = _draughts_of(what, draughts, float(shape.size[2]))
     if slam is not None and shape.flat <= 0.0:
-        raise SceneError(f"{what}: slam is {slam:g}, and nothing of its bottom is flat; give wetting instead")
+        raise SceneError.of(
+            f"{what}: slam", f"is {slam:g}, and nothing of its bottom is flat; give wetting instead"
+        )
     ladder = panel_ladder(what, shape, rungs, int(panels))
     table = _DepthTable(ladder, shape, wetting=float(wetting), slam=hit)
     depths, kept = table.depths(shape.kinks), water * perforation_factor(float(perforation))
@@ -190,18 +192,20 @@ def from_mesh(
 def _checked(what: str, wetting: Any, slam: Any, perforation: Any, panels: Any) -> float:
     """C_S, once all numbers are what they must be."""
     if not 1.0 <= number_of(f"{what}: wetting", wetting) <= MOST_WETTING:
-        raise SceneError(
-            f"{what}: wetting is {number_of(what, wetting):g}; give 1, without pile-up, to "
-            f"{MOST_WETTING:g}, such as pi/2 of a wedge"
+        raise SceneError.of(
+            f"{what}: wetting",
+            f"is {number_of(what, wetting):g}; give 1, without pile-up, to "
+            f"{MOST_WETTING:g}, such as pi/2 of a wedge",
         )
     hit = LEAST_SLAM if slam is None else finite_of(f"{what}: slam", slam)
     if hit < LEAST_SLAM:
-        raise SceneError(f"{what}: slam is {hit:g}; a C_S of {LEAST_SLAM:g} or more is meant (flat)")
+        raise SceneError.of(f"{what}: slam", f"is {hit:g}; a C_S of {LEAST_SLAM:g} or more is meant (flat)")
     share_of(f"{what}: perforation", perforation, MOST_PERFORATION)
     whole = isinstance(panels, int | np.integer) and not isinstance(panels, bool)
     if not whole or not FEWEST_PANELS <= int(panels) <= MOST_PANELS:
-        raise SceneError(
-            f"{what}: panels is {shown(panels)}; give a whole number from {FEWEST_PANELS} to {MOST_PANELS}"
+        raise SceneError.of(
+            f"{what}: panels",
+            f"is {shown(panels)}; give a whole number from {FEWEST_PANELS} to {MOST_PANELS}",
         )
     return hit
 
@@ -211,14 +215,16 @@ def _draughts_of(what: str, draughts: Any, height: float) -> Array | None:
         return None
     values = np.array(vector_of(f"{what}: draughts", draughts))
     if not 1 <= len(values) <= MOST_DRAUGHTS:
-        raise SceneError(f"{what}: draughts has {len(values)} values; give 1 to {MOST_DRAUGHTS}")
+        raise SceneError.of(f"{what}: draughts", f"has {len(values)} values; give 1 to {MOST_DRAUGHTS}")
     for value in values:
         if not (np.isfinite(value) and value > 0.0):
-            raise SceneError(f"{what}: draughts holds {value:g} m; depths of the lowest point are positive")
+            raise SceneError.of(
+                f"{what}: draughts", f"holds {value:g} m; depths of the lowest point are positive"
+            )
     for before, after in pairwise(values):
         if after <= before:
-            raise SceneError(
-                f"{what}: draughts has {after:g} m after {before:g} m; give them in increasing order"
+            raise SceneError.of(
+                f"{what}: draughts", f"has {after:g} m after {before:g} m; give them in increasing order"
             )
     if values[-1] < height * (1.0 - 1e-9):
         raise SceneError(

@@ -159,7 +159,7 @@ def _triangles_of(mesh: Any) -> tuple[str, Array]:
         path = Path(mesh)
         reader = READERS.get(path.suffix.lower())
         if reader is None:
-            raise SceneError(f"mesh: file is {shown(path.name)}; give {', '.join(READERS)}")
+            raise SceneError.of("mesh: file", f"is {shown(path.name)}; give {', '.join(READERS)}")
         return f"mesh {path.name!r}", np.asarray(reader(path, most=MOST_TRIANGLES), dtype=float)
     what = "mesh of triangles"
     triangles = numbers_of(what, mesh)

@@ -171,7 +171,9 @@ class BoxPart(_Part):
             for value in shaped_of(f"{self.kind}: added_mass", self.added_mass, (3,)):
                 not_negative_of(f"{self.kind}: added_mass", value, "kg")
             if not self.source:
-                raise SceneError(f"{self.kind}: added_mass has no source; say in source where it is from")
+                raise SceneError.of(
+                    f"{self.kind}: added_mass", "has no source; say in source where it is from"
+                )
 
     @property
     def extent(self) -> float:
@@ -341,14 +343,16 @@ class CylinderPart(_Part):
     def _check_tube(self) -> None:
         ends = self.ends if isinstance(self.ends, tuple | list) else ()
         if len(ends) != 2 or not set(ends) <= {CLOSED, OPEN, JOINED}:
-            raise SceneError(
-                f"cylinder: ends is {shown(self.ends)}; give what its first end (x < 0) and its last are, "
-                f"each {CLOSED!r}, {OPEN!r} or {JOINED!r}"
+            raise SceneError.of(
+                "cylinder: ends",
+                f"is {shown(self.ends)}; give what its first end (x < 0) and its last are, "
+                f"each {CLOSED!r}, {OPEN!r} or {JOINED!r}",
             )
         if self.wall is not None and not 0.0 < number_of("cylinder: wall", self.wall) <= 0.5 * self.diameter:
-            raise SceneError(
-                f"cylinder: wall is {self.wall:g} m; give its thickness in m, above 0 and up to half of the "
-                f"diameter of {self.diameter:g} m"
+            raise SceneError.of(
+                "cylinder: wall",
+                f"is {self.wall:g} m; give its thickness in m, above 0 and up to half of the "
+                f"diameter of {self.diameter:g} m",
             )
         if self.wall is None and (OPEN in ends or self.flooded):
             raise SceneError(
@@ -566,16 +570,17 @@ def _check_strips(kind: str, strips: Any, count: int) -> None:
     )
     if not whole or int(np.prod(strips)) > MOST_STRIPS:
         asked = strips[0] if count == 1 else strips
-        raise SceneError(
-            f"{kind}: strips is {asked!r}; give whole numbers from 1, {MOST_STRIPS} in all at most"
+        raise SceneError.of(
+            f"{kind}: strips", f"is {asked!r}; give whole numbers from 1, {MOST_STRIPS} in all at most"
         )
 
 
 def _check_slam(kind: str, value: Any, least: float) -> None:
     if finite_of(f"{kind}: slam", value) < least:
-        raise SceneError(
-            f"{kind}: slam is {number_of(f'{kind}: slam', value):g}; a C_S of {least:g} or more is meant "
-            f"({'round' if least == LEAST_SLAM_ROUND else 'not round'})"
+        raise SceneError.of(
+            f"{kind}: slam",
+            f"is {number_of(f'{kind}: slam', value):g}; a C_S of {least:g} or more is meant "
+            f"({'round' if least == LEAST_SLAM_ROUND else 'not round'})",
         )
     if value > MOST_SLAM:
         warn_caller(
@@ -586,9 +591,9 @@ def _check_slam(kind: str, value: Any, least: float) -> None:
 
 def _length_of(what: str, value: Any) -> None:
     if not_negative_of(what, value, "m") > LONGEST:
-        raise SceneError(f"{what} is {value:g} m; give a length in m, of {LONGEST:g} at the most")
+        raise SceneError.of(what, f"is {value:g} m; give a length in m, of {LONGEST:g} at the most")
 
 
 def share_of(what: str, value: Any, most: float) -> None:
     if not 0.0 <= number_of(what, value) <= most:
-        raise SceneError(f"{what} is {value!r}; give a share from 0 to {most:g}")
+        raise SceneError.of(what, f"is {value!r}; give a share from 0 to {most:g}")
