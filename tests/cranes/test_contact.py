@@ -238,7 +238,7 @@ def test_one_contact_of_64_points_is_two_of_32() -> None:
         scene = Scene(name="mat", gravity=GRAVITY)
         scene.add_body(name="mat", mass=6400.0, inertia=(4e4, 4e4, 8e4), position=(0.0, 0.0, 0.5))
         for name, own in parts.items():
-            scene.add_contact("mat", on="ground", name=name, points=own, stiffness=1e6, friction=0.3)
+            scene.add_contact("mat", on="ground", name=name, points=own, stiffness=1e6, damping=0.3)
         result = simulate(scene, t_end=1.0, dt_out=0.01, rtol=1e-9)
         return np.asarray(result["position"]), sorted(e.time for e in result.events if e.kind == "contact")
 

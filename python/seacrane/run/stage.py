@@ -96,7 +96,9 @@ class Stage:
                 f"{self.title}: nothing ends it; give its duration, or until and maximum_duration"
             )
         if self.duration is not None and self.until:
-            raise SceneError(f"{self.title}: has a duration and until; leave one out, or give maximum_duration for the longest wait")
+            raise SceneError(
+                f"{self.title}: has a duration and until; leave one out; maximum_duration bounds a wait"
+            )
         if self.until and self.maximum_duration is None:
             met = " or ".join(condition.text for condition in self.until)  # type: ignore[union-attr]
             raise SceneError(
