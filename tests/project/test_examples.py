@@ -71,8 +71,16 @@ def subsea_lowering(said: str, rows: Rows) -> None:
     assert all(0.1 < row[-1] < 1.0 for row in hoist)
 
 
+def derrick(said: str, rows: Rows) -> None:
+    """Moments about the heel, the bridle's angle, wind, current and tank by hand."""
+    by_hand = [row[-2:] for row in rows if len(row) >= 2]
+    assert len(by_hand) == 5
+    for here, hand in by_hand:
+        assert here == pytest.approx(hand, rel=0.02)
+
+
 CHECKED: list[Callable[[str, Rows], None]] = [
-    pendulum, given_ship, tandem_lift, sampled_controller, splash_zone, subsea_lowering,
+    derrick, pendulum, given_ship, tandem_lift, sampled_controller, splash_zone, subsea_lowering,
 ]  # fmt: skip
 BY_HAND = {one.__name__: one for one in CHECKED}
 LONG = (
