@@ -227,5 +227,5 @@ def test_tables_of_the_study_stand_before_those_of_its_lift(study: Path) -> None
     with pytest.raises(FileFormatError, match=r"^ship\.toml line 10: hs "):
         Lift.load(study)
     ship.write_text(LIFT.replace("count = 20", "count = 0"))
-    with pytest.raises(FileFormatError, match=r"^ship\.toml line 8: .*count"):
+    with pytest.raises(FileFormatError, match=r"^ship\.toml line 12: .*count"):
         Lift.load(study).scene()
