@@ -180,3 +180,17 @@ def test_what_is_no_line_on_a_seabed_is_refused_by_name(given: dict[str, Any], m
     with pytest.raises(SceneError, match=message):
         scene.add_line("line", "ground", "load", first_point=(0.0, 0.0, -4.0), **line)
     assert list(scene.bodies) == ["load"]
+
+
+def test_a_dip_of_a_millimetre_within_a_step_is_met() -> None:
+    """A block that bounces on a spring, down to 11 m: coarse steps and fine ones see the same seabed."""
+
+    def height(depth: float, rtol: float) -> Array:
+        scene = block(place=(0.0, 0.0, -9.0), depth=depth, stiffness=1e6, friction=0.0)
+        scene.add_spring("spring", first="ground", second="block", stiffness=200.0, natural_length=5.0)
+        result = simulate(scene, 20.0, rtol=rtol, integrator="dop853", channels=["position"])
+        return np.asarray(result["position"][:, 0, 2])
+
+    coarse, fine = height(10.999, 1e-6), height(10.999, 1e-11)
+    np.testing.assert_allclose(coarse, fine, atol=1e-4)
+    assert np.abs(fine - height(20.0, 1e-11)).max() > 0.01
