@@ -236,16 +236,16 @@ def test_one_contact_of_64_points_is_two_of_32() -> None:
 
     def landed(**parts: list[tuple[float, float, float]]) -> tuple[np.ndarray, list[float]]:
         scene = Scene(name="mat", gravity=GRAVITY)
-        scene.add_body(name="mat", mass=6400.0, inertia=(4e4, 4e4, 8e4), position=(0.0, 0.0, 0.5))
+        scene.add_body("mat", mass=6400.0, inertia=(4e4, 4e4, 8e4), position=(0.0, 0.0, 0.5))
         for name, own in parts.items():
             scene.add_contact("mat", on="ground", name=name, points=own, stiffness=1e6, damping=0.3)
         result = simulate(scene, t_end=1.0, dt_out=0.01, rtol=1e-9)
         return np.asarray(result["position"]), sorted(e.time for e in result.events if e.kind == "contact")
 
-    whole, halves = landed(all=points), landed(low=points[:32], high=points[32:])
-    assert len(whole[1]) >= 64
-    np.testing.assert_allclose(whole[0], halves[0], atol=1e-7)
-    np.testing.assert_allclose(whole[1], halves[1], atol=1e-6)
+    (place, touches), (other, others) = landed(all=points), landed(low=points[:32], high=points[32:])
+    assert len(touches) >= 64
+    np.testing.assert_allclose(place, other, atol=1e-7)
+    np.testing.assert_allclose(touches, others, atol=1e-6)
 
 
 def test_a_fender_gives_by_its_table() -> None:

@@ -68,8 +68,7 @@ def test_a_given_step_that_leads_through_a_deck_is_refused_and_a_short_one_holds
 @needs_lanes
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_a_tip_that_turns_about_a_standing_middle_is_met_at_each_half_turn(formulation: str) -> None:
-    """It dips by 5 mm, for 0.07 s, where steps are as long as the run."""
-    height, reach, spin = 1.995, 2.0, 2.0
+    height, reach, spin = 1.995, 2.0, 2.0  # it dips for 0.07 s, and steps are as long as the run
     scene = Scene(name="propeller", gravity=GRAVITY)
     middle = (0.0, 0.0, height)
     scene.add_body("bar", mass=1e3, size=(4, 1, 0.5), position=middle, angular_velocity=(0, spin, 0))

@@ -73,10 +73,8 @@ def subsea_lowering(said: str, rows: Rows) -> None:
 
 def derrick(said: str, rows: Rows) -> None:
     """Moments about the heel, the bridle's angle, wind, current and tank by hand."""
-    by_hand = [row[-2:] for row in rows if len(row) >= 2]
-    assert len(by_hand) == 5
-    for here, hand in by_hand:
-        assert here == pytest.approx(hand, rel=0.02)
+    here, hand = zip(*(row[-2:] for row in rows if len(row) >= 2), strict=True)
+    assert len(hand) == 5 and here == pytest.approx(hand, rel=0.02)
 
 
 CHECKED: list[Callable[[str, Rows], None]] = [
