@@ -108,7 +108,7 @@ def warn_of_start(values: Array, cycles: float) -> None:
     if start_differs(values, cycles):
         warn_caller(
             "the first fifth of the record differs from the rest in mean or standard deviation: leave the "
-            "start out, with start= in s",
+            "start out, with after= in s",
             StartTransientWarning,
         )
 
