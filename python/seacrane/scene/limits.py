@@ -199,7 +199,7 @@ def add_contact(
     body : str
         Whose points they are.
     points : array_like, shape (n, 3)
-        Feet, corners or bumpers, m, coordinates of `body`; 15 at most.
+        Feet, corners or bumpers, m, coordinates of `body`; 64 at most.
     on : str
         Whose surface it is: another body, "ground", or "seabed", a level plane of the ground.
     surface : str

@@ -134,7 +134,7 @@ def add_winch(
     A line with mass goes by its own name too, and its first segment, "<line>.1", is on the winch.
     With `tension` and `tension_gain` it holds a tension; with `drum_inertia` and `drum_radius` its drum has
     inertia, a motor within bounds and a brake. A bound that is reached is an event of the result, of kind
-    "limit". See docs/lines.md.
+    "limit". See docs/winches.md.
 
     Parameters
     ----------
