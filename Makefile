@@ -3,7 +3,7 @@
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  all that takes longer, row by row (tools/nightly.py); the table goes to docs/nightly.md
 #                  (NIGHTLY_ROWS='site wheel': only these)
-# make campaign NAME=atlas|fuzz|lifts|stages|tables  what takes hours: the whole stability atlas, hostile files,
+# make campaign NAME=atlas|faults|fuzz|lifts|stages|tables  what takes hours: the stability atlas, hostile files,
 #                  what an accuracy promises of lifts in stages, every measured table
 # make sanitized  C++ tests under the sanitizers, unless these very sources passed them (.ci/sanitized.txt)
 # make bits     runs scenes again beside tests/bits.json: the same bits, or by how much they differ
