@@ -124,7 +124,8 @@ def check_command(what: str, name: str, value: object, known: Mapping[str, Targe
     """Raise SceneError for a command of what is not there, or one that is none."""
     if name not in known:
         raise SceneError(
-            f"{what} commands {name!r}, which is not there; there are {', '.join(known) or 'none'}"
+            f"{what} commands {name!r}, which is not there; there are {', '.join(known) or 'none'}; a joint, "
+            f"such as a crane's slew, is led by a driver: scene.add_driver(joint='A', name={name!r}, ...)"
         )
     if isinstance(value, (Move, _core.Curve)):
         if known[name].attribute == HOLE:
