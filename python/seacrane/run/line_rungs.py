@@ -265,7 +265,8 @@ def _error(settling: float, own: LineDynamics, omega: Array, weight: Array) -> f
 def tension_error(omega: Array, *, settling: float, own: float, loss: float = 0.0) -> Array:
     """Error of the tension of a quasi-static stretch, of what motion of a frequency makes of it.
 
-    (omega / own)^2 times the error of the strain, and more near the line's own frequency. See docs/stiff-lines.md.
+    (omega / own)^2 times the error of the strain, and more near the line's own frequency. See
+    docs/stiff-lines.md.
 
     Parameters
     ----------
