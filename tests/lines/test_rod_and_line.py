@@ -14,6 +14,7 @@ from seacrane import Lift, Scene, Stage, ensemble, report, shipped_database, sim
 from seacrane.answers import load_chart, statics, summary
 from seacrane.crane import Payload
 from seacrane.description.suspension import hung_loads
+from seacrane.lift.shown_study import shown_study
 from seacrane.lift.study_run import run_study
 from seacrane.operability import Criterion, allowable_hs
 from seacrane.pictures.drawn_bodies import looks
@@ -160,7 +161,7 @@ def test_a_study_file_of_its_stages_runs(by: str, tmp_path: Path) -> None:
     Lift(told).save(tmp_path / "lift.toml")
     found = run_study(tmp_path / "lift.toml", tmp_path / "out")
     assert not found.failures and np.isfinite(found.dataset.peak).all()
-    assert is_documented("stages in study files")
+    assert shown_study(tmp_path / "out").tables and is_documented("stages in study files")
 
 
 def test_a_lift_off_makes_auto_elastic() -> None:

@@ -177,7 +177,7 @@ def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
     left = int((failure == "not run").sum())
     if left == failure.size:
         raise SceneError(f"{path}: no member has been run yet; run `seacrane study` with it")
-    scalar = [name for name in study.keep if name in done.dataset and _single(done.dataset[name], done)]
+    scalar = [name for name in study.keep if name in done.dataset and _is_number(name, done)]
     return ShownStudy(
         members=failure.size,
         failed=len(done.failures),
@@ -214,14 +214,20 @@ def _mean(values: Array) -> float:
     return float(values.mean()) if values.size else 0.0
 
 
-def _single(variable: xarray.DataArray, done: Ensemble) -> bool:
-    return set(map(str, variable.dims)) == set(done.members.shape)
+def _kept(name: str, done: Ensemble) -> xarray.DataArray:
+    """Of every member; without dimensions along which there is one name, as of a lift with one hook."""
+    variable = done.dataset[name]
+    alone = [one for one in variable.dims if variable.sizes[one] == 1 and one not in done.members.shape]
+    return variable.squeeze(alone, drop=True)
+
+
+def _is_number(name: str, done: Ensemble) -> bool:
+    return set(map(str, _kept(name, done).dims)) == set(done.members.shape)
 
 
 def _told(name: str, study: Study, done: Ensemble, length: float | None) -> Told:
     """`length` is that of the runs, s; None of lifts in stages, where an extreme is that of one lift."""
-    what = study.keep[name]
-    variable = done.dataset[name]
+    what, variable = study.keep[name], _kept(name, done)
     seeds = "seed" in variable.dims
     sign = {"maximum": 1.0, "minimum": -1.0}.get(what.what) if seeds else None
     span = None if length is None else length - getattr(what, "after", 0.0)
