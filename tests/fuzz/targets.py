@@ -212,19 +212,16 @@ def _under(folder: str, names: str) -> tuple[str, ...]:
 
 
 _NETCDF = _under("inputs", "netcdf_limits hdf5_structure")
-_SCENE = (
-    *_under("description", "file file_text"),
-    *_under("inputs", "node plain_data"),
-)
+_SCENE = ("scene/file.py", *_under("inputs", "node plain_data"))
 _HYDRO = "hydro/readers"
 _ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
 _VERES = _under(_HYDRO, "veres veres_files veres_hydrostatics text_records")
 _WAMIT = _under(_HYDRO, "wamit wamit_listing wamit_tables text_records")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
-_RECORDED = (*_under("series", "series_file reading clock mending"), "scene/recorded_motion.py")
+_RECORDED = (*_under("series", "series_file reading mending"), "scene/motion_history.py")
 _LIFT = _under("lift", "document text_lines check_keys study")
-_JOINTED = _under("crane", "load_crane check")
-_URDF = _under("crane", "urdf urdf_values urdf_visuals")
+_JOINTED = _under("crane", "load_crane")
+_URDF = _under("crane", "urdf")
 _SHAPE, _SEEN = (FileFormatError, ValueError), (FileFormatError, SceneError)
 _MATRICES = {"mass_matrix": np.diag([1e7] * 3 + [1e9] * 3), "restoring": np.eye(6) * 1e7}
 
