@@ -13,7 +13,6 @@ from seacrane.description.loads import LOAD_KINDS, kind_of
 from seacrane.hydro.readers.load import FORMATS
 from seacrane.pictures.wheels import wires_of
 
-PACKAGE = Path(_core.__file__).parent
 IN_NO_TEXT = {"function force"}  # the address of a C function
 ENDS = {"first", "second", "first_point", "second_point"}
 SHOWN_BY_WHAT_THEY_ACT_ON = {"pendulum damping", "span drag", "immersed span", "wound span"}
@@ -48,4 +47,4 @@ def test_every_reader_of_hydrodynamic_files_is_fuzzed() -> None:
     readers = {
         f"{kind.can_open.__module__.removeprefix('seacrane.').replace('.', '/')}.py" for kind in FORMATS
     }
-    assert readers <= fuzzed and not [one for one in fuzzed if not (PACKAGE / one).is_file()]
+    assert readers <= fuzzed and not [x for x in fuzzed if not (Path(_core.__file__).parent / x).is_file()]
