@@ -232,7 +232,7 @@ def test_a_start_that_differs_is_named_and_can_be_left_out() -> None:
     assert start_differs(values[:300], 20.0) is None
     assert sum(bool(start_differs(steady, 1375.0)) for steady in records(400)) <= 6
     values[:2000] += 3.0 * np.exp(-np.arange(2000) / 700.0)
-    with pytest.warns(sc.warnings.StartTransientWarning, match="start="):
+    with pytest.warns(sc.warnings.StartTransientWarning, match="after="):
         sc.extremes(result_of(values), channel="link_tension")
     with warnings.catch_warnings():
         warnings.simplefilter("error", sc.warnings.StartTransientWarning)
