@@ -128,12 +128,6 @@ def refuse_what_is_chosen(
         )
 
 
-def without_what_is_chosen(method: Method) -> Method:
-    """The method with the defaults of what an accuracy chooses."""
-    usual = Method()
-    return replace(method, **{name: getattr(usual, name) for name in CHOSEN})
-
-
 def _converged(case: Asked, kept: Method) -> Result:
     """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
     method = _with_setting(kept, first_method(case))
