@@ -23,7 +23,7 @@ void check_mass(const HydroGroupDescription& d, const HydroGroup& group, const M
     k.rotation = rotation_from_quaternion<double>(start.quaternion);
     frames[idx(group.vessels[i])] = YawFrame<double>(k);
     const auto at = static_cast<Eigen::Index>(6 * i);
-    mass.block<6, 6>(at, at) = rigid_mass_matrix<double>(model.bodies[idx(vessel.body)], k.rotation) +
+    mass.block<6, 6>(at, at) = rigid_mass_matrix(model.bodies[idx(vessel.body)], k.rotation) +
                                frames[idx(group.vessels[i])].to_inertial(vessel.added_mass);
   }
   group.couple<double>(frames.data(),

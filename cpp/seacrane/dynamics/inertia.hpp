@@ -38,61 +38,58 @@ inline Vec6d compact_inertia(const BodyModel& body, const BodyKinematics<double>
   return bias;
 }
 
-/// Rigid-body mass matrix about the state point, eq (12), in inertial axes; `inertia` about the centre of
-/// mass, body axes.
+/// A rigid body's mass, and its inertia about the centre of mass, body axes.
 template <class T>
-Mat6<T> rigid_mass_matrix(const BodyModel& body, const Mat3<T>& rotation, const Mat3d& inertia) {
-  const T mass(body.mass);
-  const Vec3<T> c = rotation * body.center_of_mass.cast<T>();
-  const Mat3<T> s = skew<T>(c);
-  Mat6<T> m;
-  m.template topLeftCorner<3, 3>() = mass * Mat3<T>::Identity();
-  m.template topRightCorner<3, 3>() = -mass * s;
-  m.template bottomLeftCorner<3, 3>() = mass * s;
-  m.template bottomRightCorner<3, 3>() = (rotation * inertia.cast<T>()) * rotation.transpose();
-  m.template bottomRightCorner<3, 3>() += (mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
-  m.diagonal().template tail<3>().array() += mass * c.squaredNorm();
-  return m;
+struct RigidMass {
+  T mass;
+  Vec3d center_of_mass;  // from the state point, body axes
+  Mat3<T> inertia;
+
+  /// Its mass matrix about the state point, eq (12), in inertial axes.
+  Mat6<T> matrix(const Mat3<T>& rotation) const {
+    const Vec3<T> c = rotation * center_of_mass.cast<T>();
+    const Mat3<T> s = skew<T>(c);
+    Mat6<T> m;
+    m.template topLeftCorner<3, 3>() = mass * Mat3<T>::Identity();
+    m.template topRightCorner<3, 3>() = -mass * s;
+    m.template bottomLeftCorner<3, 3>() = mass * s;
+    m.template bottomRightCorner<3, 3>() = (rotation * inertia) * rotation.transpose();
+    m.template bottomRightCorner<3, 3>() += (mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
+    m.diagonal().template tail<3>().array() += mass * c.squaredNorm();
+    return m;
+  }
+};
+
+inline RigidMass<double> mass_of(const BodyModel& body) {
+  return {body.mass, body.center_of_mass, body.inertia};
 }
 
-template <class T>
-Mat6<T> rigid_mass_matrix(const BodyModel& body, const Mat3<T>& rotation) {
-  return rigid_mass_matrix<T>(body, rotation, body.inertia);
+inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
+  return mass_of(body).matrix(rotation);
 }
 
 /// The mass matrix of a body of this shape and a mass of one.
 inline Mat6d shape_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
-  return rigid_mass_matrix(body, rotation, body.shape) / body.mass;
+  return RigidMass<double>{body.mass, body.center_of_mass, body.shape}.matrix(rotation) / body.mass;
 }
 
-/// Rigid body about its state point. Returns b.
+/// A body with a full mass, without what loads add to it, about its state point; of a vessel with its added
+/// mass in the yaw-following frame. Returns b.
 template <class T>
-Vec6<T> rigid_terms(const BodyModel& body, const BodyKinematics<T>& k, Mat6<T>& mass) {
-  mass = rigid_mass_matrix<T>(body, k.rotation);
+Vec6<T> full_terms(const Model& model, const BodyModel& body, const RigidMass<T>& rigid,
+                   const BodyKinematics<T>& k, const YawFrame<T>* frames, Mat6<T>& mass) {
+  mass = rigid.matrix(k.rotation);
   const Vec3<T>& w = k.angular_velocity;
   const Vec3<T> c = k.rotation * body.center_of_mass.cast<T>();
   const Vec3<T> angular = mass.template bottomRightCorner<3, 3>() * w;
   Vec6<T> bias;
-  bias.template head<3>() = T(body.mass) * cross<T>(w, cross<T>(w, c));
+  bias.template head<3>() = rigid.mass * cross<T>(w, cross<T>(w, c));
   bias.template tail<3>() = cross<T>(w, angular);
-  return bias;
-}
-
-/// Vessel: rigid body about the reference point plus added mass in the yaw-following frame. Returns b.
-template <class T>
-Vec6<T> vessel_terms(const BodyModel& body, const Vessel& vessel, const BodyKinematics<T>& k,
-                     const YawFrame<T>& frame, Mat6<T>& mass) {
-  const Vec6<T> bias = rigid_terms(body, k, mass);
+  if (body.vessel < 0) return bias;
+  const Vessel& vessel = model.vessels[idx(body.vessel)];
+  const YawFrame<T>& frame = frames[body.vessel];
   mass += frame.to_inertial(vessel.added_mass);
   return bias + vessel.added_mass_bias(frame);
-}
-
-/// A body with a full mass, without what loads add to it. Returns b.
-inline Vec6d full_terms(const Model& model, const BodyModel& body, const BodyKinematics<double>& k,
-                        const std::vector<YawFrame<double>>& frames, Mat6d& mass) {
-  if (body.vessel < 0) return rigid_terms(body, k, mass);
-  const auto v = idx(body.vessel);
-  return vessel_terms(body, model.vessels[v], k, frames[v], mass);
 }
 
 inline Vec6d solve_inertia(const BodyInertia& inertia, const Vec6d& load) {

@@ -18,7 +18,7 @@ struct PaperVessel {
     const Vec3d phi = euler_xyz_from_rotation(k.rotation);
     const Mat3d to_omega = euler_xyz_to_omega<double>(phi), t = to_omega.inverse();
     const Vec3d rate = t * k.angular_velocity;
-    const Mat6d total = rigid_mass_matrix<double>(body, Mat3d::Identity()) + v.added_mass;
+    const Mat6d total = rigid_mass_matrix(body, Mat3d::Identity()) + v.added_mass;
     mass = total;
     mass.rightCols<3>() = total.rightCols<3>() * t;
     const Vec3d turning = t * (euler_xyz_to_omega_rate<double>(phi, rate) * rate);

@@ -86,7 +86,7 @@ void Terms::evaluate_inertia(double t, const double* memory) {
       continue;
     }
     out.full = true;
-    bias_[idx(b)] = full_terms(m, body, k, frames_, out.mass);
+    bias_[idx(b)] = full_terms(m, body, mass_of(body), k, frames_.data(), out.mass);
     if (!added.empty()) out.mass += added[idx(b)];
     out.inverse = spd_inverse(out.mass);
   }

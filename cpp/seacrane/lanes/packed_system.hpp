@@ -9,11 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "seacrane/dynamics/inertia.hpp"
-#include "seacrane/dynamics/recursive/driven_speeds.hpp"
-#include "seacrane/dynamics/recursive/tree_actuators.hpp"
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
-#include "seacrane/dynamics/recursive/turning_inertia.hpp"
+#include "seacrane/dynamics/recursive/tree_derivative.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/lanes/lane_system.hpp"
 #include "seacrane/lanes/loads_by_lane.hpp"
@@ -35,14 +32,14 @@ class PackedSystem final : public LaneSystem {
   /// One model for each of L lanes.
   explicit PackedSystem(const LaneModels& models)
       : model_(models.front()->merged ? models.front()->merged : models.front()),
-        tree_(build_tree(*model_)),
-        articulated_(tree_, model_->body_count()),
+        own_(*model_, masses_of(models)),
+        tree_(own_.tree()),
+        articulated_(own_.articulated()),
+        driven_(own_.driven()),
         actuators_(actuators_of(models, tree_)),
-        driven_(*model_, tree_),
         by_lane_(loads_by_lane(models), drives_by_lane(models), model_->body_count(),
                  model_->load_states.size(), seas_of(models)),
         tensions_(by_lane_.lists(), model_->body_count(), tree_.speeds),
-        torque_(idx(tree_.speeds), T(0.0)),
         speeds_(tree_.positions),
         memory_(speeds_ + tree_.speeds),
         loads_(memory_ + model_->layout.loads - model_->layout.memory),
@@ -50,14 +47,12 @@ class PackedSystem final : public LaneSystem {
         slots_(idx(model_->slot_count), 0.0) {
     const auto bodies = idx(model_->body_count());
     positions_.assign(idx(tree_.positions), 0.0);
-    for (auto* values : {&speed_, &speed_rate_, &jump_}) values->assign(idx(tree_.speeds), 0.0);
-    driven_rate_ = torque_;
+    for (auto* values : {&speed_, &speed_rate_}) values->assign(idx(tree_.speeds), 0.0);
     drive_response_.resize(tensions_.count());
     state_.assign(idx(work_ + 2), T(0.0));
     rate_ = state_;
     bodies_.assign(bodies + 1, BodyKinematics<T>::ground());
     frames_.assign(model_->vessels.size(), YawFrame<T>(BodyKinematics<T>::ground()));
-    for (std::size_t b = 0; b < bodies; ++b) bodies_of_lanes_.emplace_back(models, b);
     for (std::size_t g = 0; g < model_->gravity.size(); ++g) {
       T weight;
       for (int lane = 0; lane < L; ++lane) weight.set(lane, models[idx(lane)]->stepped().gravity[g].weight);
@@ -102,7 +97,7 @@ class PackedSystem final : public LaneSystem {
     LoadSum<T> sum{wrench_.data(), rate_.data() + loads_};
     evaluate_loads(t, sum);
     solve_acceleration();
-    read_drives(drive_power_);
+    own_.read_drives(drive_power_);
     if (tensions_.any()) add_tensions(sum);
     for (const T& power : drive_power_) sum.add_power(power);
     articulated_.kinematics().position_rates(q, u, bodies_.data(), rate_.data());
@@ -131,34 +126,20 @@ class PackedSystem final : public LaneSystem {
   }
 
  private:
-  /// Mass and inertia of a body, which lanes may have each for itself.
-  struct BodyOfLanes {
-    T mass;
-    TurningInertia turning;  // of the first
-    bool alike = true;
-    Mat3<T> inertia;  // body axes
-
-    BodyOfLanes(const LaneModels& models, std::size_t body)
-        : turning(models.front()->stepped().bodies[body].inertia) {
-      for (int lane = 0; lane < L; ++lane) {
-        const BodyModel& own = models[idx(lane)]->stepped().bodies[body];
-        alike = alike && own.inertia == models.front()->stepped().bodies[body].inertia;
-        mass.set(lane, own.mass);
-        for (int i = 0; i < 9; ++i) inertia(i).set(lane, own.inertia(i));
+  /// Of the bodies, which lanes may have each for itself.
+  static std::vector<TurningMass<T>> masses_of(const LaneModels& models) {
+    const std::vector<BodyModel>& first = models.front()->stepped().bodies;
+    std::vector<TurningMass<T>> out(first.begin(), first.end());
+    for (int lane = 0; lane < L; ++lane) {
+      for (std::size_t b = 0; b < first.size(); ++b) {
+        const BodyModel& own = models[idx(lane)]->stepped().bodies[b];
+        out[b].alike = out[b].alike && own.inertia == first[b].inertia;
+        out[b].mass.set(lane, own.mass);
+        for (int i = 0; i < 9; ++i) out[b].inertia(i).set(lane, own.inertia(i));
       }
     }
-    Symmetric3<T> at(const Mat3<T>& rotation) const {
-      if (alike) return turning.template at<T>(rotation);
-      Mat3<T> turned;
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-          turned(i, j) = rotation(i, 0) * inertia(0, j) + rotation(i, 1) * inertia(1, j) +
-                         rotation(i, 2) * inertia(2, j);
-        }
-      }
-      return Symmetric3<T>::turned(turned, rotation);
-    }
-  };
+    return out;
+  }
 
   using Lists = typename LoadsByLane<L>::Lists;
 
@@ -220,7 +201,9 @@ class PackedSystem final : public LaneSystem {
       by_lane_.read(input(t));
       by_lane_.evaluate_inertia(added_inertia_.data());
     }
-    evaluate_inertia();
+    own_.evaluate_inertia(bodies_.data(), frames_.data(),
+                          added_inertia_.empty() ? nullptr : added_inertia_.data(),
+                          [](int, const auto&) {});
     articulated_.factor();
   }
 
@@ -230,7 +213,7 @@ class PackedSystem final : public LaneSystem {
     driven_.follow(t, curve_limit_, positions_.data(), speed_.data(), speed_rate_.data());
     for (const std::size_t i : driven_.clusters()) {
       const Cluster& c = tree_.clusters[i];
-      for (int k = c.u; k < c.u + c.speeds; ++k) driven_rate_[idx(k)] = T(speed_rate_[idx(k)]);
+      for (int k = c.u; k < c.u + c.speeds; ++k) own_.driven_rate()[idx(k)] = T(speed_rate_[idx(k)]);
     }
   }
 
@@ -253,42 +236,26 @@ class PackedSystem final : public LaneSystem {
   void take_drivers(double t, double* y) {
     std::memcpy(state_.data(), y, size() * sizeof(double));
     read_leading();
-    const bool jumps = driven_.jump(t, curve_limit_, positions_.data(), speed_.data(), jump_.data());
+    const bool jumps = driven_.jump(t, curve_limit_, positions_.data(), speed_.data(), own_.jump());
     follow_drivers(t);
-    if (jumps) strike(t);
+    if (jumps) {
+      factor(t);
+      own_.strike(rate_.data() + speeds_, state_.data() + speeds_);
+    }
     std::memcpy(y, state_.data(), size() * sizeof(double));
   }
 
   void solve_acceleration() {
-    for (int b = 0; b < model_->body_count(); ++b) {
-      articulated_.set_load(b, {wrench_[idx(b)].force, wrench_[idx(b)].moment});
-    }
-    articulated_.solve(true, rate_.data() + speeds_, torque_.data(), driven_rate_.data());
+    for (int b = 0; b < model_->body_count(); ++b) articulated_.set_load(b, own_.load(b, wrench_[idx(b)]));
+    articulated_.solve(true, rate_.data() + speeds_, own_.torque().data(), own_.driven_rate().data());
   }
 
   void add_tensions(LoadSum<T>& sum) {
     tensions_.add(by_lane_, articulated_, rate_.data() + speeds_, sum,
-                  [&](std::size_t line) { read_drives(drive_response_[line]); });
+                  [&](std::size_t line) { own_.read_drives(drive_response_[line]); });
     for (std::size_t line = 0; line < tensions_.count(); ++line) {
       for (std::size_t k = 0; k < drive_power_.size(); ++k) {
         drive_power_[k] += tensions_.tension(line) * drive_response_[line][k];
-      }
-    }
-  }
-
-  void read_drives(std::vector<T>& power) const {
-    power.clear();
-    driven_.for_each_power(articulated_, [&](const T& one) { power.push_back(one); });
-  }
-
-  void strike(double t) {
-    factor(t);
-    for (int b = 0; b < model_->body_count(); ++b) articulated_.set_load(b, Wrench<T>::zero());
-    for (std::size_t k = 0; k < jump_.size(); ++k) driven_rate_[k] = T(jump_[k]);
-    articulated_.solve(false, rate_.data() + speeds_, nullptr, driven_rate_.data());
-    for (const Cluster& c : tree_.clusters) {
-      for (int k = speeds_ + c.u; k < speeds_ + c.u + c.speeds && !c.is_driven(); ++k) {
-        state_[idx(k)] += rate_[idx(k)];
       }
     }
   }
@@ -323,65 +290,20 @@ class PackedSystem final : public LaneSystem {
     return out;
   }
 
-  /// Evaluates inertias, and the velocity terms, from which the wrenches begin.
-  void evaluate_inertia() {
-    for (int b = 0; b < model_->body_count(); ++b) {
-      const BodyModel& body = model_->bodies[idx(b)];
-      const BodyKinematics<T>& k = bodies_[idx(b)];
-      BodyLoad<T>& begin = wrench_[idx(b)];
-      if (body.vessel < 0) {
-        const BodyOfLanes& of = bodies_of_lanes_[idx(b)];
-        const CompactInertia<T> inertia{of.mass, of.at(k.rotation)};
-        begin.force = Vec3<T>(T(0.0), T(0.0), T(0.0));
-        begin.moment = cross<T>(inertia.turning * k.angular_velocity, k.angular_velocity);
-        if (!body.full) {
-          articulated_.set_inertia(b, inertia);
-          continue;
-        }
-        Mat6<T> mass = SpatialInertia<T>(inertia).matrix();
-        mass += added_inertia_[idx(b)];
-        articulated_.set_inertia(b, mass);
-      } else {
-        Mat6<T> mass;
-        const Vec6<T> bias =
-            vessel_terms<T>(body, model_->vessels[idx(body.vessel)], k, frames_[idx(body.vessel)], mass);
-        if (!added_inertia_.empty()) mass += added_inertia_[idx(b)];
-        articulated_.set_inertia(b, mass);
-        begin.force = -bias.template head<3>();
-        begin.moment = -bias.template tail<3>();
-      }
-    }
-    for (std::size_t i = 0; i < tree_.coupled.size(); ++i) couple(i);
-  }
-
-  void couple(std::size_t i) {
-    const HydroGroup& group = model_->groups[tree_.coupled[i].group];
-    const auto take = [&](int place, const Vec6<T>& bias) {
-      BodyLoad<T>& begin = wrench_[idx(model_->vessels[idx(group.vessels[idx(place)])].body)];
-      begin.force -= bias.template head<3>();
-      begin.moment -= bias.template tail<3>();
-    };
-    group.template couple<T>(frames_.data(), [&](const HydroGroup::Pair& pair, const Mat6<T>& mass,
-                                                 const Vec6<T>& first, const Vec6<T>& second) {
-      articulated_.set_coupling(i, pair.first, pair.second, mass);
-      take(pair.first, first);
-      take(pair.second, second);
-    });
-  }
-
   LoadInput<T> input(double t) const {
     return {t, curve_limit_, bodies_.data(), slots_.data(), state_.data() + loads_};
   }
 
   void evaluate_loads(double t, LoadSum<T>& sum) {
     const LoadInput<T> input = this->input(t);
-    for (std::size_t g = 0; g < weights_.size(); ++g) weigh(model_->gravity[g], weights_[g], input);
+    std::ranges::fill(wrench_, BodyLoad<T>());
+    for (std::size_t g = 0; g < weights_.size(); ++g) model_->gravity[g].apply(input, weights_[g], sum);
     for (const auto& [kind, list] : applied_) kind->apply(*list, input, sum);
     if (by_lane_.any() && !by_lane_.adds_inertia()) by_lane_.read(input);
     if (!by_lane_.lists().empty()) by_lane_.apply(tensions_.none(), sum);
-    std::fill(torque_.begin(), torque_.end(), T(0.0));
+    std::ranges::fill(own_.torque(), T(0.0));
     actuators_.front().apply<T>(input, articulated_.kinematics(), state_.data(), state_.data() + speeds_,
-                                torque_.data(), sum,
+                                own_.torque().data(), sum,
                                 [&](std::size_t k, const LoadInput<T>& in, const T& value, const T& rate) {
                                   const TreeActuators::Along& one = actuators_.front().along()[k];
                                   if (along_[k] == nullptr) return drive_by_lane(k, value, rate);
@@ -412,17 +334,6 @@ class PackedSystem final : public LaneSystem {
     return out;
   }
 
-  void weigh(const Gravity& load, const T& weight, const LoadInput<T>& in) {
-    const Vec3<T> force(T(0.0), T(0.0), -weight);
-    BodyLoad<T>& on = wrench_[idx(load.body)];
-    if (load.center_of_mass.isZero(0.0)) {
-      on.force += force;
-      return;
-    }
-    const Vec3<T> lever = in.bodies[load.body].rotation * load.center_of_mass.cast<T>();
-    on.add(force, lever);
-  }
-
   void apply(Waves& waves, double t, LoadSum<T>& sum) {
     T channels[PackedTable<L, ExactWaveLoad>::channels], drift[DriftLoad::channels];
     waves.force.evaluate(t, channels);
@@ -440,24 +351,24 @@ class PackedSystem final : public LaneSystem {
   }
 
   std::shared_ptr<const Model> model_;
-  BodyTree tree_;
-  ArticulatedTree<T> articulated_;
+  TreeDerivative<T> own_;
+  const BodyTree& tree_;
+  ArticulatedTree<T>& articulated_;
+  DrivenSpeeds& driven_;
   std::vector<TreeActuators> actuators_;  // by lane, or of all
-  DrivenSpeeds driven_;
   LoadsByLane<L> by_lane_;
   TensionsByLane<L> tensions_;
-  std::vector<T> torque_, driven_rate_, drive_power_;
-  std::vector<std::vector<T>> drive_response_;                 // to 1 N of each inertial tension
-  std::vector<double> positions_, speed_, speed_rate_, jump_;  // of the lane that leads drivers
-  std::size_t leading_ = 0;                                    // the first that is not frozen
-  int speeds_, memory_, loads_, work_;                         // where they begin in the state of a lane
+  std::vector<T> drive_power_;
+  std::vector<std::vector<T>> drive_response_;          // to 1 N of each inertial tension
+  std::vector<double> positions_, speed_, speed_rate_;  // of the lane that leads drivers
+  std::size_t leading_ = 0;                             // the first that is not frozen
+  int speeds_, memory_, loads_, work_;                  // where they begin in the state of a lane
   std::vector<double> slots_;
   double curve_limit_ = std::numeric_limits<double>::infinity();
   std::vector<std::size_t> frozen_;
   std::vector<T> state_, rate_;
   std::vector<BodyKinematics<T>> bodies_;
   std::vector<YawFrame<T>> frames_;
-  std::vector<BodyOfLanes> bodies_of_lanes_;
   std::vector<T> weights_;  // of Model::gravity
   std::vector<BodyLoad<T>> wrench_;
   std::vector<Mat6<T>> added_inertia_;  // by body, of loads

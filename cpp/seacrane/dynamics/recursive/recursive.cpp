@@ -25,15 +25,13 @@ Vec3d turning_of(const Vec4d& q, const Vec4d& rate) {
 RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
     : terms_(std::move(terms)),
       model_(terms_->model()),
-      tree_(build_tree(model_)),
-      articulated_(tree_, model_.body_count()),
+      own_(model_, {model_.bodies.begin(), model_.bodies.end()}),
+      tree_(own_.tree()),
+      articulated_(own_.articulated()),
+      driven_(own_.driven()),
       loops_(model_, tree_),
       tensions_(model_),
       actuators_(model_, tree_),
-      driven_(model_, tree_),
-      torque_(idx(tree_.speeds), 0.0),
-      driven_rate_(torque_),
-      jump_(torque_),
       residual_(VecXd::Zero(loops_.rows())),
       loop_bias_(VecXd::Zero(loops_.rows())) {
   if (model_.paper_kinematics) {
@@ -54,8 +52,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   const auto bodies = idx(model_.body_count());
   mass_.assign(bodies, Mat6d::Zero());
   for (std::size_t b = 0; b < bodies; ++b) mass_[b].diagonal().head<3>().setConstant(model_.bodies[b].mass);
-  for (const BodyModel& body : model_.bodies) turning_.emplace_back(body.inertia);
-  for (auto* vectors : {&bias_, &load_, &acceleration_, &twist_, &direction_}) {
+  for (auto* vectors : {&load_, &acceleration_, &twist_, &direction_}) {
     vectors->assign(bodies + 1, Vec6d::Zero());
   }
   along_.assign(bodies + 1, Wrench<double>::zero());
@@ -114,7 +111,7 @@ const double* RecursiveSystem::followed(double t, const double* y) {
   if (!driven_.any()) return y;
   followed_.assign(y, y + layout_.size);
   driven_.follow(t, terms_->curve_limit(), followed_.data(), followed_.data() + layout_.speeds,
-                 driven_rate_.data());
+                 own_.driven_rate().data());
   return followed_.data();
 }
 
@@ -124,39 +121,18 @@ void RecursiveSystem::place_as_given(const double* y) {
   articulated_.place(y, y + layout_.speeds, terms_->kinematics());
 }
 
+/// Keeps mass matrices, of compact bodies the part that turns with the body.
 void RecursiveSystem::evaluate_inertia(double t, const double* y) {
+  struct Kept {
+    std::vector<Mat6d>& mass;
+    void operator()(int body, const Mat6d& m) const { mass[idx(body)] = m; }
+    void operator()(int body, const CompactInertia<double>& inertia) const {
+      inertia.turning.write(mass[idx(body)].bottomRightCorner<3, 3>());
+    }
+  };
   const std::vector<Mat6d>& added = terms_->evaluate_added_inertia(t, y + layout_.memory);
-  for (int b = 0; b < model_.body_count(); ++b) {
-    const BodyModel& body = model_.bodies[idx(b)];
-    if (!body.full) {
-      evaluate_compact(b);
-      continue;
-    }
-    Mat6d& mass = mass_[idx(b)];
-    bias_[idx(b)] = full_terms(model_, body, terms_->bodies()[idx(b)], terms_->frames(), mass);
-    if (!added.empty()) mass += added[idx(b)];
-    articulated_.set_inertia(b, mass);
-  }
-  if (!tree_.coupled.empty()) evaluate_couplings();
-}
-
-void RecursiveSystem::evaluate_couplings() {
-  auto coupling = terms_->evaluate_couplings(bias_.data()).begin();
-  for (std::size_t i = 0; i < tree_.coupled.size(); ++i) {
-    for (const HydroGroup::Pair& pair : model_.groups[tree_.coupled[i].group].pairs) {
-      articulated_.set_coupling(i, pair.first, pair.second, (coupling++)->mass);
-    }
-  }
-}
-
-/// Inertia about the state point, the part of a mass matrix that turns with the body, and the velocity terms
-/// b of moments, eq (5).
-void RecursiveSystem::evaluate_compact(int body) {
-  const BodyKinematics<double>& k = terms_->bodies()[idx(body)];
-  const Symmetric3<double> inertia = turning_[idx(body)].at<double>(k.rotation);
-  articulated_.set_inertia(body, CompactInertia<double>{model_.bodies[idx(body)].mass, inertia});
-  inertia.write(mass_[idx(body)].bottomRightCorner<3, 3>());
-  bias_[idx(body)].tail<3>() = cross<double>(k.angular_velocity, inertia * k.angular_velocity);
+  own_.evaluate_inertia(terms_->bodies().data(), terms_->frames().data(),
+                        added.empty() ? nullptr : added.data(), Kept{mass_});
 }
 
 void RecursiveSystem::factor(double t, const double* y) {
@@ -179,7 +155,7 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
   factor(t, y);
   evaluate_wrenches(t, y, ydot, actuators_on_tree);
   solve_acceleration(ydot + layout_.speeds);
-  read_drives(drive_power_);
+  own_.read_drives(drive_power_);
   if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
   if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
   for (const double power : drive_power_) terms_->add_driver_power(power);
@@ -193,12 +169,12 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
 /// Jacobian needs.
 void RecursiveSystem::evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree) {
   const double* const memory = y + layout_.memory;
-  std::ranges::fill(torque_, 0.0);
+  std::ranges::fill(own_.torque(), 0.0);
   if (!actuators_on_tree) return terms_->evaluate_wrenches(t, memory, ydot + layout_.memory);
   terms_->evaluate_wrenches(t, memory, ydot + layout_.memory, actuators_.others());
   LoadSum<double> sum{nullptr};
   actuators_.apply<double>(terms_->load_input(t, memory), articulated_.kinematics(), y, y + layout_.speeds,
-                           torque_.data(), sum,
+                           own_.torque().data(), sum,
                            [&](std::size_t k, const LoadInput<double>& in, double value, double rate) {
                              const TreeActuators::Along& one = actuators_.along()[k];
                              return one.list->force(one.at, in, value, rate);
@@ -216,14 +192,11 @@ void RecursiveSystem::solve_acceleration(double* u_rate) {
 
 void RecursiveSystem::solve_with_loops(double* u_rate) {
   for (int b = 0; b < model_.body_count(); ++b) {
-    const BodyLoad<double>& applied = terms_->applied(b);
-    for (int i = 0; i < 3; ++i) {
-      load_[idx(b)][i] = applied.force[i] - bias_[idx(b)][i];
-      load_[idx(b)][3 + i] = applied.moment[i] - bias_[idx(b)][3 + i];
-    }
+    load_[idx(b)] = own_.load(b, terms_->applied(b)).vector();
   }
   const auto solve = [&] {
-    articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, torque_.data(), driven_rate_.data());
+    articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, own_.torque().data(),
+                       own_.driven_rate().data());
   };
   solve();
   if (loops_.rows() == 0) return;
@@ -261,12 +234,12 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
     for_each_moved(i, [&](int first, int count) {
       inertial_speed_rates_.col(i).segment(first, count) = rates.segment(first, count);
     });
-    read_drives(drive_response_[idx(i)]);
+    own_.read_drives(drive_response_[idx(i)]);
   }
   const VecXd& tension = tensions_.finish(*terms_);
   if (loops_.rows() > 0) {  // whose multipliers the responses have overwritten
     solve_acceleration(u_rate);
-    read_drives(drive_power_);
+    own_.read_drives(drive_power_);
     return;
   }
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
@@ -331,12 +304,6 @@ double RecursiveSystem::tension(int element) const {
   return (hung.front() == e.second ? -1.0 : 1.0) * force.dot(along) / along.norm();
 }
 
-/// The powers of the drives at the tree's last solution.
-void RecursiveSystem::read_drives(std::vector<double>& power) const {
-  power.clear();
-  driven_.for_each_power(articulated_, [&](double one) { power.push_back(one); });
-}
-
 bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   if (!jacobian_) {
     jacobian_.emplace(model_, tree_);
@@ -344,6 +311,7 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   }
   evaluate(t, y, jacobian_rate_.data(), false);
   if (!loops_.regular()) return false;
+  if (!tree_.coupled.empty()) terms_->evaluate_couplings(direction_.data());
   jacobian_->evaluate({*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(),
                        acceleration_.data(), blocks_.data(), driven_, drive_power_},
                       t, y, jacobian_rate_.data(), out);
@@ -384,8 +352,8 @@ void RecursiveSystem::twists_here() {
 bool RecursiveSystem::follow_drivers(double t, double* y) {
   double* const u = y + layout_.speeds;
   const double limit = terms_->curve_limit();
-  const bool jumps = driven_.jump(t, limit, y, u, jump_.data());
-  driven_.follow(t, limit, y, u, driven_rate_.data());
+  const bool jumps = driven_.jump(t, limit, y, u, own_.jump());
+  driven_.follow(t, limit, y, u, own_.driven_rate().data());
   if (jumps) strike(t, y);
   return jumps;
 }
@@ -395,11 +363,7 @@ void RecursiveSystem::strike(double t, double* y) {
   place_as_given(y);
   terms_->follow_yaw();
   factor(t, y);
-  for (auto& load : load_) load.setZero();
-  articulated_.solve(load_.data(), false, acceleration_.data(), speed_rate_.data(), nullptr, jump_.data());
-  for (const Cluster& c : tree_.clusters) {
-    for (int k = c.u; k < c.u + c.speeds && !c.is_driven(); ++k) y[layout_.speeds + k] += speed_rate_[idx(k)];
-  }
+  own_.strike(speed_rate_.data(), y + layout_.speeds);
 }
 
 bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {

@@ -10,10 +10,8 @@
 
 #include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/dynamics/inertial_tensions.hpp"
-#include "seacrane/dynamics/recursive/driven_speeds.hpp"
 #include "seacrane/dynamics/recursive/recursive_jacobian.hpp"
-#include "seacrane/dynamics/recursive/tree_actuators.hpp"
-#include "seacrane/dynamics/recursive/turning_inertia.hpp"
+#include "seacrane/dynamics/recursive/tree_derivative.hpp"
 #include "seacrane/dynamics/terms.hpp"
 
 namespace seacrane {
@@ -73,12 +71,9 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void place_as_given(const double* y);
   bool follow_drivers(double t, double* y);
   void strike(double t, double* y);
-  void read_drives(std::vector<double>& power) const;
   void evaluate(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_inertia(double t, const double* y);
-  void evaluate_compact(int body);
-  void evaluate_couplings();
   void factor(double t, const double* y);
   void choose_rows();
   void solve_acceleration(double* u_rate);
@@ -93,13 +88,13 @@ class RecursiveSystem final : public Formulation, public PositionMap {
 
   std::shared_ptr<Terms> terms_;
   const Model& model_;
-  BodyTree tree_;
-  ArticulatedTree<double> articulated_;
+  TreeDerivative<double> own_;
+  const BodyTree& tree_;
+  ArticulatedTree<double>& articulated_;
+  DrivenSpeeds& driven_;
   LoopClosure loops_;
   InertialTensions tensions_;
   TreeActuators actuators_;
-  DrivenSpeeds driven_;
-  std::vector<TurningInertia> turning_;  // by body
   std::vector<std::vector<int>> hung_;   // by element: of a link that is a branch, all bodies that hang on it
   // Of the last derivative(), where projections overwrite it.
   std::vector<Vec6d> kept_load_, kept_acceleration_;
@@ -107,13 +102,11 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<double> drives_;
   Layout layout_;
   std::vector<Mat6d> mass_;
-  std::vector<Vec6d> bias_, load_, acceleration_, twist_, direction_;
+  std::vector<Vec6d> load_, acceleration_, twist_, direction_;
   std::vector<Wrench<double>> along_;
   std::vector<BodyKinematics<double>> scratch_;
   std::vector<RowBlock<double>> blocks_;
-  std::vector<double> torque_;              // of actuators, on the speeds
-  std::vector<double> followed_;            // a state with what drivers prescribe
-  std::vector<double> driven_rate_, jump_;  // of the speeds that drivers prescribe
+  std::vector<double> followed_;  // a state with what drivers prescribe
   std::vector<double> speed_rate_, position_rate_;
   std::vector<double> drive_power_;  // by driver of the tree
   // For 1 N of each inertial tension:

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "seacrane/math/symmetric.hpp"
+#include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/math/spatial.hpp"
 
 namespace seacrane {
 
@@ -27,6 +28,29 @@ class TurningInertia {
   bool has_axis_ = false;
   Vec3d axis_ = Vec3d::UnitZ();
   double across_ = 0.0, excess_ = 0.0;
+};
+
+/// A body's mass that turns with it; packs may have an inertia for each lane.
+template <class T>
+struct TurningMass : RigidMass<T> {
+  TurningInertia turning;  // of all lanes, where they are alike
+  bool alike = true;
+
+  explicit TurningMass(const BodyModel& body)
+      : RigidMass<T>{T(body.mass), body.center_of_mass, body.inertia.cast<T>()}, turning(body.inertia) {}
+
+  /// About the centre of mass, inertial axes.
+  CompactInertia<T> at(const Mat3<T>& rotation) const {
+    if (alike) return {this->mass, turning.template at<T>(rotation)};
+    Mat3<T> turned;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        turned(i, j) = rotation(i, 0) * this->inertia(0, j) + rotation(i, 1) * this->inertia(1, j) +
+                       rotation(i, 2) * this->inertia(2, j);
+      }
+    }
+    return {this->mass, Symmetric3<T>::turned(turned, rotation)};
+  }
 };
 
 }  // namespace seacrane

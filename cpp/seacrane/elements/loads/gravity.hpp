@@ -12,7 +12,12 @@ struct Gravity {
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
-    const Vec3<T> force(T(0), T(0), T(-weight));
+    apply(in, T(weight), out);
+  }
+  /// With another weight in its place, such as one for each lane.
+  template <class T>
+  void apply(const LoadInput<T>& in, const T& of, LoadSum<T>& out) const {
+    const Vec3<T> force(T(0), T(0), -of);
     if (center_of_mass.isZero(0.0)) {
       out.wrench[body].force += force;
       return;
