@@ -46,6 +46,7 @@ Memory::Memory(const std::vector<StateSpaceBlock>& blocks, int motions) {
     block.states = static_cast<int>(s.a.rows());
     block.inputs = static_cast<int>(s.inputs.size());
     block.outputs = static_cast<int>(s.outputs.size());
+    block.alone = block.inputs == 1 && block.outputs == 1;
     block.first_input = static_cast<int>(motions_.size());
     motions_.insert(motions_.end(), s.inputs.begin(), s.inputs.end());
     block.first_output = static_cast<int>(motions_.size());

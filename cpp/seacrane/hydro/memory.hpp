@@ -32,6 +32,12 @@ class Memory {
   void evaluate(const T* u, const T* x, T* x_rate, T* mu) const {
     const double* m = coefficients_.data();
     for (const Block& block : blocks_) {
+      if (block.alone && block.states <= tile) {
+        in_tiles(block.states, [&]<int n>(int /*first*/) { evaluate_alone<n>(block, m, u, x, x_rate, mu); });
+        x += block.states;
+        x_rate += block.states;
+        continue;
+      }
       in_tiles(block.states, [&]<int rows>(int first) {
         const auto sum = next_rows<rows, T>(block, m, u, x);
         std::copy_n(sum.data(), rows, x_rate + first);
@@ -47,6 +53,12 @@ class Memory {
   }
 
  private:
+  struct Block {
+    int states, inputs, outputs;
+    int first_input, first_output;  // in motions_
+    bool alone;                     // one input, one output
+  };
+
   static constexpr int tile = 6;  // rows summed side by side, at most
   /// Calls f.template operator()<count>(first) for rows in tiles.
   template <class F>
@@ -70,10 +82,24 @@ class Memory {
         return f.template operator()<tile>(first);
     }
   }
-  struct Block {
-    int states, inputs, outputs;
-    int first_input, first_output;  // in motions_
-  };
+  /// One motion to one load, of so few states that all is laid out at compile time: most blocks.
+  template <int n, class T>
+  void evaluate_alone(const Block& block, const double*& m, const T* u, const T* x, T* x_rate, T* mu) const {
+    const T motion = u[motions_[idx(block.first_input)]];
+    T load(0);
+    T rate[n];
+    for (int i = 0; i < n; ++i) rate[i] = T(0);
+    for (int j = 0; j < n; ++j, m += n) {
+      for (int i = 0; i < n; ++i) rate[i] += x[j] * T(m[i]);
+    }
+    for (int i = 0; i < n; ++i) rate[i] += motion * T(m[i]);
+    m += n;
+    for (int j = 0; j < n; ++j) load += x[j] * T(m[j]);
+    load += motion * T(m[n]);
+    m += n + 1;
+    for (int i = 0; i < n; ++i) x_rate[i] = rate[i];
+    mu[motions_[idx(block.first_output)]] += load;
+  }
 
   void put_in_tiles(const MatXd& left, const MatXd& right);
 

@@ -7,26 +7,26 @@
 namespace seacrane {
 
 template <class T>
-T dot(const Vec3<T>& a, const Vec3<T>& b) {
+[[gnu::always_inline]] inline T dot(const Vec3<T>& a, const Vec3<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 template <class T, class S = T>
-Vec3<T> times(const Mat3<T>& m, const Vec3<S>& v) {
+[[gnu::always_inline]] inline Vec3<T> times(const Mat3<T>& m, const Vec3<S>& v) {
   const T x(v[0]), y(v[1]), z(v[2]);
   return {m(0, 0) * x + m(0, 1) * y + m(0, 2) * z, m(1, 0) * x + m(1, 1) * y + m(1, 2) * z,
           m(2, 0) * x + m(2, 1) * y + m(2, 2) * z};
 }
 
 template <class T>
-Vec3<T> times_transposed(const Mat3<T>& m, const Vec3<T>& v) {
+[[gnu::always_inline]] inline Vec3<T> times_transposed(const Mat3<T>& m, const Vec3<T>& v) {
   return {m(0, 0) * v[0] + m(1, 0) * v[1] + m(2, 0) * v[2], m(0, 1) * v[0] + m(1, 1) * v[1] + m(2, 1) * v[2],
           m(0, 2) * v[0] + m(1, 2) * v[1] + m(2, 2) * v[2]};
 }
 
 /// a b.
 template <class T>
-Mat3<T> times(const Mat3<T>& a, const Mat3d& b) {
+[[gnu::always_inline]] inline Mat3<T> times(const Mat3<T>& a, const Mat3d& b) {
   Mat3<T> out;
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i)
@@ -37,7 +37,7 @@ Mat3<T> times(const Mat3<T>& a, const Mat3d& b) {
 
 /// a b^T.
 template <class T>
-Mat3<T> times_transpose(const Mat3<T>& a, const Mat3d& b) {
+[[gnu::always_inline]] inline Mat3<T> times_transpose(const Mat3<T>& a, const Mat3d& b) {
   Mat3<T> out;
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i)

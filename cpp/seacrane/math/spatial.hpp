@@ -29,7 +29,9 @@ class Twist {
   }
 
   /// The twist at the point `reach` away: v + omega x reach. Accelerations go without their centripetal part.
-  Twist shifted_to(const Vec3<T>& reach) const { return {linear_ + cross<T>(angular_, reach), angular_}; }
+  [[gnu::always_inline]] Twist shifted_to(const Vec3<T>& reach) const {
+    return {linear_ + cross<T>(angular_, reach), angular_};
+  }
 
   Twist& operator+=(const Twist& b) {
     linear_ += b.linear_;
@@ -64,7 +66,7 @@ class Wrench {
   /// A wrench about the end of `reach`, moved to its start: the moment grows by reach x force.
   Wrench shifted_from(const Vec3<T>& reach) const { return {force_, moment_ + cross<T>(reach, force_)}; }
   /// *this += w.shifted_from(reach).
-  void add_shifted_from(const Vec3<T>& reach, const Wrench& w) {
+  [[gnu::always_inline]] void add_shifted_from(const Vec3<T>& reach, const Wrench& w) {
     force_ += w.force_;
     moment_ += w.moment_ + cross<T>(reach, w.force_);
   }
@@ -88,7 +90,7 @@ class Wrench {
 
 /// Power, or a wrench along a direction of motion.
 template <class T>
-T dot(const Twist<T>& v, const Wrench<T>& w) {
+[[gnu::always_inline]] inline T dot(const Twist<T>& v, const Wrench<T>& w) {
   return dot<T>(v.linear(), w.force()) + dot<T>(v.angular(), w.moment());
 }
 
@@ -108,7 +110,7 @@ struct CompactInertia {
   T mass;
   Symmetric3<T> turning;
 
-  friend Wrench<T> operator*(const CompactInertia& inertia, const Twist<T>& a) {
+  [[gnu::always_inline]] friend Wrench<T> operator*(const CompactInertia& inertia, const Twist<T>& a) {
     return {inertia.mass * a.linear(), inertia.turning * a.angular()};
   }
 };
@@ -150,7 +152,7 @@ class SpatialInertia {
   }
 
   /// *this += X^T I X, the inertia I about the end of `reach` seen from its start: X = [1, -reach x; 0, 1].
-  void add_shifted_from(const Vec3<T>& reach, const SpatialInertia& inertia) {
+  [[gnu::always_inline]] void add_shifted_from(const Vec3<T>& reach, const SpatialInertia& inertia) {
     const Mat3<T>& h = inertia.coupling_;
     const Mat3<T> moving = inertia.moving_.full();
     Mat3<T> k;  // coupling about the start: H - M (reach x)
@@ -169,7 +171,7 @@ class SpatialInertia {
     turning_ +=
         Symmetric3<T>{gained(0, 0), gained(1, 0), gained(1, 1), gained(2, 0), gained(2, 1), gained(2, 2)};
   }
-  void add_shifted_from(const Vec3<T>& reach, const CompactInertia<T>& inertia) {
+  [[gnu::always_inline]] void add_shifted_from(const Vec3<T>& reach, const CompactInertia<T>& inertia) {
     const T& m = inertia.mass;
     const Vec3<T> moment = m * reach;
     moving_ += Symmetric3<T>::diagonal(m);
@@ -181,14 +183,14 @@ class SpatialInertia {
     turning_ -= Symmetric3<T>::outer(moment, reach);
   }
   /// *this -= a b^T, or a sum of such products of which only the whole is symmetric.
-  void subtract_outer(const Wrench<T>& a, const Wrench<T>& b) {
+  [[gnu::always_inline]] void subtract_outer(const Wrench<T>& a, const Wrench<T>& b) {
     const Vec3<T> a_force = a.force(), a_moment = a.moment(), b_force = b.force(), b_moment = b.moment();
     moving_ -= Symmetric3<T>::outer(a_force, b_force);
     for (int j = 0; j < 3; ++j) coupling_.col(j) -= b_moment[j] * a_force;
     turning_ -= Symmetric3<T>::outer(a_moment, b_moment);
   }
 
-  friend Wrench<T> operator*(const SpatialInertia& inertia, const Twist<T>& a) {
+  [[gnu::always_inline]] friend Wrench<T> operator*(const SpatialInertia& inertia, const Twist<T>& a) {
     const Vec3<T>&v = a.linear(), &w = a.angular();
     const Mat3<T>& h = inertia.coupling_;
     const Vec3<T> force = inertia.moving_ * v + times<T>(h, w);

@@ -47,7 +47,7 @@ Mat3<T> skew(const Vec3<T>& a) {
 }
 
 template <class T>
-Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
+[[gnu::always_inline]] inline Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
 
