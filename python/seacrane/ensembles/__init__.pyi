@@ -8,5 +8,3 @@ from seacrane.ensembles.coefficient_scatter import coefficient_scatter as coeffi
 from seacrane.ensembles.coefficient_scatter import CoefficientScatter as CoefficientScatter
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy
 from seacrane.ensembles.targets import Certainty as Certainty
-from seacrane.ensembles.linear_control import LinearControl as LinearControl
-from seacrane.ensembles.linear_control import HookLoadControl as HookLoadControl
