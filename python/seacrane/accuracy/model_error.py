@@ -75,7 +75,7 @@ def model_error(
 ) -> ModelError:
     """Error that the fitted fluid memory leaves in the motion of a point of any body, in the scene's waves.
 
-    What the coefficients of a load in water are worth, `seacrane.ensembles.coefficient_scatter` shows.
+    What the coefficients of a load in water are worth, `seacrane.required` tells.
 
     Parameters
     ----------
