@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.accuracy.case import Case, OutOfTime, Timed, timed
+from seacrane.accuracy.case import Case, OutOfTime, timed
 from seacrane.accuracy.methods import TIGHT
 from seacrane.accuracy.quantities import Quantity, channels_of, compare, motion_of
 from seacrane.accuracy.row import COMPLETED, NOT_FINITE, REFUSED, SLOW, STOPPED, UNKNOWN, Row
@@ -95,7 +95,11 @@ def measured(
     channels = [*channels_of(quantities), *CHECKS]
     try:
         done = timed(case, method, channels, repeats=repeats, long_s=long_s, limit_s=limit_s)
-        row = _with_cost(row, done)
+        counted: dict[str, Any] = {name: int(done.stats[name]) for name in COUNTED}
+        row = replace(
+            row, stepped=str(done.stats["formulation"]), simulated_s=float(done.stats["simulated_s"]),
+            wall_s=done.wall_s, cpu_s=done.cpu_s, **counted,
+        )  # fmt: skip
         result = done.result()
         for name, array in result.channels.items():
             if not np.isfinite(array).all():
@@ -109,25 +113,12 @@ def measured(
         return row.ended(REFUSED, refusal)
     errors = {name: compare(truth.values[name], v) for name, v in found.items() if name in truth.values}
     own = {name: motion_of(v) for name, v in found.items() if name not in truth.motion}
-    row = _with_checks(row, case.scene, result)
-    return replace(row, errors=errors, motion={**truth.motion, **own}).ended(COMPLETED, "")
-
-
-def _with_cost(row: Row, done: Timed) -> Row:
-    stats = done.stats
-    counted: dict[str, Any] = {name: int(stats[name]) for name in COUNTED}
+    largest = {name: float(result.channels[name].max()) for name in CHECKS[:2] if name in result.channels}
     return replace(
-        row, stepped=str(stats["formulation"]), simulated_s=float(stats["simulated_s"]), wall_s=done.wall_s,
-        cpu_s=done.cpu_s, **counted,
-    )  # fmt: skip
-
-
-def _with_checks(row: Row, scene: Scene, result: Result) -> Row:
-    def largest(channel: str) -> float:
-        return float(result.channels[channel].max()) if channel in result.channels else UNKNOWN
-
-    drift, left = largest("constraint_error_before_projection"), largest("constraint_error")
-    return replace(row, drift=drift, left=left, energy=energy_error(scene, result))
+        row, errors=errors, motion={**truth.motion, **own},
+        drift=largest.get("constraint_error_before_projection", UNKNOWN),
+        left=largest.get("constraint_error", UNKNOWN), energy=energy_error(case.scene, result),
+    ).ended(COMPLETED, "")  # fmt: skip
 
 
 def energy_error(scene: Scene, result: Result) -> float:

@@ -146,24 +146,20 @@ class Trade(Answer):
             )
         least = min(row.cpu_s for row in passing)
         alike = [row for row in passing if row.cpu_s <= ALIKE * least]
-        best = min(alike, key=lambda row: (row.method.dt is not None, self._worst(row, limits)))
+
+        def worst(row: Row) -> float:
+            return max(row.error(name) / limit if limit > 0.0 else 0.0 for name, limit in limits.items())
+
+        best = min(alike, key=lambda row: (row.method.dt is not None, worst(row)))
         return replace(best.method, formulation=best.formulation)
 
     def _of_others(self, share: float | None) -> dict[str, float]:
         """The largest errors of the default quantities."""
-        if share is None or not self.default_quantities:
+        if share is None or not self.metadata["default quantities"]:
             return {}
         share = positive_of("cheapest: others", share)
         motion, known = self.reference.motion, self.reference.uncertainty
         return {name: max(share * motion[name], known[name]) for name in self.quantities}
-
-    def _worst(self, row: Row, limits: Mapping[str, float]) -> float:
-        return max(row.error(name) / limit if limit > 0.0 else 0.0 for name, limit in limits.items())
-
-    @property
-    def default_quantities(self) -> bool:
-        """Whether the quantities are those that the scene has, and nobody named them."""
-        return bool(self.metadata["default quantities"])
 
     def _check_reach(self, name: str, limit: float) -> None:
         unit, known = self.quantities[name].unit, self.reference.uncertainty[name]

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
+from seacrane.accuracy.expected import expected_error
 from seacrane.analysis.rest_state import equilibrium
-from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
+from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed
 from seacrane.ensembles.dataset import NOT_RUN, RESERVED, dataset_of
 from seacrane.ensembles.filling import SIDE_BY_SIDE, Progress, lanes_for, remark, run_packs
 from seacrane.ensembles.growing import BATCH, grow, growth_of, members_in
@@ -294,7 +295,8 @@ def ensemble(
     if accuracy is not None:
         refuse_what_is_chosen(method, shorthand, ())
         probes = probed(study, members, accuracy, executor)
-        study = replace(study, method=tightest(probes))
+        tightest = min((probe.method for probe in probes.values()), key=expected_error)
+        study = replace(study, method=tightest)
     if targets:
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)

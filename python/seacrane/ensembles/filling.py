@@ -87,10 +87,7 @@ def gathered(
 ) -> Generator[Gathered, None, None]:
     """The outcomes of packs by their number, as they come.
 
-    Raises
-    ------
-    SimulationError
-        After all others, where workers were lost with their packs.
+    Raises SimulationError after all others, where workers were lost with their packs.
     """
     if executor is None:
         for number, pack in packs:

@@ -113,14 +113,8 @@ def grow(
 ) -> tuple[Members, list[Outcome], tuple[Certainty, ...]]:
     """Add batches of seeds to every cell until its targets are reached, or there are no more.
 
-    Members of the seeds that were needed, their outcomes, and what they tell.
-
-    Warns
-    -----
-    FailedSeedsWarning
-        Where seeds failed.
-    FewSeedsWarning
-        Where the most seeds did not do.
+    Members of the seeds that were needed, their outcomes, and what they tell. Warns with FailedSeedsWarning
+    where seeds failed, with FewSeedsWarning where the most seeds did not do.
     """
     members = growth.members(growth.batches)
     cells: dict[int, list[Outcome]] = {cell: [] for cell in range(growth.cells)}
@@ -142,7 +136,14 @@ def grow(
             progressed.left(_expected(growth, batch, [known[cell] for cell in going]))
     certainty = tuple(one for cell in sorted(known) for one in known[cell])
     _warn_of_failed(certainty, [cells[cell] for cell in sorted(known) for _ in targets])
-    _warn_of_few(certainty, growth.batches * BATCH)
+    short = [one for one in certainty if not one.reached and not one.futile]
+    if short:
+        warn_caller(
+            f"{growth.batches * BATCH} seeds are the most that over allows, and {len(short)} of "
+            f"{len(certainty)} statistics are not known as narrowly as until asks: {short[0]}; give more "
+            "seeds, and the same store",
+            FewSeedsWarning,
+        )
     outcomes = sorted((one for several in cells.values() for one in several), key=lambda one: one.index)
     return growth.members(batch), outcomes, certainty
 
@@ -170,16 +171,6 @@ def _warn_of_failed(certainty: tuple[Certainty, ...], outcomes: list[list[Outcom
         f"{sum(one.futile for one, _ in told)} stopped because of them: mend what fails",
         FailedSeedsWarning,
     )
-
-
-def _warn_of_few(certainty: tuple[Certainty, ...], most: int) -> None:
-    short = [one for one in certainty if not one.reached and not one.futile]
-    if short:
-        warn_caller(
-            f"{most} seeds are the most that over allows, and {len(short)} of {len(certainty)} statistics "
-            f"are not known as narrowly as until asks: {short[0]}; give more seeds, and the same store",
-            FewSeedsWarning,
-        )
 
 
 def members_in(folder: Path, data: Mapping[str, Any]) -> Members:

@@ -259,16 +259,7 @@ def found_shift(time: Array, run: Array, times: Array, record: Array, most: floa
     """s by which a record (times, record) is later than a run (time, run), `most` at most.
 
     Pearson's correlation over what overlaps, at every step of a grid, then between the steps by the cubic
-    spline through the run.
-
-    Raises
-    ------
-    SceneError
-        Where they do not overlap by half of the shorter within `most`, or one of both does not vary.
-
-    Warns
-    -----
-    UncertainShiftWarning
+    spline through the run. SceneError where they do not overlap by half of the shorter, or one does not vary.
     """
     step = min(float(np.median(np.diff(time))), float(np.median(np.diff(times))))
     longest = float(max(np.ptp(time), np.ptp(times)))
