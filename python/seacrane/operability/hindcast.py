@@ -155,14 +155,6 @@ class WaveHindcast:
             return cls(**_of_csv(file, asked), source=file.name)
         return _of_netcdf(file, asked)
 
-    @classmethod
-    def from_xarray(cls, data: xarray.Dataset, *, names: Mapping[str, str] | None = None) -> WaveHindcast:
-        """A dataset with the names of a file, at one place; raises SceneError."""
-        try:
-            return cls(**_of_dataset(data, _asked(names)), source=str(data.attrs.get("title", "a dataset")))
-        except FileFormatError as error:
-            raise SceneError(f"hindcast: {error}") from error
-
 
 def _times(given: Any) -> Times:
     require_unmasked("hindcast: time", given)
