@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from importlib import import_module
 from itertools import islice
 
 from seacrane.ensembles.dataset import Outcome
@@ -60,9 +61,8 @@ class Progress:
     """A bar over members with the time left, and how they are stepped; hidden where none is wanted."""
 
     def __init__(self, total: int, wanted: bool, lanes: int) -> None:
-        from tqdm.auto import tqdm
-
-        self.bar = tqdm(total=total, unit="member", desc="ensemble", disable=not wanted)
+        kind = import_module("tqdm.auto" if wanted else "tqdm")  # a notebook's bar may warn of its widgets
+        self.bar = kind.tqdm(total=total, unit="member", desc="ensemble", disable=not wanted)
         self._lanes, self._told = lanes, Counter[str]()
 
     def skip(self, count: int) -> None:
