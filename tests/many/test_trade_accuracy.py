@@ -19,7 +19,7 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene import Oil, Piston, Pump, Rupture, Valve
 
 
-@pytest.mark.warns("CompassDirectionWarning")
+@pytest.mark.warns("CompassDirectionWarning", "ModelErrorWarning")
 def test_errors_stay_within_limit_and_estimate() -> None:
     rng = np.random.default_rng(20)
     found = [promise(rng, t_end=10.0, grid=False) for _ in range(5)]
@@ -38,6 +38,7 @@ def test_promises_hold_on_200_random_scenes(capsys: Any) -> None:
     assert len(held) == 2 and min(held.values()) >= 0.95, held
 
 
+@pytest.mark.warns("ModelErrorWarning")
 def test_a_roll_has_the_scale_of_an_angle() -> None:
     """By the unit of its channel, "m or rad", it had that of a force, and was run at 1e-12 at any limit."""
     scene = cases.case1()

@@ -1,4 +1,4 @@
-"""The error of a fixed step that is told, against runs."""
+"""Errors that are told: of a fixed step, and of a fitted fluid memory, against runs."""
 
 from __future__ import annotations
 
@@ -10,8 +10,12 @@ import pytest
 from kink_scenes import sprung
 from trade_scenes import pendulum
 
-from seacrane import Scene, cases, simulate, step_error
+from seacrane import Scene, SceneError, cases, simulate, step_error
+from seacrane.accuracy import model_error
 from seacrane.accuracy.quantities import compare
+from seacrane.description.databases import without_databases
+from seacrane.hydro import shipped_database
+from seacrane.warnings import ModelErrorWarning
 
 
 def error_of(scene: Scene, **setting: Any) -> float:
@@ -69,3 +73,58 @@ def test_a_run_whose_energy_closes_and_whose_motion_is_wrong_is_called_sensitive
 def test_an_unstable_longer_step_is_named() -> None:
     told = step_error(stiff(), integrator="rk4", dt=0.008, t_end=2.0, quantities=["position"])["position"]
     assert told.stable_step == pytest.approx(2.828 / 200.0, rel=0.06)
+
+
+SEA: dict[str, Any] = {"hs": 0.2, "tp": 9.0, "count": 40}
+
+
+def by_convolution(scene: Scene) -> Scene:
+    """The same vessel and springs with the retardation functions in place of the fit."""
+    out, moored = cases.vessel(memory="convolution", **SEA), scene.vessels["vessel"]
+    springs = {name: getattr(moored, name) for name in ("mooring_stiffness", "mooring_damping")}
+    out.vessels["vessel"] = type(moored)(**out.vessels["vessel"].__getstate__() | springs)
+    return out
+
+
+@pytest.mark.parametrize(("memory", "nearness"), [("per-pair", 0.2), ("by-motion", 0.4)])
+def test_it_is_the_difference_of_two_runs(memory: str, nearness: float) -> None:
+    scene = cases.vessel(memory=memory, **SEA)
+    options = {"t_end": 40.0, "dt_out": 0.25, "rtol": 1e-8, "channels": ["vessel_motion"]}
+    run, truth = simulate(scene, **options), simulate(by_convolution(scene), **options)
+    apart = np.abs(run["vessel_motion"] - truth["vessel_motion"]).reshape(-1, 6).max(axis=0)
+    found = model_error(scene, body="vessel", times=run.time)
+    largest = np.abs(found).max(axis=0)
+    np.testing.assert_allclose(largest, apart, rtol=nearness, atol=3e-6)
+    assert largest[2] / apart[2] == pytest.approx(1.0, abs=0.1)
+    np.testing.assert_allclose(found[0], 0.0, atol=1e-12)
+
+
+def test_a_run_to_an_accuracy_tells_it_beside_its_own_error() -> None:
+    """Not of a convolution, which fits nothing, nor in calm water, which moves nothing."""
+    scene = cases.vessel(memory="per-pair", **SEA)
+    options = {"t_end": 20.0, "dt_out": 0.5}
+    with pytest.warns(ModelErrorWarning, match="roll of 1e-06 was asked.*by-motion"):
+        result = simulate(scene, accuracy={"roll": 1e-6}, **options)
+    assert result.stats["error_estimate_roll"] <= 1e-6
+    expected = np.abs(model_error(scene, body="vessel", times=result.time)[:, 3]).max()
+    wide = simulate(scene, accuracy={"roll": 1e-3}, **options)
+    for told in (result, wide):
+        assert told.stats["model_error_roll"] == pytest.approx(expected, rel=0.02)
+    with pytest.warns(ModelErrorWarning, match="memory='convol"):
+        simulate(cases.vessel(memory="by-motion", **SEA), t_end=5.0, dt_out=0.5, accuracy={"roll": 1e-7})
+    for scene in (cases.vessel(memory="convolution", **SEA), cases.vessel(hs=0.0)):
+        silent = simulate(scene, t_end=5.0, dt_out=0.5, accuracy={"roll": 1e-3})
+        assert "model_error_roll" not in silent.stats
+
+
+def test_a_database_given_to_the_matrices_is_as_good_as_their_own_and_what_has_no_error_is_named() -> None:
+    scene, given = cases.vessel(**SEA), {"body": "vessel", "times": np.arange(0.0, 5.0, 0.5)}
+    bare = without_databases(scene)
+    for one, words in (
+        (bare, "no database"), (cases.vessel(hs=0.0), "waves on one vessel"),
+        (cases.vessel(memory="convolution", **SEA), "no fitted memory"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=words):
+            model_error(one, **given)
+    bare.replace("vessel", kind="vessel", database=shipped_database())
+    np.testing.assert_array_equal(model_error(bare, **given), model_error(scene, **given))

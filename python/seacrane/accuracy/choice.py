@@ -18,10 +18,12 @@ from typing import TYPE_CHECKING, Any
 from seacrane.accuracy.asked import BESIDE, Asked, asked
 from seacrane.accuracy.case import Case
 from seacrane.accuracy.expected import MARGIN, STIFF, TIGHTEST, expected_error, method_for, probe_of
+from seacrane.accuracy.model_error import model_errors
 from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.caller import warn_caller
 from seacrane.run.method import Method, settled
+from seacrane.validity.after_run import Finding, tried, warn_of
 from seacrane.warnings import AnotherCourseWarning
 
 if TYPE_CHECKING:
@@ -275,7 +277,21 @@ def _with_estimate(case: Asked, done: Sequence[Done], told: _Estimate) -> Result
             f"{OTHER_COURSE}: {told.course}; errors of curves are those of their extremes"
         )
         warn_caller(f"accuracy: a tighter run takes {stats['accuracy_course']}", AnotherCourseWarning)
-    return replace(last.result, stats=stats)
+    return replace(last.result, stats=stats | _by_model(case, last.result))
+
+
+def _by_model(case: Asked, result: Result) -> dict[str, float]:
+    """What the fit of the memory leaves, of a run whose scene stays what it is."""
+    if case.staged:
+        return {}
+    failed: list[Finding] = []
+    nothing: dict[str, float] = {}
+    found = tried(
+        "estimating the error of the model",
+        lambda: model_errors(case.scene, result.time, case.limits), nothing, failed,
+    )  # fmt: skip
+    warn_of(failed)
+    return {f"model_error_{name}": error for name, error in found.items()}
 
 
 def _added(errors: Mapping[str, float], more: Mapping[str, float], factor: float) -> dict[str, float]:
