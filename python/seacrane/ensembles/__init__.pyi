@@ -6,3 +6,5 @@ from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.members import LatinHypercube as LatinHypercube
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy
 from seacrane.ensembles.targets import Certainty as Certainty
+from seacrane.ensembles.linear_control import LinearControl as LinearControl
+from seacrane.ensembles.linear_control import HookLoadControl as HookLoadControl

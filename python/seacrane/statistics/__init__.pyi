@@ -11,6 +11,8 @@ from seacrane.statistics.distribution import Distribution as Distribution
 from seacrane.statistics.distribution import distribution as distribution
 from seacrane.statistics.tail import Tail as Tail
 from seacrane.statistics.estimate import gaussian_maximum as gaussian_maximum
+from seacrane.statistics.control_variate import controlled_mean as controlled_mean
+from seacrane.statistics.control_variate import ControlledMean as ControlledMean
 from seacrane.statistics.record import spectrum_estimate as spectrum_estimate
 from seacrane.statistics.record import SpectrumEstimate as SpectrumEstimate
 from seacrane.series.measured_series import MeasuredSeries as MeasuredSeries
