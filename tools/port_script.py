@@ -110,6 +110,8 @@ GONE = {
     "KnuckleBoomCrane": "KnuckleBoomCrane.load() is load_crane(), crane.geometry.tip(...) is crane.tip(...); "
     "bodies and joints are those of crane.parts(...)",
     "JointedCrane": "JointedCrane is Crane, as of load_crane; crane.tip(coordinates=x) is crane.tip(**x)",
+    "coefficient_scatter": "it is ensemble(partial(needs.scattered, scene), over={'case': [...]}, keep=...)",
+    "model_error": "model_error is the difference of a run with memory='convolution'",
 }
 
 

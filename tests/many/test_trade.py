@@ -1,30 +1,24 @@
-"""trade(): its rows, front, choice and file; less physics, and lines on other rungs."""
+"""trade(): its rows, front, choice and file; and the changed scenes of `needs`."""
 
 from __future__ import annotations
 
 import csv
 import json
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import G, reeved
-from numpy.testing import assert_allclose
 from trade_scenes import a_run_each, pendulum
 
 import seacrane as sc
-from seacrane import Scene, SceneError, cases, simulate, trade
+from seacrane import cases, needs
 from seacrane._core import Integrator, integrators
-from seacrane.accuracy import Trade, methods, simpler_scenes, trade_study
-from seacrane.accuracy.case import Case
+from seacrane.accuracy import Trade, methods, trade_study
 from seacrane.accuracy.measured import Reference
 from seacrane.accuracy.quantities import ErrorMeasures, compare, quantities_of
 from seacrane.accuracy.row import Row, RowFile
-from seacrane.accuracy.simpler_scenes import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
 from seacrane.accuracy.trade_study import Spending
-from seacrane.inputs.checked import curve_of
 
 T_END, BUDGET = 6.0, 40.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
@@ -102,15 +96,11 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
-    names = [case["memory"] for case, _ in simpler_scenes.variants(case2, quick=False)]
-    names = [name for name in names if name.startswith("by-m")]
-    assert names == [f"by-motion limit={limit:g}" for limit in simpler_scenes.FITTED["by-motion"][1]]
-    scenes = [simpler_scenes.with_memory(case2, "by-motion", level=limit) for limit in (0.05, 0.01)]
+    scenes = [needs.with_memory(case2, "by-motion", level=limit) for limit in (0.05, 0.01)]
     few, more = (scene.compile().memory_states for scene in scenes)
     assert few < more
-    assert simpler_scenes.full_memory_name(scenes[1], "by-motion limit=0.01") == f"by-motion:{more}"
     built = cases.case2(memory="by-motion")
-    changed = simpler_scenes.with_memory(case2, "by-motion")
+    changed = needs.with_memory(case2, "by-motion")
     ship = built.vessels["vessel"]
     mooring = {name: getattr(ship, name) for name in ("mooring_stiffness", "mooring_damping")}
     changed.replace("vessel", kind="vessel", **mooring)
@@ -119,28 +109,9 @@ def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None
     assert case2.provenance["vessel"].memory == "per-pair"
 
 
-def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -> None:
-    scene = cases.case2(hs=0.0)
-    for name, drive in list(scene.actuators.items()):
-        start = curve_of("start", drive.feed_forward.evaluate([0.0])[0, 0])
-        scene.replace(name, kind="actuator", feed_forward=start, reference=curve_of("start", 0.0))
-    quantities = quantities_of(scene, scene.compile(), None)
-    run = sc.simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
-    truth = {name: quantity.values(run) for name, quantity in quantities.items()}
-    case = Case(scene=scene, t_end=5.0, dt_out=0.1)
-    bench = trade_study.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
-    method = sc.Method(integrator="dop853", rtol=1e-9)
-    row = Row(case={"memory": "none", "rung": simpler_scenes.WEIGHT}, method=method)
-    done = trade_study.measure(bench, row, lambda: simpler_scenes.payload_as_weight(scene))
-    assert done.stable, done.message
-    assert done.error("payload_position") < 1e-6 and done.error("hook_load") < 1.0
-    assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
-
-
 def row_of(method: sc.Method, cost: float, **errors: float) -> Row:
     measures = {name: ErrorMeasures(largest=value, rms=value, std=value) for name, value in errors.items()}
-    case = {"memory": "none", "waves": "none", "rung": "full"}
-    return Row(case=case, method=method, verdict="completed", errors=measures, cpu_s=cost, wall_s=cost)
+    return Row(case={}, method=method, verdict="completed", errors=measures, cpu_s=cost, wall_s=cost)
 
 
 def test_all_default_quantities_are_held_and_error_control_is_preferred_where_costs_are_alike() -> None:
@@ -158,17 +129,17 @@ def test_all_default_quantities_are_held_and_error_control_is_preferred_where_co
         rows=rows,
         quantities=quantities_of(cases.case2(), cases.case2().compile(), list(names)),
         reference=Reference(values=moved, uncertainty=dict.fromkeys(names, 1e-9)),
-        metadata={"memory": "none", "waves": "none", "default quantities": 1},
+        metadata={"default quantities": 1},
     )
     assert found.cheapest(payload_position=0.01).integrator == "tsit5"
     assert found.cheapest(others=1e-4, payload_position=0.01).integrator == "dop853"
 
 
 def test_a_budget_ends_a_trade(monkeypatch: Any) -> None:
-    def counted(bench: object, row: Row, *given: object) -> Row:
-        return replace(row, verdict="completed", cpu_s=1.0, wall_s=1.0)
+    def counted(bench: object, method: sc.Method, *given: object) -> Row:
+        return Row(case={}, method=method, verdict="completed", cpu_s=1.0, wall_s=1.0)
 
-    monkeypatch.setattr(trade_study, "measure", counted)
+    monkeypatch.setattr(trade_study.Bench, "measure", counted)
     monkeypatch.setattr(trade_study, "_price", lambda case, quantities: (1.0, 1.0))
     found = sc.trade(pendulum(), t_end=1.0, budget=3.0, progress=False)
     assert len(found.rows) == 3 and found.not_measured > 0
@@ -190,51 +161,3 @@ def test_a_lift_in_stages_is_judged_by_the_extremes_of_its_stages() -> None:
         for extreme in (np.min, np.max):
             worst = max(worst, float(np.linalg.norm(extreme(own, axis=0) - extreme(true, axis=0))))
     assert row.error("position") == pytest.approx(worst, rel=1e-6)
-
-
-def hung(rung: str) -> Scene:
-    """2 t that swing on 8 m of stiff line below an arm that is not at the origin."""
-    scene = Scene(name="pendulum")
-    scene.add_body(name="arm", mass=5e3, inertia=(50, 50, 50), position=(1, 2, 3), quaternion=(0, 0, 0, 1))
-    scene.add_joint(kind="prismatic", name="guide", first="ground", second="arm", point=(1, 2, 3))
-    scene.add_actuator(joint="guide", stiffness=1e6, damping=5e4)
-    place = np.array([1.0, 2.0, 3.0]) + 8.0 * np.array([np.sin(0.3), 0.0, -np.cos(0.3)]) + (0.5, 0, 0)
-    scene.add_body(name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=place)
-    length, ends = 8.0 / (1.0 + 2e3 * G * np.cos(0.3) / 1e10), [(-0.5, 0, 0), (0, 0, 0)]
-    scene.add_line("hoist", bodies=["arm", "load"], points=ends, EA=1e10, length=length, rung=rung)
-    return scene
-
-
-def test_the_rungs_that_a_scene_does_not_have_are_tried() -> None:
-    kept = (RIGID_LINES, LINE_RUNGS[2])
-    for rung, others in (("elastic", LINE_RUNGS[:2]), ("auto", LINE_RUNGS[:2]), ("quasi-static", kept)):
-        made = {name: build() for name, build in line_variants(hung(rung))}
-        assert tuple(made) == others
-        assert not made[RIGID_LINES].loads.keys() & {"hoist"}
-        assert made[RIGID_LINES].joints["hoist"].length == pytest.approx(8.0, rel=1e-12)
-        assert f"lines {made[others[1]].loads['hoist'].rung}" == others[1]
-    assert not list(line_variants(Scene(name="without")))
-    runs = [simulate(one, 2.0, dt_out=0.1) for one in (hung("elastic"), with_rigid_lines(hung("elastic")))]
-    assert_allclose(runs[0]["position"], runs[1]["position"], atol=2e-3)  # a rigid link as the stiff line
-
-
-def test_each_rung_is_a_line_with_its_cost_and_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Spending, "spend", a_run_each)
-    found = trade(hung("elastic"), t_end=2.0, progress=False)
-    rows = {name: [row for row in found.rows if row.case["rung"] == name] for name in LINE_RUNGS}
-    assert [len(rows[name]) for name in LINE_RUNGS] == [2, 2, 0]
-    elastic = min(row.evaluations for row in found.rows if row.stable and row.case["rung"] == "full")
-    for name in LINE_RUNGS[:2]:
-        assert all(row.stable for row in rows[name])
-        assert rows[name][-1].error("position") < 2e-3
-        assert rows[name][0].evaluations < elastic
-
-
-def test_what_has_no_rigid_rung_is_a_row_with_its_reason() -> None:
-    with pytest.raises(SceneError, match="'hoist': runs over 4 points"):
-        with_rigid_lines(reeved())
-    scene = hung("elastic")
-    scene.add_winch(line="hoist", lag=0.2)
-    found = trade(scene, t_end=0.5, progress=False)
-    (row, _) = [row for row in found.rows if row.case["rung"] == RIGID_LINES]
-    assert row.verdict == "refused" and "its length changes" in row.message

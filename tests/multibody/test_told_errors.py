@@ -93,10 +93,10 @@ def test_it_is_the_difference_of_two_runs(memory: str, nearness: float) -> None:
     run, truth = simulate(scene, **options), simulate(by_convolution(scene), **options)
     apart = np.abs(run["vessel_motion"] - truth["vessel_motion"]).reshape(-1, 6).max(axis=0)
     found = model_error(scene, body="vessel", times=run.time)
-    np.testing.assert_allclose(found.largest, apart, rtol=nearness, atol=3e-6)
-    assert found.largest[2] / apart[2] == pytest.approx(1.0, abs=0.1)
-    np.testing.assert_allclose(found.error[0], 0.0, atol=1e-12)
-    assert np.abs(found.motion).max() > 50.0 * found.largest[2]
+    largest = np.abs(found).max(axis=0)
+    np.testing.assert_allclose(largest, apart, rtol=nearness, atol=3e-6)
+    assert largest[2] / apart[2] == pytest.approx(1.0, abs=0.1)
+    np.testing.assert_allclose(found[0], 0.0, atol=1e-12)
 
 
 def test_a_run_to_an_accuracy_tells_it_beside_its_own_error() -> None:
@@ -106,7 +106,7 @@ def test_a_run_to_an_accuracy_tells_it_beside_its_own_error() -> None:
     with pytest.warns(ModelErrorWarning, match="roll of 1e-06 was asked.*by-motion"):
         result = simulate(scene, accuracy={"roll": 1e-6}, **options)
     assert result.stats["error_estimate_roll"] <= 1e-6
-    expected = model_error(scene, body="vessel", times=result.time).largest[3]
+    expected = np.abs(model_error(scene, body="vessel", times=result.time)[:, 3]).max()
     wide = simulate(scene, accuracy={"roll": 1e-3}, **options)
     for told in (result, wide):
         assert told.stats["model_error_roll"] == pytest.approx(expected, rel=0.02)
@@ -127,5 +127,4 @@ def test_a_database_given_to_the_matrices_is_as_good_as_their_own_and_what_has_n
         with pytest.raises(SceneError, match=words):
             model_error(one, **given)
     bare.replace("vessel", kind="vessel", database=shipped_database())
-    expected = model_error(scene, **given).largest
-    np.testing.assert_array_equal(model_error(bare, **given).largest, expected)
+    np.testing.assert_array_equal(model_error(bare, **given), model_error(scene, **given))

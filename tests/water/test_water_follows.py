@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +14,24 @@ from line_scenes import add_led
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from seacrane import Curve, Lift, Result, Scene, SceneError, _core, motion_rao, response_statistics, simulate
+from seacrane import (
+    Curve,
+    Lift,
+    Result,
+    Scene,
+    SceneError,
+    _core,
+    ensemble,
+    motion_rao,
+    response_statistics,
+    simulate,
+)
+from seacrane.accuracy.simpler_scenes import CASES, DESCRIBED, SHARES, SLOW, scattered
 from seacrane.analysis import drag_in_sea, equilibrium, linear_model, natural_modes, response_summed
 from seacrane.analysis.drag_in_sea import drag_in_components, mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.answers import statics, summary
-from seacrane.ensembles import coefficient_scatter
-from seacrane.ensembles.coefficient_scatter import SHARES
+from seacrane.description.wet_parts import immersed_parts
 from seacrane.run import Stage, Until
 from seacrane.sea import Current, jonswap
 from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
@@ -348,17 +360,22 @@ def least_pull(added: float, drag: float) -> float:
 
 
 def test_each_coefficient_is_varied_by_its_share_as_by_hand() -> None:
+    cases = [DESCRIBED, *CASES]
     with ThreadPoolExecutor(2) as pool:
-        found = coefficient_scatter(heaved(1.0, 1.0), keep=LEAST, t_end=22.0, dt_out=0.05, executor=pool)
-    less, more = 1.0 - SHARES["box"]["added_mass"], 1.0 + SHARES["box"]["added_mass"]
+        found = ensemble(
+            partial(scattered, heaved(1.0, 1.0)), over={"case": cases}, keep=LEAST, t_end=22.0, dt_out=0.05,
+            executor=pool,
+        ).dataset.least  # fmt: skip
+    less, heavy = 1.0 - SHARES["box"]["added_mass"], 1.0 + SHARES["box"]["added_mass"]
     few, much = 1.0 - SHARES["box"]["drag"], 1.0 + SHARES["box"]["drag"]
-    by_hand = [least_pull(*one) for one in ((1, 1), (less, 1), (more, 1), (1, few), (1, much))]
-    assert [row["least"] for row in found.values.values()] == pytest.approx(by_hand, rel=0.03)
-    changes = found.changes("least")
-    assert changes["more added mass"] == pytest.approx(by_hand[2] - by_hand[0], rel=0.05)
-    shares = {"box": {"added_mass": 0.1}, "sphere": {"drag": 0.1}}
-    own = coefficient_scatter(heaved(1.0, 1.0), keep=LEAST, shares=shares, t_end=13.0)
-    assert own.shares == {"box": {"added_mass": 0.1, "drag": SHARES["box"]["drag"]}}
+    by_hand = [least_pull(*one) for one in ((1, 1), (less, 1), (heavy, 1), (1, few), (1, much))]
+    assert found.to_numpy() == pytest.approx(by_hand, rel=0.03)
+    assert float(found[2] - found[0]) == pytest.approx(by_hand[2] - by_hand[0], rel=0.05)
+    described = heaved(1.0, 1.0)
+    more = scattered(described, "more added mass", shares={"box": {"added_mass": 0.1}})
+    (own,) = immersed_parts(more).values()
+    (part,) = immersed_parts(described).values()
+    assert own.added_masses == pytest.approx(1.1 * np.asarray(part.added_masses))
 
 
 def test_a_hemisphere_that_heaves_slowly_has_the_added_mass_of_hulme() -> None:
@@ -376,6 +393,8 @@ def test_a_hemisphere_that_heaves_slowly_has_the_added_mass_of_hulme() -> None:
     scene, mass = Scene(name="buoy", gravity=G), RHO * np.pi / 12.0 * 8.0
     scene.add_body("buoy", mass=mass, inertia=(mass,) * 3, position=(0.0, 0.0, 0.05))
     scene.add_immersed("buoy", parts=[SpherePart(diameter=2.0, drag=0.0)], density=RHO)
-    found = coefficient_scatter(scene, keep={"quarter": crossing}, t_end=2.0, dt_out=0.002, rtol=1e-8)
-    ratio = found.values["added mass at zero frequency"]["quarter"] / found.values["as described"]["quarter"]
+    fast_one, slow_one = (
+        crossing(simulate(scattered(scene, case), 2.0, dt_out=0.002, rtol=1e-8)) for case in (DESCRIBED, SLOW)
+    )
+    ratio = slow_one / fast_one
     assert ratio == pytest.approx(np.sqrt(1.831 / 1.5), rel=0.02)

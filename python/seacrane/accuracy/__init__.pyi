@@ -5,4 +5,3 @@ from seacrane.accuracy.trade_answer import Trade as Trade
 from seacrane.accuracy.step_error import step_error as step_error
 from seacrane.accuracy.step_error import StepError as StepError
 from seacrane.accuracy.model_error import model_error as model_error
-from seacrane.accuracy.model_error import ModelError as ModelError

@@ -104,20 +104,18 @@ class Asked:
         if not self.staged and EVENT_TIMES not in self.limits:
             named = self.quantities.items()
             return Difference(by_name={n: compare(q.values(one), q.values(other)).largest for n, q in named})
-        matching = matched(one, other)
-        apart = {
-            name: matching.shift if name == EVENT_TIMES else self._apart(quantity, one, other, matching)
-            for name, quantity in self.quantities.items()
-        }
+        matching, apart = matched(one, other), {}
+        for name, quantity in self.quantities.items():
+            values, others = quantity.values(one), quantity.values(other)
+            if name == EVENT_TIMES:
+                apart[name] = matching.shift
+            elif quantity.of_numbers is not None or not self.staged:
+                apart[name] = compare(values, others).largest
+            elif matching.course:
+                apart[name] = extremes_apart(values, others)
+            else:
+                apart[name] = curve_apart(one.time, values, other.time, others, matching)
         return Difference(by_name=apart, course=matching.course)
-
-    def _apart(self, quantity: Quantity, one: Result, other: Result, matching: Matching) -> float:
-        values, others = quantity.values(one), quantity.values(other)
-        if quantity.of_numbers is not None or not self.staged:
-            return compare(values, others).largest
-        if matching.course:
-            return extremes_apart(values, others)
-        return curve_apart(one.time, values, other.time, others, matching)
 
     def motions(self, result: Result) -> dict[str, float]:
         """Largest distance of each quantity from its start."""

@@ -52,14 +52,6 @@ class Case:
         """The compiled scene; one serves all runs."""
         return self.scene.compile() if self.compiled is None else self.compiled
 
-    def outputs(self, channels: Iterable[str] | None) -> Outputs:
-        """At the times of the case, those of the channels that the scene has; None: its default ones."""
-        if channels is None:
-            return Outputs(dt_out=self.dt_out)
-        wanted = list(dict.fromkeys(channels))
-        known = set(offered_channels(self.model)) - missing_names(self.scene, wanted).keys()
-        return Outputs(dt_out=self.dt_out, channels=[name for name in wanted if name in known])
-
     def begun(self, method: Method | None, outputs: Outputs) -> Run | StagedRun:
         """What remains to be carried out."""
         if self.stages is not None:
@@ -113,7 +105,11 @@ def timed(
     limit_s : Processor time granted to each, s, so that what else the machine does decides nothing. Of a lift
         in stages it is looked at between them.
     """
-    outputs = case.outputs(channels)
+    if channels is not None:
+        wanted = list(dict.fromkeys(channels))
+        known = set(offered_channels(case.model)) - missing_names(case.scene, wanted).keys()
+        channels = [name for name in wanted if name in known]
+    outputs = Outputs(dt_out=case.dt_out, channels=channels)
     wall = cpu = np.inf
     for _ in range(repeats):
         run = case.begun(method, outputs)

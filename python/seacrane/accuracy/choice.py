@@ -90,16 +90,9 @@ def run_to_accuracy(
 
 
 def error_of(case: Asked, method: Method) -> tuple[dict[str, float], int, int]:
-    """Estimated errors of a run by a method that `run_to_accuracy` chose for another scene.
+    """Estimated errors of a run by a method that `run_to_accuracy` chose for another scene, by quantity.
 
-    By quantity with a limit, in its unit; then evaluations of the run, and of the cheap one that tells it.
-
-    Raises
-    ------
-    SceneError
-        As of `run_to_accuracy`.
-    KeyboardInterrupt
-        Where Ctrl-C stopped a run.
+    Then evaluations of the run, and of the cheap one that tells it. Raises SceneError as `run_to_accuracy`.
     """
     done = [_beside(case, method), _run(case, method)]
     if any(one.result.interrupted for one in done):
@@ -251,7 +244,10 @@ def _with_estimate(case: Asked, done: Sequence[Done], told: _Estimate) -> Result
     last, errors = done[-1], told.errors
     runs = [one.result for one in done]
     if last.result.stats.get("rank_changed"):
-        other = _other_formulation(case, last)
+        # The same run in the other coordinates: at a singular position both leave combinations of rows out,
+        # of rows of their own, and what that does to the motion no tolerance changes.
+        form = "redundant" if last.result.stats["formulation"] == "recursive" else "recursive"
+        other = case.run(replace(last.method, formulation=form))
         if other.interrupted:
             return other
         apart = case.difference(last.result, other).by_name
@@ -300,13 +296,6 @@ def _by_model(case: Asked, result: Result) -> dict[str, float]:
 
 def _added(errors: Mapping[str, float], more: Mapping[str, float], factor: float) -> dict[str, float]:
     return {name: error + factor * more[name] for name, error in errors.items()}
-
-
-def _other_formulation(case: Asked, done: Done) -> Result:
-    """The same run in the other coordinates: at a singular position both leave combinations of rows out, of
-    rows of their own, and what that does to the motion no tolerance changes."""
-    other = "redundant" if done.result.stats["formulation"] == "recursive" else "recursive"
-    return case.run(replace(done.method, formulation=other))
 
 
 def _table_may_show(case: Asked, waves: Waves, result: Result) -> bool:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.accuracy.case import Case, OutOfTime, Timed, timed
+from seacrane.accuracy.case import Case, OutOfTime, timed
 from seacrane.accuracy.methods import TIGHT
 from seacrane.accuracy.quantities import Quantity, channels_of, compare, motion_of
 from seacrane.accuracy.row import COMPLETED, NOT_FINITE, REFUSED, SLOW, STOPPED, UNKNOWN, Row
@@ -21,7 +21,6 @@ from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
 
 Array = NDArray[np.float64]
-Values = Callable[[Result], Mapping[str, Array]]
 CHECKS = ("constraint_error", "constraint_error_before_projection", "energy_balance", "absolute_work",
           "quaternion", "velocity", "angular_velocity")  # fmt: skip
 COUNTED = ("steps", "rejected_steps", "evaluations", "dense_solves")
@@ -87,76 +86,39 @@ def measured(
     truth: Reference,
     row: Row,
     *,
-    values: Values | None = None,
     repeats: int = 1,
     long_s: float = np.inf,
     limit_s: float | None = None,
 ) -> Row:
-    """The row filled in; what stops or refuses the run is its verdict.
-
-    Repeats and bounds of time are those of `timed`. Values of a result are, without a function for them, what
-    the quantities make of it, where they can.
-    """
+    """The row filled in; what stops or refuses the run is its verdict. Bounds are those of `timed`."""
     row = replace(row, uncertainty=truth.uncertainty, motion=truth.motion)
     channels = [*channels_of(quantities), *CHECKS]
     try:
         done = timed(case, method, channels, repeats=repeats, long_s=long_s, limit_s=limit_s)
-        row = _with_cost(row, done)
+        counted: dict[str, Any] = {name: int(done.stats[name]) for name in COUNTED}
+        row = replace(
+            row, stepped=str(done.stats["formulation"]), simulated_s=float(done.stats["simulated_s"]),
+            wall_s=done.wall_s, cpu_s=done.cpu_s, **counted,
+        )  # fmt: skip
         result = done.result()
         for name, array in result.channels.items():
             if not np.isfinite(array).all():
                 return row.ended(NOT_FINITE, f"{name} is not finite")
-        found = (values or values_by(quantities))(result)
+        found = {name: quantity.values(result) for name, quantity in quantities.items()}
     except OutOfTime as stopped:
         return row.ended(SLOW, stopped)
     except SimulationError as stopped:
         return row.ended(STOPPED, stopped)
     except ValueError as refusal:  # a SceneError, or that of a function of arrays
         return row.ended(REFUSED, refusal)
-    return with_errors(_with_checks(row, case.scene, result), found, truth, quantities)
-
-
-def values_by(quantities: Mapping[str, Quantity]) -> Values:
-    """Values of the quantities that a result has; one with less physics may lack some."""
-
-    def values(result: Result) -> dict[str, Array]:
-        found = {}
-        for name, quantity in quantities.items():
-            try:
-                found[name] = quantity.values(result)
-            except (KeyError, ValueError):
-                continue
-        return found
-
-    return values
-
-
-def _with_cost(row: Row, done: Timed) -> Row:
-    stats = done.stats
-    counted: dict[str, Any] = {name: int(stats[name]) for name in COUNTED}
+    errors = {name: compare(truth.values[name], v) for name, v in found.items() if name in truth.values}
+    own = {name: motion_of(v) for name, v in found.items() if name not in truth.motion}
+    largest = {name: float(result.channels[name].max()) for name in CHECKS[:2] if name in result.channels}
     return replace(
-        row, stepped=str(stats["formulation"]), simulated_s=float(stats["simulated_s"]), wall_s=done.wall_s,
-        cpu_s=done.cpu_s, **counted,
-    )  # fmt: skip
-
-
-def _with_checks(row: Row, scene: Scene, result: Result) -> Row:
-    def largest(channel: str) -> float:
-        return float(result.channels[channel].max()) if channel in result.channels else UNKNOWN
-
-    drift, left = largest("constraint_error_before_projection"), largest("constraint_error")
-    return replace(row, drift=drift, left=left, energy=energy_error(scene, result))
-
-
-def with_errors(
-    row: Row, values: Mapping[str, Array], truth: Reference, quantities: Mapping[str, Quantity]
-) -> Row:
-    """The row of a run that reached its end, with errors of the values that it gives."""
-    errors = {name: compare(truth.values[name], v) for name, v in values.items() if name in truth.values}
-    own = {name: motion_of(v) for name, v in values.items() if name not in truth.motion}
-    left_out = [name for name in quantities if name not in errors and name in truth.values]
-    message = f"has no {', '.join(left_out)}" if left_out else ""
-    return replace(row, errors=errors, motion={**truth.motion, **own}).ended(COMPLETED, message)
+        row, errors=errors, motion={**truth.motion, **own},
+        drift=largest.get("constraint_error_before_projection", UNKNOWN),
+        left=largest.get("constraint_error", UNKNOWN), energy=energy_error(case.scene, result),
+    ).ended(COMPLETED, "")  # fmt: skip
 
 
 def energy_error(scene: Scene, result: Result) -> float:

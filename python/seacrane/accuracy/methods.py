@@ -24,10 +24,6 @@ TIGHT = (
 )
 """The reference and its check, which differ in equations and in method, so that their difference is its
 error; the last two stand in for what does not run."""
-PHYSICS = Method(formulation="auto", integrator="dop853", rtol=1e-8)
-"""How the physics rungs are run: an error far below what leaving physics out brings."""
-LINES = tuple(Method(integrator="dopri5", rtol=tolerance) for tolerance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6))
-"""How the rungs of lines are run: they differ in cost more than in error, so that each is a line."""
 FORMULATIONS = ("recursive", "redundant")
 SCOUTS = (
     ("dopri5", 1e-6), ("tsit5", 1e-2), ("verner76", 1e-3), ("dopri5", 1e-3), ("verner65", 1e-5),

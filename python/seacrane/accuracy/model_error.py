@@ -24,7 +24,6 @@ from seacrane.description.given import given_vessels
 from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
 from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
-from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
 from seacrane.warnings import ModelErrorWarning
@@ -39,43 +38,17 @@ GREGORY = np.array([3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0])  # weights of the first 
 LONGEST = 3600.0  # s of a run whose error is carried step by step
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ModelError:
-    """Error that a fitted memory leaves in the motion of a point, to first order.
-
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        s.
-    error : ndarray, shape (n, 6)
-        By the database's own retardation functions less by the fit: translation (m) and rotation vector
-        (rad), inertial axes.
-    motion : ndarray, shape (n, 6)
-        The same of the motion itself, which starts at rest.
-    """
-
-    time: Array
-    error: Array
-    motion: Array
-
-    __repr__ = brief
-
-    @property
-    def largest(self) -> Array:
-        """Largest error (6,) over the times."""
-        return np.asarray(np.abs(self.error).max(axis=0))
-
-
 def model_error(
     scene: Scene,
     *,
     body: str,
     point: ArrayLike = (0.0, 0.0, 0.0),
     times: ArrayLike,
-) -> ModelError:
+) -> Array:
     """Error that the fitted fluid memory leaves in the motion of a point of any body, in the scene's waves.
 
-    What the coefficients of a load in water are worth, `seacrane.ensembles.coefficient_scatter` shows.
+    To first order, by the database's own retardation functions less by the fit. What coefficients of a load
+    in water are worth, `seacrane.required` tells.
 
     Parameters
     ----------
@@ -86,6 +59,11 @@ def model_error(
     times : array_like, shape (n,)
         s, increasing, over no more than an hour.
 
+    Returns
+    -------
+    ndarray, shape (n, 6)
+        Translation (m) and rotation vector (rad), inertial axes.
+
     Raises
     ------
     SceneError
@@ -93,8 +71,7 @@ def model_error(
         or as `linear_model`.
     """
     carried = _carried(scene, np.asarray(times, dtype=float))
-    output = carried.linear.output(body=body, point=point)
-    return ModelError(time=carried.time, error=carried.error @ output.T, motion=carried.motion @ output.T)
+    return np.asarray(carried.error @ carried.linear.output(body=body, point=point).T)
 
 
 def model_errors(scene: Scene, times: Array, limits: Mapping[str, float]) -> dict[str, float]:
@@ -127,12 +104,10 @@ def model_errors(scene: Scene, times: Array, limits: Mapping[str, float]) -> dic
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Carried:
-    """Errors (n, k) of the states of a linear model over time, and the states themselves."""
+    """Errors (n, k) of the states of a linear model over time."""
 
     linear: LinearModel
-    time: Array
     error: Array
-    motion: Array
 
 
 @one_thread
@@ -155,19 +130,14 @@ def _carried(scene: Scene, times: Array) -> _Carried:
     load = _misfit(linear, element, known, functions, states)
     at = (times - times[0]) / functions.step
     error = _driven(linear, load, functions.step)
-    return _Carried(linear=linear, time=times, error=_sampled(error, at), motion=_sampled(states, at))
+    low = np.minimum(at.astype(int), len(error) - 2)  # straight lines join the even times
+    share = (at - low)[:, None]
+    return _Carried(linear=linear, error=(1.0 - share) * error[low] + share * error[low + 1])
 
 
 @lru_cache(maxsize=4)
 def _functions(database: HydroDatabase) -> RetardationModel:
     return retardation_functions(database=database)
-
-
-def _sampled(values: Array, at: Array) -> Array:
-    """Values (m, k) between their even times, straight lines joining them."""
-    low = np.minimum(at.astype(int), len(values) - 2)
-    share = (at - low)[:, None]
-    return np.asarray((1.0 - share) * values[low] + share * values[low + 1])
 
 
 def _from_rest(linear: LinearModel, summed: SummedResponse, times: Array) -> Array:

@@ -133,7 +133,8 @@ class RowFile:
         if path is None:
             return
         head = json.dumps({**experiment, "columns": [part.name for part in fields(Row)]}, sort_keys=True)
-        lines = _lines(path) if path.is_file() else []
+        text = read_whole(path, LARGEST_FILE, "remove it") if path.is_file() else b""
+        lines = text.decode("utf-8", "replace").splitlines()
         if lines and lines[0] == head:
             for line in lines[1:]:
                 try:
@@ -151,10 +152,6 @@ class RowFile:
         if self.path is not None:
             with self.path.open("a", encoding="utf-8") as file:
                 file.write(_line(key, row) + "\n")
-
-
-def _lines(path: Path) -> list[str]:
-    return read_whole(path, LARGEST_FILE, "remove it").decode("utf-8", "replace").splitlines()
 
 
 def _line(key: str, row: Row) -> str:

@@ -1,45 +1,50 @@
-"""Scenes with less physics: another fluid memory, fewer waves, lines on another rung, a locked crane, a
-prescribed vessel."""
+"""Changed scenes: another fluid memory, fewer waves, a locked crane, other coefficients in water."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Mapping
 from dataclasses import replace
-from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any, cast
+from functools import lru_cache
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.inverse import SIX, driven, hold_vessel
-from seacrane.description.crane_parts import hooks
-from seacrane.description.curves import spline_curve
-from seacrane.description.given import given_vessels
-from seacrane.description.loads import bodies_of, lines_of, path_of
-from seacrane.description.places import place_of
+from seacrane.analysis.inverse import driven
+from seacrane.description.loads import changed
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, with_rungs
-from seacrane.description.waves import HullLoads, calm_water
+from seacrane.description.waves import HullLoads
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, fit_memory
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
     from seacrane.hydro.data.memory_model import MemoryModel
 
-Array = NDArray[np.float64]
-Build = Callable[[], Scene]
-FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
-    "full", "crane locked", "vessel prescribed", "payload as weight", "frequency domain",
-)  # fmt: skip
-RIGID_LINES = "lines rigid"
-LINE_RUNGS = (RIGID_LINES, f"lines {QUASI_STATIC}", f"lines {ELASTIC}")
-SHARES = (0.5, 0.25)  # of the wave components, the strongest
+FEWER = (0.5, 0.25)  # of the wave components, the strongest
 BOUND = 1e-4  # of a coarse wave table
-FITTED = {  # what fits of a kind are asked for, each level for more states, and what a vessel's own has
-    "by-motion": ("limit", (0.05, 0.02, 0.01), 0.01),
-    "per-pair": ("r2", (0.9, 0.95, 0.99, 0.999), 0.99),
+FITTED = {"by-motion": "limit", "per-pair": "r2"}  # what the level of a fit is
+SPAN = "line"
+# Shares by which coefficients of a shape are uncertain: usual for lifts, and unverified.
+SHARES: Mapping[str, Mapping[str, float]] = MappingProxyType(
+    {
+        "box": {"added_mass": 0.3, "drag": 0.5},
+        "cylinder": {"added_mass": 0.2, "drag": 0.3},
+        "sphere": {"added_mass": 0.2, "drag": 0.5},
+        "table": {"added_mass": 0.3, "drag": 0.5},
+        SPAN: {"added_mass": 0.2, "drag": 0.3},
+    }
+)
+DESCRIBED, SLOW = "as described", "added mass at zero frequency"
+CASES = {
+    "less added mass": ("added_mass", -1.0),
+    "more added mass": ("added_mass", 1.0),
+    "less drag": ("drag", -1.0),
+    "more drag": ("drag", 1.0),
 }
 
 
@@ -48,76 +53,6 @@ def memory_name(scene: Scene) -> str:
     known = [scene.provenance.get(name, VesselProvenance()).memory for name in scene.vessels]
     kinds = [kind or "as described" for kind in known]
     return ", ".join(dict.fromkeys(kinds)) or "none"
-
-
-def waves_name(scene: Scene) -> str:
-    """How a scene evaluates its waves."""
-    if scene.waves is None:
-        return "none"
-    return scene.waves.evaluation
-
-
-def full_case(scene: Scene) -> dict[str, str]:
-    """What tells rows of the scene as it is from others."""
-    return {"memory": memory_name(scene), "waves": waves_name(scene), "rung": FULL}
-
-
-def variants(scene: Scene, *, quick: bool) -> Iterator[tuple[dict[str, str], Build]]:
-    """Scenes with one thing changed, by what tells their rows from others, each made when it is measured."""
-    for what, made in (
-        ("memory", _memory_variants(scene, quick=quick)),
-        ("waves", _wave_variants(scene, quick=quick)),
-        ("rung", line_variants(scene)),
-        ("rung", _coupling_variants(scene)),
-    ):
-        for name, build in made:
-            yield {**full_case(scene), what: name}, build
-
-
-def _coupling_variants(scene: Scene) -> Iterator[tuple[str, Build]]:
-    """Of crane, payload and vessel; motion and linear model of the full scene are found by a row itself."""
-    if scene.actuators:
-        yield LOCKED, partial(locked, scene)
-        if len(scene.vessels) == 1 and not given_vessels(scene):
-            yield PRESCRIBED, lambda: scene
-    if hanging(scene):
-        yield WEIGHT, partial(payload_as_weight, scene)
-    if scene.waves is not None and scene.vessels and not given_vessels(scene):
-        yield LINEAR, lambda: scene
-
-
-def _memory_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Build]]:
-    """None, convolution, and fits of each kind at several R2 or limits; `quick`: none alone."""
-    memory = memory_name(scene)
-    if len(scene.vessels) != 1 or given_vessels(scene):
-        return
-    database = _database(scene)
-    for kind in ("none", "convolution"):
-        if kind == memory or (kind != "none" and (quick or database is None)):
-            continue
-        yield kind, partial(with_memory, scene, kind)
-    if quick or database is None:  # a fit costs more than many runs
-        return
-    for kind, (asked, levels, usual) in FITTED.items():
-        for level in levels:
-            if kind != memory or level != usual:
-                yield f"{kind} {asked}={level:g}", partial(with_memory, scene, kind, level=level)
-
-
-def full_memory_name(scene: Scene, name: str) -> str:
-    """A fitted memory's name with its number of states for its R2 or limit: "per-pair:36"."""
-    kind, _, level = name.partition(" ")
-    if "=" not in level:
-        return name
-    (vessel,) = scene.vessels.values()
-    blocks = cast("list[_core.StateSpaceBlock]", vessel.memory)
-    return f"{kind}:{sum(block.a.shape[0] for block in blocks)}"
-
-
-def _database(scene: Scene) -> HydroDatabase | None:
-    """The database of the one vessel, where that is from one."""
-    (vessel,) = scene.vessels.values()
-    return vessel.database if isinstance(vessel.database, HydroDatabase) else None
 
 
 def with_memory(scene: Scene, kind: str, *, level: float | None = None, vessel: str | None = None) -> Scene:
@@ -145,24 +80,8 @@ def with_memory(scene: Scene, kind: str, *, level: float | None = None, vessel: 
 
 @lru_cache(maxsize=16)
 def _fit(database: HydroDatabase, kind: str, level: float) -> MemoryModel:
-    asked: dict[str, Any] = {FITTED[kind][0]: level}
+    asked: dict[str, Any] = {FITTED[kind]: level}
     return fit_memory(database=database, kind=kind, **asked)
-
-
-def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Build]]:
-    waves = scene.waves
-    if waves is None:
-        return
-    if waves.has_tables():
-        if waves_name(scene) != "exact":
-            yield "exact", partial(scene.copy, waves=replace(waves, evaluation="exact"))
-        if not quick:
-            coarse = replace(waves, evaluation="table", relative_bound=BOUND)
-            yield f"table bound {BOUND:g}", partial(scene.copy, waves=coarse)
-    for share in SHARES if waves.hulls else ():
-        count = int(np.ceil(share * len(waves.omega)))
-        fewer = partial(scene.copy, waves=strongest(waves, count))
-        yield f"{count} of {len(waves.omega)} components", fewer
 
 
 def strongest(waves: Any, count: int) -> Any:
@@ -194,40 +113,6 @@ def _of_components(hull: HullLoads, kept: NDArray[np.intp]) -> HullLoads:
     return replace(hull, transfer=np.asarray(hull.transfer)[kept], drift=drift, **tables)
 
 
-def line_variants(scene: Scene) -> Iterator[tuple[str, Build]]:
-    """The rungs that the lines of a scene do not have already, each with what makes the scene."""
-    lines = lines_of(scene.loads)
-    own = {ELASTIC if line.rung == AUTO else line.rung for line in lines.values()}
-    if not lines:
-        return
-    yield RIGID_LINES, partial(with_rigid_lines, scene)
-    for rung, title in ((QUASI_STATIC, LINE_RUNGS[1]), (ELASTIC, LINE_RUNGS[2])):
-        if own != {rung}:
-            yield title, partial(with_rungs, scene, dict.fromkeys(lines, rung))
-
-
-def with_rigid_lines(scene: Scene) -> Scene:
-    """Every line replaced by a link as long as its path is described, which also pushes.
-
-    Raises SceneError for a line over more than two points, or whose length changes.
-    """
-    out = scene.copy()
-    for name, line in lines_of(scene.loads).items():
-        if len(line.bodies) > 2:
-            raise SceneError(f"line {name!r}: runs over {len(line.bodies)} points, and a rigid link over two")
-        pieces = np.asarray(line.length.to_pieces()["coefficients"])
-        if line.winch or pieces.reshape(-1, 6)[:, 1:].any() or len(pieces) > 1:
-            raise SceneError(f"line {name!r}: its length changes, and that of a rigid link does not")
-        (first, start), (second, end) = path_of(line)
-        out.remove(name)
-        out.add_joint(
-            kind="distance", name=name, first=first, second=second,
-            point=place_of(scene, body=first, point=start),
-            second_point=place_of(scene, body=second, point=end),
-        )  # fmt: skip
-    return out
-
-
 def locked(scene: Scene) -> Scene:
     """Every actuated coordinate held at its described value."""
     held = {
@@ -237,47 +122,76 @@ def locked(scene: Scene) -> Scene:
     return driven(scene, references=held)
 
 
-def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
-    """The vessel's six motions (n, 6) prescribed; nothing acts back on it.
+def shapes_in(scene: Scene) -> list[str]:
+    """Of what is in water, each once."""
+    found = (_shape(load) for load in scene.loads.values())
+    return list(dict.fromkeys(shape for shape in found if shape))
 
-    Raises SceneError for a scene of several vessels.
+
+def _shape(load: Any) -> str:
+    if isinstance(load, _core.ImmersedPart):
+        return "cylinder" if load.shape == "disc" else str(load.shape)  # its ends
+    return SPAN if isinstance(load, _core.ImmersedSpan) else ""
+
+
+def scattered(scene: Scene, case: str, *, shares: Mapping[str, Mapping[str, float]] | None = None) -> Scene:
+    """The scene with more or less added mass or drag of all parts and lines in water.
+
+    Parameters
+    ----------
+    case : str
+        "less added mass", "more added mass", "less drag" or "more drag"; "as described"; or "added mass at
+        zero frequency" of parts that know it (spheres, meshes), as far as it is not above that of an
+        unbounded fluid: what a load has that rides slow waves at the surface.
+    shares : mapping of str to mapping of str to float, optional
+        By how much, by shape ("box", "cylinder", "sphere", "table", "line"; plates are boxes):
+        ``{"box": {"added_mass": 0.2, "drag": 0.3}}`` in place of the defaults, which are 20 to 30 % of added
+        mass and 30 to 50 % of drag, unverified.
+
+    Raises
+    ------
+    SceneError
+        For another case, a scene with nothing in water, or shares that are none.
     """
-    if len(scene.vessels) != 1:
-        raise SceneError(f"scene {scene.name!r}: has {len(scene.vessels)} vessels; one is prescribed")
-    (vessel,) = scene.vessels.values()
-    out = scene.copy(waves=calm_water(scene.waves))
-    out.replace(vessel.name, kind="vessel", memory=[])
-    curves = {name: spline_curve(times=times, values=motion[:, i]) for i, name in enumerate(SIX)}
-    hold_vessel(out, vessel.body, curves)
+    if case not in (known := (DESCRIBED, SLOW, *CASES)):
+        raise SceneError(f"scattered: case is {shown(case)}; choose from {', '.join(known)}")
+    if not shapes_in(scene):
+        raise SceneError(f"scene {scene.name!r}: has nothing in water; add_immersed parts first")
+    used, out = _shares(shares), scene.copy()
+    for name, load in scene.loads.items():
+        if not (shape := _shape(load)):
+            continue
+        if case in CASES:
+            coefficient, sign = CASES[case]
+            out.loads[name] = _times(load, coefficient, 1.0 + sign * used[shape][coefficient])
+        elif case == SLOW and shape != SPAN and len(load.slow_added_masses):
+            masses = np.asarray(load.slow_added_masses)  # slam asks for what never falls with depth
+            out.loads[name] = changed(load, added_masses=np.minimum.accumulate(masses[::-1])[::-1])
     return out
 
 
-def hanging(scene: Scene) -> bool:
-    """Whether there are payloads, and each hangs on its crane's link and on nothing else."""
-    links = list(hooks(scene).values())
-    return bool(links) and all(_hangs(scene, link) for link in links)
-
-
-def _hangs(scene: Scene, link: str) -> bool:
-    payload = scene.joints[link].second
-    others = [joint for name, joint in scene.joints.items() if name != link]
-    return not (
-        any(payload in (joint.first, joint.second) for joint in others)
-        or any(payload in bodies_of(load, scene.joints) for load in scene.all_loads())
-    )
-
-
-def payload_as_weight(scene: Scene) -> Scene:
-    """Every payload replaced by its constant weight at the tip: neither swing nor inertia."""
-    out = scene.copy()
-    for label, link in hooks(scene).items():
-        joint, payload = scene.joints[link], scene.bodies[scene.joints[link].second]
-        out.remove(link, kind="joint")
-        out.remove(payload.name, kind="body")
-        out.add_force(
-            joint.first,
-            name=f"{label.removesuffix('hook')}payload weight",
-            point=joint.first_frame.point,
-            force=(0.0, 0.0, -payload.mass * scene.gravity),
-        )
+def _shares(given: Any) -> dict[str, dict[str, float]]:
+    """The defaults with what is given in their place."""
+    out = {shape: dict(one) for shape, one in SHARES.items()}
+    for shape, one in ({} if given is None else given).items():
+        if shape not in out or not set(one) <= set(out[shape]):
+            raise SceneError(
+                f"shares: {shown(shape)} has {shown(one)}; give 'added_mass' and 'drag' of {', '.join(out)}"
+            )
+        for name, value in one.items():
+            if not 0.0 <= number_of(f"shares: {shape}: {name}", value) <= 1.0:
+                raise SceneError(f"shares: {shape}: {name} is {value:g}; give a share from 0 to 1")
+        out[shape] |= one
     return out
+
+
+def _times(load: Any, coefficient: str, factor: float) -> Any:
+    """A part or a span with one of its coefficients times a factor."""
+    if isinstance(load, _core.ImmersedPart):
+        name = {"added_mass": "added_masses", "drag": "drag"}[coefficient]
+        return changed(load, **{name: factor * np.asarray(getattr(load, name))})
+    names = {
+        "added_mass": ("added_mass_coefficient",),
+        "drag": ("drag_coefficient", "drag_coefficient_along"),
+    }[coefficient]
+    return changed(load, **{name: factor * getattr(load, name) for name in names})

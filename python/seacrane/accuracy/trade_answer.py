@@ -5,14 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from seacrane._core import integrators
-from seacrane.accuracy import simpler_scenes
 from seacrane.accuracy.measured import Reference
 from seacrane.accuracy.quantities import Quantity, limits_of
 from seacrane.accuracy.row import Row, front
@@ -35,7 +33,7 @@ ORDER = next(one.order for one in integrators() if one.name == DEFAULT_INTEGRATO
 ALIKE = 1.15  # times the least cost, which is no more than that
 MARKERS = "ovs^Dp*hXP"
 OTHER = "0.72"  # the grey of methods that some other beats everywhere
-HEIGHT, WIDTHS = 4.0, (7.5, 6.0)  # inches: of a row; of methods, of less physics
+HEIGHT, WIDTH = 4.0, 7.5  # inches, of a panel
 ROOM = 3.0  # times the largest cost: room for names on the right
 COSTS = {
     "wall_s": "wall time per simulated second [ms]",
@@ -50,7 +48,7 @@ class Trade(Answer):
     Attributes
     ----------
     rows : tuple of Row
-        Numerical settings on the full scene first, then the scene with less physics.
+        One for each setting.
     quantities : mapping of str to Quantity
         What errors are measured in; the first one decides on `pareto`.
     reference : Reference
@@ -78,7 +76,6 @@ class Trade(Answer):
         columns: dict[str, list[Any]] = {
             "formulation": [row.formulation for row in rows],
             **{key: [getattr(row.method, key) for row in rows] for key in asked},
-            **{name: [row.case[name] for row in rows] for name in self.full_case},
             **{name: [getattr(row, name) for row in rows] for name in MEASURED},
             "wall_per_simulated_s": [row.wall_s / row.simulated_s for row in rows],
             "reason": [row.message for row in rows],
@@ -110,7 +107,7 @@ class Trade(Answer):
         return sorted(kept, key=lambda row: row.cpu_s)
 
     def cheapest(self, *, others: float | None = OTHERS, **accuracy: float) -> Method:
-        """The method of the cheapest run of the full scene whose largest errors stay within the limits.
+        """The method of the cheapest run whose largest errors stay within the limits.
 
         Of settings that cost about the same, one that controls its error is taken before a fixed step, and
         then the most accurate.
@@ -139,7 +136,7 @@ class Trade(Answer):
         limits = {**self._of_others(others), **limits}
         passing = [
             row
-            for row in self._of_full_scene()
+            for row in self.rows
             if row.stable and all(row.error(name) <= limit for name, limit in limits.items())
         ]
         if not passing:
@@ -149,24 +146,20 @@ class Trade(Answer):
             )
         least = min(row.cpu_s for row in passing)
         alike = [row for row in passing if row.cpu_s <= ALIKE * least]
-        best = min(alike, key=lambda row: (row.method.dt is not None, self._worst(row, limits)))
+
+        def worst(row: Row) -> float:
+            return max(row.error(name) / limit if limit > 0.0 else 0.0 for name, limit in limits.items())
+
+        best = min(alike, key=lambda row: (row.method.dt is not None, worst(row)))
         return replace(best.method, formulation=best.formulation)
 
     def _of_others(self, share: float | None) -> dict[str, float]:
         """The largest errors of the default quantities."""
-        if share is None or not self.default_quantities:
+        if share is None or not self.metadata["default quantities"]:
             return {}
         share = positive_of("cheapest: others", share)
         motion, known = self.reference.motion, self.reference.uncertainty
         return {name: max(share * motion[name], known[name]) for name in self.quantities}
-
-    def _worst(self, row: Row, limits: Mapping[str, float]) -> float:
-        return max(row.error(name) / limit if limit > 0.0 else 0.0 for name, limit in limits.items())
-
-    @property
-    def default_quantities(self) -> bool:
-        """Whether the quantities are those that the scene has, and nobody named them."""
-        return bool(self.metadata["default quantities"])
 
     def _check_reach(self, name: str, limit: float) -> None:
         unit, known = self.quantities[name].unit, self.reference.uncertainty[name]
@@ -175,7 +168,7 @@ class Trade(Answer):
                 f"accuracy: {name} of {limit:g} {unit} cannot be reached: the limit is {known:.3g} {unit}, "
                 "set by rounding: by that much the tight reference runs differ among themselves"
             )
-        rows = [row for row in self._of_full_scene() if row.stable]
+        rows = [row for row in self.rows if row.stable]
         best = min(rows, key=lambda row: row.error(name), default=None)
         if best is None or best.error(name) > limit:
             least = "none"
@@ -188,14 +181,6 @@ class Trade(Answer):
                 "finer tolerances"
             )
 
-    def _of_full_scene(self) -> list[Row]:
-        return [row for row in self.rows if dict(row.case) == self.full_case]
-
-    @property
-    def full_case(self) -> dict[str, str]:
-        """What rows of the full scene have as their `case`: memory, waves, rung."""
-        return {name: self.metadata[name] for name in ("memory", "waves")} | {"rung": simpler_scenes.FULL}
-
     def __repr__(self) -> str:
         stable = sum(row.stable for row in self.rows)
         return (
@@ -206,7 +191,7 @@ class Trade(Answer):
     @property
     def default(self) -> str:
         """What the default setting costs and errs by, and what half of each error costs."""
-        rows = [row for row in self._of_full_scene() if row.stable]
+        rows = [row for row in self.rows if row.stable]
         row = next((row for row in rows if row.method.integrator == DEFAULT_INTEGRATOR and row.method.rtol
                     == DEFAULT_TOLERANCE), None)  # fmt: skip
         if row is None:
@@ -244,7 +229,6 @@ class Trade(Answer):
             Column(head="formulation", values=[row.formulation for row in best]),
             Column(head="integrator", values=[row.method.integrator for row in best]),
             Column(head="setting", values=[row.method.setting for row in best]),
-            *(Column(head=name, values=[row.case[name] for row in best]) for name in self.full_case),
         ]
         cost = Column(head="CPU [ms]", values=[1e3 * row.cpu_s for row in best], form=".3g")
         errors = [
@@ -255,11 +239,10 @@ class Trade(Answer):
         return Table(axes=[first], columns=[*texts, cost, *errors], title=title, remarks=said)
 
     def plot(self, *, over: str = "cpu_s") -> Figure:
-        """Work-precision diagrams: error of each quantity over cost, and what less physics loses.
+        """Work-precision diagrams: error of each quantity over cost.
 
         A line for each integrator, through those of its settings that none of its own beats; in colour where
-        it is on the Pareto front of some quantity. Dashed lines are rungs of elastic lines, the grey band is
-        the reference's uncertainty. On the right are errors of a scene with other physics, with their cost.
+        it is on the Pareto front of some quantity. The grey band is the reference's uncertainty.
 
         Parameters
         ----------
@@ -289,37 +272,25 @@ def _ms(row: Row) -> str:
 
 def _work_precision(trade: Trade, over: str) -> Figure:
     """The panels of `Trade.plot`."""
-    rows = [row for row in trade.rows if getattr(row, over) > 0]
-    full, joined, alone = _sorted_out(rows, trade.full_case)
+    rows = [row for row in trade.rows if row.stable and getattr(row, over) > 0]
     measured, known = trade.quantities, trade.reference.uncertainty
-    fronts = {name: _own_front(full, name, over) for name in measured}
-    best = dict.fromkeys(row.method.integrator for rows in fronts.values() for row in rows)
+    fronts = {name: _own_front(rows, name, over) for name in measured}
+    best = dict.fromkeys(row.method.integrator for on in fronts.values() for row in on)
     looks = {name: (f"C{n % 10}", MARKERS[n % len(MARKERS)]) for n, name in enumerate(best)}
-    columns = 2 if alone else 1
-    figure = new_figure(figsize=(sum(WIDTHS[:columns]), HEIGHT * len(measured) + 1.0), layout="constrained")
-    panels = figure.subplots(len(measured), columns, squeeze=False, width_ratios=WIDTHS[:columns])
+    figure = new_figure(figsize=(WIDTH, HEIGHT * len(measured) + 1.0), layout="constrained")
+    panels = figure.subplots(len(measured), squeeze=False)[:, 0]
     for axes, name in zip(panels, measured, strict=True):
-        _draw_methods(axes[0], full, name, looks, over)
-        for (label, rung), marker in zip(joined.items(), cycle(MARKERS)):  # each a dashed line
-            points = _points(rung, name, over)
-            axes[0].loglog(
-                *points, "--", color="black", marker=marker, markersize=5, linewidth=1.5, label=label
-            )
-        axes[0].step(
+        _draw_methods(axes, rows, name, looks, over)
+        axes.step(
             *_points(fronts[name], name, over), where="post", color="black", linewidth=5.0, alpha=0.15,
             label="Pareto front", solid_capstyle="butt",
         )  # fmt: skip
-        axes[0].axhspan(0.0, known[name], color="0.9")
-        error = f"largest error [{measured[name].unit}]"
-        axes[0].set_ylabel(error)
-        if alone:
-            _draw_physics(axes[1], alone, name, over)
-            axes[1].set_xlabel(error)
-        for panel in axes:
-            panel.grid(alpha=0.3)
+        axes.axhspan(0.0, known[name], color="0.9")
+        axes.set_ylabel(f"largest error [{measured[name].unit}]")
+        axes.grid(alpha=0.3)
     handles = {
         label: handle
-        for axes in panels[:, 0]
+        for axes in panels
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
         if handle.get_color() != OTHER
     }
@@ -327,25 +298,6 @@ def _work_precision(trade: Trade, over: str) -> Figure:
     about = trade.metadata
     figure.suptitle(f"{about['scene']}: {about['t_end']:g} s, errors at outputs every {about['dt_out']:g} s")
     return figure
-
-
-def _sorted_out(
-    rows: Sequence[Row], full: Mapping[str, str]
-) -> tuple[list[Row], dict[str, list[Row]], dict[str, Row]]:
-    """Rows of the full scene; those of other physics by what they change: several settings, or one."""
-    changed: dict[str, list[Row]] = {}
-    for row in rows:
-        if row.stable:
-            changed.setdefault(_changed(row, full), []).append(row)
-    plain_rows = changed.pop("", [])
-    joined = {label: rows for label, rows in changed.items() if len(rows) > 1}
-    return plain_rows, joined, {label: rows[0] for label, rows in changed.items() if len(rows) == 1}
-
-
-def _changed(row: Row, full: Mapping[str, str]) -> str:
-    """What a row has that the full scene has not."""
-    changed = [name for name in full if row.case[name] != full[name]]
-    return ", ".join(f"{n} {row.case[n]}" if n in ("memory", "waves") else str(row.case[n]) for n in changed)
 
 
 def _own_front(rows: Sequence[Row], quantity: str, over: str) -> list[Row]:
@@ -379,19 +331,6 @@ def _draw_methods(
                 fontsize=7, color="0.35", va="center",
             )  # fmt: skip
     axes.set_xlabel(COSTS[over])
-    axes.set_title(plain(quantity.replace("_", " ")) + ": methods", fontsize=10)
+    axes.set_title(plain(quantity.replace("_", " ")), fontsize=10)
     axes.xaxis.set_major_formatter("{x:g}")
     axes.set_xlim(right=ROOM * axes.get_xlim()[1])
-
-
-def _draw_physics(axes: Axes, rows: Mapping[str, Row], quantity: str, over: str) -> None:
-    """Less physics, one line of text for each, the largest error on top."""
-    known = {label: row for label, row in rows.items() if row.error(quantity) > 0.0}
-    order = sorted(known, key=lambda label: known[label].error(quantity))
-    axes.semilogx([known[label].error(quantity) for label in order], range(len(order)), "kx")
-    axes.set_yticks(range(len(order)), [_with_cost(label, known[label], over) for label in order], fontsize=7)
-    axes.set_title("less physics; in brackets the cost [ms]", fontsize=10)
-
-
-def _with_cost(label: str, row: Row, over: str) -> str:
-    return plain(f"{label} ({_cost(row, over):.2g})")

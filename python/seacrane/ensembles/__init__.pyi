@@ -4,8 +4,6 @@ from seacrane.ensembles.ensemble import ensemble as ensemble
 from seacrane.ensembles.ensemble import Ensemble as Ensemble
 from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.members import LatinHypercube as LatinHypercube
-from seacrane.ensembles.coefficient_scatter import coefficient_scatter as coefficient_scatter
-from seacrane.ensembles.coefficient_scatter import CoefficientScatter as CoefficientScatter
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy
 from seacrane.ensembles.targets import Certainty as Certainty
 from seacrane.ensembles.linear_control import LinearControl as LinearControl

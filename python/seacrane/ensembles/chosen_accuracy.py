@@ -13,7 +13,6 @@ import numpy as np
 from seacrane.accuracy.asked import asked
 from seacrane.accuracy.case import Case
 from seacrane.accuracy.choice import error_of, run_to_accuracy
-from seacrane.accuracy.expected import expected_error
 from seacrane.ensembles.job import Prepared
 from seacrane.ensembles.members import Members, Value
 from seacrane.ensembles.study import Study
@@ -89,11 +88,6 @@ def probed(
     number = min(max(count // A_PROBE_FOR, 1), MOST_PROBES)
     places = [int((2 * place + 1) * count / (2 * number)) for place in range(number)]
     return _each(_probe, study, members, accuracy, places, executor)
-
-
-def tightest(probes: Mapping[int, Probe]) -> Method:
-    """The method with the smallest expected error."""
-    return min((probe.method for probe in probes.values()), key=expected_error)
 
 
 def checked(

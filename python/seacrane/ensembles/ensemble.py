@@ -14,19 +14,19 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
+from seacrane.accuracy.expected import expected_error
 from seacrane.analysis.rest_state import equilibrium
-from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
+from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed
 from seacrane.ensembles.dataset import NOT_RUN, RESERVED, dataset_of
-from seacrane.ensembles.filling import SIDE_BY_SIDE, lanes_for, progress_bar, remark, run_packs
-from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
+from seacrane.ensembles.filling import SIDE_BY_SIDE, Progress, lanes_for, remark, run_packs
+from seacrane.ensembles.growing import BATCH, grow, growth_of, members_in
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
-from seacrane.ensembles.members import MOST_MEMBERS, Members, Over, Value, members_of
+from seacrane.ensembles.members import Members, Over, Value, members_of
 from seacrane.ensembles.store import Folder, Store, order_of, pack_size, packs_of, stored
 from seacrane.ensembles.study import (
     START_TIME,
     Asked,
-    Keep,
     Source,
     Stages,
     Start,
@@ -37,7 +37,7 @@ from seacrane.ensembles.study import (
 )
 from seacrane.ensembles.study_folder import claimed, identity_of, study_in
 from seacrane.ensembles.targets import Certainty, targets_of, with_static_parts
-from seacrane.errors import FileFormatError, SceneError
+from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import not_negative_of, number_of
 from seacrane.inputs.keywords import named
@@ -146,12 +146,8 @@ class Ensemble:
         """What a store holds so far. Raises FileFormatError for a folder that is none, or damaged."""
         path = Path(folder)
         data = study_in(path)
-        if data.get("seeds_in_pack"):
-            growth = growth_in(path, data)
-            members = growth.members(max(growth.batches_in(Folder(path)), 1))
-        else:
-            members = members_in(path, data)
-        return _ensemble(members, stored(Folder(path), members), lanes_in(data))
+        members, lanes = members_in(path, data), data.get("identity", {}).get("lanes", 1)
+        return _ensemble(members, stored(Folder(path), members), lanes if isinstance(lanes, int) else 1)
 
 
 @named
@@ -289,7 +285,9 @@ def ensemble(
             what.require_times(study.t_end, recorded.dt_out)
     if isinstance(source, Scene):
         require_channels(source, study.outputs.channels or ())
-    _require_free_names(members, wanted)
+    for name in members.axes:
+        if name in wanted or name in RESERVED:
+            raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
     study.require_names(list(members.axes))
     size = pack_size(pack, len(members), study.lanes, together=len(starts))
     raises = on_error == "raise"
@@ -297,7 +295,8 @@ def ensemble(
     if accuracy is not None:
         refuse_what_is_chosen(method, shorthand, ())
         probes = probed(study, members, accuracy, executor)
-        study = replace(study, method=tightest(probes))
+        tightest = min((probe.method for probe in probes.values()), key=expected_error)
+        study = replace(study, method=tightest)
     if targets:
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)
@@ -310,8 +309,9 @@ def ensemble(
     else:
         with _store(store, study, members, size, grows=False) as kept:
             packs = packs_of(order_of(study, members), size)
-            with progress_bar(len(members), progress, lanes=study.lanes, names=members.axes) as bar:
-                run_packs(kept, Job(study), members, packs, executor, bar, raises=raises)
+            progressed = Progress(len(members), progress, study.lanes)
+            with progressed.bar:
+                run_packs(kept, Job(study), members, packs, executor, progressed, raises=raises)
             done = _ensemble(members, stored(kept, members), study.lanes)
         _warn_of_failures(done)
     if accuracy is None:
@@ -351,14 +351,8 @@ def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble
     told = dataset.failure.to_numpy().ravel()
     failures = {index: str(text) for index, text in enumerate(told) if text and text != NOT_RUN}
     apart = dataset.kept_apart.to_numpy().ravel()[told == ""]
-    dataset.attrs[SIDE_BY_SIDE] = remark(lanes, Counter(map(str, apart)), members.axes)
+    dataset.attrs[SIDE_BY_SIDE] = remark(lanes, Counter(map(str, apart)))
     return Ensemble(members=members, dataset=dataset, failures=failures)
-
-
-def _require_free_names(members: Members, keep: Keep) -> None:
-    for name in members.axes:
-        if name in keep or name in RESERVED:
-            raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
 
 
 def _start_times(over: Over, stages: Stages) -> tuple[tuple[float, ...], Members]:
@@ -402,50 +396,3 @@ def _store(
     data = {"identity": identity, "grid": members.grid, "axes": dict(members.axes)}
     with claimed(path, data | ({"seeds_in_pack": size} if grows else {})) as folder:
         yield Folder(folder)
-
-
-def lanes_in(data: Mapping[str, Any]) -> int:
-    """The lanes of a study."""
-    lanes = data.get("identity", {}).get("lanes", 1)
-    return lanes if isinstance(lanes, int) else 1
-
-
-def members_in(folder: Path, data: Mapping[str, Any]) -> Members:
-    """The members of a study without `until`. Raises FileFormatError for what is no study of ours."""
-    members = Members(axes=_axes(folder, data), grid=bool(data.get("grid")))
-    lengths = {len(values) for values in members.axes.values()}
-    if (not members.grid and len(lengths) > 1) or len(members) > MOST_MEMBERS:
-        raise FileFormatError(f"{folder}: its study has lists of unlike lengths, or too many members")
-    return members
-
-
-def growth_in(folder: Path, data: Mapping[str, Any]) -> Growth:
-    """That of a study with `until`, by the members of its first batch. Raises FileFormatError."""
-    axes, size = _axes(folder, data), data["seeds_in_pack"]
-    seeds = axes.get("seed", ())
-    others = {name: values for name, values in axes.items() if name != "seed"}
-    sound = len(seeds) == BATCH and all(type(one) is int for one in seeds)
-    if not sound or type(size) is not int or not 1 <= size <= BATCH:
-        raise FileFormatError(f"{folder}: its study grows by {BATCH} seeds, and tells others")
-    growth = Growth(first=int(seeds[0]), batches=1, others=others, size=size)
-    if growth.cells * BATCH > MOST_MEMBERS:
-        raise FileFormatError(f"{folder}: its study has too many members")
-    return growth
-
-
-def _axes(folder: Path, data: Mapping[str, Any]) -> dict[str, tuple[Any, ...]]:
-    axes = data.get("axes")
-    sound = isinstance(axes, dict) and axes and all(map(_is_axis, axes.items()))
-    if not isinstance(axes, dict) or not sound:
-        raise FileFormatError(f"{folder}: its study names no parameters with values")
-    return {name: tuple(values) for name, values in axes.items()}
-
-
-def _is_axis(axis: tuple[str, Any]) -> bool:
-    name, values = axis
-    return (
-        name not in RESERVED
-        and isinstance(values, list)
-        and bool(values)
-        and all(isinstance(value, bool | int | float | str) for value in values)
-    )

@@ -5,17 +5,16 @@ from __future__ import annotations
 import contextlib
 import re
 from collections import Counter
-from collections.abc import Collection, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from importlib import import_module
 from itertools import islice
-from typing import Any
 
 from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.members import Members
 from seacrane.ensembles.other_sea import WORDS
 from seacrane.ensembles.store import Store, kept_packs
-from seacrane.ensembles.study import START_TIME
 from seacrane.errors import SceneError, SimulationError, WorkerVersionError
 from seacrane.run.lanes import lanes_of
 from seacrane.version import __version__
@@ -59,43 +58,28 @@ def _require_success(outcomes: Iterable[Outcome], members: Members) -> None:
 
 
 class Progress:
-    """A bar with the time left, where one is wanted; else nothing that looks like it."""
+    """A bar over members with the time left, and how they are stepped; hidden where none is wanted."""
 
-    def __init__(self, bar: Any, lanes: int, names: Collection[str]) -> None:
-        self._bar, self._lanes, self._names = bar, lanes, names
-        self._told = Counter[str]()
+    def __init__(self, total: int, wanted: bool, lanes: int) -> None:
+        kind = import_module("tqdm.auto" if wanted else "tqdm")  # a notebook's bar may warn of its widgets
+        self.bar = kind.tqdm(total=total, unit="member", desc="ensemble", disable=not wanted)
+        self._lanes, self._told = lanes, Counter[str]()
 
     def skip(self, count: int) -> None:
         """So many members were done before, which tells nothing of the time left."""
-        if self._bar is not None:
-            self._bar.initial += count
-            self._bar.update(count)
+        self.bar.update(count)
+        self.bar.initial = self.bar.n
 
     def add(self, outcomes: Sequence[Outcome]) -> None:
         """Members more are done: in how many lanes, or why by themselves, the bar says of all until now."""
-        if self._bar is None:
-            return
         self._told.update(one.kept_apart for one in outcomes)
-        self._bar.set_postfix_str(remark(self._lanes, self._told, self._names), refresh=False)
-        self._bar.update(len(outcomes))
+        self.bar.set_postfix_str(remark(self._lanes, self._told), refresh=False)
+        self.bar.update(len(outcomes))
 
     def left(self, count: int) -> None:
         """So many members are still expected."""
-        if self._bar is not None:
-            self._bar.total = self._bar.n + count
-            self._bar.refresh()
-
-
-@contextlib.contextmanager
-def progress_bar(total: int, wanted: bool, *, lanes: int, names: Collection[str]) -> Iterator[Progress]:
-    """A bar over so many members, with a remark on how they are stepped."""
-    if not wanted:
-        yield Progress(None, lanes, names)
-        return
-    from tqdm.auto import tqdm
-
-    with tqdm(total=total, unit="member", desc="ensemble") as bar:
-        yield Progress(bar, lanes, names)
+        self.bar.total = self.bar.n + count
+        self.bar.refresh()
 
 
 def gathered(
@@ -103,10 +87,7 @@ def gathered(
 ) -> Generator[Gathered, None, None]:
     """The outcomes of packs by their number, as they come.
 
-    Raises
-    ------
-    SimulationError
-        After all others, where workers were lost with their packs.
+    Raises SimulationError after all others, where workers were lost with their packs.
     """
     if executor is None:
         for number, pack in packs:
@@ -191,25 +172,13 @@ def lanes_for(lanes: int | None, pack: int | None, members: Members, *, starts: 
     return asked if of_one_lift and not (isinstance(pack, int) and pack % asked) else 1
 
 
-def remark(lanes: int, told: Mapping[str, int], names: Collection[str]) -> str:
+def remark(lanes: int, told: Mapping[str, int]) -> str:
     """One line on how members are stepped, by how many were kept apart for each reason."""
-    count = sum(told.values())
     if lanes == 1:
-        return f"{count} one by one: {_why_one_by_one(names)}"
+        return f"{sum(told.values())} one by one"
     reasons = Counter[str]()
     for why, several in told.items():
         reasons[PARTLY.sub("in part, ", why)] += several
-    beside = reasons.pop("", 0)
-    if not reasons:
-        return f"{beside} in {lanes} lanes"
-    first = [f"{several} ({why})" for why, several in reasons.most_common(MOST_REASONS)]
-    more = ", ..." if len(reasons) > MOST_REASONS else ""
-    return f"{beside} in {lanes} lanes, by themselves {', '.join(first)}{more}"
-
-
-def _why_one_by_one(names: Collection[str]) -> str:
-    if START_TIME in names:
-        return "they begin at several times of one sea"
-    if not any(name in WORDS for name in names):
-        return "lanes is 1, as it is by default where no word of the sea varies"
-    return "lanes is 1"
+    words = [f"{reasons.pop('', 0)} in {lanes} lanes"]
+    words += [f"{several} by themselves: {why}" for why, several in reasons.most_common(MOST_REASONS)]
+    return "; ".join(words + ["..."] * (len(reasons) > MOST_REASONS))

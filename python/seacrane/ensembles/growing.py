@@ -10,14 +10,16 @@ import math
 from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
-from seacrane.ensembles.dataset import Outcome
-from seacrane.ensembles.filling import progress_bar, run_packs
+from seacrane.ensembles.dataset import RESERVED, Outcome
+from seacrane.ensembles.filling import Progress, run_packs
 from seacrane.ensembles.job import Job
-from seacrane.ensembles.members import Members, Value
-from seacrane.ensembles.store import Store
+from seacrane.ensembles.members import MOST_MEMBERS, Members, Value
+from seacrane.ensembles.store import Folder, Store
 from seacrane.ensembles.targets import Certainty, Target, certainty_of
-from seacrane.errors import SceneError
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.run.interrupts import interrupts_kept
 from seacrane.warnings import FailedSeedsWarning, FewSeedsWarning
@@ -111,23 +113,18 @@ def grow(
 ) -> tuple[Members, list[Outcome], tuple[Certainty, ...]]:
     """Add batches of seeds to every cell until its targets are reached, or there are no more.
 
-    Members of the seeds that were needed, their outcomes, and what they tell.
-
-    Warns
-    -----
-    FailedSeedsWarning
-        Where seeds failed.
-    FewSeedsWarning
-        Where the most seeds did not do.
+    Members of the seeds that were needed, their outcomes, and what they tell. Warns with FailedSeedsWarning
+    where seeds failed, with FewSeedsWarning where the most seeds did not do.
     """
     members = growth.members(growth.batches)
     cells: dict[int, list[Outcome]] = {cell: [] for cell in range(growth.cells)}
     known: dict[int, list[Certainty]] = {}
     going, batch, most = list(cells), 0, BATCH * growth.cells
-    with progress_bar(most, progress, lanes=job.study.lanes, names=members.axes) as bar:
+    progressed = Progress(most, progress, job.study.lanes)
+    with progressed.bar:
         while going and batch < growth.batches:
             packs = {n: own for cell in going for n, own in growth.packs(batch, cell).items()}
-            run_packs(store, job, members, packs, executor, bar, raises=raises)
+            run_packs(store, job, members, packs, executor, progressed, raises=raises)
             for cell in going:
                 with interrupts_kept():
                     cells[cell] += [one for number in growth.packs(batch, cell) for one in store[number]]
@@ -136,10 +133,17 @@ def grow(
                     ]
             batch += 1
             going = [cell for cell in going if not all(one.reached or one.futile for one in known[cell])]
-            bar.left(_expected(growth, batch, [known[cell] for cell in going]))
+            progressed.left(_expected(growth, batch, [known[cell] for cell in going]))
     certainty = tuple(one for cell in sorted(known) for one in known[cell])
     _warn_of_failed(certainty, [cells[cell] for cell in sorted(known) for _ in targets])
-    _warn_of_few(certainty, growth.batches * BATCH)
+    short = [one for one in certainty if not one.reached and not one.futile]
+    if short:
+        warn_caller(
+            f"{growth.batches * BATCH} seeds are the most that over allows, and {len(short)} of "
+            f"{len(certainty)} statistics are not known as narrowly as until asks: {short[0]}; give more "
+            "seeds, and the same store",
+            FewSeedsWarning,
+        )
     outcomes = sorted((one for several in cells.values() for one in several), key=lambda one: one.index)
     return growth.members(batch), outcomes, certainty
 
@@ -169,11 +173,38 @@ def _warn_of_failed(certainty: tuple[Certainty, ...], outcomes: list[list[Outcom
     )
 
 
-def _warn_of_few(certainty: tuple[Certainty, ...], most: int) -> None:
-    short = [one for one in certainty if not one.reached and not one.futile]
-    if short:
-        warn_caller(
-            f"{most} seeds are the most that over allows, and {len(short)} of {len(certainty)} statistics "
-            f"are not known as narrowly as until asks: {short[0]}; give more seeds, and the same store",
-            FewSeedsWarning,
+def members_in(folder: Path, data: Mapping[str, Any]) -> Members:
+    """The members of a store, of one that grows those that are there. Raises FileFormatError for no study."""
+    axes, grid, size = _axes(folder, data), bool(data.get("grid")), data.get("seeds_in_pack")
+    if size:
+        seeds = axes.get("seed", ())
+        if (
+            len(seeds) != BATCH
+            or any(type(one) is not int for one in seeds)
+            or size not in range(1, BATCH + 1)
+        ):
+            raise FileFormatError(f"{folder}: its study grows by {BATCH} seeds, and tells others")
+        others = {name: values for name, values in axes.items() if name != "seed"}
+        growth = Growth(first=int(seeds[0]), batches=1, others=others, size=size)
+        batches = max(growth.batches_in(Folder(folder)), 1) if growth.cells * BATCH <= MOST_MEMBERS else 1
+        members = growth.members(batches)
+    else:
+        members = Members(axes=axes, grid=grid)
+    unlike = not grid and len({len(values) for values in axes.values()}) > 1
+    if unlike or len(members) > MOST_MEMBERS:
+        raise FileFormatError(f"{folder}: its study has lists of unlike lengths, or too many members")
+    return members
+
+
+def _axes(folder: Path, data: Mapping[str, Any]) -> dict[str, tuple[Any, ...]]:
+    axes = data.get("axes")
+    if isinstance(axes, dict) and axes and not axes.keys() & {*RESERVED}:
+        plain = all(
+            isinstance(values, list)
+            and values
+            and all(isinstance(one, bool | int | float | str) for one in values)
+            for values in axes.values()
         )
+        if plain:
+            return {name: tuple(values) for name, values in axes.items()}
+    raise FileFormatError(f"{folder}: its study names no parameters with values")

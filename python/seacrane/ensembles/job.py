@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from collections import OrderedDict
+from collections import OrderedDict, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache, partial
@@ -14,7 +14,7 @@ from seacrane import _core
 from seacrane.description.given import given_vessels
 from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import WORDS, with_sea
+from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.study import START_TIME, Study, Values
 from seacrane.errors import SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
@@ -35,8 +35,7 @@ from seacrane.version import __version__
 TOGETHER = 4  # members of a pack whose runs are in memory at a time
 Some = TypeVar("Some")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
-MOST_HELD = 32  # scenes that differ in more than their sea
-MOST_CARRIED = 32  # runs that wait for a lift
+MOST_HELD = 32  # of each: scenes that differ in more than their sea, runs that wait for a lift
 
 
 def stepped(run: Run | StagedRun) -> Run | StagedRun:
@@ -83,23 +82,17 @@ class Carried:
                 f"{self._state.time:g} s; give later ones"
             )
         self._method, self._outputs = method, replace(outputs, channels=())
-        self._states: dict[float, _core.State] = {}
+        self._reached: dict[float, tuple[_core.State, tuple[Finding, ...]]] = {}
         self._found: list[Finding] = []
-        self._found_by: dict[float, tuple[Finding, ...]] = {}
         self._lock = Lock()
 
-    def at(self, time: float) -> _core.State:
-        """The state at one of the times."""
+    def at(self, time: float) -> tuple[_core.State, tuple[Finding, ...]]:
+        """The state at one of the times, and what was out of range until then, as a load through a deck."""
         with self._lock:
-            while time not in self._states:
-                self._states[self._left[0]] = self._next(self._left[0])
-                self._state = self._states[self._left.pop(0)]
-                self._found_by[self._state.time] = tuple(self._found)
-            return self._states[time]
-
-    def found(self, time: float) -> tuple[Finding, ...]:
-        """What was out of range until one of the times that were asked for, such as a load through a deck."""
-        return self._found_by[time]
+            while time not in self._reached:
+                self._state = self._next(self._left[0])
+                self._reached[self._left.pop(0)] = self._state, tuple(self._found)
+            return self._reached[time]
 
     def _next(self, time: float) -> _core.State:
         if time == self._state.time:
@@ -232,21 +225,25 @@ class Prepared:
 
     def __init__(self, study: Study) -> None:
         self._study = study
-        self._held: OrderedDict[tuple[Value, ...], Run] = OrderedDict()
-        self._alike: OrderedDict[str, AlikeStages] = OrderedDict()
-        self._carried: OrderedDict[str, Carried] = OrderedDict()
+        self._held: defaultdict[str, OrderedDict[str, Any]] = defaultdict(OrderedDict)
         self._lock = Lock()
 
     def run(self, values: Values) -> Run | StagedRun:
         """Run of the member with these values, at its start. Raises what describing or compiling raises."""
         study = self._study
-        if study.stages:
-            return self._in_stages(values)
-        sea, others = study.parts(values)
         source = study.source
+        sea, others = study.parts(values)
+        if study.stages:
+            scene, stages, start, before = self.lift(values)
+            same = isinstance(source, Scene) and not callable(study.stages) and not given_vessels(scene)
+            return StagedRun(
+                scene, stages, start=start, before=before, method=study.method, outputs=study.outputs,
+                alike=self._kept("stages alike", others, AlikeStages) if same else None,
+            )  # fmt: skip
         if not sea or study.start is not None or not isinstance(source, Scene) or given_vessels(source):
             return self._begun(study.scene(values))
-        first = self._first(others)
+        # The run of the scene's own sea, from which those of other seas are made, is not stepped.
+        first: Run = self._kept("first", others, lambda: self._begun(study.scene(others)))
         waves = with_sea(first.scene, sea).waves
         assert waves is not None
         return first.in_sea(waves)
@@ -259,55 +256,29 @@ class Prepared:
         start = study.start_of(scene)
         if START_TIME not in values:
             return scene, stages, start, ()
-        carrier, time = self._carrier(scene, stages, start, values), float(values[START_TIME])
-        return scene, stages, carrier.at(time), carrier.found(time)
-
-    def _in_stages(self, values: Values) -> StagedRun:
-        study = self._study
-        scene, stages, start, before = self.lift(values)
-        return StagedRun(
-            scene, stages, start=start, before=before, method=study.method, outputs=study.outputs,
-            alike=self._alike_with(scene, values),
-        )  # fmt: skip
-
-    def _alike_with(self, scene: Scene, values: Values) -> AlikeStages | None:
-        """What is known of the lift of a scene in other seas; None where stages may differ in more."""
-        study = self._study
-        if not isinstance(study.source, Scene) or callable(study.stages) or given_vessels(scene):
-            return None
-        key = repr([(name, value) for name, value in values.items() if name not in WORDS])
-        return self._kept(self._alike, key, MOST_HELD, AlikeStages)
-
-    def _carrier(
-        self, scene: Scene, stages: list[Stage], start: _core.State | None, values: Values
-    ) -> Carried:
-        """What carries the scene of these values from start to start."""
-        study = self._study
-        key = repr([(name, value) for name, value in values.items() if name != START_TIME])
-        return self._kept(
-            self._carried, key, MOST_CARRIED,
+        same = {name: value for name, value in values.items() if name != START_TIME}
+        carried: Carried = self._kept(
+            "carried", same,
             lambda: Carried(
                 scene, stages, start=start, times=study.start_times, method=study.method,
                 outputs=study.outputs,
             ),
         )  # fmt: skip
+        return scene, stages, *carried.at(float(values[START_TIME]))
 
     def _begun(self, scene: Scene) -> Run:
         study = self._study
         start = study.start_of(scene)
         return Run(scene, study.t_end, start=start, method=study.method, outputs=study.outputs)
 
-    def _first(self, others: Values) -> Run:
-        """The run of the scene's own sea that those of other seas are made from; it is not stepped."""
-        key = tuple(others.values())
-        return self._kept(self._held, key, MOST_HELD, lambda: self._begun(self._study.scene(others)))
-
-    def _kept(self, held: OrderedDict[Any, Some], key: Any, most: int, make: Callable[[], Some]) -> Some:
-        """What is held under a key, made where it is not; of too many the one of longest ago goes."""
+    def _kept(self, kind: str, values: Values, make: Callable[[], Any]) -> Any:
+        """What is held of these values, made where it is not; of too many the one of longest ago goes."""
+        key = repr(list(values.items()))
         with self._lock:
+            held = self._held[kind]
             if key not in held:
                 held[key] = make()
             held.move_to_end(key)
-            if len(held) > most:
+            if len(held) > MOST_HELD:
                 held.popitem(last=False)
             return held[key]

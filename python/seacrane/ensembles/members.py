@@ -15,7 +15,6 @@ from seacrane.inputs.shown import shown
 
 MOST_MEMBERS = 10**6
 Value = bool | int | float | str
-MOST_POINTS = 10**6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,8 +52,8 @@ class LatinHypercube:
         for what, value, least in (("count", self.count, 1), ("seed", self.seed, 0)):
             if not isinstance(value, int | np.integer) or isinstance(value, bool) or value < least:
                 raise SceneError(f"design: {what} is {shown(value)}; give a whole number from {least} on")
-        if self.count > MOST_POINTS:
-            raise SceneError(f"design: count is {self.count}, more than {MOST_POINTS}; take fewer members")
+        if self.count > MOST_MEMBERS:
+            raise SceneError(f"design: count is {self.count}, more than {MOST_MEMBERS}; take fewer members")
 
     def columns(self) -> dict[str, tuple[float, ...]]:
         """The values of every parameter by member."""

@@ -30,7 +30,7 @@ def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
     old = scene.waves
     out = scene.copy(waves=replace(_realised(scene, given), stretching=old.stretching))
     for body in old.hulls:
-        _put(out, body, old)
+        out.add_sea(**as_put(out, old, body), relative_bound=old.relative_bound, evaluation=old.evaluation)
     return out
 
 
@@ -98,11 +98,6 @@ def _settings(scene: Scene) -> dict[str, Any]:
         "seed": known.seed,
         "count": known.wave_components,
     }
-
-
-def _put(scene: Scene, body: str, old: Waves) -> None:
-    """Put a vessel into the sea of the scene as it was put into the old one."""
-    scene.add_sea(**as_put(scene, old, body), relative_bound=old.relative_bound, evaluation=old.evaluation)
 
 
 def sea_state_of(record: Mapping[str, Any], seed: Any) -> SeaState:

@@ -146,17 +146,12 @@ def _alike(outcomes: Iterable[Outcome]) -> list[list[Outcome]]:
         if one.failure:
             continue
         for group in groups:
-            if lie_alike(group[0].kept, one.kept):
+            if all(kept.lies_like(one.kept[name]) for name, kept in group[0].kept.items()):
                 group.append(one)
                 break
         else:
             groups.append([one])
     return groups
-
-
-def lie_alike(first: Mapping[str, Labelled], second: Mapping[str, Labelled]) -> bool:
-    """Whether two members kept arrays of the same dimensions and coordinates."""
-    return all(first[name].lies_like(second[name]) for name in first)
 
 
 def _write_group(group: Any, outcomes: list[Outcome]) -> None:
@@ -181,19 +176,12 @@ def _read_group(group: Any) -> dict[int, dict[str, Labelled]]:
     for name, inside in group.groups.items():
         variable = inside["values"]
         dims = tuple(variable.dimensions[1:])
-        coords = {
-            dim: _texts_or_numbers(inside[f"along_{dim}"][:])
-            for dim in dims
-            if f"along_{dim}" in inside.variables
-        }
+        along = {dim: inside[f"along_{dim}"][:] for dim in dims if f"along_{dim}" in inside.variables}
+        coords = {d: one.astype(str) if one.dtype == object else np.asarray(one) for d, one in along.items()}
         told = json_of(str(variable.told).encode(), name)
         for index, values in zip(indices, np.asarray(variable[:], dtype=float), strict=True):
             kept[index][name] = Labelled(values=values, dims=dims, coords=coords, attributes=told)
     return kept
-
-
-def _texts_or_numbers(values: Any) -> Any:
-    return values.astype(str) if values.dtype == object else np.asarray(values)
 
 
 def packs_of(order: Sequence[int], size: int) -> dict[int, Sequence[int]]:

@@ -94,7 +94,7 @@ class Study:
     def stages_of(self, scene: Scene, values: Values) -> list[Stage]:
         """A member's stages with their own values."""
         given = self.stages(scene) if callable(self.stages) else self.stages
-        return with_stage_values(given, values)
+        return [_changed(stage, values) for stage in given]
 
     def start_of(self, scene: Scene) -> _core.State | None:
         """Where the run of a scene begins; None: its assembled start."""
@@ -198,11 +198,6 @@ def stage_paths(stages: Stages) -> list[str]:
     if callable(stages):
         return [START_TIME]
     return [START_TIME] * bool(stages) + [path for stage in stages for path, _ in _places(stage)]
-
-
-def with_stage_values(stages: Sequence[Stage], values: Mapping[str, Any]) -> list[Stage]:
-    """The stages with those of the values that are theirs."""
-    return [_changed(stage, values) for stage in stages]
 
 
 def _places(stage: Stage) -> Iterator[tuple[str, Place]]:

@@ -18,7 +18,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members
-from seacrane.ensembles.study import Stages, Study
+from seacrane.ensembles.study import Study
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import atomic_write, is_draft, remove_all
 from seacrane.inputs.file_version import FILE_VERSION, require_file_version
@@ -38,19 +38,10 @@ LARGEST_STUDY = 256 * 2**20  # bytes; a million members of a few parameters
 
 @contextlib.contextmanager
 def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[Path]:
-    """The folder of a study, made where it is not there, for one writer at a time.
+    """The folder of a study, made where it is not there, for one writer at a time; its parent must exist.
 
-    Parameters
-    ----------
-    path : Its parent must exist.
-    study : Plain data: "identity", and what is needed to read the folder later.
-
-    Raises
-    ------
-    SceneError
-        If the folder holds another study, or something else.
-    FileExistsError
-        If another process writes it.
+    The study is plain data: "identity", and what is needed to read the folder later. SceneError if the folder
+    holds another one, or something else; FileExistsError if another process writes it.
     """
     folder = Path(path)
     if not folder.parent.is_dir():
@@ -62,7 +53,8 @@ def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[
         )
     if folder.exists() and not folder.is_dir():
         raise SceneError(f"store {str(folder)!r} is a file; give the name of a folder")
-    if not (folder / STUDY).exists() and _holds_files(folder):
+    others = (one for one in folder.rglob("*") if one.name != LOCK and not is_draft(one))
+    if not (folder / STUDY).exists() and any(not one.is_dir() for one in others):
         raise SceneError(f"store {str(folder)!r} holds something else than an ensemble; give another folder")
     folder.mkdir(exist_ok=True)
     lock = opened(folder / LOCK)
@@ -90,10 +82,6 @@ def study_in(folder: Path) -> dict[str, Any]:
     return data
 
 
-def _holds_files(folder: Path) -> bool:
-    return any(not one.is_dir() and one.name != LOCK and not is_draft(one) for one in folder.rglob("*"))
-
-
 def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
     """Write what the folder is, or refuse a folder of another study."""
     whole = {"format": FORMAT, "version": FILE_VERSION, **study}
@@ -118,7 +106,8 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
 
     The scenes of the first and the last member stand for what a function uses beyond its own text.
     """
-    source = study.source
+    source, given = study.source, study.stages
+    stages = _function(given) if callable(given) else _digest([_stage(one) for one in given])
     begun = {} if study.start is None else {"start": _told(_start, study, members)}
     return begun | {
         "version": __version__,
@@ -128,7 +117,7 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
         "members": len(members),
         "members in a pack": pack,
         "lanes": study.lanes,
-        **({"stages": _stages(study.stages)} if study.stages else {}),
+        **({"stages": stages} if study.stages else {}),
         "t_end": None if study.stages else study.t_end,
         "method": _text(asdict(study.method)),
         "outputs": _text(asdict(study.outputs)),
@@ -137,11 +126,6 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
             for name, what in study.keep.items()
         },
     }
-
-
-def _stages(stages: Stages) -> str:
-    """A text that is equal for stages that are the same."""
-    return _function(stages) if callable(stages) else _digest([_stage(one) for one in stages])
 
 
 def _stage(stage: Stage) -> list[Any]:

@@ -61,7 +61,9 @@ class Target:
         if values.size < FEWEST:
             middle = float(values.mean()) if values.size else float("nan")
             return Estimate(value=middle, low=-np.inf, high=np.inf)
-        found = _widened(self._extreme(values) if self.gumbel else mean_of(values))
+        found = self._extreme(values) if self.gumbel else mean_of(values)
+        more = (WIDENED - 1.0) * found.half_width
+        found = Estimate(value=found.value, low=found.low - more, high=found.high + more)
         if not failed:
             return found
         low, high = self._ranked(values, failed)
@@ -91,16 +93,9 @@ class Target:
 
     def _extreme(self, values: Array) -> Estimate:
         found: Estimate = getattr(gumbel_maximum_of(self.sign * values), self.number)
-        return found if self.sign > 0.0 else _mirrored(found)
-
-
-def _mirrored(found: Estimate) -> Estimate:
-    return Estimate(value=-found.value, low=-found.high, high=-found.low)
-
-
-def _widened(found: Estimate) -> Estimate:
-    more = (WIDENED - 1.0) * found.half_width
-    return Estimate(value=found.value, low=found.low - more, high=found.high + more)
+        if self.sign > 0.0:
+            return found
+        return Estimate(value=-found.value, low=-found.high, high=-found.low)
 
 
 def targets_of(until: Any, keep: Keep) -> tuple[Target, ...]:

@@ -12,3 +12,4 @@ from seacrane.needs.in_air import with_segments as with_segments
 from seacrane.accuracy.simpler_scenes import strongest as strongest
 from seacrane.accuracy.simpler_scenes import with_memory as with_memory
 from seacrane.accuracy.simpler_scenes import locked as locked
+from seacrane.accuracy.simpler_scenes import scattered as scattered

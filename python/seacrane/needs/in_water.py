@@ -10,14 +10,22 @@ from operator import methodcaller
 import numpy as np
 
 from seacrane import _core
-from seacrane.accuracy.simpler_scenes import BOUND, memory_name, strongest, with_memory
-from seacrane.accuracy.simpler_scenes import SHARES as SHARES_OF_WAVES
+from seacrane.accuracy.simpler_scenes import (
+    BOUND,
+    CASES,
+    FEWER,
+    SHARES,
+    memory_name,
+    scattered,
+    shapes_in,
+    strongest,
+    with_memory,
+)
 from seacrane.description.databases import source_of
 from seacrane.description.given import given_vessels
 from seacrane.description.loads import changed
 from seacrane.description.waves import Waves
 from seacrane.description.wet_parts import immersed_parts
-from seacrane.ensembles.coefficient_scatter import CASES, SHARES, scattered, shapes_in
 from seacrane.hydro import HydroDatabase
 from seacrane.needs.choice import Choice, by_calls, call
 from seacrane.scene.scene import Scene
@@ -32,7 +40,7 @@ def fewer_waves(scene: Scene) -> Iterator[Choice]:
     waves = scene.waves
     if waves is None or not (waves.hulls or immersed_parts(scene)):
         return
-    for share in SHARES_OF_WAVES:
+    for share in FEWER:
         count = int(np.ceil(share * len(waves.omega)))
         if count < len(waves.omega):
             yield Choice(
@@ -232,7 +240,7 @@ def scatter(scene: Scene) -> Iterator[Choice]:
         told = " to ".join(f"{100 * share:g}" for share in dict.fromkeys([shares[0], shares[-1]]))
         yield Choice(
             name=f"{case} in water, by {told} %",
-            script="seacrane.ensembles.coefficient_scatter(scene, ...)",
-            made=partial(scattered, shares=SHARES, case=case),
+            script=f'scene = needs.scattered(scene, "{case}")',
+            made=partial(scattered, case=case),
             of="coefficients in water",
         )

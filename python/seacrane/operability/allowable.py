@@ -197,18 +197,15 @@ def _by_time(
 ) -> dict[int, str]:
     """Fill the cells that are wanted by runs; why members failed, by number."""
     places = cells.wanted
-    seas, start = [cells.words(place) for place in places], _start(cells.asked, still)
+    seas = [cells.words(place) for place in places]
+    if given_drivers(still.scene):  # on given ships and in stages from rest
+        start: Start = partial(equilibrium, time=still.state.time)
+    else:
+        start = still.state if cells.asked.stages else steady_start(still.scene, still.state)
     storms = storms_in(cells.asked, still, seas, start, executor=executor, store=store, progress=progress)
     for place, by_time in zip(places, allowable_in(cells.asked, still, storms, len(places)), strict=True):
         cells.take_time(place, by_time)
     return dict(storms.failures)
-
-
-def _start(asked: Asked, still: Still) -> Start:
-    """Where runs begin: in the linear steady state; on given ships and in stages at rest."""
-    if given_drivers(still.scene):
-        return partial(equilibrium, time=still.state.time)
-    return still.state if asked.stages else steady_start(still.scene, still.state)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

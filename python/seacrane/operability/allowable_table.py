@@ -22,7 +22,6 @@ from seacrane.sea.spectra import steepness_limit
 
 if TYPE_CHECKING:
     import xarray
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
@@ -200,16 +199,12 @@ def plot_allowable_hs(table: AllowableHs, *, kind: str = "map", forecast: bool =
     (_map if kind == "map" else _rosette)(figure, table, table.dataset[name].to_numpy())
     what = "allowable Hs in a forecast" if with_alpha else "allowable Hs"
     figure.suptitle(f"{table.scene}: {what}", fontsize=11)
-    figure.supxlabel("\n".join(_notes(table, with_alpha, kind)), fontsize=7, ha="left", x=0.02)
-    return figure
-
-
-def _notes(table: AllowableHs, with_alpha: bool, kind: str) -> list[str]:
-    told = table.alpha.told(hours=table.hours)
-    notes = table.told_criteria()
+    told, notes = table.alpha.told(hours=table.hours), table.told_criteria()
     if kind == "map":
         notes.append("in a frame: by runs, else by the linear model; >: no criterion is reached")
-    return [*notes, told if with_alpha else f"{told}: not in these numbers"]
+    notes.append(told if with_alpha else f"{told}: not in these numbers")
+    figure.supxlabel("\n".join(notes), fontsize=7, ha="left", x=0.02)
+    return figure
 
 
 def _map(figure: Figure, table: AllowableHs, values: Any) -> None:
@@ -219,24 +214,19 @@ def _map(figure: Figure, table: AllowableHs, values: Any) -> None:
     image = axes.imshow(values, cmap="viridis", origin="lower", aspect="auto", vmin=0.0)
     figure.colorbar(image, ax=axes, label="Hs [m]")
     data = table.dataset
-    _ticks(axes, data)
+    tp, directions = (data[name].to_numpy() for name in ("tp", "direction_deg"))
+    axes.set_xticks(range(directions.size), [f"{one:g}" for one in directions])
+    axes.set_yticks(range(tp.size), [f"{one:g}" for one in tp])
+    axes.set(xlabel="direction of travel of the waves [deg], 180: head waves", ylabel="peak period [s]")
     top = max(float(np.max(values, initial=0.0, where=np.isfinite(values))), 1e-9)
-    for i in range(data.sizes["tp"]):
-        for j in range(data.sizes["direction_deg"]):
+    for i in range(tp.size):
+        for j in range(directions.size):
             text = table._cell(values, i, j).rstrip()
             colour = "black" if values[i, j] / top > DARK else "white"
             axes.text(j, i, text, ha="center", va="center", fontsize=8, color=colour)
             if data["domain"].to_numpy()[i, j] == "time":
                 look: dict[str, Any] = {"fill": False, "edgecolor": COLOURS[1], "linewidth": 1.6}
                 axes.add_patch(Rectangle((j - 0.47, i - 0.46), 0.94, 0.92, **look))
-
-
-def _ticks(axes: Axes, data: Any) -> None:
-    axes.set_xticks(
-        range(data.sizes["direction_deg"]), [f"{one:g}" for one in data["direction_deg"].to_numpy()]
-    )
-    axes.set_yticks(range(data.sizes["tp"]), [f"{one:g}" for one in data["tp"].to_numpy()])
-    axes.set(xlabel="direction of travel of the waves [deg], 180: head waves", ylabel="peak period [s]")
 
 
 def _rosette(figure: Figure, table: AllowableHs, values: Any) -> None:

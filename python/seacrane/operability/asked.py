@@ -19,7 +19,6 @@ from seacrane.inputs.checked import not_negative_of, positive_of
 from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import ascending
 from seacrane.operability.criterion import FEWEST_SEEDS, Criterion
-from seacrane.result import Result
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -109,12 +108,17 @@ def still_of(scene: Any, asked: Asked, time: float) -> Still:
     if asked.stages:
         stages = asked.stages(calm) if callable(asked.stages) else asked.stages
         result = simulate(calm, stages, accuracy=asked.accuracy, **how)
-        return Still(scene=scene, state=state, rest=_extremes(result, asked.criteria))
+        rest = []
+        for one in asked.criteria:
+            part = result.part(stage=one.stage or None)
+            least, largest = result.reached(one.channel, part=part, **one.names)
+            rest.append(largest.max() if one.minimum is None else least.min())
+        return Still(scene=scene, state=state, rest=np.array(rest))
     calm = held(calm, time=time)
     result = finished(Run(calm, state.time, **how))
-    rest = np.array([result.curve(one.channel, **one.names)[0] for one in asked.criteria])
+    begun = np.array([result.curve(one.channel, **one.names)[0] for one in asked.criteria])
     moving = {name: scene.drivers[name].curve for name in given_drivers(scene)}
-    return Still(scene=led_by(calm, moving).copy(waves=scene.waves), state=state, rest=rest)
+    return Still(scene=led_by(calm, moving).copy(waves=scene.waves), state=state, rest=begun)
 
 
 def _lasting(scene: Scene, asked: Asked, begin: float) -> Scene:
@@ -127,15 +131,6 @@ def _lasting(scene: Scene, asked: Asked, begin: float) -> Scene:
         if known.motion == "raos" and known.duration is not None and known.duration < end:
             out.provenance[name] = replace(known, duration=end)
     return out
-
-
-def _extremes(calm: Result, criteria: Sequence[Criterion]) -> Array:
-    """What each criterion reaches in a lift in calm water, given ships at rest."""
-    found = []
-    for one in criteria:
-        least, largest = calm.reached(one.channel, part=calm.part(stage=one.stage or None), **one.names)
-        found.append(largest.max() if one.minimum is None else least.min())
-    return np.array(found)
 
 
 def _require_fit(criteria: Sequence[Criterion], stages: Stages, spans: dict[str, Any], domain: Any) -> None:

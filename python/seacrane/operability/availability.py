@@ -219,7 +219,9 @@ def availability(allowable: AllowableHs, scatter: ScatterDiagram, *, forecast: b
     else:
         limit = allowable.at(middles["tp"][:, None], scatter.direction_deg, forecast=with_alpha)
         dims, coords = (*dims, "direction_deg"), coords | {"direction_deg": scatter.direction_deg}
-    allowed = _share_below(scatter.hs, limit)
+    shape = (-1,) + (1,) * limit.ndim
+    low, high = scatter.hs[:-1].reshape(shape), scatter.hs[1:].reshape(shape)
+    allowed = np.clip((np.nan_to_num(limit) - low) / (high - low), 0.0, 1.0)  # none of limits that are NaN
     weight = scatter.probability
     outside = np.broadcast_to(np.isnan(limit), weight.shape)
     return Availability(
@@ -229,10 +231,3 @@ def availability(allowable: AllowableHs, scatter: ScatterDiagram, *, forecast: b
         alpha_factor=allowable.alpha.told(hours=allowable.hours) if with_alpha else "without an alpha factor",
         source=scatter.source,
     )
-
-
-def _share_below(edges: Array, limit: Array) -> Array:
-    """Share of each range of Hs below the limits (...), shape (n, ...); none of limits that are NaN."""
-    shape = (-1,) + (1,) * limit.ndim
-    low, high = edges[:-1].reshape(shape), edges[1:].reshape(shape)
-    return np.asarray(np.clip((np.nan_to_num(limit) - low) / (high - low), 0.0, 1.0))

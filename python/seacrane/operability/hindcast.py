@@ -155,20 +155,13 @@ class WaveHindcast:
             return cls(**_of_csv(file, asked), source=file.name)
         return _of_netcdf(file, asked)
 
-    @classmethod
-    def from_xarray(cls, data: xarray.Dataset, *, names: Mapping[str, str] | None = None) -> WaveHindcast:
-        """A dataset with the names of a file, at one place; raises SceneError."""
-        try:
-            return cls(**_of_dataset(data, _asked(names)), source=str(data.attrs.get("title", "a dataset")))
-        except FileFormatError as error:
-            raise SceneError(f"hindcast: {error}") from error
-
 
 def _times(given: Any) -> Times:
     require_unmasked("hindcast: time", given)
     try:
         found = np.asarray(given)
-        numeric = found.dtype.kind in "iuf" or (found.dtype.kind == "O" and _all_numbers(found))
+        plain = found.dtype.kind == "O" and all(isinstance(one, (int, float)) for one in found.flat)
+        numeric = found.dtype.kind in "iuf" or plain
         time = dates_of_numbers("hindcast: time", found) if numeric else found.astype("datetime64[s]")
     except SceneError:
         raise
@@ -177,10 +170,6 @@ def _times(given: Any) -> Times:
     if time.ndim != 1 or time.size < 2 or np.isnat(time).any():
         raise SceneError(f"hindcast: time has shape {time.shape}; give two dates or more, none missing")
     return time
-
-
-def _all_numbers(values: NDArray[Any]) -> bool:
-    return all(isinstance(one, (int, float)) for one in values.flat)
 
 
 def _even(time: Times) -> tuple[Times, NDArray[np.intp]]:
@@ -229,49 +218,40 @@ def _named(there: Iterable[str], names: Mapping[str, tuple[str, ...]]) -> dict[s
 
 
 def _of_csv(path: Path, names: Mapping[str, tuple[str, ...]]) -> dict[str, Any]:
-    lines_of_text = decoded(read_whole(path)).splitlines()
-    first = next((line for line in lines_of_text if line.strip()), "")
+    text = decoded(read_whole(path)).splitlines()
+    first = next((line for line in text if line.strip()), "")
     delimiter = next((one for one in DELIMITERS if one in first), ",")
     try:
-        rows = list(csv.reader(lines_of_text, delimiter=delimiter))
+        rows = list(csv.reader(text, delimiter=delimiter))
         head = [name.strip() for name in rows[0]] if rows else []
         found = _named(head, names)
     except csv.Error as error:
         raise FileFormatError(f"{path}: is no table of text ({error}); write it as UTF-8") from error
     except FileFormatError as error:
         raise FileFormatError(f"{path}: {error}") from error
-    lines = [(number, row) for number, row in enumerate(rows[1:], start=2) if row]
-    columns = {
-        what: [_entry(path, *line, head.index(name), delimiter, date=what == "time") for line in lines]
-        for what, name in found.items() if name
-    }  # fmt: skip
-    direction = columns.pop("direction", None)
-    return {**columns, "time": _dates(path, columns["time"]), "direction_from_deg": direction}
-
-
-def _dates(path: Path, given: list[Any]) -> list[Any]:
-    """Dates; where all are numbers, what these count is told by their size and step."""
-    if given and all(isinstance(one, float) for one in given):
+    columns: dict[str, list[Any]] = {what: [] for what, name in found.items() if name}
+    for number, row in enumerate(rows[1:], start=2):
+        for what, column in columns.items() if row else ():
+            place = head.index(found[what])
+            cell = row[place].strip() if place < len(row) else ""
+            value: Any = plain_number(cell, comma=delimiter != ",")
+            if value is None and what == "time":
+                with suppress(ValueError):
+                    value = np.datetime64(cell.removesuffix("Z"), "s")
+            if value is None:
+                wanted = "a date such as 2020-01-31T12:00" if what == "time" else "a number, or nothing"
+                raise FileFormatError(f"{path}, line {number}: {shown(cell)} is not {wanted}")
+            column.append(value)
+    numbers = [one for one in columns["time"] if isinstance(one, float)]
+    if numbers and len(numbers) < len(columns["time"]):
+        raise FileFormatError(f"{path}: time is {numbers[0]:.10g} beside dates; give dates in every line")
+    if numbers:  # what they count is told by their size and step
         try:
-            return list(dates_of_numbers(f"{path}: time", np.array(given)))
+            columns["time"] = list(dates_of_numbers(f"{path}: time", np.array(numbers)))
         except SceneError as error:
             raise FileFormatError(str(error)) from error
-    for one in given:
-        if isinstance(one, float):
-            raise FileFormatError(f"{path}: time is {one:.10g} beside dates; give dates in every line")
-    return given
-
-
-def _entry(path: Path, number: int, row: list[str], place: int, delimiter: str, *, date: bool) -> Any:
-    text = row[place].strip() if place < len(row) else ""
-    found: Any = plain_number(text, comma=delimiter != ",")
-    if found is None and date:
-        with suppress(ValueError):
-            found = np.datetime64(text.removesuffix("Z"), "s")
-    if found is None:
-        wanted = "a date such as 2020-01-31T12:00" if date else "a number, or nothing"
-        raise FileFormatError(f"{path}, line {number}: {shown(text)} is not {wanted}")
-    return found
+    direction = columns.pop("direction", None)
+    return {**columns, "direction_from_deg": direction}
 
 
 def _of_netcdf(path: Path, names: Mapping[str, tuple[str, ...]]) -> WaveHindcast:

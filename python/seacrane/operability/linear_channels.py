@@ -97,36 +97,29 @@ def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> Linear
         columns.append((above - below) / (2.0 * size))
     parts = PartsInWaves(model)
     return LinearChannels(
-        model=model, rest=rest, c=np.stack(columns, axis=1), d=_by_load(model, criteria),
+        model=model, rest=rest, c=np.stack(columns, axis=1), d=_by_load(model, criteria, model.vessel),
         e=_by_part(model, criteria, parts), parts=parts,
     )  # fmt: skip
 
 
 def _by_part(model: LinearModel, criteria: Sequence[Criterion], parts: PartsInWaves) -> Array:
+    """Channels per force at the centre of each part, inertial axes."""
     columns = [np.zeros((len(criteria), 0))]
     known: dict[tuple[str, tuple[float, ...]], Array] = {}  # halves of spans meet at points
     for part in parts.parts:
         place = (part.body, tuple(map(float, part.point)))
         if place not in known:
-            known[place] = _by_force_at(model, criteria, *place)
+            size = PUSH * model.scene.bodies[part.body].mass
+            slopes = [_slope(model, criteria, part.body, size, along, place[1]) for along in np.eye(3, 6)]
+            known[place] = np.stack(slopes, axis=1)
         columns.append(known[place])
     return np.concatenate(columns, axis=1)
 
 
-def _by_force_at(
-    model: LinearModel, criteria: Sequence[Criterion], body: str, point: tuple[float, ...]
-) -> Array:
-    """Channels per force at a point of a body, inertial axes, (m, 3)."""
-    size = PUSH * model.scene.bodies[body].mass
-    columns = [_slope(model, criteria, body, size, along, point) for along in np.eye(3, 6)]
-    return np.stack(columns, axis=1)
-
-
-def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:
-    assert model.vessel is not None
+def _by_load(model: LinearModel, criteria: Sequence[Criterion], vessel: str) -> Array:
     dof, axes = model.degrees_of_freedom, model.yaw_axes()
     sizes = PUSH / np.abs(model.b[dof : 2 * dof]).max(axis=0)
-    columns = [_slope(model, criteria, model.vessel, size, axes[:, i]) for i, size in enumerate(sizes)]
+    columns = [_slope(model, criteria, vessel, size, axes[:, i]) for i, size in enumerate(sizes)]
     return np.stack(columns, axis=1)
 
 
@@ -134,21 +127,17 @@ def _slope(
     model: LinearModel, criteria: Sequence[Criterion], body: str, size: float, along: Array,
     point: Any = (0.0, 0.0, 0.0),
 ) -> Array:  # fmt: skip
-    """Channels per load `along` (6,) at a point of a body, by so much of it to either side."""
-    above, below = (
-        _look(_loaded(model, body, sign * size * along, point), criteria)(model.state) for sign in (1.0, -1.0)
-    )
-    return (above - below) / (2.0 * size)
-
-
-def _loaded(model: LinearModel, body: str, wrench: Array, point: Any) -> Scene:
-    """The scene held as at the model's time, with one more load (6,) about a point of a body."""
-    scene: Scene = held(model.scene, time=model.state.time)  # type: ignore[assignment]
-    name = "operability"
-    while name in scene.force_tables:
-        name += "'"
-    scene.add_force(body, name=name, times=[0.0, 1.0], force=np.array([wrench] * 2), point=point)
-    return scene
+    """Channels per load `along` (6,) about a point of a body, by so much of it to either side."""
+    found = []
+    for sign in (1.0, -1.0):
+        scene: Scene = held(model.scene, time=model.state.time)  # type: ignore[assignment]
+        name = "operability"
+        while name in scene.force_tables:
+            name += "'"
+        wrench = [sign * size * along] * 2
+        scene.add_force(body, name=name, times=[0.0, 1.0], force=np.array(wrench), point=point)
+        found.append(_look(scene, criteria)(model.state))
+    return (found[0] - found[1]) / (2.0 * size)
 
 
 def _look(scene: Scene, criteria: Sequence[Criterion]) -> Callable[[_core.State], Array]:
@@ -204,25 +193,19 @@ class LinearSeas:
 
     def gains(self, direction_deg: float) -> Array:
         """Squared amplitude of each channel per metre of wave amplitude, (k, m), over the spreading."""
-        angles = np.radians(direction_deg) - self._heading + self._spread()
+        spread = np.zeros(1)
+        if self._known.spreading is not None:
+            shares = (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
+            spread = Spreading(**self._known.spreading).quantile(shares)
+        angles = np.radians(direction_deg) - self._heading + spread
         found = np.zeros(self._transfer.shape[:2])
         for angle in angles:
-            force = self._database.force_at(self._omega, angle)
-            found += np.abs(np.einsum("kmi,ki->km", self._transfer, force) + self._by_parts(angle)) ** 2
+            channels = np.einsum("kmi,ki->km", self._transfer, self._database.force_at(self._omega, angle))
+            if parts := self.channels.parts:
+                flow = parts.flow(parts.waves(self._omega, angle, self._database.depth))
+                channels = channels + self.channels.by_flow(self._omega, flow)[0]
+            found += np.abs(channels) ** 2
         return np.asarray(found / angles.size)
-
-    def _by_parts(self, angle: float) -> Complex | float:
-        """What waves on parts under water add, per metre of wave amplitude."""
-        parts = self.channels.parts
-        if not parts:
-            return 0.0
-        flow = parts.flow(parts.waves(self._omega, angle, self._database.depth))
-        return self.channels.by_flow(self._omega, flow)[0]
-
-    def _spread(self) -> Array:
-        if self._known.spreading is None:
-            return np.zeros(1)
-        return Spreading(**self._known.spreading).quantile((np.arange(DIRECTIONS) + 0.5) / DIRECTIONS)
 
     def moments(self, gains: Array, tp: float) -> Array:
         """m0, m1, m2 of each channel at Hs 1 m, (m, 3)."""

@@ -136,19 +136,19 @@ def differences(
         scenes.append(without_databases(one))
         starts.append(state)
         told.append([record_numbers(column) for column in values.T])
-    run = partial(_numbers, t_end=start + asked.duration, asked=asked)
-    runs = map(run, scenes, starts) if executor is None else executor.map(run, scenes, starts)
+    work = partial(_numbers, t_end=start + asked.duration, asked=asked)
+    runs = map(work, scenes, starts) if executor is None else executor.map(work, scenes, starts)
     for found, numbers in zip(runs, told, strict=True):
         if isinstance(found, str):
             yield found
             continue
         each = zip(asked.criteria, found, numbers, linear.channels.rest.tolist(), strict=True)
-        yield np.array([_apart(*one) for one in each])
-
-
-def _apart(criterion: Criterion, run: Array, linear: Array, rest: float) -> float:
-    apart = reached(criterion, run, rest) - reached(criterion, linear, rest)
-    return abs(float(apart)) / criterion.allowance(rest)
+        yield np.array(
+            [
+                abs(float(reached(one, run, rest) - reached(one, model, rest))) / one.allowance(rest)
+                for one, run, model, rest in each
+            ]
+        )
 
 
 def _numbers(scene: Scene, start: _core.State, *, t_end: float, asked: Asked) -> Array | str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +20,6 @@ from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.plotting.table import Answer, Column, Table, read_as
 from seacrane.result import Result
 from seacrane.series.measured_series import MeasuredSeries
-from seacrane.series.mending import step_of
-from seacrane.statistics.record import SpectrumEstimate, spectrum_estimate
 from seacrane.warnings import UncertainShiftWarning
 
 if TYPE_CHECKING:
@@ -35,10 +33,8 @@ LEAST_CORRELATION = 0.5
 AS_GOOD = 1.1, 1e-4  # times, and plus, the variance that is left by the best shift
 MOST = 4_000_000  # samples of a grid
 FINENESS = 1e-4  # of a step
-SEGMENTS = 7  # of the spectra: records are short
 NAMES = ("mean (bias)", "standard deviation", "largest", "smallest", "RMS of the difference",
          "the same without bias")  # fmt: skip
-HIGHEST = 0.999  # of the variance that a picture of spectra shows
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -101,45 +97,19 @@ class Comparison(Answer):
         """Standard deviation of the run over that of the record."""
         return float(self.run.std() / self.record.std())
 
-    def spectra(self) -> tuple[SpectrumEstimate, SpectrumEstimate]:
-        """Of the run and of the record, by Welch's method.
-
-        Raises
-        ------
-        SceneError
-            For fewer than 64 samples, or a curve that does not vary.
-        """
-        step = step_of(self.time)
-        grid = np.arange(self.time[0], self.time[-1] + 0.5 * step, step)
-        even = [np.interp(grid, self.time, values) for values in (self.run, self.record)]
-        first, second = (spectrum_estimate(values, interval=step, segments=SEGMENTS) for values in even)
-        return first, second
-
     def plot(self) -> Figure:
         """Both curves over time, and their difference."""
         factor, unit = read_as(self.unit)
-        both = _both(factor * self.run, factor * self.record, ", moved")
+        both = (
+            Line(label="run", values=factor * self.run),
+            Line(label="record, moved", values=factor * self.record, colour=1),
+        )
         left = (Line(label="", values=factor * self.difference, colour=6),)
         panels = (
             Panel(quantity=self.channel, unit=unit, lines=both),
             Panel(quantity="run minus record", unit=unit, lines=left),
         )
-        return self._drawn(panels, abscissa=self.time)
-
-    def plot_spectra(self) -> Figure:
-        """Spectra of both, up to where 99.9 % of the variance is; raises as `spectra`."""
-        factor, unit = read_as(self.unit)
-        run, record = self.spectra()
-        share = np.cumsum(run.density + record.density)
-        shown = slice(0, int(np.searchsorted(share, HIGHEST * share[-1])) + 2)
-        lines = _both(factor**2 * run.density[shown], factor**2 * record.density[shown])
-        return self._drawn(
-            (Panel(quantity="spectrum", unit=f"({unit})2 s/rad", lines=lines),),
-            abscissa=run.omega[shown], abscissa_name="omega", abscissa_unit="rad/s",
-        )  # fmt: skip
-
-    def _drawn(self, panels: tuple[Panel, ...], **given: Any) -> Figure:
-        sheet = Sheet(title=self._caption(), caption=self.source, panels=panels, **given)
+        sheet = Sheet(title=self._caption(), caption=self.source, panels=panels, abscissa=self.time)
         return draw(sheet, note=self.source)
 
     def _data(self) -> Table:
@@ -182,10 +152,6 @@ class Comparison(Answer):
             f"{self.channel} against {self.column}: {self.time.size} samples, the record "
             f"{abs(self.shift):.4g} s {later} than the run, correlation {self.correlation:.4f}"
         )
-
-
-def _both(run: Array, record: Array, moved: str = "") -> tuple[Line, ...]:
-    return Line(label="run", values=run), Line(label=f"record{moved}", values=record, colour=1)
 
 
 def compare(
@@ -293,16 +259,7 @@ def found_shift(time: Array, run: Array, times: Array, record: Array, most: floa
     """s by which a record (times, record) is later than a run (time, run), `most` at most.
 
     Pearson's correlation over what overlaps, at every step of a grid, then between the steps by the cubic
-    spline through the run.
-
-    Raises
-    ------
-    SceneError
-        Where they do not overlap by half of the shorter within `most`, or one of both does not vary.
-
-    Warns
-    -----
-    UncertainShiftWarning
+    spline through the run. SceneError where they do not overlap by half of the shorter, or one does not vary.
     """
     step = min(float(np.median(np.diff(time))), float(np.median(np.diff(times))))
     longest = float(max(np.ptp(time), np.ptp(times)))

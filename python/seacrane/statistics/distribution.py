@@ -6,7 +6,7 @@ from bisect import bisect_left
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +14,9 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of
-from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.statistics.estimate import TAILS, Estimate
 from seacrane.warnings import FewSeedsWarning
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 DRAWS, SEED = 2000, 20260  # of the bootstrap
@@ -74,7 +70,9 @@ class Distribution(Answer):
         probability : float
             Between 0 and 1.
         """
-        share = _share(probability)
+        share = number_of("probability", probability)
+        if not 0.0 < share < 1.0:
+            raise SceneError(f"probability is {share:g}; give a share between 0 and 1")
         value = float(self._ordered[int(np.ceil(share * self.count - 1e-9)) - 1])
         if self.values.shape[0] < 2:
             return Estimate(value=value)
@@ -87,10 +85,6 @@ class Distribution(Answer):
     def exceedance(self, level: float) -> Estimate:
         """The share of values above a level, in the unit of the values."""
         return self._share_of(self.values > number_of("level", level))
-
-    def plot(self) -> Figure:
-        """Share of values that exceed a level, with its interval."""
-        return draw(self._sheet())
 
     def __repr__(self) -> str:
         return f"<Distribution of {self.name!r}: {self._told}>"
@@ -159,21 +153,6 @@ class Distribution(Answer):
         low, high = (float(1.0 / (1.0 + np.exp(-end))) for end in (odds - wide, odds + wide))
         return Estimate(value=value, low=low, high=high)
 
-    def _sheet(self) -> Sheet:
-        levels = np.unique(self._ordered)
-        found = [self.exceedance(level) for level in levels]
-        lines = (
-            Line(label="share above", values=np.array([one.value for one in found])),
-            Line(label="low", values=np.array([one.low for one in found]), colour=1, style="--"),
-            Line(label="high", values=np.array([one.high for one in found]), colour=1, style="--"),
-        )
-        return Sheet(
-            title=f"{self.name}: {self._told}",
-            caption="Share of values above a level, with its 95 % interval by resampling seeds.",
-            abscissa=levels, abscissa_name=self.name, abscissa_unit=self.unit,
-            panels=(Panel(quantity="share", unit="-", lines=lines),),
-        )  # fmt: skip
-
 
 def distribution(values: Any, *, name: str = "values", unit: str = "") -> Distribution:
     """How a number is distributed over seeds that have several values each.
@@ -204,10 +183,3 @@ def distribution(values: Any, *, name: str = "values", unit: str = "") -> Distri
         told = "there is no interval" if table.shape[0] == 1 else "intervals are wide"
         warn_caller(f"{name}: {table.shape[0]} seeds: {told}; give ten or more", FewSeedsWarning)
     return Distribution(name=name, unit=unit, values=table)
-
-
-def _share(probability: Any) -> float:
-    share = number_of("probability", probability)
-    if not 0.0 < share < 1.0:
-        raise SceneError(f"probability is {share:g}; give a share between 0 and 1")
-    return share

@@ -83,7 +83,8 @@ def extremes(
     channel, names = pick.channel, dict(pick.names)
     parts = [one.part(after=begin, stage=pick.stage) for one in results]
     records = [_record(one, channel, part, sign, names) for one, part in zip(results, parts, strict=True)]
-    words = {"name": _name(channel, names, sign), "unit": unit_of(channel, names.values())}
+    called = " ".join(["minus " * (sign < 0.0) + channel, *names.values()])
+    words = {"name": called, "unit": unit_of(channel, names.values())}
     if isinstance(result, Result):
         (values, step), repeat = records[0], _repeat(result)
         return record_extremes(
@@ -146,7 +147,3 @@ def _repeat(result: Result) -> float | None:
     """Time after which the sea of a run comes back on itself, s; None where it is not known to."""
     period: Any = result.stats.get("repeat_period_s") if result.stats.get("repeat_found") else None
     return None if period is None else float(period)
-
-
-def _name(channel: str, names: dict[str, str], sign: float) -> str:
-    return " ".join(["minus " * (sign < 0.0) + channel, *names.values()])

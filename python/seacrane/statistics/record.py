@@ -209,13 +209,10 @@ def spectrum_estimate(values: Any, *, interval: float, segments: int = SEGMENTS)
         raise SceneError(f"segments={segments!r}: give a whole number of at least 1")
     length = min(record.size, max(FEWEST_VALUES, 2 * record.size // (int(segments) + 1)))
     count = 1 + 2 * (record.size - length) // length
+    # 2 K over 1 + 2 (1 - 1/K) / 36: neighbouring Hann segments that overlap by half correlate by 1/6.
+    degrees = 2.0 * count / (1.0 + 2.0 * (1.0 - 1.0 / count) / 36.0)
     frequency, density = welch(record - record.mean(), fs=1.0 / step, nperseg=length, detrend=False)
     return SpectrumEstimate(
         omega=2.0 * np.pi * frequency[1:], density=density[1:] / (2.0 * np.pi),
-        degrees_of_freedom=_degrees(count), duration=record.size * step,
+        degrees_of_freedom=degrees, duration=record.size * step,
     )  # fmt: skip
-
-
-def _degrees(count: int) -> float:
-    """2 K over 1 + 2 (1 - 1/K) / 36: neighbouring Hann segments that overlap by half correlate by 1/6."""
-    return 2.0 * count / (1.0 + 2.0 * (1.0 - 1.0 / count) / 36.0)

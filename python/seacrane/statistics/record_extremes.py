@@ -134,16 +134,14 @@ class RecordExtremes(Extremes):
         found = {"Rayleigh, sqrt(2 ln N)": self.gaussian, "clumped, Vanmarcke": self.clumped}
         if self.over_threshold is not None:
             found["peaks over threshold"] = self.over_threshold
-        return maxima_table(found, self.unit, title, self._tail_words())
-
-    def _tail_words(self) -> str:
-        if self.tail is None:
-            return "Too few crests for peaks over a threshold."
-        chosen = "chosen" if self.tail.chosen else "given"
-        return (
-            f"Threshold {self.tail.threshold:.4g} ({chosen}), {self.tail.peaks.size} clusters, "
-            f"{self.tail.kind} tail, extremal index {self.tail.extremal_index:.2f}."
-        )
+        words = "Too few crests for peaks over a threshold."
+        if self.tail is not None:
+            words = (
+                f"Threshold {self.tail.threshold:.4g} ({'chosen' if self.tail.chosen else 'given'}), "
+                f"{self.tail.peaks.size} clusters, {self.tail.kind} tail, extremal index "
+                f"{self.tail.extremal_index:.2f}."
+            )
+        return maxima_table(found, self.unit, title, words)
 
 
 def _crossings(found: RecordExtremes, levels: Array, bandwidth: float | None) -> Array:

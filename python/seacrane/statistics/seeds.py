@@ -139,8 +139,10 @@ class SeedExtremes(Extremes):
         """
         share = positive_of("half_width", half_width)
         estimate: Estimate = getattr(self.gumbel, _asked(number))
-        reduced = REDUCED[number] + np.log(self.exposure / self.duration)
-        one = self.scale * np.sqrt(_likelihood_variance(float(reduced)))
+        reduced = float(REDUCED[number] + np.log(self.exposure / self.duration))
+        # The variance of location + reduced * scale by maximum likelihood, times the number of maxima.
+        variance = 6.0 / np.pi**2 * (np.pi**2 / 6.0 + (1.0 - EULER + reduced) ** 2)
+        one = self.scale * np.sqrt(variance)
         return max(FEWEST, int(np.ceil((NORMAL * one / (share * abs(estimate.value - self.static))) ** 2)))
 
     def sheet(self) -> Sheet:
@@ -277,11 +279,6 @@ def _common(values: Array) -> Estimate | None:
     one = float(values[0])
     equal = np.ptp(values) <= ROUNDING * np.abs(values).max()
     return Estimate(value=one, low=one, high=one) if equal else None
-
-
-def _likelihood_variance(reduced: float) -> float:
-    """Variance of location + reduced * scale, times the number of maxima, for scale 1."""
-    return 6.0 / np.pi**2 * (np.pi**2 / 6.0 + (1.0 - EULER + reduced) ** 2)
 
 
 def _gumbel_maximum(count: int, location: float, scale: float, duration: float, exposure: float) -> Maximum:

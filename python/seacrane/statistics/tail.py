@@ -71,12 +71,11 @@ class Tail:
         drawn = _bootstrap(self)
         found = _numbers(self.rate * exposure, self.scale, self.shape)
         spread = _numbers(drawn[0] / self.peaks.size * self.rate * exposure, drawn[1], drawn[2])
-        return Maximum(
-            **{
-                name: _estimate(self.threshold + found[name], self.threshold + spread[name]) for name in found
-            },
-            exposure=exposure,
-        )
+        estimates = {}
+        for name, value in found.items():
+            low, high = np.quantile(self.threshold + spread[name], TAILS)
+            estimates[name] = Estimate(value=float(self.threshold + value), low=float(low), high=float(high))
+        return Maximum(**estimates, exposure=exposure)
 
 
 def _numbers(count: Array | float, scale: Array | float, shape: Array | float) -> dict[str, Array]:
@@ -97,12 +96,6 @@ def _numbers(count: Array | float, scale: Array | float, shape: Array | float) -
         "mean": level(1.0, EULER, gamma(1.0 - np.where(curved, safe, 0.0))),
         "p90": level(P90_COUNT, -np.log(P90_COUNT), 1.0),
     }
-
-
-def _estimate(value: Array, draws: Array) -> Estimate:
-    """The value and the interval in which the bootstrap's draws lie."""
-    low, high = np.quantile(draws, TAILS)
-    return Estimate(value=float(value), low=float(low), high=float(high))
 
 
 def _bootstrap(tail: Tail) -> tuple[Array, Array, Array]:
