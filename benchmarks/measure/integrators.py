@@ -108,7 +108,7 @@ SECTION = Section(
     text=(
         f"{T_END:g} s, outputs every {DT_OUT:g} s, best of {REPEATS}. Errors: largest distance of the "
         "payload and largest difference of a cylinder force from the reference, over all outputs. "
-        "cvode-adams cannot project and uses Baumgarte stabilisation. Exact Jacobians, which implicit "
+        "Exact Jacobians, which implicit "
         "methods take, are not counted as evaluations.\n\n![Payload error over evaluations and over CPU "
         f"time, per integrator]({PICTURE})"
     ),

@@ -32,7 +32,6 @@ void bind_integrators(py::module_& m) {
                     "It solves with the Jacobian, so that fast modes do not limit its steps.")
       .def_readonly("residual_form", &P::residual_form,
                     "It solves the residual form, which formulation \"redundant\" has.")
-      .def_readonly("projects", &P::projects, "It projects the state onto the joints.")
       .def_readonly("restarts", &P::restarts,
                     "It loses its history where a run continues from a state, or is changed.")
       .def_readonly("has_spectral_radius", &P::has_spectral_radius, "`spectral_radius` can be chosen.");

@@ -3329,11 +3329,6 @@ class Integrator:
         The highest one for a method of variable order.
         """
     @property
-    def projects(self) -> bool:
-        """
-        It projects the state onto the joints.
-        """
-    @property
     def purpose(self) -> str:
         """
         What it is there for, in words.

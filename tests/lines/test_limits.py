@@ -71,22 +71,6 @@ def test_threads_that_share_a_model_compile_their_sets_apart() -> None:
         np.testing.assert_array_equal(other, first)
 
 
-def test_a_method_that_cannot_project_takes_the_redundant_form_with_limits() -> None:
-    scene = Scene(name="two wires")
-    scene.add_body(name="ball", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -1.0))
-    for name, x in (("left", -1.0), ("right", 1.2)):
-        ends: dict[str, Any] = {"point": (x, 0.3 * x, 0.0), "second_point": (0.0, 0.0, -1.0)}
-        scene.add_joint(name, kind="distance", first="ground", second="ball", length=2.5, **ends)
-        scene.add_line(joint=name, rung="rigid")
-    result = simulate(scene, t_end=3.0, dt_out=0.1, integrator="cvode-adams", rtol=1e-8)
-    reference = simulate(scene, t_end=3.0, dt_out=0.1, rtol=1e-10)
-    assert [e.name for e in result.events] == [e.name for e in reference.events]
-    assert {e.name for e in result.events} == {"left", "right"}
-    np.testing.assert_allclose(result["position"], reference["position"], atol=1e-5)
-    with pytest.raises(SceneError, match="cannot project, and this scene keeps constraints or limits"):
-        simulate(scene, t_end=1.0, integrator="cvode-adams", formulation="recursive")
-
-
 # Redundant wires, and rough velocities that assembly makes consistent.
 RIGGED = pytest.mark.filterwarnings("ignore::UserWarning")
 MASS, GRAVITY = 2e4, 9.81

@@ -246,7 +246,6 @@ def test_every_kind_of_method_carries_out_stages() -> None:
     exact = carried_out(swinging(), hoisting(), rtol=1e-9)
     for near, settings in (
         (1e-6, {"rtol": 1e-9, "formulation": "redundant"}), (1e-3, {"integrator": "cvode-bdf", "rtol": 1e-8}),
-        (1e-3, {"integrator": "cvode-adams", "rtol": 1e-8}),
         (1e-3, {"integrator": "generalized-alpha", "dt": 1e-3}),
     ):  # fmt: skip
         run = carried_out(swinging(), hoisting(), **settings)

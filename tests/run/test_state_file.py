@@ -35,8 +35,7 @@ def all_runs() -> list[tuple[str, str, str]]:
     for method in _core.integrators():
         for formulation in ["redundant", *(["recursive"] if not method.residual_form else [])]:
             out.append(("chain", method.name, formulation))
-            if method.projects or formulation == "redundant":
-                out.append(("crank", method.name, formulation))
+            out.append(("crank", method.name, formulation))
     for integrator in ("dopri5", "rk4"):
         for formulation in ("redundant", "recursive"):
             out += [(scene, integrator, formulation) for scene in ("case2", "convolution")]

@@ -27,8 +27,6 @@ struct IntegratorProperties {
   bool uses_positions = false;
   /// Solves the ResidualSystem.
   bool residual_form = false;
-  /// Projects the state onto the constraints.
-  bool projects = true;
   /// Loses its history where a run continues from saved steps, or from a changed state.
   bool restarts = false;
   /// Has a spectral radius to choose.

@@ -11,7 +11,7 @@ namespace seacrane {
 // registration; explicit pairs are listed in tableaus/pairs.hpp.
 extern const Registration semi_implicit_euler, rk4, rk_low_storage;
 std::span<const Registration> explicit_pairs();
-extern const Registration dopri5_stiff, rosenbrock, generalized_alpha, cvode_adams, cvode_bdf, ida;
+extern const Registration dopri5_stiff, rosenbrock, generalized_alpha, cvode_bdf, ida;
 
 namespace {
 
@@ -19,7 +19,7 @@ std::vector<Registration> all() {
   std::vector<Registration> out = {semi_implicit_euler, rk4, rk_low_storage};
   const auto pairs = explicit_pairs();
   out.insert(out.end(), pairs.begin(), pairs.end());
-  out.insert(out.end(), {dopri5_stiff, rosenbrock, generalized_alpha, cvode_adams, cvode_bdf, ida});
+  out.insert(out.end(), {dopri5_stiff, rosenbrock, generalized_alpha, cvode_bdf, ida});
   return out;
 }
 

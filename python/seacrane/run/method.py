@@ -30,7 +30,6 @@ BOUNDS = {  # of what is above zero: the largest value, the unit, the fix
     "spectral_radius": None,
     "energy_limit": (math.inf, "", "give a positive number, such as 1e-3"),
 }
-BAUMGARTE = 5.0  # 1/s: of methods that cannot project, where the scene names none
 SOLVES_FOR_MULTIPLIERS = "ida"
 # Multiplications, each about as many as a count of the loops of the core gives.
 PER_BODY = 2000.0  # kinematics, inertia and loads, in either form
@@ -206,17 +205,11 @@ def start_state(scene: Scene, start: Any, *, time: float = 0.0) -> _core.State |
 def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Scene, _core.Model, str]:
     """The scene, its compiled model and the formulation that a run with this method steps.
 
-    The scene is another one, stabilised by Baumgarte's method, where its joints have to be kept by an
-    integrator that cannot project.
-
     Raises SceneError for a combination that does not exist.
     """
     model = scene.compile() if model is None else model
     known = integrator(method.integrator)
     formulation = _formulation(model, method, known)
-    if not known.projects and formulation == "redundant" and scene.baumgarte == 0.0 and scene.joints:
-        scene = scene.copy(baumgarte=BAUMGARTE)
-        model = scene.compile()
     if known.name == SOLVES_FOR_MULTIPLIERS:
         _refuse_redundant_joints(model)
     return scene, model, formulation
@@ -246,8 +239,6 @@ def _redundant_because(model: _core.Model, known: Integrator) -> str | None:
         return str(model.tree["refused"])
     if model.euler_angles:
         return "orientation 'euler_xyz' is a choice of the redundant state"
-    if not known.projects and (model.tree["loop_rows"] or model.limits):
-        return f"integrator {known.name!r} cannot project, and this scene keeps constraints or limits"
     if model.tree["speeds"] == 0:
         return "the joints and drivers of this scene leave nothing to move"
     return None
@@ -259,8 +250,8 @@ def _refuse_redundant_joints(model: _core.Model) -> None:
     if joints:
         raise SceneError(
             f"integrator {SOLVES_FOR_MULTIPLIERS!r} is not available here: the joints {joints} are "
-            "redundant, and it solves for every reaction; give one of them more freedom, or choose a method "
-            "that projects, as 'cvode-bdf' does"
+            "redundant, and it solves for every reaction; give one of them more freedom, or choose "
+            "'cvode-bdf', which projects"
         )
 
 

@@ -19,7 +19,7 @@ OIL = {
 for name, second in (
     ("case1", by("rk4", "redundant", dt=0.02)),
     ("case2", by("ida", "redundant")),
-    ("case3", by("cvode-adams", "redundant")),
+    ("case3", by("cvode-bdf", "redundant")),
 ):
     case(by("dopri5"), second, t_end=5.0, dt_out=0.1, name=name)(lambda name=name: getattr(cases, name)())
 

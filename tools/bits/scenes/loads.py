@@ -12,7 +12,7 @@ from seacrane import Curve, Scene
 from seacrane import scene as of
 from seacrane.scene import gust_curve
 
-ADAMS, BDF, IDA = by("cvode-adams", "redundant"), by("cvode-bdf", "redundant"), by("ida", "redundant")
+BDF, IDA = by("cvode-bdf", "redundant"), by("ida", "redundant")
 POINTERS = [ctypes.POINTER(ctypes.c_double)] * 3
 FOUR_LITRES_OF_OIL = {
     "full_area": 5e-3, "rod_side_area": 4e-3, "retracted_length": 1.05, "stroke": 0.6,
@@ -23,7 +23,7 @@ FOUR_LITRES_OF_OIL = {
 }  # fmt: skip
 
 
-@case(by("dopri5"), ADAMS)
+@case(by("dopri5"), BDF)
 def actuator() -> Scene:
     scene = guided()
     scene.add_actuator(

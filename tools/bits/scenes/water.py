@@ -26,7 +26,7 @@ def into_waves() -> Scene:
     return scene
 
 
-@case(by("dopri5"), by("cvode-adams", "redundant"))
+@case(by("dopri5"), by("cvode-bdf", "redundant"))
 def immersed_parts() -> Scene:
     scene = into_waves()
     scene.add_immersed(
