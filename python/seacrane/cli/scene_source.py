@@ -10,7 +10,7 @@ import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import tell
@@ -41,13 +41,7 @@ class Source:
     accuracy: Mapping[str, float] | None = None
 
 
-def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tuple[str, Scene]:
-    """The scene, and the name of its files; as `load_source`."""
-    found = load_source(source, options, scripts=scripts)
-    return found.name, found.scene
-
-
-def load_source(source: str, options: argparse.Namespace, *, scripts: bool) -> Source:
+def load_source(source: str, options: argparse.Namespace, *, scripts: bool = False) -> Source:
     """What the user named.
 
     Parameters
@@ -66,7 +60,9 @@ def load_source(source: str, options: argparse.Namespace, *, scripts: bool) -> S
     given = {name: getattr(options, name, None) for name in CASE_OPTIONS}
     given = {name: value for name, value in given.items() if value is not None}
     if source in CASES:
-        return Source(name=source, scene=_built_in(source, given))
+        import seacrane.cases as cases
+
+        return Source(name=source, scene=getattr(cases, source)(**given))
     path = Path(source)
     if given:
         names = ", ".join(f"--{name.replace('_', '-')}" for name in given)
@@ -77,7 +73,11 @@ def load_source(source: str, options: argparse.Namespace, *, scripts: bool) -> S
         if not scripts:
             raise SceneError(f"{path.name} is a script, and only `seacrane run` executes scripts")
         return Source(name=path.stem, scene=run_script(path))
-    return _lift(path) if path.suffix == ".toml" else _scene_file(path)
+    if path.suffix == ".toml":
+        return _lift(path)
+    from seacrane.scene.scene import Scene
+
+    return Source(name=path.stem, scene=Scene.load(path))
 
 
 def _lift(path: Path) -> Source:
@@ -90,19 +90,6 @@ def _lift(path: Path) -> Source:
         name=path.stem, scene=lift.scene(), t_end=None if lift.stages else lift.t_end, method=lift.method,
         outputs=lift.outputs, stages=lift.stages, start=lift.start, accuracy=lift.accuracy,
     )  # fmt: skip
-
-
-def _scene_file(path: Path) -> Source:
-    from seacrane.scene.scene import Scene
-
-    return Source(name=path.stem, scene=Scene.load(path))
-
-
-def _built_in(name: str, options: dict[str, Any]) -> Scene:
-    import seacrane.cases as cases
-
-    scene: Scene = getattr(cases, name)(**options)
-    return scene
 
 
 def is_result(source: str) -> bool:

@@ -16,9 +16,9 @@ from seacrane.errors import SceneError, WorkerVersionError
 from seacrane.version import __version__
 
 
-def run(arguments: argparse.Namespace) -> int:
+def study(arguments: argparse.Namespace) -> int:
     """Run the members that are not there, and tell what all of them say; 130 after Ctrl-C."""
-    from seacrane.cli.show_command import show_study
+    from seacrane.cli.result_commands import show_study
     from seacrane.lift.study_run import run_study
 
     progress = arguments.progress or sys.stderr.isatty()
