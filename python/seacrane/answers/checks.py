@@ -1,20 +1,18 @@
-"""Checks of a run, its pace, the statistics of its channels, their tables, and where its numbers are from."""
+"""Checks of a run, its pace, the statistics of its channels, and where its numbers are from."""
 
 from __future__ import annotations
 
 import hashlib
-import json
 import platform
 import re
-from collections.abc import Callable, Mapping, Sequence
-from html import escape
+from collections.abc import Callable, Mapping
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 
 from seacrane.pictures.plots import payload_bodies, resultants
-from seacrane.plotting.table import facts, table_of
+from seacrane.plotting.table import Table, table_of
 from seacrane.result import CHANNELS, Result
 from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
 
@@ -45,7 +43,7 @@ COUNTERS = {
     "formulation": "formulation",
     "integrator": "integrator",
 }
-Rows = list[tuple[str, Any]]
+Rows = list[tuple[Any, ...]]
 CLOSED = 1e-6  # m or rad: joints that are closed to it are closed for any engineer
 BALANCED = 1e-3  # of the absolute work
 STATED = (
@@ -157,45 +155,18 @@ def counter_rows(result: Result) -> Rows:
     return [*found, ("times faster than real time", speed(result))]
 
 
-def headed(parts: Mapping[str, str]) -> str:
-    """Blocks of HTML below their headings."""
-    return "\n".join(f"<h3>{escape(name)}</h3>{html}" for name, html in parts.items())
-
-
-def side_by_side(runs: Mapping[str, Result], rows: Callable[[Result], Rows]) -> str:
+def side_by_side(runs: Mapping[str, Result], rows: Callable[[Result], Rows]) -> Table:
     """One table of several runs; what none of them has is left out."""
-    by_run = [dict(rows(run)) for run in runs.values()]
+    by_run: list[dict[str, Any]] = [dict(rows(run)) for run in runs.values()]
     texts = list(dict.fromkeys(text for one in by_run for text in one))
-    return table_of(["", *runs], [[text, *(one.get(text) for one in by_run)] for text in texts]).html()
+    return table_of(["", *runs], [[text, *(one.get(text) for one in by_run)] for text in texts])
 
 
-def _told(rows: Rows) -> Rows:
-    return [(text, value) for text, value in rows if value is not None]
-
-
-def checked(result: Result) -> str:
-    """Constraint errors and energy balance, and whether they are good enough."""
-    parts = [
-        ("Worst constraint errors", constraint_rows(result), joints_closed(result),
-         f"Joints stay closed within {CLOSED:g} m or rad.",
-         f"Joints open by more than {CLOSED:g} m or rad: do not use the numbers before this is understood."),
-        ("Energy balance", energy_rows(result), energy_balanced(result),
-         f"Energy is balanced within {BALANCED:g} of the absolute work.",
-         f"Energy is off by more than {BALANCED:g} of the absolute work: tighten the tolerance and compare."),
-    ]  # fmt: skip
-    found = {}
-    for name, rows, good, passed, failed in parts:
-        if known := _told(rows):
-            kind, words = ("good", passed) if good else ("bad", failed)
-            found[name] = facts(known).html() + ("" if good is None else f'<p class="{kind}">{words}</p>')
-    return headed(found)
-
-
-def events(result: Result) -> str:
-    """The events of limits; begins of stages are in the particulars."""
+def events(result: Result) -> Table | None:
+    """The events of limits, if there are any; begins of stages are in the particulars."""
     found = [one for one in result.events if one.kind != "stage"]
     lasting = set(result.coords.get("contact_point", ()))  # whose force has no impulse of an instant
-    rows: list[Sequence[Any]] = [
+    rows = [
         (one.time, one.name, one.kind, one.speed,
          *(("", "") if one.name in lasting else (one.impulse, one.energy_lost)))
         for one in found[:MOST_EVENTS]
@@ -203,21 +174,7 @@ def events(result: Result) -> str:
     head = ("time [s]", "limit", "event", "speed [m/s or rad/s]", "impulse [N s or N m s]", "energy lost [J]")
     more = len(found) - len(rows)
     remarks = [f"{more} later events are not shown."] if more else []
-    return table_of(head, rows, remarks=remarks).html() if rows else ""
-
-
-def warned(result: Result) -> str:
-    """What the run was warned of."""
-    items = "".join(
-        f"<li>{escape(text)}.{f' It came {times} times, with other numbers.' if times > 1 else ''}</li>"
-        for text, times in findings_of(result).items()
-    )
-    return f"<ul>{items}</ul>" if items else "<p>None.</p>"
-
-
-def cost(result: Result) -> str:
-    """What the run took."""
-    return facts(_told(counter_rows(result))).html()
+    return table_of(head, rows, remarks=remarks) if rows else None
 
 
 def versions() -> dict[str, str]:
@@ -240,33 +197,7 @@ def digest(result: Result) -> str:
     return summed.hexdigest()
 
 
-def settings_block(result: Result) -> str:
-    """All settings as the result states them."""
-    return f"<pre>{escape(json.dumps(dict(result.settings), indent=1, sort_keys=True))}</pre>"
-
-
-def versions_block() -> str:
-    """What made the page."""
-    return table_of(("package", "version"), versions().items()).html()
-
-
-def _recorded(result: Result) -> str:
-    rows = [
-        (name, ", ".join(result.dims[name]), CHANNELS[name].unit, CHANNELS[name].long_name)
-        for name in result.channels
-    ]
-    return table_of(("channel", "dimensions", "unit", ""), rows).html()
-
-
-def provenance(result: Result) -> str:
-    """Settings, what was recorded, and versions."""
-    made = [
-        ("seacrane that ran it", result.stats["seacrane_version"]),
-        ("SHA-256 of the recorded numbers", digest(result)),
-    ]
-    parts = {
-        "Settings": settings_block(result),
-        "Recorded channels": _recorded(result),
-        "Versions that made this page": versions_block(),
-    }
-    return f"{facts(made).html()}\n{headed(parts)}"
+def recorded(result: Result) -> Rows:
+    """Name, dimensions, unit and meaning of each channel."""
+    every = ((name, CHANNELS[name]) for name in result.channels)
+    return [(name, ", ".join(result.dims[name]), one.unit, one.long_name) for name, one in every]

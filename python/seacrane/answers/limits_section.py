@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seacrane.description.pick import Pick
-from seacrane.plotting.table import Verdict, table_of
+from seacrane.plotting.table import Table, Verdict, table_of
 from seacrane.result import Result
 from seacrane.result.events import Event
 from seacrane.result.traces import ANGLES, NO_MOTION, shown_unit
@@ -154,12 +154,11 @@ def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judge
     return found
 
 
-def limits(result: Result) -> str:
+def limits(result: Result) -> Table | None:
     """A row for each limit."""
     rows = [(j.name, j.kind, j.bound, j.reached, Verdict(j.words, j.held)) for j in judged_bounds(result)]
     words = (
         "Coordinates are those at the outputs. Capacities of structure and wire are limit states: see the "
         "summary."
     )
-    head = ("limit", "kind", "bound", "reached", "held?")
-    return table_of(head, rows, remarks=[words]).html() if rows else ""
+    return table_of(("limit", "kind", "bound", "reached", "held?"), rows, remarks=[words]) if rows else None

@@ -15,7 +15,7 @@ from seacrane.description.loads import lines_of
 from seacrane.description.roles import CraneRoles
 from seacrane.description.suspension import Hung, hung_loads, suspensions
 from seacrane.description.wet_parts import displaced_volume, immersed_parts, sources_in_water, waters_in
-from seacrane.plotting.table import Table, facts, format_value, table_of
+from seacrane.plotting.table import Table, format_value, table_of
 from seacrane.result import Result
 from seacrane.scene.rigging import NO_BOUND, STRONGEST
 
@@ -202,16 +202,13 @@ def _method(result: Result, settings: Mapping[str, Any]) -> Rows:
     return chosen + _rows(settings, METHOD) + stop + [("outputs", int(result.time.size))]
 
 
-def particulars(result: Result) -> str:
-    """The lift, the scene, its sea, the method, notes and stages."""
+def particulars(result: Result) -> dict[str, Rows]:
+    """The lift, the scene, its sea, the method and notes."""
     settings = result.settings
-    groups = {
+    return {
         "Lift": lift_rows(result),
         "Scene": _scene(result, settings),
         "Sea": _rows(settings, SEA) + _rows(result.stats, STATED_SEA),
         "Method": _method(result, settings),
         "Notes": [(str(name), json.dumps(_plain(one))) for name, one in settings.get("notes", {}).items()],
     }
-    blocks = [f"<div><h3>{name}</h3>{facts(rows).html()}</div>" for name, rows in groups.items() if rows]
-    below = f"<h3>Stages</h3>{stage_table(result).html()}" if result.stages else ""
-    return f'<div class="columns">{"".join(blocks)}</div>{below}'

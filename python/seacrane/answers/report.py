@@ -9,25 +9,14 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from seacrane.answers.checks import (
-    constraint_rows,
-    counter_rows,
-    energy_rows,
-    findings_of,
-    headed,
-    settings_block,
-    side_by_side,
-    versions_block,
-)
-from seacrane.answers.sections import SECTIONS, Section, compose, picture_block
+from seacrane.answers.sections import page_of
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
-from seacrane.inputs.frames import AXES_NOTE
 from seacrane.inputs.keywords import named
 from seacrane.inputs.replaceable import GENERATOR, check_replaceable
 from seacrane.pictures.findings import Finding
 from seacrane.plotting.panel import Picture
-from seacrane.plotting.table import Answer, table_of
+from seacrane.plotting.table import Answer
 from seacrane.result import Result
 
 HEIGHT = 640  # pixels of the frame in a notebook
@@ -115,15 +104,7 @@ def report(result: Result, *, title: str | None = None, requires: Answer | None 
             f"result is a {type(result).__name__}; give what simulate() or Result.load() returns"
         )
     heading = str(result.stats["scene"]) if title is None else title
-    stopped = (
-        f'<p class="bad">Interrupted: the run ended at {result.time[-1]:g} s, before its end.</p>'
-        if result.interrupted
-        else ""
-    )
-    lead = f'{stopped}<p class="note">{escape(AXES_NOTE)}</p>'
-    needs = "" if requires is None else requires.html()
-    sections = (*SECTIONS, Section[Result]("What the scene requires", lambda _: needs))
-    return Report(title=heading, html=compose(title=heading, lead=lead, sections=sections, subject=result))
+    return Report(title=heading, html=page_of("report.html", title=heading, run=result, requires=requires))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,43 +136,4 @@ def study_report(study: Study) -> Report:
 
     Raises OSError if the image of a picture cannot be read.
     """
-    paragraphs = [escape(text) for text in (*study.summary, AXES_NOTE)]
-    runs = [(escape(name), run) for name, run in study.runs.items()]
-    paragraphs += [
-        f"<strong>Interrupted:</strong> run {name} ended at {run.time[-1]:g} s."
-        for name, run in runs if run.interrupted
-    ]  # fmt: skip
-    paragraphs += [
-        f"<strong>Out of range:</strong> run {name}: {escape(text)}."
-        for name, run in runs for text in findings_of(run)
-    ]  # fmt: skip
-    lead = "\n".join(f"<p>{text}</p>" for text in paragraphs)
-    page = compose(title=study.title, lead=lead, sections=OF_STUDY, subject=study)
-    return Report(title=study.title, html=page)
-
-
-def _findings(study: Study) -> str:
-    rows = [(item.finding, item.number, item.expected, item.verdict) for item in study.findings]
-    return table_of(("finding", "measured", "expected", "verdict"), rows).html() if rows else ""
-
-
-def _accuracy(study: Study) -> str:
-    told = {"Worst constraint errors": constraint_rows, "Energy balance": energy_rows}
-    return headed({name: side_by_side(study.runs, rows) for name, rows in told.items()})
-
-
-def _scene(study: Study) -> str:
-    return headed({name: table_of(("item", "value"), rows).html() for name, rows in study.scene.items()})
-
-
-OF_STUDY: tuple[Section[Study], ...] = (
-    Section("Findings", _findings),
-    Section("Figures", lambda study: "\n".join(map(picture_block, study.pictures))),
-    Section("Accuracy", _accuracy),
-    Section("Cost", lambda study: side_by_side(study.runs, counter_rows)),
-    Section("Scene", _scene),
-    Section(
-        "Settings", lambda study: headed({name: settings_block(run) for name, run in study.runs.items()})
-    ),
-    Section("Versions", lambda _: versions_block()),
-)
+    return Report(title=study.title, html=page_of("study.html", title=study.title, study=study))

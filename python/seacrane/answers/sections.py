@@ -1,47 +1,38 @@
-"""The one list of sections: what a report of a result holds, from what an engineer asks first to provenance.
+"""What the templates of pages show of a run: numbers at a glance, pictures, tables that may be there.
 
-A new section is a function of a result that gives HTML, and a row of the list.
+A new section is a function of a result, a row of `GIVEN`, and a block of `templates/report.html`.
 """
 
 from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from html import escape
-from importlib.resources import files
-from string import Template
-from typing import TYPE_CHECKING, Generic, TypeVar
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
+import jinja2
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.answers.checks import (
-    checked,
-    cost,
-    energy_balanced,
-    events,
-    findings_of,
-    joints_closed,
-    provenance,
-    statistics_of,
-    warned,
-)
-from seacrane.answers.lift_sheet import UNVERIFIED, lift_sheet
+from seacrane.answers import checks
+from seacrane.answers.lift_sheet import LiftSheet, lift_sheet
 from seacrane.answers.limits_section import judged_bounds, limits
-from seacrane.answers.particulars import particulars
+from seacrane.answers.particulars import particulars, stage_table
 from seacrane.answers.reported_curves import hook_loads
-from seacrane.answers.summary import summary
+from seacrane.answers.summary import Summary, summary
 from seacrane.description.suspension import hung_loads
 from seacrane.errors import FileFormatError, SeacraneError
+from seacrane.inputs.frames import AXES_NOTE
 from seacrane.inputs.replaceable import GENERATOR
 from seacrane.pictures.plots import PANELS, draw_track, overview_sheet, payload_bodies
 from seacrane.pictures.pose import outlined_skeleton, plot_scene
 from seacrane.pictures.pose_curves import POSES
 from seacrane.pictures.view import view
-from seacrane.plotting.panel import DOTS_PER_INCH, Picture, draw
-from seacrane.plotting.table import table_of
+from seacrane.plotting.panel import DOTS_PER_INCH, draw
+from seacrane.plotting.table import Table, facts, table_of
 from seacrane.result import Result
 from seacrane.result.contact_loads import NO_CONTACTS, contact_loads
 from seacrane.result.history import history_sheet
@@ -53,112 +44,58 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Cards = dict[str, tuple[str, bool | None]]
 STATISTICS_HEAD = ("quantity", "unit", "max", "at [s]", "min", "at [s]", "mean", "std")
-SHEET_NOTE = (
-    f'"{UNVERIFIED}": nobody has said where the number is from. The steps are those of GL Noble Denton '
-    "0027/ND Rev. 11, 6.2 and 7.2."
-)
-CONTACT_NOTE = (
-    "Speed is that at which a point comes, along the surface's normal. A re-hit is each contact of a point "
-    "after its first. The largest press is that of the outputs."
-)
 TENSIONS = ("hook_load", "line_tension", "limit_force")
 LARGEST = {  # channels whose value farthest from zero is told at a glance
     "limit_force": "Largest force of a wire, stop or seat",
     "cylinder_force": "Largest cylinder force",
     "slew_torque": "Largest slew torque",
 }
-Subject = TypeVar("Subject")
-PAGE = Template((files("seacrane") / "answers" / "page.html").read_text(encoding="utf-8"))
 
 
-@dataclass(frozen=True)
-class Section(Generic[Subject]):
-    """One block of a page.
-
-    Attributes
-    ----------
-    title : Its heading.
-    html : Its content as HTML, in which all text of users is escaped; where there is none it is left out.
-    """
-
-    title: str
-    html: Callable[[Subject], str]
-
-
-def _block(section: Section[Subject], subject: Subject) -> str:
-    try:
-        content = section.html(subject)
-    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
-        raise FileFormatError(
-            f"section {section.title!r} cannot be made: {type(error).__name__}: {error}; the result holds "
-            "notes that no run writes"
-        ) from error
-    return f"<section><h2>{escape(section.title)}</h2>\n{content}</section>" if content else ""
-
-
-def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subject: Subject) -> str:
-    """A page as `page.html` lays it out, with everything inside: nothing outside it is needed.
-
-    Parameters
-    ----------
-    title : Heading, escaped here.
-    lead : HTML below it.
-    subject
-        What they are about.
+def page_of(template: str, **given: Any) -> str:
+    """A page as a template lays it out, with everything inside: nothing outside it is needed.
 
     Raises FileFormatError if a subject holds what its own program never writes, such as notes that are no
     JSON.
     """
-    parts = [lead, *(_block(section, subject) for section in sections)]
-    content = "\n".join(part for part in parts if part)
-    return PAGE.substitute(title=escape(title), generator=GENERATOR, content=content)
+    try:
+        return _templates().get_template(template).render(given)
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
+        raise FileFormatError(
+            f"the page of {given['title']!r} cannot be made: {type(error).__name__}: {error}; the result "
+            "holds notes that no run writes"
+        ) from error
 
 
-def embedded(data: bytes, title: str, caption: str) -> str:
-    """A PNG with a caption; its bytes become part of the page."""
-    coded, head = base64.b64encode(data).decode("ascii"), escape(title)
-    words = f"<figcaption><strong>{head}.</strong> {escape(caption)}</figcaption>"
-    return f'<figure><img alt="{head}" src="data:image/png;base64,{coded}">{words}</figure>'
+@cache
+def _templates() -> jinja2.Environment:
+    """Text of users is escaped, tables are not, and None is nothing."""
+    made = jinja2.Environment(
+        loader=jinja2.PackageLoader("seacrane.answers"), autoescape=True, undefined=jinja2.StrictUndefined,
+        trim_blocks=True, lstrip_blocks=True, finalize=lambda one: "" if one is None else one,
+    )  # fmt: skip
+    made.globals.update(GIVEN)
+    return made
 
 
-def drawn(figure: Figure, title: str, caption: str) -> str:
-    """A Matplotlib figure with a caption."""
+def _drawn(figure: Figure) -> str:
+    """A Matplotlib figure as a page holds it."""
     image = io.BytesIO()
     figure.savefig(image, format="png", dpi=DOTS_PER_INCH)
-    return embedded(image.getvalue(), title, caption)
+    return _coded(image.getvalue())
 
 
-def picture_block(picture: Picture) -> str:
-    """A figure that is on disk.
-
-    Raises OSError if its image cannot be read.
-    """
-    source = "" if picture.data is None else f" Data: {picture.data.name}."
-    return embedded(picture.image.read_bytes(), picture.title, f"{picture.caption}{source}")
+def _coded(image: bytes) -> str:
+    return base64.b64encode(image).decode("ascii")
 
 
-def cards(values: Mapping[str, tuple[str, bool | None]]) -> str:
-    """Large numbers by what they are, each good, bad or neither."""
-    colour = {None: "", True: " good", False: " bad"}
-    boxes = "".join(
-        f'<div class="card{colour[good]}">{escape(name)}<strong>{escape(text)}</strong></div>'
-        for name, (text, good) in values.items()
-    )
-    return f'<div class="cards">{boxes}</div>'
-
-
-def note(text: str) -> str:
-    """A small remark."""
-    return f'<p class="note">{escape(text)}</p>'
-
-
-def _glance(result: Result) -> str:
+def _glance(result: Result) -> Cards:
     """The numbers that are asked for first, and whether the run may be trusted."""
     end = f"{float(result.stats['simulated_s']):g} s"
     told: Cards = {"Simulated": (end, False if result.interrupted else None)}
     for part in (_hook_loads, _largest, _roll, _contact, _limits_held, _utilisation, _trust):
         told |= part(result)
-    return cards(told)
+    return told
 
 
 def _finite(result: Result, channel: str, **names: str) -> list[Trace]:
@@ -238,39 +175,35 @@ def _utilisation(result: Result) -> Cards:
 
 
 def _trust(result: Result) -> Cards:
-    checks = [good for good in (joints_closed(result), energy_balanced(result)) if good is not None]
-    count = len(findings_of(result))
+    known = (checks.joints_closed(result), checks.energy_balanced(result))
+    judged = [good for good in known if good is not None]
+    count = len(checks.findings_of(result))
     told: Cards = {"Warnings": (str(count) if count else "none", not count)}
-    if checks:
-        told["Numerical checks"] = ("passed" if all(checks) else "not passed", all(checks))
+    if judged:
+        told["Numerical checks"] = ("passed" if all(judged) else "not passed", all(judged))
     return told
 
 
-def _summary(result: Result) -> str:
+def _summary(result: Result) -> Summary | None:
     told = replace(summary(result), contacts=NO_CONTACTS)
-    return told.html() if told or told.utilisation else ""
+    return told if told or told.utilisation else None
 
 
-def _statistics(result: Result) -> str:
-    found, left_out = statistics_of(result)
+def _statistics(result: Result) -> Table | None:
+    found, left_out = checks.statistics_of(result)
     if not found and not left_out:
-        return ""
+        return None
     start, end = result.time[0], result.time[-1]
     words = (
         f"Over the outputs from {start:g} to {end:g} s. Reactions are sizes of the joint's force and moment."
     )
     if left_out:
         words += f" {left_out} curves that are zero up to rounding are left out."
-    return table_of(STATISTICS_HEAD, found, form=".4g", remarks=[words]).html()
-
-
-def _sheets(result: Result) -> str:
-    """The lift sheet of each load with factors, or on a rope whose breaking load is known."""
-    sheets = "".join(_sheet(result, load) for load in _rated_loads(result))
-    return sheets + note(SHEET_NOTE) if sheets else ""
+    return table_of(STATISTICS_HEAD, found, form=".4g", remarks=[words])
 
 
 def _rated_loads(result: Result) -> list[str]:
+    """Loads with factors, or on a rope whose breaking load is known."""
     try:
         scene = result.scene
     except SeacraneError:
@@ -278,80 +211,50 @@ def _rated_loads(result: Result) -> list[str]:
     if scene is None:
         return []
     hung = [one.load for one in hung_loads(scene)]
-    return list(dict.fromkeys([*(one for one in scene.lift_factors if one in hung),
-                               *(hung if scene.ratings else ())]))  # fmt: skip
+    rated = [*(one for one in scene.lift_factors if one in hung), *(hung if scene.ratings else ())]
+    return list(dict.fromkeys(rated))
 
 
-def _sheet(result: Result, load: str) -> str:
+def _sheet(result: Result, load: str) -> LiftSheet | Table:
     try:
-        return lift_sheet(result, load=load).html()
+        return lift_sheet(result, load=load)
     except SeacraneError as error:
-        return note(f"No sheet of {load}: {error}.")
-
-
-def _contacts(result: Result) -> str:
-    told = contact_loads(result)
-    return told.html() + note(CONTACT_NOTE) if told else ""
+        return Table(remarks=[f"No sheet of {load}: {error}."])
 
 
 def _tensions(result: Result) -> str:
     held = [name for name in TENSIONS if name in result.channels]
-    caption = "Hook loads, lines and limits over time; triangles mark the largest and the smallest value."
-    return drawn(draw(history_sheet(result, *held)), "Tension", caption) if held else ""
+    return _drawn(draw(history_sheet(result, *held))) if held else ""
 
 
 def _histories(result: Result) -> str:
     """Where anything but the body positions, which only payloads show, is drawn."""
     shown = set(PANELS) & set(result.channels)
-    if not (shown - {"position"} or (shown and payload_bodies(result))):
-        return ""
-    caption = (
-        "What was recorded over time; triangles mark the largest and the smallest value. What is zero up to "
-        "rounding is left out."
-    )
-    return drawn(draw(overview_sheet(result)), "Histories", caption)
+    there = shown - {"position"} or (shown and payload_bodies(result))
+    return _drawn(draw(overview_sheet(result))) if there else ""
 
 
 def _track(result: Result) -> str:
-    if "position" not in result.channels or not payload_bodies(result):
-        return ""
-    return drawn(draw_track(result), "Payload", "Track of the centre of mass in inertial axes.")
+    there = "position" in result.channels and payload_bodies(result)
+    return _drawn(draw_track(result)) if there else ""
 
 
-def _scene(result: Result) -> str:
-    if not outlined_skeleton(result):
-        return ""
-    caption = (
-        f"First ({result.time[0]:g} s) and last ({result.time[-1]:g} s) recorded pose, inertial axes. Bodies "
-        "are lines through their joints; ships have the length and breadth of their radii of gyration, boxes "
-        "the inertia of their bodies."
-    )
-    return drawn(plot_scene(result), "Scene", caption)
-
-
-def _page(result: Result) -> str:
-    if result.kept_scene is None or not all(name in result.channels for name in POSES):
-        return ""
-    words = "Space plays and pauses, the mouse turns and zooms. The caption of the page tells what is drawn."
-    return f'<div class="screen">{view(result)._repr_html_()}<p class="note">{words}</p></div>'
-
-
-SECTIONS: tuple[Section[Result], ...] = (
-    Section("At a glance", _glance),
-    Section("Summary", _summary),
-    Section("Lift sheet", _sheets),
-    Section("Particulars", particulars),
-    Section("Scene", _scene),
-    Section("In three dimensions", _page),
-    Section("Hook load and tension", _tensions),
-    Section("Limits", limits),
-    Section("Contacts", _contacts),
-    Section("Statistics", _statistics),
-    Section("Histories", _histories),
-    Section("Payload track", _track),
-    Section("Events", events),
-    Section("Warnings", warned),
-    Section("Checks", checked),
-    Section("Cost", cost),
-    Section("Provenance", provenance),
-)
+GIVEN: dict[str, Callable[..., Any] | str | float] = {
+    "axes": AXES_NOTE, "generator": GENERATOR, "closed": checks.CLOSED, "balanced": checks.BALANCED,
+    "facts": facts, "table": table_of,
+    "known": lambda rows: [(text, value) for text, value in rows if value is not None],
+    "glance": _glance, "numbers": _summary, "rated_loads": _rated_loads, "sheet": _sheet,
+    "particulars": particulars, "stage_table": stage_table,
+    "scene": lambda run: _drawn(plot_scene(run)) if outlined_skeleton(run) else "",
+    "has_poses": lambda run: run.kept_scene is not None and set(POSES) <= set(run.channels),
+    "page": lambda run: view(run)._repr_html_(),
+    "tensions": _tensions, "histories": _histories, "track": _track,
+    "limits": limits, "contacts": contact_loads, "statistics": _statistics, "events": checks.events,
+    "findings": checks.findings_of, "constraint_rows": checks.constraint_rows,
+    "energy_rows": checks.energy_rows, "counter_rows": checks.counter_rows,
+    "joints_closed": checks.joints_closed, "energy_balanced": checks.energy_balanced,
+    "digest": checks.digest, "versions": checks.versions, "recorded": checks.recorded,
+    "settings": lambda run: json.dumps(dict(run.settings), indent=1, sort_keys=True),
+    "side_by_side": checks.side_by_side, "image": lambda picture: _coded(picture.image.read_bytes()),
+    "found": lambda study: [(one.finding, one.number, one.expected, one.verdict) for one in study.findings],
+}  # fmt: skip

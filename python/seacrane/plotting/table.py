@@ -145,8 +145,98 @@ def _flat(values: Any) -> list[Any]:
     return list(values) if isinstance(values, Iterable) and not isinstance(values, str) else [values]
 
 
+class Answer(ABC):
+    """What says which columns it has: it prints, shows itself in a notebook, and becomes data in SI units."""
+
+    @abstractmethod
+    def _shown(self) -> Table:
+        """Its columns."""
+
+    def _data(self) -> Table:
+        """What it becomes as data, where that is not what it shows."""
+        return self._shown()
+
+    def __str__(self) -> str:
+        """As a terminal shows it: the last column is wrapped."""
+        table = self._shown()
+        head, right, rows = table._printed()
+        widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
+        before = sum(widths[:-1]) + 2 * len(widths[:-1])
+        lines = [table.title] if table.title else []
+        for *first, last in [head, *rows] if rows and any(head) else rows:
+            room = max(WIDTH - before, LEAST_WIDTH)
+            parts = wrap(last, room, break_long_words=False, break_on_hyphens=False) or [""]
+            parts = [last.rjust(widths[-1])] if right[-1] else parts
+            cells = zip(first, widths, right, strict=False)
+            start = "".join(f"{c.rjust(w) if to else c.ljust(w)}  " for c, w, to in cells)
+            lines += [f"{start}{parts[0]}".rstrip(), *(f"{'':{before}}{part}" for part in parts[1:])]
+        return "\n\n".join(["\n".join([*lines, *table.remarks]), *map(str, table.below)])
+
+    def html(self) -> str:
+        """Its tables alone, for a page; everything that a user may have named is escaped."""
+        table = self._shown()
+        head, right, rows = table._printed()
+        title = escape(table.title)
+        shown = f"<p>{title}</p>" if title else ""
+        if rows:
+            names = "".join(f"<th>{escape(name)}</th>" for name in head)
+            top = f"<thead><tr>{names}</tr></thead>" if any(head) else ""
+            lines = "\n".join(f"<tr>{''.join(map(_cell, row, right))}</tr>" for row in rows)
+            kind = "" if top else ' class="facts"'
+            caption = f"<caption>{title}</caption>" if title else ""
+            shown = f"<table{kind}>{caption}{top}<tbody>\n{lines}\n</tbody></table>"
+        notes = "".join(f'<p class="note">{escape(one)}</p>' for one in table.remarks)
+        return shown + notes + "".join(one.html() for one in table.below)
+
+    def __html__(self) -> str:
+        """For templates, which take it as it is."""
+        return self.html()
+
+    def _repr_html_(self) -> str:
+        return f'<div class="seacrane"><style>{NOTEBOOK}</style>{self.html()}</div>'
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Columns over their axes, with their units."""
+        import xarray
+
+        table = self._data()
+        if table.data is not None:
+            return table.data.copy()
+        dims = [axis.name for axis in table.axes if np.ndim(axis.values)]
+        return xarray.Dataset(
+            {one.name: one.variable(dims) for one in table.columns if one.name},
+            {axis.name: axis.variable([axis.name][: np.ndim(axis.values)]) for axis in table.axes},
+            dict(table.attributes),
+        )
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The same columns as a table, over the axes; `attrs["units"]` holds the units that are known."""
+        import pandas
+
+        data = self.to_xarray()
+        if data.sizes:
+            table = data.to_dataframe()
+        else:
+            table = pandas.DataFrame({name: [values.item()] for name, values in data.items()})
+        units = {name: one.attrs["units"] for name, one in data.items() if "units" in one.attrs}
+        table.attrs = {**data.attrs, "units": units}
+        return table
+
+    def to_csv(self, path: str | os.PathLike[str]) -> Path:
+        """Write these columns as comma-separated values, units in brackets; returns the path.
+
+        An older file of that name is replaced, complete or not at all. Raises OSError.
+        """
+        table, known = self.to_dataframe(), self.to_xarray().variables.items()
+        named = {name: f"{name} [{one.attrs['units']}]" for name, one in known if "units" in one.attrs}
+        index = [named.get(name, name) for name in table.index.names]
+        with atomic_write(Path(path)) as draft:
+            table.rename(columns=named).to_csv(draft, index=any(index), index_label=index)
+        return Path(path)
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Table:
+class Table(Answer):
     """Columns over axes. Without an axis it is one row, and prints names beside values.
 
     Attributes
@@ -171,73 +261,8 @@ class Table:
     attributes: Mapping[str, Any] = field(default_factory=dict)
     data: xarray.Dataset | None = None
 
-    def __str__(self) -> str:
-        """As a terminal shows it: the last column is wrapped."""
-        head, right, rows = self._printed()
-        widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
-        before = sum(widths[:-1]) + 2 * len(widths[:-1])
-        lines = [self.title] if self.title else []
-        for *first, last in [head, *rows] if rows and any(head) else rows:
-            room = max(WIDTH - before, LEAST_WIDTH)
-            parts = wrap(last, room, break_long_words=False, break_on_hyphens=False) or [""]
-            parts = [last.rjust(widths[-1])] if right[-1] else parts
-            cells = zip(first, widths, right, strict=False)
-            start = "".join(f"{c.rjust(w) if to else c.ljust(w)}  " for c, w, to in cells)
-            lines += [f"{start}{parts[0]}".rstrip(), *(f"{'':{before}}{part}" for part in parts[1:])]
-        return "\n\n".join(["\n".join([*lines, *self.remarks]), *map(str, self.below)])
-
-    def html(self) -> str:
-        """For a page; everything that a user may have named is escaped."""
-        head, right, rows = self._printed()
-        title = escape(self.title)
-        shown = f"<p>{title}</p>" if title else ""
-        if rows:
-            names = "".join(f"<th>{escape(name)}</th>" for name in head)
-            top = f"<thead><tr>{names}</tr></thead>" if any(head) else ""
-            lines = "\n".join(f"<tr>{''.join(map(_cell, row, right))}</tr>" for row in rows)
-            kind = "" if top else ' class="facts"'
-            caption = f"<caption>{title}</caption>" if title else ""
-            shown = f"<table{kind}>{caption}{top}<tbody>\n{lines}\n</tbody></table>"
-        notes = "".join(f'<p class="note">{escape(one)}</p>' for one in self.remarks)
-        return shown + notes + "".join(one.html() for one in self.below)
-
-    def _repr_html_(self) -> str:
-        return f'<div class="seacrane"><style>{NOTEBOOK}</style>{self.html()}</div>'
-
-    def to_xarray(self) -> xarray.Dataset:
-        """Columns over the axes, with their units."""
-        import xarray
-
-        if self.data is not None:
-            return self.data.copy()
-        dims = [axis.name for axis in self.axes if np.ndim(axis.values)]
-        return xarray.Dataset(
-            {one.name: one.variable(dims) for one in self.columns if one.name},
-            {axis.name: axis.variable([axis.name][: np.ndim(axis.values)]) for axis in self.axes},
-            dict(self.attributes),
-        )
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """The same as a table, over the axes; `attrs["units"]` holds the units."""
-        import pandas
-
-        data = self.to_xarray()
-        if data.sizes:
-            table = data.to_dataframe()
-        else:
-            table = pandas.DataFrame({name: [values.item()] for name, values in data.items()})
-        units = {name: one.attrs["units"] for name, one in data.items() if "units" in one.attrs}
-        table.attrs = {**data.attrs, "units": units}
-        return table
-
-    def to_csv(self, path: str | os.PathLike[str]) -> Path:
-        """Write it as comma-separated values; returns the path."""
-        table, known = self.to_dataframe(), self.to_xarray().variables.items()
-        named = {name: f"{name} [{one.attrs['units']}]" for name, one in known if "units" in one.attrs}
-        index = [named.get(name, name) for name in table.index.names]
-        with atomic_write(Path(path)) as draft:
-            table.rename(columns=named).to_csv(draft, index=any(index), index_label=index)
-        return Path(path)
+    def _shown(self) -> Table:
+        return self
 
     def _printed(self) -> tuple[list[str], list[bool], list[tuple[str, ...]]]:
         """Heads, what is aligned to the right, and rows."""
@@ -271,43 +296,6 @@ def table_of(head: Sequence[str], rows: Iterable[Iterable[Any]], *, form: str = 
 def facts(rows: Iterable[tuple[str, Any]], title: str = "") -> Table:
     """Names beside values."""
     return table_of(("", ""), rows, title=title)
-
-
-class Answer(ABC):
-    """What says which columns it has: it prints, shows itself in a notebook, and becomes data in SI units."""
-
-    @abstractmethod
-    def _shown(self) -> Table:
-        """Its columns."""
-
-    def __str__(self) -> str:
-        return str(self._shown())
-
-    def _repr_html_(self) -> str:
-        return self._shown()._repr_html_()
-
-    def html(self) -> str:
-        """Its tables alone, for a page."""
-        return self._shown().html()
-
-    def _data(self) -> Table:
-        """What it becomes as data, where that is not what it shows."""
-        return self._shown()
-
-    def to_xarray(self) -> xarray.Dataset:
-        """Columns over their axes, with their units."""
-        return self._data().to_xarray()
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """The same columns as a table, over the axes; `attrs["units"]` holds the units that are known."""
-        return self._data().to_dataframe()
-
-    def to_csv(self, path: str | os.PathLike[str]) -> Path:
-        """Write these columns as comma-separated values, units in brackets; returns the path.
-
-        An older file of that name is replaced, complete or not at all. Raises OSError.
-        """
-        return self._data().to_csv(path)
 
 
 class Named(Protocol):
