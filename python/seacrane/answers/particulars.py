@@ -63,11 +63,9 @@ def lift_rows(result: Result) -> Rows:
         return []
     if not scene.roles:
         return _in_water(scene)
-    hung = hung_loads(scene)
-    found = [("ship", words) for words in _ships(scene)] + [
-        ("crane", words) for words in _cranes(result, scene)
-    ]
-    for one in hung:
+    found = [("ship", words) for words in _ships(scene)]
+    found += [("crane", words) for words in _cranes(result, scene)]
+    for one in hung_loads(scene):
         found += [("wire", _wire(scene, one)), ("load", _load(scene, one))]
     found += [(f"{curve.name} [{curve.unit}]", _range(curve.values)) for curve in hook_loads(result)]
     return found + _in_water(scene)
@@ -115,10 +113,8 @@ def _cranes(result: Result, scene: Description) -> Iterator[str]:
     for prefix, roles in scene.roles.items():
         words = [f"{prefix.strip()} on {_base(scene, roles)}".strip()]
         if roles.tip is not None and roles.slew is not None and set(POSES) <= set(result.channels):
-            first, last = (
-                float(tip_radius(scene, roles, result["position"][at], result["quaternion"][at]))
-                for at in (0, -1)
-            )
+            poses = ((result["position"][at], result["quaternion"][at]) for at in (0, -1))
+            first, last = (float(tip_radius(scene, roles, *pose)) for pose in poses)
             height = result.place_of(*roles.tip)[:, 2]
             moves = abs(last - first) > 0.05 or abs(height[-1] - height[0]) > 0.05
             words.append(f"tip {first:.1f} m out and {height[0]:.1f} m up at the start")
@@ -194,10 +190,7 @@ def _scene(result: Result, settings: Mapping[str, Any]) -> Rows:
 
 
 def _method(result: Result, settings: Mapping[str, Any]) -> Rows:
-    chosen: Rows = [
-        ("formulation", result.stats["formulation"]),
-        ("integrator", result.stats["integrator"]),
-    ]
+    chosen: Rows = [(name, result.stats[name]) for name in ("formulation", "integrator")]
     stop = [("recorded until [s]", float(result.time[-1]))] if result.interrupted else []
     return chosen + _rows(settings, METHOD) + stop + [("outputs", int(result.time.size))]
 

@@ -161,20 +161,14 @@ def _add(command: Any, rows: Sequence[Row]) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; errors become one line on standard error.
+    """Run a command by what follows the program's name; errors become one line on standard error.
 
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        What follows the program's name; the process's own arguments if None.
-
-    Returns
-    -------
-    int
-        Exit status: 0 done, 1 failed, 2 wrong arguments (then raised as SystemExit), 130 interrupted.
+    Returns the exit status: 0 done, 1 failed, 2 wrong arguments (then raised as SystemExit), 130 interrupted.
     """
     parser = build_parser()
-    _complete(parser)
+    if "_ARGCOMPLETE" in os.environ:  # the shell asks for completions
+        with contextlib.suppress(ImportError):
+            import_module("argcomplete").autocomplete(parser)
     chosen = parser.parse_args(arguments)
     if chosen.version:
         print(_version())
@@ -183,13 +177,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help(sys.stderr)
         return MISUSED
     return _run_command(chosen)
-
-
-def _complete(parser: argparse.ArgumentParser) -> None:
-    """Answer the shell where it asks for completions, and argcomplete is installed."""
-    if "_ARGCOMPLETE" in os.environ:
-        with contextlib.suppress(ImportError):
-            import_module("argcomplete").autocomplete(parser)
 
 
 def _version() -> str:
@@ -222,14 +209,9 @@ def _run_command(chosen: argparse.Namespace) -> int:
 
 
 def _one_line(
-    command: str,
-    usual: Callable[..., str],
-    message: Warning | str,
-    category: type[Warning],
-    filename: str,
-    lineno: int,
-    line: str | None = None,
-) -> str:
+    command: str, usual: Callable[..., str], message: Warning | str, category: type[Warning], filename: str,
+    lineno: int, line: str | None = None,
+) -> str:  # fmt: skip
     """A warning as errors are told; with its place only where that is a line of the user's own script."""
     place = Path(filename)
     if place.exists() and place.resolve() != Path(sys.argv[0]).resolve() and PACKAGE not in place.parents:

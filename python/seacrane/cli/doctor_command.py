@@ -113,14 +113,7 @@ def _show(sections: dict[str, Facts], missing: list[str], *, as_json: bool) -> N
 
 @dataclass(frozen=True, kw_only=True)
 class Package:
-    """One package that is asked for.
-
-    Attributes
-    ----------
-    extra : The optional part of seacrane that needs it; empty for what is always needed.
-    least : Least version, or empty.
-    found : Version that is installed, or empty.
-    """
+    """One package that is asked for, by an extra or always, of a least version; the version that is found."""
 
     name: str
     extra: str
@@ -161,12 +154,8 @@ def chosen_packages(lines: Iterable[str], installed: Callable[[str], str]) -> li
             continue
         parts = re.match(r"\s*([\w.-]+)[^>=]*(?:[>=]=\s*([\w.]+))?", wanted)
         if parts:
-            name = parts[1]
-            found.append(
-                Package(
-                    name=name, extra=extra[1] if extra else "", least=parts[2] or "", found=installed(name)
-                )
-            )
+            name, least, of = parts[1], parts[2] or "", extra[1] if extra else ""
+            found.append(Package(name=name, extra=of, least=least, found=installed(name)))
     return found
 
 
@@ -190,14 +179,7 @@ def core_file() -> Path | None:
 
 
 def build_facts() -> dict[str, str]:
-    """What is known of how this package was built, by what it is about.
-
-    Returns
-    -------
-    dict of str to str
-        "seacrane" (version), "python", "platform", "core" (file), "compiler", "instrumented" (only where it
-        is), "wheel" (tag, only where it was installed from one) and "installed in".
-    """
+    """What is known of how this package was built, and of its version, by what it is about."""
     facts = {
         "seacrane": __version__,
         "python": f"{platform.python_implementation()} {platform.python_version()}",

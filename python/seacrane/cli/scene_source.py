@@ -42,20 +42,10 @@ class Source:
 
 
 def load_source(source: str, options: argparse.Namespace, *, scripts: bool = False) -> Source:
-    """What the user named.
+    """A case by its name and `CASE_OPTIONS`, or a lift, a scene file or, if those may run, a script.
 
-    Parameters
-    ----------
-    source : Name of a case, or path of a lift, a scene file or a script.
-    options : May hold `CASE_OPTIONS`; those that are None or absent keep the case's own values.
-    scripts : Whether a script may be executed.
-
-    Raises
-    ------
-    SceneError
-        If there is no such scene, a script may not run or fails, or options do not apply.
-    FileFormatError
-        If a file is none of these.
+    Raises SceneError if there is no such scene, a script may not run or fails, or options do not apply, and
+    FileFormatError for a file that is none of these.
     """
     given = {name: getattr(options, name, None) for name in CASE_OPTIONS}
     given = {name: value for name, value in given.items() if value is not None}
@@ -101,10 +91,7 @@ def is_result(source: str) -> bool:
 
 
 def run_script(path: Path) -> Scene:
-    """What the script's function ``scene()`` returns.
-
-    Raises SceneError if the script fails (with its line), defines no ``scene()``, or returns something else.
-    """
+    """What the script's function ``scene()`` returns; SceneError, with the line, where it fails."""
     from seacrane.scene.scene import Scene
 
     try:
@@ -138,6 +125,5 @@ def _importable(folder: Path) -> Iterator[None]:
 def _line_in(path: Path, error: BaseException) -> int | None:
     if isinstance(error, SyntaxError):
         return error.lineno
-    frames = traceback.extract_tb(error.__traceback__)
-    lines = [frame.lineno for frame in frames if frame.filename == str(path)]
-    return lines[-1] if lines else None
+    frames = reversed(traceback.extract_tb(error.__traceback__))
+    return next((frame.lineno for frame in frames if frame.filename == str(path)), None)

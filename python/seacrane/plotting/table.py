@@ -67,28 +67,11 @@ def read_as(unit: str) -> tuple[float, str]:
 class Column:
     """What a table holds under one name.
 
-    Attributes
-    ----------
-    values : array_like
-        Over the axes of the table: numbers in SI units, flags or texts; None where nothing applies.
-    name : str
-        Of the data; empty: it is printed and nothing else.
-    unit : str
-        SI. It prints in the unit in which that is read.
-    head : str or None
-        What is printed above it, before the unit; default: its name.
-    form : str
-        In which numbers are printed.
-    least : float
-        Smaller numbers print as zero: they are so up to rounding.
-    read : (str, array_like) or None
-        Unit and values of the print, where these are others.
-    printed : bool
-        Whether it is printed at all.
-    over : sequence of str or None
-        Axes of the data; default: all.
-    long_name : str
-        What the data say of it.
+    `values` over the axes of the table: numbers in SI units (`unit`), flags or texts; None where nothing
+    applies. They print in the unit in which that is read, or as `read` has it (unit and values), below `head`
+    (default: the name), by their `form`; numbers below `least` are zero up to rounding. One without a name is
+    printed and no data, one that is not `printed` is data alone, over the axes `over` (default: all), with a
+    `long_name`.
     """
 
     values: Any
@@ -120,9 +103,8 @@ class Column:
         if factor != 1.0:
             values = [None if one is None else factor * one for one in values]
         small = (isinstance(one, float) and abs(one) < self.least for one in values)
-        return [
-            format_value(0.0 if zero else one, self.form) for one, zero in zip(values, small, strict=True)
-        ]
+        shown = zip(values, small, strict=True)
+        return [format_value(0.0 if zero else one, self.form) for one, zero in shown]
 
     def right(self) -> bool:
         """Whether it is aligned to the right, as numbers under a head are."""
@@ -239,18 +221,9 @@ class Answer(ABC):
 class Table(Answer):
     """Columns over axes. Without an axis it is one row, and prints names beside values.
 
-    Attributes
-    ----------
-    columns, axes : sequence of Column
-        A row for each place of the axes, the last of them fastest; a number as an axis has no length.
-    title, remarks : str, sequence of str
-        Above and below; each remark is a line.
-    below : sequence of Table
-        What is printed after it.
-    attributes : mapping
-        Of the data set.
-    data : xarray.Dataset or None
-        What it becomes as data, where that is more than its columns.
+    A row for each place of the axes, the last of them fastest; a number as an axis has no length. Above
+    stands the title, below are remarks, a line each, and the tables `below`. As data it has `attributes`, or
+    is `data`.
     """
 
     columns: Sequence[Column] = ()
@@ -286,10 +259,8 @@ def _cell(text: str, right: bool) -> str:
 
 def table_of(head: Sequence[str], rows: Iterable[Iterable[Any]], *, form: str = ".5g", **given: Any) -> Table:
     """A table of rows, which is printed and nothing else."""
-    columns = list(zip(*rows, strict=True)) or [()] * len(head)
-    first, *others = [
-        Column(head=name, values=one, form=form) for name, one in zip(head, columns, strict=True)
-    ]
+    every = zip(head, list(zip(*rows, strict=True)) or [()] * len(head), strict=True)
+    first, *others = [Column(head=name, values=one, form=form) for name, one in every]
     return Table(axes=[first], columns=others, **given)
 
 
@@ -310,12 +281,7 @@ Row = TypeVar("Row", bound=Named)
 
 @dataclass(frozen=True, repr=False)
 class Rows(Sequence[Row], Answer):
-    """An answer of rows that have names.
-
-    Attributes
-    ----------
-    rows : tuple
-    """
+    """An answer of rows that have names."""
 
     rows: tuple[Row, ...]
 
