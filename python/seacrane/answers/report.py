@@ -12,8 +12,8 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-import jinja2
 import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined, UndefinedError
 
 from seacrane.answers import checks
 from seacrane.answers.lift_sheet import LiftSheet, lift_sheet
@@ -112,7 +112,7 @@ def page_of(template: str, **given: Any) -> str:
     """A page as a template lays it out; FileFormatError for what no run writes, as notes that are no JSON."""
     try:
         return _templates().get_template(template).render(given)
-    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, UndefinedError) as error:
         raise FileFormatError(
             f"the page of {given['title']!r} cannot be made: {type(error).__name__}: {error}; the result "
             "holds notes that no run writes"
@@ -120,10 +120,10 @@ def page_of(template: str, **given: Any) -> str:
 
 
 @cache
-def _templates() -> jinja2.Environment:
+def _templates() -> Environment:
     """Text of users is escaped, tables are not, and None is nothing."""
-    made = jinja2.Environment(
-        loader=jinja2.PackageLoader("seacrane.answers"), autoescape=True, undefined=jinja2.StrictUndefined,
+    made = Environment(
+        loader=PackageLoader("seacrane.answers"), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True, finalize=lambda one: "" if one is None else one,
     )  # fmt: skip
     made.globals.update(GIVEN)
