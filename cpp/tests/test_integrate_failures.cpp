@@ -149,8 +149,7 @@ TEST_CASE("an exception of the projection reaches the caller and leaves the step
       return false;
     }
   } system;
-  for (const IntegratorProperties& method :
-       methods([](const auto& m) { return !m.residual_form; })) {
+  for (const IntegratorProperties& method : methods([](const auto& m) { return !m.residual_form; })) {
     const std::string name = method.name;
     CAPTURE(name);
     const auto integrator = make_integrator(problem(system), with_tolerance(name, 1e-8));

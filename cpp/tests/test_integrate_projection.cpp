@@ -34,8 +34,8 @@ Outcome swing(const IntegratorOptions& options, bool projects) {
 }  // namespace
 
 TEST_CASE("projection keeps the pendulum on its circle and its period right") {
-  for (const IntegratorProperties& method : methods(
-           [](const auto& m) { return m.is_adaptive() && !m.residual_form && m.order <= 5; })) {
+  for (const IntegratorProperties& method :
+       methods([](const auto& m) { return m.is_adaptive() && !m.residual_form && m.order <= 5; })) {
     const std::string name = method.name;
     CAPTURE(name);
     const Outcome with = swing(with_tolerance(name, 1e-6), true);

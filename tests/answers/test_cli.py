@@ -14,8 +14,8 @@ import pytest
 
 import seacrane.hydro
 from seacrane import cases
-from seacrane.cli.as_json import to_json
 from seacrane.cli.command_line import main
+from seacrane.cli.output import to_json
 from seacrane.cli.scene_source import run_script
 from seacrane.errors import SceneError
 from seacrane.result import Result

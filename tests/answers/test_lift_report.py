@@ -13,8 +13,7 @@ from test_result import crane_run, vessel_result
 
 from seacrane import Frame, Result, Scene, Stage, cases, report, shipped_database, simulate
 from seacrane.answers import Report
-from seacrane.answers.checks import statistics_of
-from seacrane.answers.limits_section import judged_bounds
+from seacrane.answers.checks import judged_bounds, statistics_of
 
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.LargeSwingWarning")  # thrown on purpose
 NASTY = "<img src=x onerror=alert(1)>&\"'"

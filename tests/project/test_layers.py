@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE, CORE = ROOT / "python" / "seacrane", ROOT / "cpp" / "seacrane"
 # Rooms from the ground up: each may import from those before it.
 FLOORS = """
-    errors warnings version one_thread | lazy | inputs | plotting sea | hydro.data | hydro.memory
+    errors warnings version one_thread arrays | lazy | inputs | plotting sea | hydro.data | hydro.memory
     | hydro.vessel | hydro.database | hydro.group | hydro.readers | hydro.hull | hydro | description
     | series water | validity | crane | analysis | scene | result | statistics | run | accuracy | simulation
     | ensembles | operability | pictures | answers | needs | lift | cases | cli | __main__

@@ -28,13 +28,14 @@ def test_package_is_installed_with_its_version_command_types_and_requirements(re
     assert all((resources.files("seacrane") / name).is_file() for name in ("py.typed", "_core.pyi"))
     always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
     assert {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always} == {
-        "numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "matplotlib", "threadpoolctl", "tqdm",
+        "numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "jinja2", "matplotlib",
+        "threadpoolctl", "tqdm",
     }  # fmt: skip
 
 
 def test_import_leaves_the_heavy_libraries_alone() -> None:
     loaded = set(run_python("import seacrane, sys; print(*sys.modules)").split())
-    heavy = "scipy xarray matplotlib pandas h5netcdf h5py netCDF4 tqdm threadpoolctl"
+    heavy = "scipy xarray matplotlib pandas h5netcdf h5py netCDF4 jinja2 tqdm threadpoolctl"
     assert "seacrane" in loaded and not loaded & {*heavy.split()}
 
 

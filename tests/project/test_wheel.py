@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from seacrane.cli.built import core_file
+from seacrane.cli.doctor_command import core_file
 
 ROOT = Path(__file__).resolve().parents[2]
 linux = pytest.mark.skipif(sys.platform != "linux", reason="modules of Linux are read by readelf")

@@ -10,8 +10,7 @@ import numpy as np
 import scipy
 
 from seacrane import _core
-from seacrane.cli.built import build_facts
-from seacrane.cli.pace import blas
+from seacrane.cli.doctor_command import blas, build_facts
 from seacrane.run.lanes import INSTRUCTIONS, module_of
 
 BUILD = Path(__file__).parents[2] / "build" / "package"

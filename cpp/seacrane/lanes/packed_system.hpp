@@ -202,8 +202,7 @@ class PackedSystem final : public LaneSystem {
       by_lane_.evaluate_inertia(added_inertia_.data());
     }
     own_.evaluate_inertia(bodies_.data(), frames_.data(),
-                          added_inertia_.empty() ? nullptr : added_inertia_.data(),
-                          [](int, const auto&) {});
+                          added_inertia_.empty() ? nullptr : added_inertia_.data(), [](int, const auto&) {});
     articulated_.factor();
   }
 

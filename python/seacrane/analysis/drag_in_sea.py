@@ -7,13 +7,13 @@ from math import gamma
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.frequency_domain import component_forces, excitation_of, rates_in_waves
 from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.modal_analysis import directions_of, quadrature_frequencies, weights_of
 from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.arrays import Array, Complex
 from seacrane.description.given import group_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
@@ -25,8 +25,6 @@ from seacrane.sea.spreading import Spreading
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 TOGETHER = {"cylinder": ((0,), (1, 2)), "sphere": ((0, 1, 2),)}  # axes whose drag is by their common speed
 ALONE = ((0,), (1,), (2,))
 ANGLES, HEIGHTS = 32, 16  # of the mean over directions of a velocity
@@ -86,7 +84,7 @@ def drag_in_sea(
     base = excitation_of(linear, database) if linear.vessel is not None else None
     first, last = band_of(base, spectrum)
     angles, shares = directions_of(spreading, direction)
-    still = _without_drag(parts)
+    still = parts.damped([np.zeros((3, 3))] * len(parts.parts))
 
     def sea_at(omega: Array) -> _Sea:
         return _Sea.of_spectrum(still, omega, base, spectrum, angles, shares)
@@ -103,13 +101,9 @@ def drag_in_components(linear: LinearModel, sea: Waves) -> LinearModel:
     parts = PartsInWaves(linear)
     if not parts:
         return linear
-    still = _without_drag(parts)
+    still = parts.damped([np.zeros((3, 3))] * len(parts.parts))
     components = _Sea.of_components(still, sea)
     return components.settled(components.as_if_still(still))
-
-
-def _without_drag(parts: PartsInWaves) -> PartsInWaves:
-    return parts.damped([np.zeros((3, 3))] * len(parts.parts))
 
 
 def band_of(database: HydroDatabase | None, spectrum: _core.Spectrum) -> tuple[float, float]:
@@ -120,15 +114,11 @@ def band_of(database: HydroDatabase | None, spectrum: _core.Spectrum) -> tuple[f
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Sea:
-    """Waves of several directions on a model, and what speeds they make over the parts.
+    """Waves of several directions and frequencies (k,), rad/s, on a model, and their speeds over its parts.
 
-    Attributes
-    ----------
-    omega : (k,) rad/s.
-    flows : (k, 3 p) by direction
-        Velocities of the water at the parts, per metre of wave amplitude, or of all of a component.
-    on_vessels : (k, n) by direction: rates of x by the loads on vessels, likewise.
-    density : (directions, k) With which squares of amplitudes are summed to variances.
+    By direction, per metre of wave amplitude, or of all of a component: velocities of the water at the parts
+    (k, 3 p), rates of x by the loads on vessels (k, n), and the density (k,) with which squares of amplitudes
+    are summed to variances.
     """
 
     parts: PartsInWaves
@@ -175,10 +165,7 @@ class _Sea:
         return parts.damped(self.slopes(self.flows))
 
     def settled(self, moving: PartsInWaves) -> LinearModel:
-        """The model with the drag of its own response.
-
-        Raises SceneError where that does not settle.
-        """
+        """The model with the drag of its own response; SceneError where that does not settle."""
         for _ in range(MOST_STEPS):
             known = [moving.linear.drag_damping[part.name] for part in moving.parts]
             found = self.slopes(self.over(moving))

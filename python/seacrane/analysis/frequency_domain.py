@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.arrays import Array, Complex
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
 from seacrane.description.given import given_vessels, group_of
@@ -24,9 +25,6 @@ from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @named
@@ -93,19 +91,15 @@ def motion_rao(
 
 
 def excitation_of(linear: LinearModel, given: HydroDatabase | None) -> HydroDatabase:
-    """The database whose waves load the vessel of a linear model: by default that of its matrices.
-
-    Raises SceneError without one, and for one of another forward speed than the matrices.
-    """
+    """The database whose waves load a linear model's vessel: by default that of its matrices."""
     if linear.vessel is None:
         raise SceneError(f"scene {linear.scene.name!r}: has no vessel on which waves act; add one")
     held = next((one.database for one in linear.memories if one.body == linear.vessel), None)
     database = database_of(linear.scene, linear.vessel, "a motion in waves", given or held)
-    speed = linear.speed
-    if speed != database.speed:
+    if linear.speed != database.speed:
         raise SceneError(
             f"database {database.name!r}: is of {database.speed:g} m/s, the memory of the linear model of "
-            f"{speed:g} m/s; give memory='database', which takes the matrices of this database"
+            f"{linear.speed:g} m/s; give memory='database', which takes the matrices of this database"
         )
     return database
 
@@ -142,12 +136,10 @@ class SummedResponse:
 
     Attributes
     ----------
-    omega : ndarray, shape (k,)
-        rad/s.
+    omega : (k,), rad/s.
     amplitude : ndarray of complex, shape (k, 6)
         Of the point's translation (m) and the body's rotation vector (rad): sum Re amplitude exp(i omega t).
-    state_amplitude : ndarray of complex, shape (k, n)
-        The same of x of the `LinearModel`.
+    state_amplitude : (k, n), the same of x of the `LinearModel`.
     """
 
     omega: Array
@@ -180,15 +172,7 @@ def response_summed(
 ) -> SummedResponse:
     """Linear response to a realisation's own components: what a run in small waves must agree with.
 
-    Parameters
-    ----------
-    scene : Scene or LinearModel
-    body, point
-        As `motion_rao`.
-    waves : Waves, optional
-        Default: those of the scene.
-    state : State, optional
-        At rest; default ``equilibrium(scene)``. Not with a LinearModel.
+    Of the waves of the scene by default; other arguments are as of `motion_rao`.
 
     Raises
     ------
@@ -250,10 +234,10 @@ def rates_in_waves(linear: LinearModel, database: HydroDatabase, omega: Array, d
         own, there = database_of(scene, body, "a motion in waves"), scene.bodies[body]
         east, north = np.asarray(there.position)[:2] - np.asarray(here.position)[:2]
         along = east * np.cos(travels) + north * np.sin(travels)
+        ones, zeros = np.ones(omega.size), np.zeros(omega.size)
         waves = _core.WaveComponents(
-            omega=omega, amplitude=np.ones(omega.size), phase=np.zeros(omega.size), direction=travels,
-            depth=own.depth,
-        )  # fmt: skip
+            omega=omega, amplitude=ones, phase=zeros, direction=travels, depth=own.depth
+        )
         phase = np.exp(-1j * np.array(waves.wavenumber) * along)
         force = own.force_at(omega, travels - heading_of(there.quaternion)).reshape(-1, 6)
         rates = rates + (phase[:, None] * force) @ linear.excited(body).b.T

@@ -1,15 +1,16 @@
-"""Fluid memory of a vessel as matrices by frequency: a database's own, or those of a convolution."""
+"""What depends on the frequency: a vessel's memory as matrices, the resolvent of a state matrix."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array, Complex
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
 from seacrane.description.given import group_of
@@ -17,23 +18,22 @@ from seacrane.description.loads import changed
 from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import transformer
 from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
+from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 SAME_MASS = 1e-6  # of the database's, by which a vessel is known as its own
 KINDS = ("scene", "database")
+RESONANCE = 1e-9  # relative distance of a frequency from an undamped mode
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FrequencyMemory:
     """What a vessel's matrices hold by frequency beyond those that the scene has at all frequencies.
 
-    The load is ``-(-w^2 added_mass + i w damping + stiffness)`` times the displacement of the vessel's origin
-    and its rotation vector, in axes that follow its yaw. ``matrices`` takes ``omega`` (k,) in rad/s, of
-    encounter at its forward speed, of either sign, and gives the three, each (k, 6, 6).
+    ``matrices`` takes ``omega`` (k,) in rad/s, of encounter at its forward speed, of either sign, and gives
+    added mass, damping and stiffness, each (k, 6, 6), in axes that follow the yaw, about the vessel's origin.
     ``database`` is where they are from, unless they are those of a convolution.
     """
 
@@ -58,13 +58,7 @@ def frequency_memories(
 ) -> tuple[FrequencyMemory, ...]:
     """The vessels of a scene whose memory has no states, or is to be that of a database.
 
-    Parameters
-    ----------
-    memory : "scene": convolutions only. "database": the matrices of a database for `vessel` too.
-    database : In place of the vessel's own: the same ship at a forward speed.
-    vessel : Body on which waves act.
-
-    Raises SceneError for another ``memory``, a database that is missing, or one that is not the vessel's.
+    Arguments and errors are as of `linear_model`; `vessel` is the body on which waves act.
     """
     if memory not in KINDS:
         raise SceneError(f"memory {memory!r} is unknown to a linear model; choose {' or '.join(KINDS)}")
@@ -159,3 +153,46 @@ def _of_database(
         return added_mass - inertia, damping, following_yaw(stiffness) - restoring
 
     return FrequencyMemory(vessel=name, body=element.body, matrices=matrices, database=database)
+
+
+class Resolvent:
+    """(i omega - a)^-1 at any frequencies, without the memories of the model."""
+
+    def __init__(self, a: Array, name: str) -> None:
+        from scipy.linalg import matrix_balance, schur
+
+        # Memory states may be 1e6 times larger than motions: unbalanced, the triangular form loses motions.
+        with one_thread:
+            balanced, (self.scale, _) = matrix_balance(a, permute=False, separate=True)
+            self.triangle, self.unitary = schur(balanced, output="complex")
+        self.name = name
+
+    @one_thread
+    def response(self, omega: Array, rates: Array | Complex) -> Complex:
+        """x (k, n) at frequencies (k,) under rates of x (k, n).
+
+        Raises SceneError at the frequency of an undamped mode.
+        """
+        w, triangle = omega, self.triangle
+        load = (rates / self.scale) @ self.unitary.conj()
+        x = np.zeros(load.shape, dtype=complex)
+        for i in reversed(range(len(triangle))):
+            pivot = 1j * w - triangle[i, i]
+            near = np.abs(pivot) < RESONANCE * np.abs(w)
+            if np.any(near):
+                raise SceneError(
+                    f"scene {self.name!r}: omega = {w[near][0]:.9g} rad/s is that of an undamped mode; "
+                    "add damping, or leave the frequency out"
+                )
+            x[:, i] = (load[:, i] + x[:, i + 1 :] @ triangle[i, i + 1 :]) / pivot
+        return np.asarray(x @ self.unitary.T * self.scale)
+
+
+def block_diagonal(blocks: Sequence[NDArray[Any]]) -> NDArray[Any]:
+    """Matrices (..., n, n) along the diagonal of one."""
+    each = np.array(blocks)
+    count, size = len(each), each.shape[-1]
+    out = np.zeros((*each.shape[1:-2], count * size, count * size), each.dtype)
+    for i, block in enumerate(each):
+        out[..., size * i : size * i + size, size * i : size * i + size] = block
+    return out

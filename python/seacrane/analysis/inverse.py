@@ -9,9 +9,9 @@ from collections.abc import Mapping, Sequence, Set
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import luffing_ropes
 from seacrane.description.description import GROUND, Description, Some
@@ -26,7 +26,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.frames import heading_of, rotation_about_z
 
-Array = NDArray[np.float64]
 Motion = Mapping[tuple[str, str], _core.Curve]
 SIX = ("x", "y", "z", "roll", "pitch", "yaw")
 RESTING = 1e-4  # of gravity: an acceleration below it is rest
@@ -35,14 +34,12 @@ Place = tuple[str, str]
 TURNING, SLIDING = 0.1, 0.2  # rad/s and m/s, at which a scene is led from pose to pose
 
 
-def locked(scene: Some, *, hold_vessels: bool = True) -> Some:
+def locked(scene: Some) -> Some:
     """The scene with actuators and hydraulic cylinders replaced by drivers at rest, vessels held, calm."""
     ideal = with_ideal_cylinders(scene)
     out = driven(ideal, references={name: _core.Curve.constant(value=0.0) for name in ideal.actuators})
     out = out.copy(waves=calm_water(out.waves), springs=dict(scene.springs))
-    if hold_vessels:
-        for vessel in _afloat(scene):
-            _hold(out, vessel.body, {motion: _core.Curve.constant(value=0.0) for motion in SIX})
+    _hold_vessels(out, scene)
     return out
 
 
@@ -56,18 +53,16 @@ def at_rest(scene: Description) -> float:
     return max(RESTING * scene.gravity, SMALLEST)
 
 
-def _afloat(scene: Description) -> list[_core.VesselHydrodynamics]:
-    """Vessels that float and that nothing holds yet: those whose motion is not given."""
-    given = given_vessels(scene)
-    return [vessel for vessel in scene.vessels.values() if vessel.floats and vessel.body not in given]
-
-
-def _hold(scene: Description, body: str, motions: Mapping[str, _core.Curve]) -> None:
-    """Prescribe coordinates of a body relative to its described pose, inertial axes."""
-    joint = f"{body}.motion"
-    start = scene.bodies[body].position
-    add_joint(scene, kind="free", name=joint, first=GROUND, second=body, point=start)
-    _drive(scene, joint, motions)
+def _hold_vessels(out: Description, scene: Description) -> list[str]:
+    """Hold what floats in a scene, its motion not given, where it is described; bodies, by name."""
+    given, still = given_vessels(scene), _core.Curve.constant(value=0.0)
+    bodies = [one.body for one in scene.vessels.values() if one.floats and one.body not in given]
+    for body in bodies:
+        joint = f"{body}.motion"
+        start = scene.bodies[body].position
+        add_joint(out, kind="free", name=joint, first=GROUND, second=body, point=start)
+        _drive(out, joint, dict.fromkeys(SIX, still))
+    return bodies
 
 
 def hold_vessel(scene: Description, body: str, motions: Mapping[str, _core.Curve]) -> None:
@@ -154,9 +149,8 @@ def inverse_dynamics(
     *,
     times: Any,
     references: Mapping[str, _core.Curve] | None = None,
-    body_motion: Mapping[str, Mapping[str, _core.Curve]] | None = None,
 ) -> dict[str, Array]:
-    """Loads along prescribed motions of everything, by algebra at each instant.
+    """Loads along prescribed motions of everything, by algebra at each instant; vessels are held.
 
     Parameters
     ----------
@@ -167,9 +161,6 @@ def inverse_dynamics(
         s.
     references : mapping of str to Curve, optional
         By actuator name, instead of the actuators' own references.
-    body_motion : mapping of str to mapping of str to Curve
-        For each body that the joints leave free: curves of "x y z" (m) and "roll pitch yaw" (rad) relative
-        to its described pose. Vessels not named are held.
 
     Returns
     -------
@@ -182,21 +173,15 @@ def inverse_dynamics(
         If the prescribed motions leave a degree of freedom open: use `driven` and `simulate` for that.
     """
     out = driven(scene, references=references).copy(waves=calm_water(scene.waves))
-    motions = {vessel.body: {m: _core.Curve.constant(value=0.0) for m in SIX} for vessel in _afloat(scene)}
-    motions |= {body: dict(curves) for body, curves in (body_motion or {}).items()}
-    for body, curves in motions.items():
-        if body not in scene.bodies:
-            raise SceneError(f"body {body!r} does not exist; this scene has {', '.join(scene.bodies)}")
-        _hold(out, body, curves)
+    places = {name: _driver_name(name) for name in scene.actuators}
+    for body in _hold_vessels(out, scene):
+        places |= {f"{body}.{motion}": f"{body}.motion.{motion}" for motion in SIX}
     model = compile_scene(out)
     if model.degrees_of_freedom > 0:
         raise SceneError(
-            f"scene {scene.name!r}: {model.degrees_of_freedom} degree(s) of freedom are not prescribed; give "
-            "body_motion for them, or simulate driven(scene)"
+            f"scene {scene.name!r}: {model.degrees_of_freedom} degree(s) of freedom are not prescribed; "
+            "simulate driven(scene)"
         )
-    places = {name: _driver_name(name) for name in scene.actuators}
-    for body, curves in motions.items():
-        places |= {f"{body}.{motion}": f"{body}.motion.{motion}" for motion in curves}
     instants = np.atleast_1d(numbers_of("inverse dynamics: times", times))
     rows = _follow(model, list(places.values()), instants)
     return {label: rows[:, i].copy() for i, label in enumerate(places)}
@@ -232,9 +217,8 @@ def reflected_inertia(scene: Description) -> dict[str, float]:
     for name, actuator in scene.actuators.items():
         loads = []
         for acceleration in (0.0, 1.0):
-            curve = _core.Curve.pieces(
-                starts=[0.0], coefficients=[[0.0, 0.0, 0.5 * acceleration, 0.0, 0.0, 0.0]]
-            )
+            rising = [0.0, 0.0, 0.5 * acceleration, 0.0, 0.0, 0.0]
+            curve = _core.Curve.pieces(starts=[0.0], coefficients=[rising])
             held = locked(scene.copy())
             del held.drivers[_driver_name(name)]
             _drive_as(held, actuator, curve)
@@ -247,21 +231,9 @@ def reflected_inertia(scene: Description) -> dict[str, float]:
 def tuned_gains(
     inertia: Mapping[str, float], *, natural_frequency: float, damping_ratio: float
 ) -> dict[str, tuple[float, float]]:
-    """Stiffness and damping of actuators that control coordinates of these inertias.
+    """Stiffness and damping (N/m and N s/m, or N m/rad and N m s/rad) of actuators of these inertias.
 
-    Parameters
-    ----------
-    inertia : mapping of str to float
-        By actuator, as `reflected_inertia` gives it, kg or kg m2.
-    natural_frequency : float
-        rad/s.
-    damping_ratio : float
-        Of critical damping.
-
-    Returns
-    -------
-    dict of str to (float, float)
-        By actuator: N/m and N s/m, or N m/rad and N m s/rad.
+    By actuator, as `reflected_inertia` gives them (kg or kg m2), for a natural frequency (rad/s).
     """
     omega = natural_frequency
     return {name: (value * omega**2, 2.0 * damping_ratio * omega * value) for name, value in inertia.items()}
@@ -304,12 +276,7 @@ def drive_name(place: Place) -> str:
 def posed(scene: Some, places: Mapping[str, Place], path: Mapping[str, _core.Curve]) -> Some:
     """The scene without waves, all drives held, and the cranes' coordinates led along curves of time.
 
-    Parameters
-    ----------
-    places : mapping of str to (str, str)
-        Every coordinate of its cranes.
-    path : mapping of str to Curve
-        Some of them from their described value 0 on; the others are held.
+    Of `places`, every coordinate of its cranes, those in `path` go from their described value 0 on.
     """
     out = driven(with_ideal_cylinders(scene)).copy(waves=calm_water(scene.waves))
     for rope in luffing_ropes(scene).values():  # its hinge is led; what it carries is told from the moment

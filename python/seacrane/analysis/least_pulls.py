@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import channels_at
 from seacrane.analysis.rest_state import held, rest_states
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import COMPILED, GROUND, KINDS, Description
 from seacrane.description.elements import add_joint
@@ -20,7 +20,6 @@ from seacrane.description.places import place_of
 from seacrane.description.suspension import Rig, Suspension, least_weights, names_of_suspensions, rigs
 from seacrane.description.wet_parts import immersed_parts, waters_in
 
-Array = NDArray[np.float64]
 TENSIONS = ("tension", "line_tension")
 
 
@@ -33,15 +32,10 @@ def weighed_suspensions(scene: Description) -> list[str]:
 
 @once_in_any_sea
 def least_pulls(scene: Description) -> Mapping[str, float]:
-    """Least static load (N) at the lower ends of `weighed_suspensions`, by their names.
+    """Least static load (N) at the lower ends of `weighed_suspensions`; SceneError where none comes to rest.
 
     Of what alone carries its load the least weight. Of slings the lesser at two rests of what hangs: in air,
     and with all parts in water. Zero of a sling that is slack at one of them.
-
-    Raises
-    ------
-    SceneError
-        Where slings and their load come to no rest.
     """
     found = dict(least_weights(scene))
     for rig in rigs(scene):
@@ -103,18 +97,16 @@ def _hang(scene: Description, out: Description, one: Suspension, drop: Array) ->
         if name in scene.joints:
             rod = scene.joints[name]
             upper = place_of(scene, body=rod.first, point=rod.first_frame.point) + drop
-            out.joints[name] = changed(
-                rod, first=GROUND, first_frame=_core.Frame(point=upper, axes=rod.first_frame.axes)
-            )
+            frame = _core.Frame(point=upper, axes=rod.first_frame.axes)
+            out.joints[name] = changed(rod, first=GROUND, first_frame=frame)
             continue
         line = lines_of(scene.loads)[name]
         ends = [
             (body, point) if body in out.bodies else (GROUND, place_of(scene, body=body, point=point) + drop)
             for body, point in path_of(line)
         ]
-        out.loads[name] = changed(
-            line, bodies=[body for body, _ in ends], points=[point for _, point in ends]
-        )
+        bodies, points = zip(*ends, strict=True)
+        out.loads[name] = changed(line, bodies=list(bodies), points=list(points))
 
 
 def _pulls(scene: Description, wanted: Sequence[Suspension]) -> dict[str, float]:

@@ -7,31 +7,28 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.loads import length_at, lines_of, on_winch, path_of, states_of, winch_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.one_thread import one_thread
 
-Array = NDArray[np.float64]
 DEPENDENT = 1e-10  # of the largest singular value: rows, or lines, that depend on each other
 COUPLED = 1e-9  # of the largest eigenvalue: strains that move no body
 
 
 @dataclass(frozen=True, kw_only=True)
 class LineDynamics:
-    """An elastic line at an instant.
+    """An elastic line at an instant: tension (N; negative where a slack line would push), and what it moves.
 
     Attributes
     ----------
-    tension : N; negative where a slack line would push.
     ringing : Amplitude (N) of the oscillation of its tension that starts there.
     mass : kg, that its tension accelerates along the line, as the bodies are joined.
-    omega : float
-        rad/s: motion of a frequency far below it strains the line by (frequency / omega)^2 of what bends a
-        rigid one. That of a single line: sqrt(EA / (length mass)).
+    omega : rad/s; slower motion strains the line by (frequency / omega)^2 of what bends a rigid one. That of
+        a single line: sqrt(EA / (length mass)).
     fastest : rad/s, of it alone: others only slow what it makes of a mode.
     swing : rad/s, of what hangs on it, and of the lower of two loads that it joins.
     loss : Of its damping at `omega`: c omega over the stiffness.
@@ -58,14 +55,7 @@ class LineDynamics:
 def line_dynamics(
     scene: Description, model: _core.Model, values: Array, time: float
 ) -> dict[str, LineDynamics]:
-    """The dynamics of all lines of a scene.
-
-    Parameters
-    ----------
-    model : Of the scene, its lines elastic, without merging.
-    values : A state of the model, whose orientation is the quaternion.
-    time : s.
-    """
+    """The dynamics of all lines of a scene; its model has elastic lines, quaternions, and merges nothing."""
     evaluator = _core.Evaluator(model)
     terms = evaluator.terms(time, values)
     accelerations = np.asarray(evaluator.accelerations(time, values))
@@ -73,11 +63,9 @@ def line_dynamics(
     paths = {name: _Path(scene, model, line, values, accelerations) for name, line in lines.items()}
     directions = np.stack([path.direction for path in paths.values()], axis=1)
     yielding = directions.T @ _response(terms, directions)
-    stiffness = np.array([line.EA / length_at(line, time, {}) for line in lines.values()])
-    pulls = [
-        line.EA * max(path.length / length_at(line, time, {}) - 1.0, 0.0)
-        for line, path in zip(lines.values(), paths.values(), strict=True)
-    ]
+    lengths = {name: length_at(line, time, {}) for name, line in lines.items()}
+    stiffness = np.array([line.EA / lengths[name] for name, line in lines.items()])
+    pulls = [line.EA * max(paths[n].length / lengths[n] - 1.0, 0.0) for n, line in lines.items()]
     omegas = _omegas(yielding, stiffness, np.array(pulls))
     states = states_of(model, values)
     groups = _coupled(list(lines), yielding)
@@ -92,14 +80,10 @@ def line_dynamics(
         out[name] = LineDynamics(
             tension=float(line.EA * (path.length / l0 - 1.0) + damping * l0 * strain_rate),
             ringing=float(mass * np.hypot(straining, omegas[i] * strain_rate * l0)),
-            mass=mass,
-            omega=float(omegas[i]),
-            fastest=float(np.sqrt(stiffness[i] / mass)),
-            swing=_swing(scene, line, path.longest),
-            loss=float(damping * omegas[i] / stiffness[i]),
-            coupled=groups[name],
-            direction=path.direction,
-        )
+            mass=mass, omega=float(omegas[i]), fastest=float(np.sqrt(stiffness[i] / mass)),
+            swing=_swing(scene, line, path.longest), loss=float(damping * omegas[i] / stiffness[i]),
+            coupled=groups[name], direction=path.direction,
+        )  # fmt: skip
     return out
 
 
@@ -128,15 +112,8 @@ def with_lengths_of(
 ) -> tuple[Array, Array]:
     """Corrections (6 n) of poses and twists with which taut lines are as long as small motion makes them.
 
-    Bodies that are moved along straight lines strain stiff lines by the squares of their displacements. Each
-    correction is the smallest one in the mass metric.
-
-    Parameters
-    ----------
-    scene, model
-        As of `line_dynamics`.
-    rest, values : The state at rest, and the moved one.
-    displacement, twist : (6 n,) By which it was moved.
+    Bodies that are moved from `rest` by a displacement and twist (6 n,) along straight lines strain stiff
+    lines by the squares of these. Each correction is the smallest one in the mass metric.
     """
     none = np.zeros((len(model.bodies), 6))
     paths, wanted, rates = [], [], []
@@ -206,7 +183,7 @@ class _Path:
 
     def __init__(
         self, scene: Description, model: _core.Model, line: _core.Line, values: Array, accelerations: Array
-    ) -> None:
+    ):
         self.length = self.rate = self.bend = self.longest = 0.0
         self.direction = np.zeros(6 * len(model.bodies))
         points = [_Point(scene, model, body, np.asarray(p), values) for body, p in path_of(line)]
@@ -229,9 +206,7 @@ class _Path:
 class _Point:
     """A point of a path; of the ground it rests."""
 
-    def __init__(
-        self, scene: Description, model: _core.Model, body: str, point: Array, values: Array
-    ) -> None:
+    def __init__(self, scene: Description, model: _core.Model, body: str, point: Array, values: Array):
         self.index = list(model.bodies).index(body) if body in scene.bodies else -1
         self.place, self.velocity, self.lever, self.spin = point, np.zeros(3), np.zeros(3), np.zeros(3)
         if self.index < 0:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.analysis.frequency_memory import (
     FrequencyMemory,
+    Resolvent,
+    block_diagonal,
     frequency_memories,
     state_without_memory,
     without_memory,
@@ -19,6 +21,7 @@ from seacrane.analysis.frequency_memory import (
 from seacrane.analysis.line_dynamics import with_lengths_of
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
 from seacrane.analysis.rest_state import equilibrium, held, state_values
+from seacrane.arrays import Array, Complex
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of
@@ -32,11 +35,8 @@ from seacrane.one_thread import one_thread
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 REST = 1e-6  # m/s2, m/s and the like: what may be left of motion at a state that is given
 CORRECTIONS = 4  # of the lengths of lines: each squares what is left
-RESONANCE = 1e-9  # relative distance of a frequency from an undamped mode
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,18 +48,13 @@ class LinearModel:
 
     Attributes
     ----------
-    scene : Scene
-        As described (its waves and references included).
-    state : State
-        At rest; the time is that of the held references.
-    vessel : str or None
-        Body on which the waves act.
-    a : ndarray, shape (n, n)
-        n = 2 degrees of freedom + memory states; 1/s.
+    scene : As described (its waves and references included).
+    state : At rest; the time is that of the held references.
+    vessel : Body on which the waves act, or None.
+    a : (n, n), n = 2 degrees of freedom + memory states; 1/s.
     b : ndarray, shape (n, 6)
         Per wave load on the vessel about its origin, in axes that follow its yaw; N and N m.
-    basis : ndarray, shape (6 bodies, degrees of freedom)
-        Orthonormal.
+    basis : (6 bodies, degrees of freedom), orthonormal.
     mass : ndarray, shape (6 bodies, 6 bodies)
         Of all bodies about their state points, added mass at infinite frequency included; kg, kg m2.
     neutral : ndarray, shape (degrees of freedom, k)
@@ -133,7 +128,7 @@ class LinearModel:
         rows = self.basis[6 * k : 6 * k + 6]
         floating = {vessel.body for vessel in self.scene.vessels.values()}
         start = np.zeros(3) if body in floating else np.asarray(self.scene.bodies[body].center_of_mass)
-        at = self._terms.model.pose_index(k)
+        at = self.model.pose_index(k)
         lever = rotation_matrix(np.array(self.state.values)[at + 3 : at + 7]) @ (place - start)
         out = np.zeros((6, len(self.a)))
         # dr + dtheta x lever
@@ -145,16 +140,7 @@ class LinearModel:
     def response(self, *, omega: ArrayLike, force: ArrayLike) -> Complex:
         """Complex amplitudes of x under loads Re force exp(i omega t) on the vessel, in the steady state.
 
-        Parameters
-        ----------
-        omega : array_like, shape (k,)
-            rad/s.
-        force : array_like of complex, shape (k, 6)
-            N and N m.
-
-        Returns
-        -------
-        ndarray of complex, shape (k, n)
+        Shapes: omega (k,), rad/s; force (k, 6), N and N m; x (k, n).
 
         Raises
         ------
@@ -176,7 +162,7 @@ class LinearModel:
 
         Raises SceneError at the frequency of an undamped mode.
         """
-        w, resolvent = omega, Resolvent(self)
+        w, resolvent = omega, Resolvent(self.a, self.scene.name)
         x = resolvent.response(w, rates)
         if not self.memories:
             return x
@@ -190,26 +176,37 @@ class LinearModel:
 
     def _memory_loads(self) -> tuple[Array, Array]:
         """Rates of x by loads on the vessels of `memories` (n, 6 m), and their motions by x (6 m, n)."""
-        dof, values = self.degrees_of_freedom, np.array(self.state.values)
+        dof = self.degrees_of_freedom
         load = np.zeros((len(self.a), 6 * len(self.memories)))
-        motion = np.zeros(load.shape[::-1])
-        model = self._terms.model
-        for i, memory in enumerate(self.memories):
-            at = slice(6 * i, 6 * i + 6)
-            load[dof : 2 * dof, at] = _excitation(model, values, memory.body, self.basis, self.mass)
-            motion[at] = self.motion_of(memory.body)
-        return load, motion
+        load[dof : 2 * dof] = np.hstack([self._accelerations(each.body) for each in self.memories])
+        return load, np.concatenate([self.motion_of(each.body) for each in self.memories])
+
+    def _accelerations(self, vessel: str) -> Array:
+        """Of the coordinates per wave load on a vessel, (degrees of freedom, 6)."""
+        reduced = self.basis.T @ self.mass @ self.basis
+        return np.asarray(np.linalg.solve(reduced, self._along(vessel).T))
+
+    def _along(self, vessel: str) -> Array:
+        """Motion of a vessel in axes that follow its yaw per coordinate, (6, degrees of freedom)."""
+        k = self.bodies.index(vessel)
+        return np.asarray(self._yaw_axes(vessel).T @ self.basis[6 * k : 6 * k + 6])
+
+    def _yaw_axes(self, vessel: str) -> Array:
+        """(6, 6) from axes that follow a vessel's yaw to inertial ones; the paper's loads are inertial."""
+        at = self.model.pose_index(self.bodies.index(vessel))
+        r = rotation_matrix(np.array(self.state.values)[at + 3 : at + 7])
+        yaw = 0.0 if self.model.paper_kinematics else float(np.arctan2(r[1, 0], r[0, 0]))
+        return np.asarray(np.kron(np.eye(2), rotation_about_z(yaw)))
 
     def yaw_axes(self) -> Array:
         """(6, 6) from the axes of wave loads, which follow the vessel's yaw, to inertial ones."""
         assert self.vessel is not None
-        return _yaw_axes(self._terms.model, np.array(self.state.values), self.vessel)
+        return self._yaw_axes(self.vessel)
 
     def motion_of(self, vessel: str) -> Array:
         """C (6, n): motion (m) of a vessel's origin and its rotation vector from x, in its yaw axes."""
         out = np.zeros((6, len(self.a)))
-        at = _along(self._terms.model, np.array(self.state.values), vessel, self.basis)
-        out[:, : self.degrees_of_freedom] = at
+        out[:, : self.degrees_of_freedom] = self._along(vessel)
         return out
 
     @one_thread
@@ -228,7 +225,7 @@ class LinearModel:
             a[dof : 2 * dof, :dof] -= speeds[:, at] @ stiffness @ moved[at]
             a[dof : 2 * dof, dof : 2 * dof] -= speeds[:, at] @ damping @ moved[at]
             k = self.bodies.index(memory.body)
-            axes = _yaw_axes(self._terms.model, np.array(self.state.values), memory.body)
+            axes = self._yaw_axes(memory.body)
             mass[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] += axes @ added[at, at] @ axes.T
         heavier = np.eye(dof) + speeds @ added @ moved
         a[dof : 2 * dof] = np.linalg.solve(heavier, a[dof : 2 * dof])
@@ -241,8 +238,7 @@ class LinearModel:
         name = _wave_body(self.scene, vessel)
         assert name is not None
         b, dof = np.zeros_like(self.b), self.degrees_of_freedom
-        values = np.array(self.state.values)
-        b[dof : 2 * dof] = _excitation(self._terms.model, values, name, self.basis, self.mass)
+        b[dof : 2 * dof] = self._accelerations(name)
         return replace(self, vessel=name, b=b)
 
     def full_state(self, x: ArrayLike) -> _core.State:
@@ -275,39 +271,6 @@ class LinearModel:
             nearer, faster = with_lengths_of(self.scene, terms.model, rest, y, displacement, twist)
             y = project(terms.time, terms.moved(y, displacement=nearer, twist=faster))
         return _core.State(time=terms.time, values=y, inputs=np.zeros(terms.model.slots))
-
-
-class Resolvent:
-    """(i omega - a)^-1 at any frequencies, without the memories of the model."""
-
-    def __init__(self, linear: LinearModel) -> None:
-        from scipy.linalg import matrix_balance, schur
-
-        # Memory states may be 1e6 times larger than motions: unbalanced, the triangular form loses motions.
-        with one_thread:
-            balanced, (self.scale, _) = matrix_balance(linear.a, permute=False, separate=True)
-            self.triangle, self.unitary = schur(balanced, output="complex")
-        self.name = linear.scene.name
-
-    @one_thread
-    def response(self, omega: Array, rates: Array | Complex) -> Complex:
-        """x (k, n) at frequencies (k,) under rates of x (k, n).
-
-        Raises SceneError at the frequency of an undamped mode.
-        """
-        w, triangle = omega, self.triangle
-        load = (rates / self.scale) @ self.unitary.conj()
-        x = np.zeros(load.shape, dtype=complex)
-        for i in reversed(range(len(triangle))):
-            pivot = 1j * w - triangle[i, i]
-            near = np.abs(pivot) < RESONANCE * np.abs(w)
-            if np.any(near):
-                raise SceneError(
-                    f"scene {self.name!r}: omega = {w[near][0]:.9g} rad/s is that of an undamped mode; "
-                    "add damping, or leave the frequency out"
-                )
-            x[:, i] = (load[:, i] + x[:, i + 1 :] @ triangle[i, i + 1 :]) / pivot
-        return np.asarray(x @ self.unitary.T * self.scale)
 
 
 @named
@@ -362,74 +325,32 @@ def linear_model(
     values = at_rest(model, values)
     coordinates = ReducedCoordinates.at(terms, values)
     name = _wave_body(scene, vessel)
-    matrices = terms.evaluator.terms(terms.time, values)
-    poses = coordinates.pose_columns()
-    a, neutral = _state_matrix(coordinates, poses)
-    basis = coordinates.basis
-    b = np.zeros((len(a), 6))
-    if name is not None:
-        dof = coordinates.size
-        b[dof : 2 * dof] = _excitation(model, values, name, basis, matrices["mass"])
-    return LinearModel(
-        scene=scene,
-        state=_core.State(time=rest.time, values=values, inputs=np.zeros(model.slots)),
-        bodies=tuple(model.bodies),
-        vessel=name,
-        a=a,
-        b=b,
-        basis=basis,
-        mass=np.asarray(matrices["mass"]),
-        neutral=neutral,
-        memories=memories,
-        _terms=terms,
-    )
+    a, neutral = _state_matrix(coordinates)
+    found = LinearModel(
+        scene=scene, state=_core.State(time=rest.time, values=values, inputs=np.zeros(model.slots)),
+        bodies=tuple(model.bodies), vessel=None, a=a, b=np.zeros((len(a), 6)), basis=coordinates.basis,
+        mass=np.asarray(terms.evaluator.terms(terms.time, values)["mass"]), neutral=neutral,
+        memories=memories, _terms=terms,
+    )  # fmt: skip
+    return found if name is None else found.excited(name)
 
 
-def block_diagonal(blocks: Sequence[NDArray[Any]]) -> NDArray[Any]:
-    """Matrices (..., n, n) along the diagonal of one."""
-    each = np.array(blocks)
-    count, size = len(each), each.shape[-1]
-    out = np.zeros((*each.shape[1:-2], count * size, count * size), each.dtype)
-    for i, block in enumerate(each):
-        out[..., size * i : size * i + size, size * i : size * i + size] = block
-    return out
-
-
-def _excitation(model: _core.Model, values: Array, vessel: str, basis: Array, mass: Array) -> Array:
-    """Accelerations of the coordinates per wave load on a vessel, (degrees of freedom, 6)."""
-    return np.asarray(np.linalg.solve(basis.T @ mass @ basis, _along(model, values, vessel, basis).T))
-
-
-def _along(model: _core.Model, values: Array, vessel: str, basis: Array) -> Array:
-    """Motion of a vessel in axes that follow its yaw per coordinate, (6, degrees of freedom)."""
-    k = list(model.bodies).index(vessel)
-    return np.asarray(_yaw_axes(model, values, vessel).T @ basis[6 * k : 6 * k + 6])
-
-
-def _state_matrix(coordinates: ReducedCoordinates, poses: Array) -> tuple[Array, Array]:
+def _state_matrix(coordinates: ReducedCoordinates) -> tuple[Array, Array]:
     """A, and the directions on which neither forces nor rates of states depend: zero columns of A."""
-    bodies, dof, basis = coordinates.terms.bodies, coordinates.size, coordinates.basis
-    memory = coordinates.terms.model.memory_states
-
-    def reduced(columns: Array) -> Array:
-        return np.concatenate([basis.T @ columns[: 6 * bodies], columns[6 * bodies :]])
-
-    scale = np.array(coordinates.terms.model.scale)[coordinates.terms.memory]
-    columns = reduced(poses)
-    columns[dof:] /= scale[:, None]
+    dof, rows = coordinates.size, coordinates.state_rows()
+    columns = rows[:, :dof].copy()
+    columns[dof:] /= np.array(coordinates.terms.model.scale)[coordinates.terms.memory][:, None]
     _, size, vt = np.linalg.svd(columns)
     held_in, neutral = vt[size > NEUTRAL].T, vt[size <= NEUTRAL].T
-    a = np.zeros((2 * dof + memory, 2 * dof + memory))
+    a = np.zeros((dof + len(rows), dof + len(rows)))
     a[:dof, dof : 2 * dof] = np.eye(dof)
-    a[dof:, :dof] = reduced(poses) @ held_in @ held_in.T
-    a[dof:, dof : 2 * dof] = reduced(coordinates.twist_columns())
-    a[dof:, 2 * dof :] = reduced(coordinates.memory_columns())
+    a[dof:] = rows
+    a[dof:, :dof] = np.ascontiguousarray(rows[:, :dof]) @ held_in @ held_in.T
     return a, neutral
 
 
 def _require_rest(terms: Terms, values: Array) -> None:
-    rates = terms.rates(values)
-    drift = np.abs(terms.drift(values))
+    acceleration, drift = (np.abs(each) for each in terms.acceleration_and_drift(values))
     if np.max(drift, initial=0.0) > REST:
         name, unit, place, *_ = terms.model.load_states[int(np.argmax(drift))]
         rate = terms.evaluator.derivative(terms.time, values)[place]
@@ -437,9 +358,10 @@ def _require_rest(terms: Terms, values: Array) -> None:
             f"state {name!r}: changes by {rate:.3g} {unit}/s at the state to be linearised; pass it through "
             "seacrane.equilibrium first"
         )
-    moving, accelerating = np.abs(values[terms.twists]), np.abs(rates[: 6 * terms.bodies])
-    found = (("moves", "m/s or rad/s", moving), ("accelerates", "m/s2 or rad/s2", accelerating))
-    for what, unit, size in found:
+    moving = np.abs(values[terms.twists])
+    for what, unit, size in (
+        ("moves", "m/s or rad/s", moving), ("accelerates", "m/s2 or rad/s2", acceleration),
+    ):  # fmt: skip
         worst = int(np.argmax(size))
         if size[worst] > REST:
             name = terms.model.bodies[worst // 6]
@@ -461,11 +383,3 @@ def _wave_body(scene: Description, wanted: str | None) -> str | None:
     if wanted is not None and wanted not in floating:
         raise SceneError(f"vessel {wanted!r} does not exist; vessels here: {', '.join(floating) or 'none'}")
     return wanted
-
-
-def _yaw_axes(model: _core.Model, values: Array, vessel: str) -> Array:
-    """(6, 6) from axes that follow the vessel's yaw to inertial ones; the paper's loads are inertial."""
-    at = model.pose_index(list(model.bodies).index(vessel))
-    r = rotation_matrix(values[at + 3 : at + 7])
-    yaw = 0.0 if model.paper_kinematics else float(np.arctan2(r[1, 0], r[0, 0]))
-    return np.asarray(np.kron(np.eye(2), rotation_about_z(yaw)))

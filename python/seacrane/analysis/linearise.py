@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.one_thread import one_thread
 
-Array = NDArray[np.float64]
 LARGEST = 1500  # states; beyond, the dense eigenvalue problem takes longer than most runs
 
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
-from seacrane.analysis.stability import grows, growth_in_words
+from seacrane.analysis.stability import grows, growth_in_words, label_of
+from seacrane.arrays import Array, Complex
 from seacrane.description.description import Description
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
@@ -24,8 +24,6 @@ from seacrane.warnings import UndampedModeWarning
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 MOST_ITERATIONS = 60
 SETTLED = 1e-10  # relative change of a frequency between iterations
 SAME = 1e-6  # relative distance of eigenvalues below which two iterations found one mode
@@ -53,18 +51,11 @@ class NaturalModes:
         Translation of each body's state point and rotation vector, inertial axes; the largest entry is 1.
     energy_share : ndarray, shape (k, bodies, 6)
         Of the kinetic energy, by body and motion; sums to 1 for each mode.
-    mechanical_share : ndarray, shape (k,)
-        Participation of coordinates and speeds; the rest to 1 is that of memory states.
-    real_eigenvalues : ndarray
-        Of what decays or grows without oscillation, 1/s.
-    real_labels : tuple of str
-        Of the real eigenvalues, as `label`.
-    neutral : int
-        Directions in which nothing brings the system back.
-    neutral_shapes : ndarray, shape (neutral, bodies, 6)
-        Of these, orthonormal.
-    vessels : tuple of str
-        Bodies that float.
+    mechanical_share : (k,) Participation of coordinates and speeds; the rest to 1 is that of memory states.
+    real_eigenvalues, real_labels : Of what decays or grows without oscillation, 1/s; as `label`.
+    neutral, neutral_shapes : Directions in which nothing brings the system back; orthonormal,
+        (neutral, bodies, 6).
+    vessels : Bodies that float.
     state_vectors : ndarray of complex, shape (k, n)
         Eigenvectors in x of the `LinearModel`, scaled as the shapes.
     """
@@ -100,7 +91,7 @@ class NaturalModes:
 
     def label(self, mode: int) -> str:
         """Body and motion with most of the kinetic energy, as "vessel roll"."""
-        return _label(self.bodies, self.energy_share[mode])
+        return label_of(self.bodies, self.energy_share[mode])
 
     def find(self, label: str) -> int:
         """Index of the mode of that label with the largest mechanical share.
@@ -156,11 +147,6 @@ class NaturalModes:
         return f"in {self.label(mode)!r} of {period:.3f} s, {share[mode]:.0%} of its energy"
 
 
-def _label(bodies: tuple[str, ...], energy: Array) -> str:
-    body, motion = divmod(int(np.argmax(energy)), 6)
-    return f"{bodies[body]} {MOTIONS[motion]}"
-
-
 @named
 @one_thread
 def natural_modes(
@@ -186,19 +172,15 @@ def natural_modes(
     SceneError
         As `linear_model`.
     """
-    if isinstance(scene, LinearModel):
-        linear = scene
-    else:
-        linear = linear_model(scene, state=state, memory=memory, database=database)
+    linear = scene
+    if not isinstance(linear, LinearModel):
+        linear = linear_model(linear, state=state, memory=memory, database=database)
     return _modes_by_frequency(linear) if linear.memories else _modes(linear)
 
 
 def _modes_by_frequency(linear: LinearModel) -> NaturalModes:
-    """Each mode with the matrices at its own frequency.
-
-    Matrices of one frequency may overdamp the mode of another: iterations start at several, each with the
-    modes near it, and those that arrive at the same mode count once.
-    """
+    """Each mode with the matrices at its own frequency: iterations start at several, each with the modes near
+    it, as matrices of one may overdamp the mode of another; those that arrive at the same count once."""
     found: list[tuple[NaturalModes, int]] = []
     slow = _modes(linear.at_frequency(float(STARTS[0])))
     for frequency in STARTS:
@@ -248,18 +230,14 @@ def _modes(linear: LinearModel) -> NaturalModes:
     _, real_motion = _shapes(linear, free, values[real], right[:, real])
     energy, real_energy = (np.real(each.conj() * (each @ linear.mass.T)) for each in (motion, real_motion))
     return NaturalModes(
-        eigenvalues=np.asarray(values[order], dtype=complex),
-        shapes=motion.reshape(len(order), bodies, 6),
+        eigenvalues=np.asarray(values[order], dtype=complex), shapes=motion.reshape(len(order), bodies, 6),
         energy_share=(energy / energy.sum(axis=1, keepdims=True)).reshape(len(order), bodies, 6),
-        mechanical_share=share[order],
-        real_eigenvalues=values.real[real],
-        neutral=int(linear.neutral.shape[1]),
-        state_vectors=vectors,
-        bodies=linear.bodies,
-        real_labels=tuple(_label(linear.bodies, row) for row in real_energy),
+        mechanical_share=share[order], real_eigenvalues=values.real[real],
+        neutral=int(linear.neutral.shape[1]), state_vectors=vectors, bodies=linear.bodies,
+        real_labels=tuple(label_of(linear.bodies, row) for row in real_energy),
         neutral_shapes=(linear.basis @ linear.neutral).T.reshape(-1, bodies, 6),
         vessels=tuple(dict.fromkeys(vessel.body for vessel in linear.scene.vessels.values())),
-    )
+    )  # fmt: skip
 
 
 def _shapes(linear: LinearModel, free: Array, values: Complex, right: Complex) -> tuple[Complex, Complex]:

@@ -9,12 +9,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.linear_system import LinearModel, block_diagonal
+from seacrane.analysis.frequency_memory import block_diagonal
+from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.reduced_coordinates import Terms
 from seacrane.analysis.taut_lines import pose_of
+from seacrane.arrays import Array, Complex
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import GROUND, Description
 from seacrane.description.loads import changed
@@ -24,8 +25,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.frames import heading_of, rotation_matrix
 from seacrane.sea.dispersion import wavenumber
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 # Of a box with the second moments of a disc and a ball, as in the engine, over the diameter.
 DISC, BALL = np.sqrt(0.75), np.sqrt(0.6)
 SIZES = {"cylinder": (1.0, DISC, DISC), "disc": (0.0, DISC, DISC), "sphere": (BALL, BALL, BALL)}
@@ -83,14 +82,8 @@ class WetPart:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PlaneWaves:
-    """Waves of one metre, their phase zero at a place.
-
-    Attributes
-    ----------
-    omega, direction : (k,) rad/s; rad, of travel, inertial frame.
-    origin : (2,) m.
-    depth, gravity : m, m/s2.
-    """
+    """Waves of one metre, their phase zero at an origin (2,), m; frequencies (rad/s) and directions of travel
+    (rad, inertial frame) are (k,)."""
 
     omega: Array
     direction: Array
@@ -115,10 +108,7 @@ class PlaneWaves:
 
 
 def wet_at_rest(linear: LinearModel) -> list[WetPart]:
-    """Parts and halves of spans that are under water.
-
-    Raises SceneError for parts that cross the surface, and compartments.
-    """
+    """Parts and halves of spans that are under water; SceneError as of `PartsInWaves`."""
     for water in waters_in(linear.scene):
         _, _, bottom = _place(linear, water.body, water.point)
         if bottom[2] < 0.0:
@@ -171,10 +161,7 @@ def _along(linear: LinearModel, body: str, point: Any) -> Array:
 
 
 def _halves(linear: LinearModel, span: _core.ImmersedSpan) -> Iterator[WetPart]:
-    """The halves of a span of wire that are wet at rest, each at its end; see ImmersedSpan of the engine.
-
-    What waves change of the share of a half that is below the surface is left out.
-    """
+    """The halves of a span of wire that are wet at rest, each at its end; see ImmersedSpan of the engine."""
     named = {"first": (span.first, span.first_point), "second": (span.second, span.second_point)}
     first, second = (_place(linear, *one)[2] for one in named.values())
     apart = second - first
@@ -183,9 +170,8 @@ def _halves(linear: LinearModel, span: _core.ImmersedSpan) -> Iterator[WetPart]:
     direction = apart / np.linalg.norm(apart)
     across = np.linalg.svd(direction[None, :])[2][1:].T
     length = float(span.length.evaluate([linear.state.time])[0, 0])
-    for (end, (body, point)), place, up in zip(
-        named.items(), (first, second), (0.5 * apart[2], -0.5 * apart[2]), strict=True
-    ):
+    rises = (0.5 * apart[2], -0.5 * apart[2])
+    for (end, (body, point)), place, up in zip(named.items(), (first, second), rises, strict=True):
         share = np.clip(0.5 - (place[2] + 0.5 * up) / np.hypot(up, span.diameter), 0.0, 1.0)
         wet = share**3 * (10.0 + share * (6.0 * share - 15.0)) * length
         if body == GROUND or wet == 0.0:
@@ -205,10 +191,8 @@ def _halves(linear: LinearModel, span: _core.ImmersedSpan) -> Iterator[WetPart]:
 
 def _added_mass(scene: Description, element: _core.ImmersedPart, position: Array, quaternion: Array) -> Array:
     """Of one part as the engine has it in a pose of its body, (3, 3), kg: by a scene of nothing else."""
-    body = changed(
-        scene.bodies[element.body], position=position, quaternion=quaternion, velocity=np.zeros(3),
-        angular_velocity=np.zeros(3),
-    )  # fmt: skip
+    still = {"velocity": np.zeros(3), "angular_velocity": np.zeros(3)}
+    body = changed(scene.bodies[element.body], position=position, quaternion=quaternion, **still)
     alone = Description(name=element.name, gravity=scene.gravity)
     alone.bodies[body.name] = body
     alone.loads[element.name] = changed(element, row="", place=0.0, count=1.0, step=np.zeros(3))
@@ -220,8 +204,7 @@ def _added_mass(scene: Description, element: _core.ImmersedPart, position: Array
 class PartsInWaves:
     """The parts and lines of a linear model that are under water at rest.
 
-    Raises SceneError for parts that cross the surface, compartments, and a current: their loads in waves have
-    no linear part that this knows.
+    Raises SceneError for parts that cross the surface, compartments, and a current: they have no linear part.
     """
 
     def __init__(self, linear: LinearModel) -> None:
@@ -253,10 +236,7 @@ class PartsInWaves:
         return np.inf if scene.waves is None else scene.waves.depth
 
     def waves(self, omega: Array, direction: Array | float, depth: float) -> PlaneWaves:
-        """Waves in water of a depth (m), their directions seen from the vessel, phase zero at its origin.
-
-        Without a vessel both are of the inertial frame.
-        """
+        """Waves in water of a depth (m), as seen from the vessel: directions, and zero phase at its place."""
         linear = self.linear
         origin, heading = np.zeros(2), 0.0
         if linear.vessel is not None:

@@ -6,18 +6,17 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import actuator_loads, driven
 from seacrane.analysis.rest_state import held, rest_states
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, vector_of
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 SAME_POSE = 9  # decimals of m and rad
 AT_REST = 1e-6  # m/s, m/s2, rad/s, rad/s2
 
@@ -32,8 +31,6 @@ def quasi_static_loads(
 
     Parameters
     ----------
-    scene : Scene
-        With its actuators; their own loads do not matter.
     times : array_like, shape (n,)
         s, zero or later, increasing.
     references : mapping of str to Curve, optional
@@ -90,10 +87,9 @@ def feed_forward(
 
     Parameters
     ----------
-    times : array_like, shape (n,)
-        s, from the start of the first motion to the end of the last one; a dozen for one smooth move.
-    references : mapping of str to Curve, optional
-        By actuator name, instead of the actuators' own references.
+    times, references
+        As of `quasi_static_loads`: from the start of the first motion to the end of the last one; a dozen for
+        one smooth move.
     period : float, optional
         s: references that swing for ever, over the last period of `times` as later. The loads then continue
         as their mean and first harmonic over it, in place of the last value.

@@ -8,13 +8,12 @@ from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.one_thread import one_thread
 
-Array = NDArray[np.float64]
 NEUTRAL = 1e-6  # 1/s2: a weaker stiffness over mass (a period beyond 6283 s) counts as none
 INDEPENDENT = 1e-9  # ratio of pivots of constraints
 POSE = 7  # states of a body's pose: place and quaternion
@@ -72,13 +71,8 @@ class Terms:
         rate = self.evaluator.derivative(self.time, values)
         return np.concatenate([rate[self.twists], rate[self.memory]])
 
-    def drift(self, values: Array) -> Array:
-        """Rates of the states that loads have of their own, over their scales, 1/s."""
-        rate = self.evaluator.derivative(self.time, values)
-        return np.asarray(rate[self.load_states] / self.load_scales)
-
     def acceleration_and_drift(self, values: Array) -> tuple[Array, Array]:
-        """Both, of one evaluation."""
+        """Accelerations (6 n), m/s2 and rad/s2, and rates of the states of loads over their scales, 1/s."""
         rate = self.evaluator.derivative(self.time, values)
         return rate[self.twists], np.asarray(rate[self.load_states] / self.load_scales)
 
@@ -102,10 +96,6 @@ class Terms:
         rates[:, 4:] = 0.5 * (w * turn + _cross(turn, v))
         return out
 
-    def acceleration(self, values: Array) -> Array:
-        """Accelerations (6 n), inertial axes, m/s2 and rad/s2."""
-        return np.asarray(self.evaluator.derivative(self.time, values)[self.twists])
-
 
 def at_rest(model: _core.Model, values: Array) -> Array:
     """The same poses and states of loads, with all velocities, states of the fluid and work at zero."""
@@ -126,17 +116,12 @@ def _turned(quaternions: Array, rotations: Array) -> Array:
     return np.hstack([w * scalar - (v * vector).sum(axis=1, keepdims=True), turned])
 
 
-def _cross(first: Array, second: Array) -> Array:
+def _cross(a: Array, b: Array) -> Array:
     """Cross products of vectors along the second axis; numpy.cross takes ten times longer for a few."""
-    a, b = first, second
-    return np.stack(
-        [
-            a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
-            a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
-            a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
-        ],
-        axis=1,
-    )
+    return np.stack([
+        a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1], a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
+        a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
+    ], axis=1)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,20 +165,14 @@ class ReducedCoordinates:
     def _exact(self) -> Array | None:
         return self.terms.exact_rates(self.values)
 
-    def _along(self, directions: Array) -> Array | None:
-        """d(accelerations, memory rates) along directions (states, k); None where no exact Jacobian is."""
-        return None if self._exact is None else np.asarray(self._exact @ directions)
-
     def pose_columns(self) -> Array:
         """d(accelerations, memory rates) / d(coordinates).
 
         Exact; by central differences of fourth order for a model without an exact Jacobian.
         """
-        exact = self._along(self.terms.pose_directions(self.values, self.basis))
-        if exact is not None:
-            return exact
-        differences = self._differences("displacement", POSE_STEP)
-        return self._stacked([(4.0 * near - far) / 3.0 for near, far in differences])
+        if self._exact is not None:
+            return np.asarray(self._exact @ self.terms.pose_directions(self.values, self.basis))
+        return self._stacked([(4.0 * n - f) / 3.0 for n, f in self._differences("displacement", POSE_STEP)])
 
     def twist_columns(self) -> Array:
         """d(accelerations, memory rates) / d(speeds).
@@ -201,11 +180,10 @@ class ReducedCoordinates:
         Exact; else by differences: loads are linear, quadratic, or u |u| in the speeds, and 2 D(h) - D(2h)
         of the central differences D keeps the linear part alone.
         """
-        directions = np.zeros((self.values.size, self.size))
-        directions[self.terms.twists] = self.basis
-        exact = self._along(directions)
-        if exact is not None:
-            return exact
+        if self._exact is not None:
+            directions = np.zeros((self.values.size, self.size))
+            directions[self.terms.twists] = self.basis
+            return np.asarray(self._exact @ directions)
         return self._stacked([2.0 * near - far for near, far in self._differences("twist", TWIST_STEP)])
 
     def memory_columns(self) -> Array:
@@ -223,6 +201,13 @@ class ReducedCoordinates:
             columns.append((terms.rates(high) - terms.rates(low)) / (2.0 * step))
         return self._stacked(columns)
 
+    def state_rows(self) -> Array:
+        """d(accelerations of the coordinates, memory rates) / d(coordinates, speeds, memory states)."""
+        bodies = 6 * self.terms.bodies
+        every = (self.pose_columns(), self.twist_columns(), self.memory_columns())
+        reduced = [np.concatenate([self.basis.T @ one[:bodies], one[bodies:]]) for one in every]
+        return np.hstack(reduced)
+
     def stiffness(self) -> Array:
         """d(acceleration) / d(coordinates) in the coordinates, (dof, dof), 1/s2."""
         return np.asarray(self.basis.T @ self.pose_columns()[: 6 * self.terms.bodies])
@@ -232,14 +217,8 @@ class ReducedCoordinates:
         """What a rest state is solved by: `stiffness` with the states of loads as further unknowns.
 
         A state on which no rate of a state depends, such as a paid-out length, rests anywhere: it is held.
-
-        Returns
-        -------
-        ndarray, shape (dof + k, dof + k)
-            Rows: accelerations, and k combinations of the drift; columns: coordinates, and k combinations of
-            the states over their scales.
-        ndarray, ndarray, shape (n, k)
-            These combinations, of the drift and of the n states.
+        Its (dof + k) rows are accelerations, and k combinations of the drift, columns coordinates, and k of
+        the n states over their scales; and these combinations, (n, k), of the drift and of the states.
         """
         if not len(self.terms.load_scales):
             none = np.zeros((0, 0))
@@ -261,17 +240,15 @@ class ReducedCoordinates:
 
     def _differences(self, what: str, step: float) -> Iterator[tuple[Array, Array]]:
         """Central differences of the rates along each coordinate, by a step and by two."""
-        still = {"displacement": np.zeros(6 * self.terms.bodies), "twist": np.zeros(6 * self.terms.bodies)}
-        for direction in self.basis.T:
-            near, far = (
-                (self._rates(**still | {what: h * direction}) - self._rates(**still | {what: -h * direction}))
-                / (2.0 * h)
-                for h in (step, 2.0 * step)
-            )
-            yield near, far
+        terms, none = self.terms, np.zeros(6 * self.terms.bodies)
 
-    def _rates(self, *, displacement: Array, twist: Array) -> Array:
-        return self.terms.rates(self.terms.moved(self.values, displacement=displacement, twist=twist))
+        def rates(move: Array) -> Array:
+            given = {"displacement": none, "twist": none, what: move}
+            return terms.rates(terms.moved(self.values, **given))
+
+        for way in self.basis.T:
+            near, far = ((rates(h * way) - rates(-h * way)) / (2.0 * h) for h in (step, 2.0 * step))
+            yield near, far
 
     def _stacked(self, columns: list[Array]) -> Array:
         rows = 6 * self.terms.bodies + self.terms.model.memory_states

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.analysis.drag_in_sea import band_of, drag_in_sea
@@ -21,6 +21,7 @@ from seacrane.analysis.modal_analysis import (
     weights_of,
 )
 from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.arrays import Array, Complex
 from seacrane.description.description import Description
 from seacrane.description.given import group_of
 from seacrane.errors import SceneError
@@ -39,8 +40,6 @@ from seacrane.warnings import EncounterFrequencyWarning
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 NARROWEST = 1e-6  # bandwidth
 FINE = 20_001  # frequencies at which the encounter is looked up
 MOST_UNKNOWN = 0.1  # of the energy of the waves, met outside the table of a database at speed
@@ -54,27 +53,17 @@ class ResponseStatistics:
 
     Attributes
     ----------
-    omega : ndarray, shape (k,)
-        Frequencies of the quadrature, rad/s; of the waves.
-    rao : ndarray of complex, shape (k, 6)
-        Per metre of wave amplitude, of waves along the main direction.
+    omega : (k,) Frequencies of the quadrature, rad/s; of the waves.
+    rao : (k, 6) Per metre of wave amplitude, of waves along the main direction; complex.
     spectrum : ndarray, shape (k, 6)
         |rao|^2 S, one-sided, integrated over the directions; m2 s/rad and rad2 s/rad. At forward speed too it
         is a density over the frequency of the waves.
-    std : ndarray, shape (6,)
-        sqrt(m0).
-    duration : float
-        s, of the extremes.
-    wave_energy_share : float
-        Share of the sea's energy within the band of the database; the rest is left out.
-    bandwidth : ndarray, shape (6,)
-        Vanmarcke's sqrt(1 - m1^2 / (m0 m2)); zero for what does not move.
-    moments : ndarray, shape (6, 3)
-        m0, m2, m4; at forward speed by the frequency of encounter.
-    directions : ndarray, shape (q,)
-        Directions of the quadrature, rad.
-    direction_share : ndarray, shape (q,)
-        Their shares of the energy of the waves; they sum to one.
+    std : (6,) sqrt(m0).
+    duration : s, of the extremes.
+    wave_energy_share : Share of the sea's energy within the band of the database; the rest is left out.
+    bandwidth : (6,) Vanmarcke's sqrt(1 - m1^2 / (m0 m2)); zero for what does not move.
+    moments : (6, 3) m0, m2, m4; at forward speed by the frequency of encounter.
+    directions, direction_share : (q,) Of the quadrature, rad; of the energy of the waves, they sum to one.
     """
 
     omega: Array
@@ -182,7 +171,9 @@ def response_statistics(
     main = float(direction)
     linear, database = _in_sea(scene, state, memory, database, spectrum, main, spreading)
     low, high = band_of(database, spectrum)
-    _warn_below_band(database, spectrum, low)
+    if database is not None and database.trusted_band is not None and database.trusted_band[0] > low:
+        below = spectrum.energy(minimum_omega=low, maximum_omega=database.trusted_band[0])
+        warn_of_waves_below_band(database, below / spectrum.moment(0), "waves of a spectrum")
     directions, shares = directions_of(spreading, main)
     headings, output = np.append(main, directions), linear.output(body=body, point=point)
     along, *parts = _responses(linear, database, headings, output, (low, high))
@@ -194,17 +185,11 @@ def response_statistics(
         unknown += 0.0 if database is None else share * part.unknown(database, spectrum)
     _warn_of_unknown(database, unknown)
     return ResponseStatistics(
-        omega=along.omega,
-        rao=along.rao,
-        spectrum=density,
-        std=np.sqrt(moments[:, 0]),
-        duration=span,
+        omega=along.omega, rao=along.rao, spectrum=density, std=np.sqrt(moments[:, 0]), duration=span,
         wave_energy_share=spectrum.energy(minimum_omega=low, maximum_omega=high) / spectrum.moment(0),
-        bandwidth=_bandwidth(*moments[:, :3].T),
-        moments=moments[:, [0, 2, 3]],
-        directions=directions,
-        direction_share=shares,
-    )
+        bandwidth=_bandwidth(*moments[:, :3].T), moments=moments[:, [0, 2, 3]],
+        directions=directions, direction_share=shares,
+    )  # fmt: skip
 
 
 def _in_sea(
@@ -220,13 +205,6 @@ def _in_sea(
     if linear.vessel is None and PartsInWaves(linear):
         return linear, None
     return linear, excitation_of(linear, database)
-
-
-def _warn_below_band(database: HydroDatabase | None, spectrum: _core.Spectrum, low: float) -> None:
-    if database is None or database.trusted_band is None or database.trusted_band[0] <= low:
-        return
-    below = spectrum.energy(minimum_omega=low, maximum_omega=database.trusted_band[0]) / spectrum.moment(0)
-    warn_of_waves_below_band(database, below, "waves of a spectrum")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

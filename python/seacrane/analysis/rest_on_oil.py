@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import channels_at
 from seacrane.analysis.taut_lines import pose_of
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.elements import add_joint
@@ -22,7 +22,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
 from seacrane.warnings import AssemblyWarning
 
-Array = NDArray[np.float64]
 STEP = 0.05  # m, of rods on their way to other lengths: projection takes only small steps
 Search = Callable[[Some, float, Array], _core.State]
 ENDS = ("first", "second", "first_point", "second_point")
@@ -30,19 +29,12 @@ ROD = " held"  # after the name of a cylinder, that of its rod
 
 
 def rest_on_oil(scene: Some, time: float, values: Array, search: Search[Some]) -> _core.State:
-    """State at rest of a scene with hydraulic cylinders, which stand where their spools are shut.
+    """State at rest of a held scene with hydraulic cylinders, which stand where their spools are shut.
 
     With a gain that is where the reference and the command lead, without one where they stand: oil neither
-    comes nor goes. Leakage is left out. The side that is not pushed keeps its pressure.
-
-    Parameters
-    ----------
-    scene : Its references held.
-    time : s.
-    values : A state of it, from which the search starts.
-    search : Finds the rest state of a scene without hydraulic cylinders from a state of it.
-
-    Raises SceneError for a spool that is held open, and a stroke beyond an end.
+    comes nor goes. Leakage is left out. The side that is not pushed keeps its pressure. `search` finds the
+    rest of a scene without cylinders from a state of it. Raises SceneError for a spool that is held open, and
+    a stroke beyond an end.
     """
     model = compile_scene(scene)
     cylinders = hydraulic_cylinders(scene)
@@ -119,16 +111,13 @@ def _rest_stroke(one: _core.HydraulicCylinder, time: float, stands: float) -> fl
 
 
 def _oil(one: _core.HydraulicCylinder, force: float) -> Mapping[str, float]:
-    """States of a cylinder that holds a force (N)."""
+    """States of a cylinder that holds a force (N); an empty accumulator has all of its gas (m3)."""
     full, rod = holding_pressures(one, force)
-    filled = {} if one.accumulator_volume == 0.0 else {"gas_volume": _gas(one, full)}
-    return {"pressure": full, "pressure_rod": rod, "spool": 0.0} | filled
-
-
-def _gas(one: _core.HydraulicCylinder, pressure: float) -> float:
-    """m3, of the accumulator's gas at a pressure (Pa); an empty one has all of it."""
-    squeezed = max(pressure / one.accumulator_pressure, 1.0)
-    return float(one.accumulator_volume * squeezed ** (-1.0 / one.accumulator_exponent))
+    found = {"pressure": full, "pressure_rod": rod, "spool": 0.0}
+    if one.accumulator_volume != 0.0:
+        squeezed = max(full / one.accumulator_pressure, 1.0)
+        found["gas_volume"] = float(one.accumulator_volume * squeezed ** (-1.0 / one.accumulator_exponent))
+    return found
 
 
 def ends_of(cylinder: _core.HydraulicCylinder) -> dict[str, Any]:

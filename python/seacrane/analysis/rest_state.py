@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest, relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
 from seacrane.analysis.stability import most_turned, tips_over, warn_of_rest, why_none
 from seacrane.analysis.taut_lines import has_masses, kept_lengths, tautened, unbounded, with_what_hangs
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
@@ -25,7 +24,6 @@ from seacrane.inputs.checked import not_negative_of
 from seacrane.inputs.keywords import named
 from seacrane.one_thread import one_thread
 
-Array = NDArray[np.float64]
 Rest = tuple[_core.Model, _core.State]
 CONVERGED = 1e-9  # m/s2 and rad/s2
 ROUNDED = 1e-4  # likewise, 1e-5 of gravity, where no step is left that the digits of positions can hold
@@ -134,8 +132,7 @@ def led(scene: Description, state: _core.State, *, time: float) -> _core.State:
 
 def rest_states(scene: Description, *, times: Iterable[float]) -> Iterator[_core.State]:
     """States at rest at times that increase, each found from the one before along the references."""
-    for _, state in _rests(scene, times):
-        yield state
+    return (state for _, state in _rests(scene, times))
 
 
 def _rests(scene: Description, times: Iterable[float]) -> Iterator[Rest]:
@@ -232,8 +229,7 @@ def _set_down(scene: Description, model: _core.Model, values: Array) -> Array | 
     return out if standing else None
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Search:
+class _Search(NamedTuple):
     """Where a search ended: at a rest state, or none; and whether it is one that tips over."""
 
     state: _core.State | None
@@ -247,9 +243,8 @@ def _search(
 ) -> _Search:  # fmt: skip
     """By Newton's method. Whether a rest tips over is told by the last stiffness on the way to it.
 
-    `led` takes what hangs along with a step, given the states before and after it: masses of a line that
-    follow their upper end along straight lines are strained by the square of its step. `level` then takes
-    water in compartments to where it stays.
+    `led` takes what hangs along with a step, given the states before and after it, for masses of a line would
+    be strained by its square. `level` then takes water in compartments to where it stays.
     """
     terms = Terms(model, time=time)
     y = at_rest(model, values)
@@ -300,9 +295,8 @@ def _found(model: _core.Model, time: float, values: Array, stiffness: Array) -> 
 def leveled(scene: Description, model: _core.Model, *, time: float) -> Callable[[Array], Array]:
     """Takes a state to that with the same poses in which no compartment takes or gives water.
 
-    What flows is the root of a head: Newton's method on it steps from one side to the other by as much. So
-    volumes go first, by bisection, with the air that is shut in above. One through whose openings nothing
-    flows stays.
+    What flows is the root of a head, between whose sides Newton's method steps to and fro: volumes go first,
+    by bisection, with the air that is shut in above.
     """
     waters = {name: load for name, load in scene.loads.items() if isinstance(load, _core.EntrappedWater)}
     places = {name: place for name, _, place, *_ in model.load_states}

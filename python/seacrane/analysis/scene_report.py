@@ -42,18 +42,11 @@ class SceneReport(dict[str, Rows]):
 
 
 def scene_report(scene: Description) -> SceneReport:
-    """Compile a scene and tell what came out.
+    """Compile a scene and tell what came out; SceneError if it does not compile.
 
-    Returns
-    -------
-    SceneReport
-        A dict of str to lists of (str, value), which prints row by row.
-        Sections "size", "elements", "merged", "assembly", "left out", "cost", "lines" of scenes with elastic
-        lines and, for models small enough for a dense eigenvalue problem, "modes". Values are numbers, texts
-        or lists of texts. Costs are nanoseconds per evaluation, measured while the report is made; all else
-        is the same at every call.
-
-    Raises SceneError if the scene does not compile.
+    Sections "size", "elements", "merged", "assembly", "left out", "cost", "lines" of scenes with elastic
+    lines and, for models small enough for a dense eigenvalue problem, "modes". Values are numbers, texts or
+    lists of texts. Costs are nanoseconds per evaluation, measured meanwhile.
     """
     still = [
         f"{prefix}{label} ({joint})"
@@ -63,10 +56,7 @@ def scene_report(scene: Description) -> SceneReport:
     model = compile_scene(scene)
     report = {
         "size": _size(scene, model),
-        "elements": [
-            *elements_of(scene),
-            *_there([("held where described, as nothing acts on them", still)]),
-        ],
+        "elements": elements_of(scene) + _there([("held where described, as nothing acts on them", still)]),
         "merged": _merged(model),
         "assembly": _assembly(scene, model),
         "left out": _left_out(scene, model),
@@ -111,6 +101,8 @@ def elements_of(scene: Description) -> Rows:
     for name, joint in scene.joints.items():
         kinds.setdefault(joint.kind, []).append(f"{name} ({joint.first} to {joint.second})")
     given, vessels = given_vessels(scene), scene.vessels.items()
+    slewing = {label: joint for label, (joint, _) in slews(scene).items()}
+    parts = slewing | cylinders(scene) | hooks(scene) | payloads(scene)
     return _there([
         ("bodies", list(scene.bodies)),
         *((f"{kind} joints", names) for kind, names in kinds.items()),
@@ -121,14 +113,8 @@ def elements_of(scene: Description) -> Rows:
         ("vessels in one water", [f"{n} ({', '.join(group.vessels)})" for n, group in scene.groups.items()]),
         ("vessels of given motion", [f"{body} ({kind})" for body, kind in given.items()]),
         ("waves", [] if scene.waves is None else list(scene.waves.hulls)),
-        ("crane parts", _crane_parts(scene)),
+        ("crane parts", [f"{label} ({name})" for label, name in parts.items()]),
     ])  # fmt: skip
-
-
-def _crane_parts(scene: Description) -> list[str]:
-    slew_joints = {label: joint for label, (joint, _) in slews(scene).items()}
-    named = slew_joints | cylinders(scene) | hooks(scene) | payloads(scene)
-    return [f"{label} ({name})" for label, name in named.items()]
 
 
 def _loads_by_kind(scene: Description) -> Rows:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.analysis.taut_lines import slack_lines
+from seacrane.arrays import Array, Complex
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
@@ -20,8 +22,6 @@ from seacrane.inputs.frames import MOTIONS
 from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import CreepingRestWarning, LargeHeelWarning, UnstableRestWarning
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 LEAST_GROWTH = 1e-3  # 1/s: what takes ten minutes to double is not told
 LEAST_CREEP = 1e-6  # m/s
 CHAMBERS = ("pressure", "pressure_rod")
@@ -31,13 +31,7 @@ STILL = 1e-6  # m/s2 and rad/s2: what accelerates less is not what keeps the sce
 
 @dataclass(frozen=True, kw_only=True)
 class Growing:
-    """A mode that grows.
-
-    Attributes
-    ----------
-    value : Eigenvalue, 1/s.
-    label : Body and motion that it moves most, as "vessel roll".
-    """
+    """A mode that grows: its eigenvalue (1/s), and what it moves most, as "vessel roll"."""
 
     value: complex
     label: str
@@ -84,41 +78,31 @@ def growing(scene: Description, model: _core.Model, state: _core.State) -> list[
         return []
     values, vectors = _modes(coordinates)
     told = grows(values) & ((values.imag == 0.0) | (not hydraulic_cylinders(scene)))
-    found = np.flatnonzero(told)
-    order = found[np.argsort(-values.real[found])]
-    return [
-        Growing(value=complex(values[i]), label=label_of(coordinates, vectors[: coordinates.size, i]))
-        for i in order
-    ]
+    found, out = np.flatnonzero(told), []
+    for i in found[np.argsort(-values.real[found])]:
+        mass = np.asarray(terms.evaluator.terms(terms.time, coordinates.values)["mass"])
+        motion = coordinates.basis @ vectors[: coordinates.size, i]
+        energy = np.real(motion.conj() * (mass @ motion))
+        out.append(Growing(value=complex(values[i]), label=label_of(model.bodies, energy)))
+    return out
 
 
 def _modes(coordinates: ReducedCoordinates) -> tuple[Complex, Complex]:
     """Eigenvalues and vectors of coordinates, speeds and states of loads, the fluid's memory among them."""
-    terms, basis, dof = coordinates.terms, coordinates.basis, coordinates.size
-    scale = np.array(terms.model.scale)[terms.memory]
+    dof, rows = coordinates.size, coordinates.state_rows()
+    scale = np.array(coordinates.terms.model.scale)[coordinates.terms.memory]
     scale = np.where(np.isfinite(scale), scale, 1.0)
-    bodies = 6 * terms.bodies
-
-    def reduced(columns: Array) -> Array:
-        return np.concatenate([basis.T @ columns[:bodies], columns[bodies:] / scale[:, None]])
-
-    matrix = np.zeros((2 * dof + len(scale),) * 2)
-    matrix[:dof, dof : 2 * dof] = np.eye(dof)
-    matrix[dof:, :dof] = reduced(coordinates.pose_columns())
-    matrix[dof:, dof : 2 * dof] = reduced(coordinates.twist_columns())
-    matrix[dof:, 2 * dof :] = reduced(coordinates.memory_columns()) * scale
+    rows[dof:] /= scale[:, None]
+    rows[:, 2 * dof :] *= scale
+    matrix = np.vstack([np.eye(dof, 2 * dof + len(scale), dof), rows])
     values, vectors = np.linalg.eig(matrix)
     return np.asarray(values, dtype=complex), np.asarray(vectors, dtype=complex)
 
 
-def label_of(coordinates: ReducedCoordinates, vector: Complex) -> str:
-    """Body and motion with most of the kinetic energy of a motion along the coordinates."""
-    terms = coordinates.terms
-    mass = np.asarray(terms.evaluator.terms(terms.time, coordinates.values)["mass"])
-    motion = coordinates.basis @ vector
-    energy = np.real(motion.conj() * (mass @ motion))
+def label_of(bodies: Sequence[str], energy: Array) -> str:
+    """Body and motion with most of a kinetic energy (6 n,), as "vessel roll"."""
     body, way = divmod(int(np.argmax(energy)), 6)
-    return f"{terms.model.bodies[body]} {MOTIONS[way]}"
+    return f"{bodies[body]} {MOTIONS[way]}"
 
 
 def warn_of_rest(what: str, scene: Description, model: _core.Model, state: _core.State) -> None:
@@ -170,10 +154,10 @@ def why_none(scene: Description, model: _core.Model, time: float, values: Array)
             "(Scene.add_ballast), or lower the weights"
         )
     terms = Terms(model, time=time)
-    acceleration, drift = terms.acceleration(values), np.abs(terms.drift(values))
+    acceleration, drift = terms.acceleration_and_drift(values)
     worst = int(np.argmax(np.abs(acceleration)))
     if abs(acceleration[worst]) <= STILL and drift.size:
-        name, unit, place, *_ = model.load_states[int(np.argmax(drift))]
+        name, unit, place, *_ = model.load_states[int(np.argmax(np.abs(drift)))]
         rate = terms.evaluator.derivative(time, values)[place]
         return f"state {name!r} still changes by {rate:.3g} {unit}/s; correct what drives it"
     body = model.bodies[worst // 6]

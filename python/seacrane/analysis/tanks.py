@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, shaped_of
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 OVERFLOW, RUN_DRY = 1e3, 1e6  # cost of 1 kg beyond a bound over that of 1 kg moved
 OVER = 1e-6  # of the largest capacity: rounding of the linear program
@@ -64,13 +63,8 @@ def tanks_of(given: Any) -> dict[str, Tank]:
 def fills(tanks: Mapping[str, Tank], moments: Array, needed: Array) -> Array:
     """Changes of the contents (kg) that make moments about roll, pitch or both, the least water moved.
 
-    Parameters
-    ----------
-    tanks : mapping of str to Tank
-    moments : (k, n) Of 1 kg in each tank, N m.
-    needed : (k,) N m.
-
-    Raises SceneError if the tanks cannot make it: what the fullest, or the emptiest, would have to hold.
+    Those `needed` (k,), N m, by those of 1 kg in each tank (k, n). Raises SceneError if the tanks cannot make
+    it: what the fullest, or the emptiest, would have to hold.
     """
     from scipy.optimize import linprog
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description, Some
 from seacrane.description.line_path import Pose, laid
@@ -14,7 +14,6 @@ from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import bodies_below
 from seacrane.inputs.frames import rotation_matrix
 
-Array = NDArray[np.float64]
 LARGEST_SLACK = 0.01  # of the length: a line with more of it is meant to hang
 STRAIN = 1e-6  # that it is given
 NO_BOUND = 1e7  # m/s and m/s2: the engine takes it as none

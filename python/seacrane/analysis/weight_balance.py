@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import SIX, actuator_loads, at_rest, channels_at, drive_loads, locked_at_rest
 from seacrane.analysis.rest_state import held, rest_states
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.elements import add_force
@@ -22,7 +22,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
 
-Array = NDArray[np.float64]
 WET = {"position", "quaternion", "load_force", "load_moment"}
 
 
@@ -36,8 +35,7 @@ class Balance:
         By the vessel's body: force (N) and moment (N m) on it about its origin, inertial axes.
     loads : mapping of str to float
         Along each actuated joint coordinate, by actuator name: N (cylinders, positive pushes) or N m.
-    weight : float
-        Of all bodies that have weight, N, less what water carries of them.
+    weight : Of all bodies that have weight, N, less what water carries of them.
     weight_center : ndarray, shape (3,)
         Where it acts, inertial frame, m: without water the common centre of mass at the start.
     """
@@ -81,12 +79,8 @@ def balance(scene: Description) -> Balance:
         names = [f"{vessel.body}.motion.{motion}" for motion in SIX]
         wrenches[vessel.body] = drive_loads(model, names, state.time, np.array(state.values))
     weight, center = weight_of(scene)
-    return Balance(
-        vessel_wrenches=wrenches,
-        loads=dict(zip(scene.actuators, actuator_loads(scene, still, state).tolist(), strict=True)),
-        weight=weight,
-        weight_center=center,
-    )
+    loads = dict(zip(scene.actuators, actuator_loads(scene, still, state).tolist(), strict=True))
+    return Balance(vessel_wrenches=wrenches, loads=loads, weight=weight, weight_center=center)
 
 
 def _as_described(still: Description) -> _core.State:
@@ -143,18 +137,8 @@ def _weight_in_water(scene: Description, heavy: Sequence[_core.Body], weights: A
 def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "balance") -> Balance:
     """Add the force on the only vessel that carries the weight of all other bodies at the start.
 
-    Parameters
-    ----------
-    scene : At rest as it is described; see `seacrane.balance`.
-    body : Of the vessel.
-    name : Of the point force.
-
-    Returns
-    -------
-    Balance
-        Of the scene without it.
-
-    Raises SceneError if `body` is not the only vessel, or the scene is not at rest.
+    Returns the balance of the scene without it. Raises SceneError if `body` is not the only vessel, or the
+    scene is not at rest as it is described; see `seacrane.balance`.
     """
     if body in given_vessels(scene):
         raise SceneError(f"balance: the motion of {body!r} is given: it needs no ballast, leave it out")

@@ -1,22 +1,23 @@
-"""Checks of a run, its pace, the statistics of its channels, their tables, and where its numbers are from."""
+"""Checks of a run, of its limits and its pace, the statistics of its channels, where its numbers are from."""
 
 from __future__ import annotations
 
 import hashlib
-import json
 import platform
 import re
 from collections.abc import Callable, Mapping, Sequence
-from html import escape
+from dataclasses import dataclass, replace
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 
+from seacrane.description.pick import Pick
 from seacrane.pictures.plots import payload_bodies, resultants
-from seacrane.plotting.table import facts, table_of
+from seacrane.plotting.table import Table, Verdict, table_of
 from seacrane.result import CHANNELS, Result
-from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
+from seacrane.result.events import Event
+from seacrane.result.traces import ANGLES, NO_MOTION, Trace, beyond_rounding, shown_unit, traces
 
 MOST_EVENTS = 200
 CONSTRAINT_ERRORS = {
@@ -45,7 +46,7 @@ COUNTERS = {
     "formulation": "formulation",
     "integrator": "integrator",
 }
-Rows = list[tuple[str, Any]]
+Rows = list[tuple[Any, ...]]
 CLOSED = 1e-6  # m or rad: joints that are closed to it are closed for any engineer
 BALANCED = 1e-3  # of the absolute work
 STATED = (
@@ -61,6 +62,7 @@ SAME = {
     "driver_force": ("cylinder_force", "slew_torque"),
 }
 PACKAGES = ("seacrane", "numpy", "scipy", "matplotlib", "netCDF4", "xarray")
+OVERSHOT = 0.01  # m or rad that a control may overshoot a range, as OutsideRangeWarning counts it
 
 
 def worst(result: Result, channel: str) -> float | None:
@@ -95,10 +97,7 @@ def energy_balanced(result: Result) -> bool | None:
 
 
 def findings_of(result: Result) -> dict[str, int]:
-    """What its description and the run were warned of: each by its first message, and how often it came.
-
-    A lift in stages is told of one thing in several, with other numbers.
-    """
+    """What its description and the run were warned of: each by its first message, and how often it came."""
     told = [str(result.stats.get(key, "")).splitlines() for key in ("described", "validity")]
     alike: dict[str, list[str]] = {}
     for line in dict.fromkeys(line for lines in told for line in lines):
@@ -157,45 +156,18 @@ def counter_rows(result: Result) -> Rows:
     return [*found, ("times faster than real time", speed(result))]
 
 
-def headed(parts: Mapping[str, str]) -> str:
-    """Blocks of HTML below their headings."""
-    return "\n".join(f"<h3>{escape(name)}</h3>{html}" for name, html in parts.items())
-
-
-def side_by_side(runs: Mapping[str, Result], rows: Callable[[Result], Rows]) -> str:
+def side_by_side(runs: Mapping[str, Result], rows: Callable[[Result], Rows]) -> Table:
     """One table of several runs; what none of them has is left out."""
-    by_run = [dict(rows(run)) for run in runs.values()]
+    by_run: list[dict[str, Any]] = [dict(rows(run)) for run in runs.values()]
     texts = list(dict.fromkeys(text for one in by_run for text in one))
-    return table_of(["", *runs], [[text, *(one.get(text) for one in by_run)] for text in texts]).html()
+    return table_of(["", *runs], [[text, *(one.get(text) for one in by_run)] for text in texts])
 
 
-def _told(rows: Rows) -> Rows:
-    return [(text, value) for text, value in rows if value is not None]
-
-
-def checked(result: Result) -> str:
-    """Constraint errors and energy balance, and whether they are good enough."""
-    parts = [
-        ("Worst constraint errors", constraint_rows(result), joints_closed(result),
-         f"Joints stay closed within {CLOSED:g} m or rad.",
-         f"Joints open by more than {CLOSED:g} m or rad: do not use the numbers before this is understood."),
-        ("Energy balance", energy_rows(result), energy_balanced(result),
-         f"Energy is balanced within {BALANCED:g} of the absolute work.",
-         f"Energy is off by more than {BALANCED:g} of the absolute work: tighten the tolerance and compare."),
-    ]  # fmt: skip
-    found = {}
-    for name, rows, good, passed, failed in parts:
-        if known := _told(rows):
-            kind, words = ("good", passed) if good else ("bad", failed)
-            found[name] = facts(known).html() + ("" if good is None else f'<p class="{kind}">{words}</p>')
-    return headed(found)
-
-
-def events(result: Result) -> str:
-    """The events of limits; begins of stages are in the particulars."""
+def events(result: Result) -> Table | None:
+    """The events of limits, if there are any; begins of stages are in the particulars."""
     found = [one for one in result.events if one.kind != "stage"]
     lasting = set(result.coords.get("contact_point", ()))  # whose force has no impulse of an instant
-    rows: list[Sequence[Any]] = [
+    rows = [
         (one.time, one.name, one.kind, one.speed,
          *(("", "") if one.name in lasting else (one.impulse, one.energy_lost)))
         for one in found[:MOST_EVENTS]
@@ -203,21 +175,7 @@ def events(result: Result) -> str:
     head = ("time [s]", "limit", "event", "speed [m/s or rad/s]", "impulse [N s or N m s]", "energy lost [J]")
     more = len(found) - len(rows)
     remarks = [f"{more} later events are not shown."] if more else []
-    return table_of(head, rows, remarks=remarks).html() if rows else ""
-
-
-def warned(result: Result) -> str:
-    """What the run was warned of."""
-    items = "".join(
-        f"<li>{escape(text)}.{f' It came {times} times, with other numbers.' if times > 1 else ''}</li>"
-        for text, times in findings_of(result).items()
-    )
-    return f"<ul>{items}</ul>" if items else "<p>None.</p>"
-
-
-def cost(result: Result) -> str:
-    """What the run took."""
-    return facts(_told(counter_rows(result))).html()
+    return table_of(head, rows, remarks=remarks) if rows else None
 
 
 def versions() -> dict[str, str]:
@@ -240,33 +198,143 @@ def digest(result: Result) -> str:
     return summed.hexdigest()
 
 
-def settings_block(result: Result) -> str:
-    """All settings as the result states them."""
-    return f"<pre>{escape(json.dumps(dict(result.settings), indent=1, sort_keys=True))}</pre>"
+def recorded(result: Result) -> Rows:
+    """Name, dimensions, unit and meaning of each channel."""
+    every = ((name, CHANNELS[name]) for name in result.channels)
+    return [(name, ", ".join(result.dims[name]), one.unit, one.long_name) for name, one in every]
 
 
-def versions_block() -> str:
-    """What made the page."""
-    return table_of(("package", "version"), versions().items()).html()
+@dataclass(frozen=True, kw_only=True)
+class Judged:
+    """A limit, what was reached, and whether it held; None where nothing recorded tells it."""
+
+    name: str
+    kind: str
+    bound: str
+    words: str
+    reached: str = ""
+    held: bool | None = None
 
 
-def _recorded(result: Result) -> str:
-    rows = [
-        (name, ", ".join(result.dims[name]), CHANNELS[name].unit, CHANNELS[name].long_name)
-        for name in result.channels
-    ]
-    return table_of(("channel", "dimensions", "unit", ""), rows).html()
+def judged_bounds(result: Result) -> list[Judged]:
+    """Every limit of a scene: wires, stops, seats, ranges, and links that may only pull."""
+    described = result.about.bounds
+    judge = {"wire": _contact, "seat": _contact, "stop": _stop, "soft stop": _bounded, "range": _bounded}
+    return [judge[bound["kind"]](result, bound) for bound in described] + _links(result, described)
 
 
-def provenance(result: Result) -> str:
-    """Settings, what was recorded, and versions."""
-    made = [
-        ("seacrane that ran it", result.stats["seacrane_version"]),
-        ("SHA-256 of the recorded numbers", digest(result)),
-    ]
-    parts = {
-        "Settings": settings_block(result),
-        "Recorded channels": _recorded(result),
-        "Versions that made this page": versions_block(),
-    }
-    return f"{facts(made).html()}\n{headed(parts)}"
+def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
+    """A wire that is to stay taut, or a seat that is to stay pressed."""
+    wire, name = bound["kind"] == "wire", str(bound["name"])
+    closed, opened = ("taut throughout", "slack") if wire else ("pressed throughout", "lifted off")
+    mine = [event for event in result.events if event.name == name]
+    count = sum(event.kind in ("release", "rebound") for event in mine)
+    force = _force(result, name)
+    starts_open = force is not None and float(force[0]) == 0.0
+    fallen = sum(event.kind == "through" for event in mine)
+    asked = _asked_for(result, mine)
+    words = f"{opened} {_often(count)}" if count else f"{opened} at the start" if starts_open else closed
+    words += f", as stage {asked!r} asks" if asked else ""
+    hardest = max((abs(event.impulse) for event in mine), default=0.0)
+    if hardest > 0.0:
+        words += f", hardest snatch {hardest:.3g} N s"
+    if fallen:
+        words += f", then through it {_often(fallen)}"
+    return Judged(
+        name=name, kind=str(bound["kind"]), bound="pulls only" if wire else "presses only",
+        reached="" if force is None else _newtons(_reached(result, "limit_force", limit=name)), words=words,
+        held=not starts_open and (not count or (bool(asked) and count == 1 and not fallen)),
+    )  # fmt: skip
+
+
+def _asked_for(result: Result, events: Sequence[Event]) -> str:
+    """The stage that waits for a limit to let go, or releases it; none where nobody asked."""
+    gone = [event for event in events if event.kind in ("release", "rebound")]
+    for span in result.stages:
+        for event in gone:
+            waited = span.start <= event.time <= span.end and f"{event.name!r} lets go" in span.ended_by
+            if waited or event.time == span.start:
+                return str(span.name)
+    return ""
+
+
+def _often(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"
+
+
+def _stop(result: Result, bound: Mapping[str, Any]) -> Judged:
+    base = _bounded(result, bound)
+    ends = [base.name, f"{base.name}.minimum", f"{base.name}.maximum"]
+    hits = [one for one in result.events if one.name in ends and one.kind in ("contact", "rebound")]
+    fastest = max((hit.speed for hit in hits), default=0.0)
+    words = f"hit {_often(len(hits))}, fastest {fastest:.3g} m/s or rad/s" if hits else "not hit"
+    return replace(base, held=not hits, words=words)
+
+
+def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
+    """A coordinate that is to stay between two values."""
+    angular = bound["coordinate"] in ANGLES
+    factor, unit = shown_unit("rad" if angular else "m", [])
+    low, high = (None if bound[end] is None else factor * bound[end] + 0.0 for end in ("minimum", "maximum"))
+    limits = f"{'' if low is None else f'{low:.4g}'} to {'' if high is None else f'{high:.4g}'} {unit}"
+    name, kind = str(bound["name"]), str(bound["kind"])
+    told = Judged(name=name, kind=kind, bound=limits, words="coordinate not recorded")
+    known = bound["recorded"] is not None and "coordinate" in result.channels
+    values = _reached(result, "coordinate", joint_coordinate=bound["recorded"]) if known else None
+    if values is None:
+        return told
+    ends = (float(factor * value) for value in (values.min(), values.max()))
+    least, most = (0.0 if abs(end) < NO_MOTION else end for end in ends)  # m or deg
+    beyond = max(-np.inf if low is None else low - least, -np.inf if high is None else most - high)
+    held = beyond <= factor * (OVERSHOT if bound["kind"] == "range" else 0.0)
+    words = f"held, {0.0 - beyond:.3g} {unit} left" if beyond <= 0.0 else f"{beyond:.3g} {unit} beyond"
+    if held and beyond > 0.0:
+        words = f"held, overshot by {beyond:.1g} {unit}"
+    return replace(told, reached=f"{least:.4g} to {most:.4g} {unit}", held=bool(held), words=words)
+
+
+def _finite(values: Any) -> Any:
+    """Without what an interrupted run left open; None where nothing is left."""
+    kept = values[np.isfinite(values)]
+    return kept if kept.size else None
+
+
+def _reached(result: Result, channel: str, **names: str) -> Any:
+    """Least and largest values of a curve, finite ones; None where there are none."""
+    return _finite(np.concatenate(result.reached(Pick(channel=channel, names=names))))
+
+
+def _force(result: Result, name: str) -> Any:
+    if "limit_force" not in result.channels or name not in result.coords["limit"]:
+        return None
+    return _finite(result.select("limit_force", limit=name))
+
+
+def _newtons(values: Any) -> str:
+    """Least and largest of forces, in the unit in which they are read."""
+    factor, unit = shown_unit("N", [values])
+    return f"{factor * values.min():.4g} to {factor * values.max():.4g} {unit}"
+
+
+def _links(result: Result, described: Sequence[Mapping[str, Any]]) -> list[Judged]:
+    """Links that a payload hangs on and that are no wires: they are rods, and must not push."""
+    wired = {bound["joint"] for bound in described if bound["kind"] == "wire"}
+    known = result.coords["link"] if "tension" in result.channels else ()
+    links = [crane["link"] for crane in result.about.cranes]
+    found = []
+    for name in (link for link in links if link in known and link not in wired):
+        tension = _reached(result, "tension", link=name)
+        if tension is None:
+            continue
+        pushed = tension.min() < -1e-9 * np.abs(tension).max()
+        found.append(Judged(
+            name=name, kind="link", bound="must pull", reached=_newtons(tension), held=not pushed,
+            words="pushed: a wire would have gone slack" if pushed else "pulled throughout",
+        ))  # fmt: skip
+    return found
+
+
+def limits(result: Result) -> Table | None:
+    """A row for each limit."""
+    rows = [(j.name, j.kind, j.bound, j.reached, Verdict(j.words, j.held)) for j in judged_bounds(result)]
+    return table_of(("limit", "kind", "bound", "reached", "held?"), rows) if rows else None

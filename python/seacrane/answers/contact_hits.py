@@ -6,16 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import GROUND
 from seacrane.description.given import beside_surface, borne_mass
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,18 +22,11 @@ class ContactHit:
 
     Attributes
     ----------
-    point : str
-        Such as "landing.1".
-    number : int
-        1 for the first time, 2 and on for re-hits; 0 where the run began with it closed.
-    begin, end : float
-        s; the run's own where it began or ended closed.
-    speed : float
-        At which the point came, m/s; 0 where the run began with it closed.
-    peak : float
-        Largest force away from the surface, N.
-    impulse : float
-        Of that force by the trapezoidal rule over the outputs, N s.
+    point : Such as "landing.1".
+    number : 1 for the first time, 2 and on for re-hits; 0 where the run began with it closed.
+    begin, end : s; the run's own where it began or ended closed.
+    speed : At which the point came, m/s; 0 where the run began with it closed.
+    peak, impulse : Largest force away from the surface, N; its trapezoidal sum over the outputs, N s.
     dynamic_factor : float
         Peak over the point's share of the body's weight, of the other body where this one is the ground or a
         ship whose motion is given; not a number without gravity.
@@ -122,10 +113,9 @@ def _upright(result: Result, contact: _core.Contact, point: int, row: int) -> fl
 
 def _closed(result: Result, point: str, first: float) -> list[tuple[int, float, float, float]]:
     """Number, begin, end and speed of each time that a point was closed."""
-    time = result.time
     events = [e for e in result.events if e.name == point and e.kind in ("contact", "release")]
     out: list[tuple[int, float, float, float]] = []
-    number, since, speed = 0, float(time[0]), 0.0
+    number, since, speed = 0, float(result.time[0]), 0.0
     closed = events[0].kind == "release" if events else first > 0.0
     for event in events:
         if event.kind == "contact":
@@ -133,7 +123,7 @@ def _closed(result: Result, point: str, first: float) -> list[tuple[int, float, 
         elif closed:
             out.append((number, since, event.time, speed))
             closed = False
-    return [*out, (number, since, float(time[-1]), speed)] if closed else out
+    return [*out, (number, since, float(result.time[-1]), speed)] if closed else out
 
 
 def _of_hit(time: Array, press: Array, largest: Array, begin: float, end: float) -> tuple[float, float]:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.answers.rest_columns import AtRest, pulls_of
 from seacrane.answers.statics import hanging_rest
@@ -22,7 +21,6 @@ from seacrane.plotting.table import Rows, Table, Verdict, read_as
 from seacrane.result import Result
 from seacrane.scene.lift_factors import LiftFactors, Rating
 
-Array = NDArray[np.float64]
 UNVERIFIED = "unverified"
 SCENE, STATICS, RUN = "the scene", "the scene at rest", "this run"
 WORST = "worst corner of the envelope"
@@ -34,16 +32,10 @@ class SheetRow:
 
     Attributes
     ----------
-    name : str
-    value : float
-        SI.
-    unit : str
-    formula, inputs : str
-        How it comes about, in symbols and in numbers.
-    source : str
-        Of what was given: "unverified" where nobody said where it is from.
-    required : float or None
-        What it has to reach.
+    value, unit : SI.
+    formula, inputs : How it comes about, in symbols and in numbers.
+    source : Of what was given: "unverified" where nobody said where it is from.
+    required : What it has to reach, or None.
     """
 
     name: str
@@ -156,9 +148,7 @@ def _load_of(scene: Description, load: str | None) -> str:
 class _Sheet:
     """The rows, one after another."""
 
-    def __init__(
-        self, scene: Description, factors: LiftFactors, hung: list[Hung], run: Result | None
-    ) -> None:
+    def __init__(self, scene: Description, factors: LiftFactors, hung: list[Hung], run: Result | None):
         self._scene, self._factors, self._hung, self._run = scene, factors, hung, run
         self._told = summary(run) if run is not None and factors.dynamic_factor is None else None
         self._at_rest = [pulls_of(one) for one in _corners(scene, factors)]

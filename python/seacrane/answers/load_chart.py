@@ -15,6 +15,7 @@ from seacrane.analysis.inverse import crane_of, values_of
 from seacrane.analysis.rest_state import rest_from
 from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.answers.statics import resting
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.loads import changed
 from seacrane.description.roles import CraneRoles, allowed_at
@@ -30,7 +31,6 @@ from seacrane.plotting.table import Answer, Column, Table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 DEGREES, ANGLES = "_deg", ("heel", "trim")
 CAPACITY = "capacity"  # of the crane's table
 EXACT = 1e-6  # of the load
@@ -45,16 +45,11 @@ class LoadChart(Answer):
 
     Attributes
     ----------
-    scene : str
-        Its name.
-    slews : ndarray, shape (n,)
-        rad.
-    radii : ndarray, shape (k,)
-        m.
+    scene : Its name.
+    slews, radii : (n,), rad; (k,), m.
     allowable : ndarray, shape (n, k)
         kg; infinite where nothing limits it, NaN where a limit is exceeded with no load at all.
-    governing : ndarray of str, shape (n, k)
-        The limit that sets it; empty where none does.
+    governing : (n, k) The limit that sets it; empty where none does.
     limits : mapping of str to (float, float)
         Lowest and highest value of each, SI, as the column of `statics`.
     capacity : ndarray, shape (k,), or None
@@ -73,13 +68,12 @@ class LoadChart(Answer):
         return f"<LoadChart of {self.scene!r}: {len(self.slews)} slews x {len(self.radii)} radii>"
 
     def _shown(self) -> Table:
+        rows = zip(self.slews, self.allowable, self.governing, strict=True)
         columns = [
             Column(
-                head=f"slew {np.degrees(slew):.4g} deg",
-                values=loads,
-                read=("", list(map(_told, loads, limits))),
+                head=f"slew {np.degrees(slew):.4g} deg", values=loads, read=("", [*map(_told, loads, names)])
             )
-            for slew, loads, limits in zip(self.slews, self.allowable, self.governing, strict=True)
+            for slew, loads, names in rows
         ]
         title = f"{self.scene}: allowable load [t], and what limits it"
         return Table(axes=[Column(name="radius", values=self.radii, unit="m")], columns=columns, title=title)
@@ -220,11 +214,7 @@ class _Hook:
                 )
 
     def allowable(self, radius: float) -> tuple[float, str]:
-        """Mass (kg) of the largest load, and the limit that sets it.
-
-        Each limit is extrapolated from the last two loads, and the one that is reached first is tried: the
-        secant method, on values that are nearly linear in the load.
-        """
+        """Mass (kg) of the largest load, and the limit that sets it: by the secant method on the first."""
         described = self._at_rest.scene.bodies[self._body].mass
         before, now = LEAST_SHARE * described, described
         values, later = self._values(before), self._values(now)
@@ -277,10 +267,7 @@ class _Hook:
 def plot_load_chart(chart: LoadChart) -> Figure:
     """Draw the allowable load over the radius, a curve for each slew angle, and the crane's own table.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Where nothing limits the load, or no load is allowed at all, curves are left out.
+    Where nothing limits the load, or no load is allowed at all, curves are left out.
 
     Raises
     ------
@@ -300,17 +287,14 @@ def plot_load_chart(chart: LoadChart) -> Figure:
     if chart.capacity is not None:
         capacity = chart.capacity[order] / 1e3
         lines.append(Line(label="table of the crane", values=capacity, colour=6, style="--"))
-    limits = ", ".join(_limit_words(name, *bounds) for name, bounds in chart.limits.items())
+    limits = ", ".join(
+        f"{name} {np.degrees(low):g} to {np.degrees(high):g} deg"
+        if name.split(" ")[0] in ANGLES else f"{name} {low:g} to {high:g}"
+        for name, (low, high) in chart.limits.items()
+    )  # fmt: skip
     return draw(Sheet(
         title=f"{chart.scene}: allowable load at rest",
         caption=f"Limits: {limits or 'the table of the crane'}. No dynamic factor.",
         abscissa=chart.radii[order], abscissa_name="radius", abscissa_unit="m",
         panels=(Panel(quantity="allowable load", unit="t", lines=tuple(lines)),),
     ))  # fmt: skip
-
-
-def _limit_words(name: str, low: float, high: float) -> str:
-    """A limit in the units in which it is read; a mass or a force has no factor that a word would need."""
-    if name.split(" ")[0] in ANGLES:
-        return f"{name} {np.degrees(low):g} to {np.degrees(high):g} deg"
-    return f"{name} {low:g} to {high:g}"

@@ -15,7 +15,7 @@ from seacrane.description.loads import lines_of
 from seacrane.description.roles import CraneRoles
 from seacrane.description.suspension import Hung, hung_loads, suspensions
 from seacrane.description.wet_parts import displaced_volume, immersed_parts, sources_in_water, waters_in
-from seacrane.plotting.table import Table, facts, format_value, table_of
+from seacrane.plotting.table import Table, format_value, table_of
 from seacrane.result import Result
 from seacrane.scene.rigging import NO_BOUND, STRONGEST
 
@@ -63,11 +63,9 @@ def lift_rows(result: Result) -> Rows:
         return []
     if not scene.roles:
         return _in_water(scene)
-    hung = hung_loads(scene)
-    found = [("ship", words) for words in _ships(scene)] + [
-        ("crane", words) for words in _cranes(result, scene)
-    ]
-    for one in hung:
+    found = [("ship", words) for words in _ships(scene)]
+    found += [("crane", words) for words in _cranes(result, scene)]
+    for one in hung_loads(scene):
         found += [("wire", _wire(scene, one)), ("load", _load(scene, one))]
     found += [(f"{curve.name} [{curve.unit}]", _range(curve.values)) for curve in hook_loads(result)]
     return found + _in_water(scene)
@@ -115,10 +113,8 @@ def _cranes(result: Result, scene: Description) -> Iterator[str]:
     for prefix, roles in scene.roles.items():
         words = [f"{prefix.strip()} on {_base(scene, roles)}".strip()]
         if roles.tip is not None and roles.slew is not None and set(POSES) <= set(result.channels):
-            first, last = (
-                float(tip_radius(scene, roles, result["position"][at], result["quaternion"][at]))
-                for at in (0, -1)
-            )
+            poses = ((result["position"][at], result["quaternion"][at]) for at in (0, -1))
+            first, last = (float(tip_radius(scene, roles, *pose)) for pose in poses)
             height = result.place_of(*roles.tip)[:, 2]
             moves = abs(last - first) > 0.05 or abs(height[-1] - height[0]) > 0.05
             words.append(f"tip {first:.1f} m out and {height[0]:.1f} m up at the start")
@@ -194,24 +190,18 @@ def _scene(result: Result, settings: Mapping[str, Any]) -> Rows:
 
 
 def _method(result: Result, settings: Mapping[str, Any]) -> Rows:
-    chosen: Rows = [
-        ("formulation", result.stats["formulation"]),
-        ("integrator", result.stats["integrator"]),
-    ]
+    chosen: Rows = [(name, result.stats[name]) for name in ("formulation", "integrator")]
     stop = [("recorded until [s]", float(result.time[-1]))] if result.interrupted else []
     return chosen + _rows(settings, METHOD) + stop + [("outputs", int(result.time.size))]
 
 
-def particulars(result: Result) -> str:
-    """The lift, the scene, its sea, the method, notes and stages."""
+def particulars(result: Result) -> dict[str, Rows]:
+    """The lift, the scene, its sea, the method and notes."""
     settings = result.settings
-    groups = {
+    return {
         "Lift": lift_rows(result),
         "Scene": _scene(result, settings),
         "Sea": _rows(settings, SEA) + _rows(result.stats, STATED_SEA),
         "Method": _method(result, settings),
         "Notes": [(str(name), json.dumps(_plain(one))) for name, one in settings.get("notes", {}).items()],
     }
-    blocks = [f"<div><h3>{name}</h3>{facts(rows).html()}</div>" for name, rows in groups.items() if rows]
-    below = f"<h3>Stages</h3>{stage_table(result).html()}" if result.stages else ""
-    return f'<div class="columns">{"".join(blocks)}</div>{below}'

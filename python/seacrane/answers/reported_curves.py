@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.wet_parts import immersed_depths, immersed_parts, wet_names
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.frames import AXES_NOTE, rotation_matrix
@@ -21,7 +21,6 @@ from seacrane.run.derived import swing_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 STANDARD_GRAVITY = 9.80665
 TENSIONS = ("hook_load", "link_tension", "tension", "line_tension")
 HOOK = "hook load"
@@ -47,26 +46,13 @@ class Curve(Bounded):
 
     Attributes
     ----------
-    kind : str
-        What it is one of, such as "cylinder force".
-    label : str
-        Which one; empty where there is one only.
-    values : ndarray, shape (n,)
-        In the unit.
-    bounds : (ndarray, ndarray) or None
-        Least and largest values since the output before, where the run keeps them.
-    load : bool
-        Whether it has a dynamic factor.
-    pulls : bool
-        Whether it is a tension, which may go slack.
-    static : float or None
-        In the unit, where the run noted it.
-    rung : str
-        Of what a load hangs on; empty for all else.
-    suspension : str
-        Of a tension: of which it is, as channels name it.
-    of_one_fall : bool
-        Whether it is the tension of each of several falls.
+    kind, label : What it is one of, such as "cylinder force", and which, where there are several.
+    values, bounds : (n,) In the unit; least and largest since the output before, where the run keeps them.
+    load : Whether it has a dynamic factor.
+    pulls : Whether it is a tension, which may go slack.
+    static : In the unit, where the run noted it.
+    rung, suspension : Of what a load hangs on; of which a tension is, as channels name it.
+    of_one_fall : Whether it is the tension of each of several falls.
     """
 
     kind: str
@@ -96,8 +82,7 @@ def _scaled(factor: float, one: Trace) -> dict[str, Any]:
 def reported_curves(result: Result) -> list[Curve]:
     """Tensions, cylinder forces, slew torques, depths in water, how loads hang, and the vessels' motions.
 
-    What was not recorded, or is zero up to rounding, is left out. Raises FileFormatError where a result holds
-    notes that no run writes.
+    Without what is zero up to rounding. Raises FileFormatError for notes that no run writes.
     """
     try:
         return _curves(result)
@@ -246,17 +231,12 @@ def _offsets(result: Result) -> list[Curve]:
     """Offsets of loads from straight below where they hang: m along x and y, and the angle from vertical."""
     found = []
     for body, vector in hanging_vectors(result).items():
-        curves = {
-            ("offset", "x", "m"): vector[:, 0],
-            ("offset", "y", "m"): vector[:, 1],
-            ("swing", "", "deg"): np.degrees(swing_of(vector)),
-        }
         found += [
-            Curve(kind=f"{body} {what}", label=axis, unit=unit, values=values)
-            for (what, axis, unit), values in curves.items()
-            if np.nanmax(np.abs(values), initial=0.0) > NO_MOTION
+            Curve(kind=f"{body} offset", label="x", unit="m", values=vector[:, 0]),
+            Curve(kind=f"{body} offset", label="y", unit="m", values=vector[:, 1]),
+            Curve(kind=f"{body} swing", label="", unit="deg", values=np.degrees(swing_of(vector))),
         ]
-    return found
+    return [one for one in found if np.nanmax(np.abs(one.values), initial=0.0) > NO_MOTION]
 
 
 def _motions(result: Result) -> list[Curve]:
@@ -270,15 +250,9 @@ def _motions(result: Result) -> list[Curve]:
 
 
 def hanging_vectors(result: Result) -> dict[str, Array]:
-    """From where each load hangs to where it is held, (n, 3), m, inertial axes.
-
-    By body. Empty where the poses were not recorded, or a result does not note what hangs.
-    """
-    if not set(POSES) <= set(result.channels):
-        return {}
-    return {
-        one["load"]: _place(result, *one["to"]) - _place(result, *one["from"]) for one in result.about.hung
-    }
+    """From where each load hangs to where it is held, (n, 3), m, inertial axes, by body, where recorded."""
+    hung = result.about.hung if set(POSES) <= set(result.channels) else ()
+    return {one["load"]: _place(result, *one["to"]) - _place(result, *one["from"]) for one in hung}
 
 
 def _place(result: Result, body: str, point: Sequence[float]) -> Array:
@@ -293,10 +267,7 @@ def _place(result: Result, body: str, point: Sequence[float]) -> Array:
 def plot_summary(result: Result) -> Figure:
     """Draw what `summary` tells in numbers, a panel for each kind and unit, with events and extremes marked.
 
-    Raises
-    ------
-    SceneError
-        If the run recorded nothing that a summary holds.
+    Raises SceneError if the run recorded nothing that a summary holds.
     """
     groups: dict[tuple[str, str], list[Curve]] = {}
     for one in reported_curves(result):
@@ -306,10 +277,9 @@ def plot_summary(result: Result) -> Figure:
             f"a result with {', '.join(result.channels) or 'no channels'} has no load and no motion to "
             "draw; record link_tension, cylinder_force, position or vessel_motion"
         )
-    panels = []
-    for (kind, unit), group in groups.items():
-        lines = tuple(Line(label=one.label, values=one.values, colour=i) for i, one in enumerate(group))
-        panels.append(Panel(quantity=kind, unit=unit, lines=lines))
+    lines = {key: [Line(label=one.label, values=one.values, colour=i) for i, one in enumerate(group)]
+             for key, group in groups.items()}  # fmt: skip
+    panels = [Panel(quantity=kind, unit=unit, lines=tuple(own)) for (kind, unit), own in lines.items()]
     return draw(Sheet(
         title=title_of(result),
         caption=f"Triangles mark the largest and the smallest value. {AXES_NOTE}",

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.analysis.inverse import channels_at, drive_name
 from seacrane.analysis.reduced_coordinates import NEUTRAL, POSE, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import held
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
-from seacrane.description.crane_parts import (
+from seacrane.description.crane_parts import (  # fmt: skip
     cylinders,
     luffing_ropes,
     luffs,
@@ -25,7 +26,7 @@ from seacrane.description.crane_parts import (
 )
 from seacrane.description.description import Description
 from seacrane.description.loads import changed, lines_of
-from seacrane.description.roles import CraneRoles, LuffingRope, lengthening, pressure
+from seacrane.description.roles import LuffingRope, lengthening, pressure
 from seacrane.description.rungs import ELASTIC, RIGID
 from seacrane.description.suspension import ROD, Suspension, hung_loads, names_of_suspensions
 from seacrane.inputs.frames import heading_of, heel_and_trim, rotation_matrix
@@ -33,7 +34,6 @@ from seacrane.one_thread import one_thread
 from seacrane.run.channel_names import lowest_segments
 from seacrane.run.derived import hook_loads
 
-Array = NDArray[np.float64]
 LINES = {"line_tension": ("tension", "N"), "line_length": ("length", "m"),
          "line_unstretched_length": ("unstretched length", "m")}  # fmt: skip
 HOOK_STIFFNESS = "hook stiffness"
@@ -73,19 +73,11 @@ class AtRest:
     def _placed(self, body: str, point: Any) -> tuple[Array, Array]:
         return placed(self.scene, body, point, self.channels["position"], self.channels["quaternion"])
 
-    def radius(self, roles: CraneRoles) -> float:
-        """The radius of a crane's tip, m."""
-        return float(tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"]))
-
     def stiffness(self, hoist: Suspension) -> float:
         """Vertical force over sag of its lower end, N/m, the vessels held; NaN of a line that is slack."""
         body, point = hoist.lower
         found = hook_stiffness(self.scene, self.model, self.state, body=body, point=point)
         return found if np.isfinite(found) or hoist.rung in (ROD, RIGID) else np.nan
-
-    def height(self, body: str, point: Any) -> float:
-        """The height of a point of a body (its coordinates, m) above z = 0, m."""
-        return float(self._placed(body, point)[0][2])
 
 
 def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
@@ -114,7 +106,8 @@ def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
         if not vessel.floats:  # it stands as it is given, whatever hangs on it
             continue
         stiffness = heeling_stiffness(model, values, at_rest.state.time, vessel.body)
-        weight = displaced_weight(scene, vessel, motion)
+        own = scene.bodies[vessel.body].mass * scene.gravity  # and what the ship displaces, N
+        weight = float(own - np.asarray(vessel.restoring)[2, 2:5] @ motion[2:5])
         found[f"GM{which}"] = ("m", stiffness / weight)
         known = scene.provenance.get(vessel.name)
         if known is not None and any(known.taken):
@@ -128,9 +121,10 @@ def _cranes(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     scene, found = at_rest.scene, {}
     for roles in scene.roles.values():
         if roles.slew is not None and roles.tip is not None:
-            found[f"{roles.prefix}tip radius"] = ("m", at_rest.radius(roles))
+            radius = tip_radius(scene, roles, at_rest.channels["position"], at_rest.channels["quaternion"])
+            found[f"{roles.prefix}tip radius"] = ("m", float(radius))
         if roles.tip is not None:
-            found[f"{roles.prefix}tip height"] = ("m", at_rest.height(*roles.tip))
+            found[f"{roles.prefix}tip height"] = ("m", float(at_rest._placed(*roles.tip)[0][2]))
     areas = piston_areas(scene)
     for label, joint in cylinders(scene).items():
         force = at_rest.drive(joint, "displacement")
@@ -185,12 +179,6 @@ def _hook_loads(at_rest: AtRest) -> dict[str, float]:
     loads = hook_loads(at_rest.scene, {name: values[None] for name, values in at_rest.channels.items()})
     names = names_of_suspensions(at_rest.scene)
     return {} if loads is None else dict(zip(names, map(float, loads[0]), strict=True))
-
-
-def displaced_weight(scene: Description, vessel: _core.VesselHydrodynamics, motion: Array) -> float:
-    """Weight of the water that a vessel displaces at rest, N; `motion`: from upright at z = 0, (6,)."""
-    own = scene.bodies[vessel.body].mass * scene.gravity
-    return float(own - np.asarray(vessel.restoring)[2, 2:5] @ motion[2:5])
 
 
 @one_thread

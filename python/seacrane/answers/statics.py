@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import crane_of, path_through, places_in, places_of, posed, values_of
 from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of, pulls_of
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import tip_radius
 from seacrane.description.description import Description
@@ -33,7 +33,6 @@ from seacrane.result import Result
 from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
 
-Array = NDArray[np.float64]
 NOTHING = 1e-8  # m, deg, kN, t: as printed
 HOOK = "hook load"  # printed in t
 Columns = dict[str, tuple[str, float]]
@@ -52,18 +51,14 @@ class Statics(Answer):
     scene : str
         Its name.
     poses : mapping of str to ndarray or float
-        Values along each axis of the grid: "slew" (rad), "radius" (m), strokes (m) and luffs
-        (rad) by their labels;
-        a number that was given as one makes no axis. Empty for the pose described.
+        Values along each axis of the grid: "slew" (rad), "radius" (m), strokes (m) and luffs (rad) by their
+        labels; a number that was given as one makes no axis. Empty for the pose described.
     columns : mapping of str to ndarray or float
         Values over the grid, numbers where it has no axis, SI; ``statics["GM"]`` is one of them.
     units : mapping of str to str
-        Of each column: rad, m, N, N/m, N m, Pa. It prints in deg, kN, kN m, bar, hook loads
-        in t and stiffness in mm/kN.
-    pose_units : mapping of str to str
-        Of each axis of the grid: rad or m.
-    gravity : float
-        m/s2, by which hook loads are printed in t.
+        Of each column, SI. It prints in deg, kN, kN m, bar, hook loads in t and stiffness in mm/kN.
+    pose_units : Of each axis of the grid: rad or m.
+    gravity : m/s2, by which hook loads are printed in t.
     """
 
     scene: str
@@ -158,43 +153,30 @@ def statics(
     axes = _axes(slew, radius, coordinates)
     roles = crane_of(scene, crane) if axes else None
     places = {} if roles is None else places_of(roles)
-    every = [np.atleast_1d(values) for values in axes.values()]
-    grid = [dict(zip(axes, one, strict=True)) for one in itertools.product(*every)]
+    values = [np.atleast_1d(one) for one in axes.values()]
+    grid = [dict(zip(axes, one, strict=True)) for one in itertools.product(*values)]
     shape = tuple(len(values) for values in axes.values() if np.ndim(values))
-    judge = _RestJudge(scene)
-    rows = [judge.seen(one, pose) for pose, one in zip(grid, resting(scene, roles, grid, luff), strict=True)]
-    judge.warn()
+    rows = _judged(scene, zip(resting(scene, roles, grid, luff), grid, strict=True))
     return Statics(
-        scene=scene.name,
-        poses=axes,
+        scene=scene.name, poses=axes, units={name: unit for name, (unit, _) in rows[0].items()},
         columns={name: np.array([row[name][1] for row in rows]).reshape(shape)[()] + 0.0 for name in rows[0]},
-        units={name: unit for name, (unit, _) in rows[0].items()},
         pose_units={name: "rad" if places.get(name, ("", ""))[1] in ANGLES else "m" for name in axes},
         gravity=scene.gravity,
-    )
+    )  # fmt: skip
 
 
 def _axes(slew: Any, radius: Any, coordinates: Mapping[str, Any] | None) -> dict[str, Any]:
-    given = {"slew": slew, "radius": radius}
-    axes = {name: _axis(f"statics: {name}", v) for name, v in given.items() if v is not None}
-    for label, values in (coordinates or {}).items():
-        axes[label] = _axis(f"statics: coordinate {label!r}", values)
-    for angle in np.atleast_1d(axes.get("slew", ())):
+    """Rows of numbers by axis, or a number where one was given."""
+    given = {"slew": ("slew", slew), "radius": ("radius", radius)}
+    given |= {label: (f"coordinate {label!r}", values) for label, values in (coordinates or {}).items()}
+    read = {name: values_of(f"statics: {what}", v) for name, (what, v) in given.items() if v is not None}
+    for angle in read.get("slew", ()):
         angle_of("statics: slew", float(angle))
-    return axes
-
-
-def _axis(what: str, given: Any) -> Any:
-    """A row of numbers, or a number where one was given."""
-    values = values_of(what, given)
-    return values if np.ndim(given) else values[0]
+    return {name: values if np.ndim(given[name][1]) else values[0] for name, values in read.items()}
 
 
 def resting(
-    scene: Description,
-    roles: CraneRoles | None,
-    grid: list[dict[str, float]],
-    luff: str | None,
+    scene: Description, roles: CraneRoles | None, grid: list[dict[str, float]], luff: str | None
 ) -> Iterator[AtRest]:
     """The scene at rest in each pose of a grid, by the names of its axes."""
     places = places_in(scene)
@@ -246,48 +228,39 @@ def _require_range(scene: Description, place: tuple[str, str], label: str, value
             )
 
 
-class _RestJudge:
-    """Looks at rest states one after another, and tells the worst of them at the end."""
-
-    def __init__(self, scene: Description) -> None:
-        self._name, self._poses = scene.name, 0
-        self._falling: list[tuple[Growing, str]] = []
-        self._heeled: list[tuple[float, str]] = []
-
-    def seen(self, at_rest: AtRest, pose: Pose) -> Columns:
-        """The columns of a state at rest."""
-        columns = columns_of(at_rest)
+def _judged(scene: Description, poses: Iterable[tuple[AtRest, Pose]]) -> list[Columns]:
+    """Columns of each pose; warns of that in which most grows fastest, and of that with the largest heel."""
+    rows: list[Columns] = []
+    falling: list[tuple[Growing, str]] = []
+    heeled: list[tuple[float, str]] = []
+    for at_rest, pose in poses:
+        rows.append(columns := columns_of(at_rest))
         where = f"at {', '.join(f'{name} {value:.4g}' for name, value in pose.items())} " if pose else ""
-        self._poses += 1
-        grows = growing(at_rest.scene, at_rest.model, at_rest.state)
-        gm = {name: told for name, told in columns.items() if name.split(" ")[0] == "GM"}
-        stability = [f"{name} {value:.3g} {unit}" for name, (unit, value) in gm.items()]
-        if grows:
-            self._falling.append((grows[0], f"{where}{', '.join(stability)}"))
+        kinds = {name: name.split(" ")[0] for name in columns}
+        gm = [f"{n} {value:.3g} {unit}" for n, (unit, value) in columns.items() if kinds[n] == "GM"]
+        if grows := growing(at_rest.scene, at_rest.model, at_rest.state):
+            falling.append((grows[0], f"{where}{', '.join(gm)}"))
         for name, (_, value) in columns.items():
-            if name.split(" ")[0] in ("heel", "trim") and abs(value) > LARGEST_HEEL:
-                self._heeled.append((abs(value), f"{where}{name} is {np.degrees(value):.3g} deg"))
-        return columns
-
-    def warn(self) -> None:
-        """Warn of the pose in which most grows fastest, and of that with the largest heel."""
-        if self._falling:
-            worst, told = max(self._falling, key=lambda one: one[0].value.real)
-            warn_caller(
-                f"statics: scene {self._name!r} does not stay at rest in {len(self._falling)} of "
-                f"{self._poses} poses; {told or 'as described'}: {worst.label} {worst.words}. Lower "
-                "the weights, take less on the hook, or hold what tips over",
-                UnstableRestWarning,
-            )
-        if self._heeled:
-            _, told = max(self._heeled)
-            warn_caller(
-                f"statics: {told}, beyond {np.degrees(LARGEST_HEEL):.0f} deg in {len(self._heeled)} of "
-                f"{self._poses} poses: restoring is linear, so that heel, GM and all that follows from them "
-                "are not those of the ship there. Take less on the hook or nearer, add ballast "
-                "(Scene.add_ballast), or look at righting_arms",
-                LargeHeelWarning,
-            )
+            if kinds[name] in ("heel", "trim") and abs(value) > LARGEST_HEEL:
+                heeled.append((abs(value), f"{where}{name} is {np.degrees(value):.3g} deg"))
+    if falling:
+        worst, told = max(falling, key=lambda one: one[0].value.real)
+        warn_caller(
+            f"statics: scene {scene.name!r} does not stay at rest in {len(falling)} of {len(rows)} poses; "
+            f"{told or 'as described'}: {worst.label} {worst.words}. Lower the weights, take less on the "
+            "hook, or hold what tips over",
+            UnstableRestWarning,
+        )
+    if heeled:
+        _, told = max(heeled)
+        warn_caller(
+            f"statics: {told}, beyond {np.degrees(LARGEST_HEEL):.0f} deg in {len(heeled)} of {len(rows)} "
+            "poses: restoring is linear, so that heel, GM and all that follows from them are not those of "
+            "the ship there. Take less on the hook or nearer, add ballast (Scene.add_ballast), or look at "
+            "righting_arms",
+            LargeHeelWarning,
+        )
+    return rows
 
 
 @one_thread
@@ -334,9 +307,7 @@ def luffing(scene: Description, roles: CraneRoles, luff: str | None) -> str:
 class Reach:
     """Radius of the tip over one stroke or luff, the other coordinates at values of their own."""
 
-    def __init__(
-        self, scene: Description, roles: CraneRoles, label: str, others: Mapping[str, float]
-    ) -> None:
+    def __init__(self, scene: Description, roles: CraneRoles, label: str, others: Mapping[str, float]):
         self._scene, self._roles, self._label = scene, roles, label
         places = places_of(roles)
         limits = [one for one in scene.ranges.values() if (one.joint, one.coordinate) == places[label]]

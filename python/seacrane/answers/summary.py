@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.analysis.least_pulls import least_pulls
 from seacrane.answers.reported_curves import Curve, in_si, reported_curves
 from seacrane.answers.statics import Statics, static_pulls
+from seacrane.arrays import Array
 from seacrane.description.rungs import RIGID
 from seacrane.description.suspension import ROD, suspensions
 from seacrane.description.wet_parts import wet_bodies
@@ -23,7 +23,6 @@ from seacrane.result.contact_loads import NO_CONTACTS, ContactLoads, contact_loa
 from seacrane.result.traces import inside
 from seacrane.result.utilisation import Utilisation
 
-Array = NDArray[np.float64]
 DASHED = (
     "- it went slack on a rod or a rigid wire, which knows no snap, lift-off or landing: no factor. Let it "
     "hang on a line of rung 'elastic' or 'auto'."
@@ -54,17 +53,13 @@ class SummaryRow:
     Attributes
     ----------
     name, unit : The unit is SI.
-    static : Value at rest, or at the first output of what is summarised; see `static_known`.
-    static_known : Whether `static` is the value at rest.
+    static, static_known : Value at rest; where that is not known, at the first output summarised.
     minimum_at, maximum_at : s.
-    factor : float or None
-        Dynamic factor of a load: what is largest in the sense of the static load, over the static load. None
-        where no static load is known.
+    factor : Dynamic factor of a load: the largest in the sense of the static load, over that, or None.
     slack_margin : float or None
         Smallest tension over the least static one, of what pulls; zero and below is slack. The least is
         `static` but with parts in water below, as of the channel `slack_margin`.
-    blind : bool
-        Whether it went slack on a rung that knows no lift-off, landing or snap: there is no factor.
+    blind : Whether it went slack on a rung that knows no lift-off, landing or snap: there is no factor.
     printed : The unit in which the row is printed.
     """
 
@@ -90,20 +85,13 @@ class Summary(Rows[SummaryRow]):
 
     Attributes
     ----------
-    scene : str
-        Its name.
-    start, end : float
-        Of the part of the run that is summarised, s.
+    scene : Its name.
+    start, end : Of the part of the run that is summarised, s.
     rows : tuple of SummaryRow
         In SI units. They print with forces in kN, moments in kN m, hook loads in t, angles in deg.
-    remarks : tuple of str
-        What limits the numbers: a short record, a transient inside.
-    of_outputs : tuple of str
-        Rows whose least and largest values are those of the outputs; those of all others are of the run.
-    utilisation : Utilisation
-        Of the scene's limit states, over the whole run.
-    contacts : ContactLoads
-        Of the scene's contacts, over the whole run.
+    remarks : What limits the numbers: a short record, a transient inside.
+    of_outputs : Rows whose least and largest values are those of the outputs; of all others, of the run.
+    utilisation, contacts : Of the scene's limit states and contacts, over the whole run.
     """
 
     scene: str
@@ -200,16 +188,17 @@ def summary(
         replace(one, static=known[one.name] * in_si(one.unit)[1] if one.name in known else one.static)
         for one in curves
     ]
-    least = _least_pulls(result)
-    kept = []
+    least, kept = _least_pulls(result), []
     for one in every:
         low, high = (inside(result, part, one.values, bound) for bound in (one.least, one.largest))
         kept.append(replace(one, values=one.values[part], bounds=(low, high)))
+    stopped = [f"The run was interrupted: the record ends at {time[-1]:g} s."] if result.interrupted else []
     restless = [f"No factor of what is starred: {told}."] if isinstance(told, str) else []
+    remarks = (*stopped, *_calm(result), *_short(result, time), *_transient(time, kept), *restless)
     return Summary(
         scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]),
         rows=tuple(_row(one, time, least) for one in kept),
-        remarks=(*remarks_on(result, time, kept), *restless, *([WET] if least else [])),
+        remarks=(*remarks, *([WET] if least else [])),
         of_outputs=tuple(one.name for one in every if one.bounds is None), utilisation=result.utilisation,
         contacts=contact_loads(result),
     )  # fmt: skip
@@ -232,15 +221,13 @@ def _static(given: Statics | None) -> dict[str, float]:
         return {}
     if not isinstance(given, Statics):
         raise SceneError(f"summary: static is a {type(given).__name__}; give what statics(scene) returns")
-    if any(values.size != 1 for values in given.columns.values()):
-        raise SceneError(
-            f"summary: static is of {next(iter(given.columns.values())).size} poses; give statics of one"
-        )
-    names = {name: name.partition(" ") for name in given.columns}
-    return {
-        f"{ATTITUDE.get(what, what)} {of}".rstrip(): float(given.columns[name].item())
-        for name, (what, _, of) in names.items()
-    }
+    found = {}
+    for name, values in given.columns.items():
+        if values.size != 1:
+            raise SceneError(f"summary: static is of {values.size} poses; give statics of one")
+        what, _, of = name.partition(" ")
+        found[f"{ATTITUDE.get(what, what)} {of}".rstrip()] = float(values.item())
+    return found
 
 
 def _part(result: Result, after: float | None, before: float | None) -> slice:
@@ -248,13 +235,12 @@ def _part(result: Result, after: float | None, before: float | None) -> slice:
     first = result.time[0] if after is None else number_of("summary: after", after)
     last = result.time[-1] if before is None else number_of("summary: before", before)
     begin, end = (int(np.searchsorted(result.time, *one)) for one in ((first, "left"), (last, "right")))
-    part = slice(begin, end)
-    if part.start >= part.stop:
+    if begin >= end:
         raise SceneError(
             f"summary: no output is between after = {first:g} and before = {last:g} s; the result has "
             f"{result.time[0]:g} to {result.time[-1]:g} s"
         )
-    return part
+    return slice(begin, end)
 
 
 def _row(curve: Curve, time: Array, least: Mapping[str, tuple[float, int]]) -> SummaryRow:
@@ -288,18 +274,11 @@ def _factor(static: float, low: float, high: float) -> float | None:
     return factor if factor > 0.0 else None
 
 
-def remarks_on(result: Result, time: Array, curves: Sequence[Curve]) -> list[str]:
-    """One sentence each, for the part of a run from the first to the last of `time`."""
-    stopped = [f"The run was interrupted: the record ends at {time[-1]:g} s."] if result.interrupted else []
-    return [*stopped, *_calm(result), *_short(result, time), *_transient(time, curves)]
-
-
 def _calm(result: Result) -> list[str]:
     """That nothing of a lift is by waves: of what floats or is wet, and has no sea."""
     scene = result.scene
-    if scene is None or not (scene.vessels or wet_bodies(scene)):
-        return []
-    if scene.waves is not None and np.any(scene.waves.amplitude):
+    dry = scene is None or not (scene.vessels or wet_bodies(scene))
+    if scene is None or dry or (scene.waves is not None and np.any(scene.waves.amplitude)):
         return []
     return ["Still water: the scene has no sea (add_sea), and nothing here is by waves."]
 

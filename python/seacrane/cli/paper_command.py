@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.command_line import INTERRUPTED
-from seacrane.cli.output_folder import output_folder
+from seacrane.cli.output import output_folder
 
 if TYPE_CHECKING:
     from seacrane.pictures import Finding, Picture
@@ -37,7 +37,7 @@ SUMMARY = (
 )
 
 
-def run(arguments: argparse.Namespace) -> int:
+def paper(arguments: argparse.Namespace) -> int:
     """Simulate, save, draw and report; 130 if a run was interrupted, with what was computed until then."""
     folder = output_folder(
         arguments.out, holds=(REPORT, *(f"{name}.nc" for name in RUNS)), overwrite=arguments.overwrite

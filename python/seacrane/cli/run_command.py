@@ -1,19 +1,18 @@
-"""``seacrane run``: simulate one scene and write what it records to a file."""
+"""``seacrane run`` and ``trade``: simulate one scene into a file, or measure what its settings cost."""
 
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+import math
+from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.command_line import INTERRUPTED
-from seacrane.cli.output_folder import output_folder
-from seacrane.cli.scene_source import Source, load_source
+from seacrane.cli.output import output_folder
+from seacrane.cli.scene_source import load_source
 from seacrane.errors import SceneError
 
 if TYPE_CHECKING:
     from seacrane.result import Result
-    from seacrane.run.method import Method
-    from seacrane.run.outputs import Outputs
 
 KEPT = ("constraint_error", "energy_balance", "absolute_work")
 SPANS = ("t_end", "checkpoint_every", "resume", "progress")
@@ -24,6 +23,7 @@ SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulatio
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and summarise; 130 if the run was interrupted."""
     from seacrane.answers.reported_curves import CHANNELS
+    from seacrane.run.method import overridden
     from seacrane.simulation import simulate
 
     source = load_source(arguments.scene, arguments, scripts=True)
@@ -31,7 +31,8 @@ def run(arguments: argparse.Namespace) -> int:
         _require_no_span(arguments)
     folder = output_folder(arguments.out)
     path = folder / f"{source.name}.nc"
-    method, outputs = _settings(arguments, source)
+    words = {word: getattr(arguments, word) for word in SETTINGS}
+    method, outputs = overridden(source.method, source.outputs, words)
     t_end = source.t_end if arguments.t_end is None else arguments.t_end
     span = source.stages or t_end
     done = simulate(
@@ -44,13 +45,6 @@ def run(arguments: argparse.Namespace) -> int:
     finally:  # whatever happens to its summary, the run is there
         print(f"saved {done.path}")
     return INTERRUPTED if done.interrupted else 0
-
-
-def _settings(arguments: argparse.Namespace, source: Source) -> tuple[Method, Outputs]:
-    from seacrane.run.method import overridden
-
-    words = {word: getattr(arguments, word) for word in SETTINGS}
-    return overridden(source.method, source.outputs, words)
 
 
 def _require_no_span(arguments: argparse.Namespace) -> None:
@@ -102,3 +96,27 @@ def costs(result: Result) -> str:
     if result.interrupted:
         lines.append(f"interrupted: outputs end at {result.time[-1]:g} s; --resume goes on from there")
     return "\n".join(lines)
+
+
+def trade(arguments: argparse.Namespace) -> int:
+    """Measure, save trade.csv and trade.png, and print the front and what the scene requires."""
+    source = load_source(arguments.scene, arguments)
+    folder = output_folder(arguments.out)
+    from seacrane import accuracy
+    from seacrane.needs import required
+    from seacrane.needs.bench import usual
+    from seacrane.run.outputs import Outputs
+
+    outputs = Outputs(dt_out=(source.outputs or Outputs()).dt_out)
+    span: dict[str, Any] = {"stages": source.stages, "start": source.start, "outputs": outputs}
+    if source.t_end is not None and not source.stages:
+        span["t_end"] = source.t_end
+    budget = None if arguments.budget == math.inf else arguments.budget
+    result = accuracy.trade(source.scene, budget=budget, out=folder, **span)
+    try:
+        print(result)
+    finally:
+        print(f"saved {folder / 'trade.csv'} and {folder / 'trade.png'}")
+    if usual(source.scene):
+        print(required(source.scene, method=source.method, progress=True, **span))
+    return 0

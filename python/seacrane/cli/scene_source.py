@@ -10,7 +10,7 @@ import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import tell
@@ -41,32 +41,18 @@ class Source:
     accuracy: Mapping[str, float] | None = None
 
 
-def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tuple[str, Scene]:
-    """The scene, and the name of its files; as `load_source`."""
-    found = load_source(source, options, scripts=scripts)
-    return found.name, found.scene
+def load_source(source: str, options: argparse.Namespace, *, scripts: bool = False) -> Source:
+    """A case by its name and `CASE_OPTIONS`, or a lift, a scene file or, if those may run, a script.
 
-
-def load_source(source: str, options: argparse.Namespace, *, scripts: bool) -> Source:
-    """What the user named.
-
-    Parameters
-    ----------
-    source : Name of a case, or path of a lift, a scene file or a script.
-    options : May hold `CASE_OPTIONS`; those that are None or absent keep the case's own values.
-    scripts : Whether a script may be executed.
-
-    Raises
-    ------
-    SceneError
-        If there is no such scene, a script may not run or fails, or options do not apply.
-    FileFormatError
-        If a file is none of these.
+    Raises SceneError if there is no such scene, a script may not run or fails, or options do not apply, and
+    FileFormatError for a file that is none of these.
     """
     given = {name: getattr(options, name, None) for name in CASE_OPTIONS}
     given = {name: value for name, value in given.items() if value is not None}
     if source in CASES:
-        return Source(name=source, scene=_built_in(source, given))
+        import seacrane.cases as cases
+
+        return Source(name=source, scene=getattr(cases, source)(**given))
     path = Path(source)
     if given:
         names = ", ".join(f"--{name.replace('_', '-')}" for name in given)
@@ -77,7 +63,11 @@ def load_source(source: str, options: argparse.Namespace, *, scripts: bool) -> S
         if not scripts:
             raise SceneError(f"{path.name} is a script, and only `seacrane run` executes scripts")
         return Source(name=path.stem, scene=run_script(path))
-    return _lift(path) if path.suffix == ".toml" else _scene_file(path)
+    if path.suffix == ".toml":
+        return _lift(path)
+    from seacrane.scene.scene import Scene
+
+    return Source(name=path.stem, scene=Scene.load(path))
 
 
 def _lift(path: Path) -> Source:
@@ -92,19 +82,6 @@ def _lift(path: Path) -> Source:
     )  # fmt: skip
 
 
-def _scene_file(path: Path) -> Source:
-    from seacrane.scene.scene import Scene
-
-    return Source(name=path.stem, scene=Scene.load(path))
-
-
-def _built_in(name: str, options: dict[str, Any]) -> Scene:
-    import seacrane.cases as cases
-
-    scene: Scene = getattr(cases, name)(**options)
-    return scene
-
-
 def is_result(source: str) -> bool:
     """Whether the user named the file of a result, by what it holds."""
     if source in CASES or not Path(source).is_file():
@@ -114,10 +91,7 @@ def is_result(source: str) -> bool:
 
 
 def run_script(path: Path) -> Scene:
-    """What the script's function ``scene()`` returns.
-
-    Raises SceneError if the script fails (with its line), defines no ``scene()``, or returns something else.
-    """
+    """What the script's function ``scene()`` returns; SceneError, with the line, where it fails."""
     from seacrane.scene.scene import Scene
 
     try:
@@ -151,6 +125,5 @@ def _importable(folder: Path) -> Iterator[None]:
 def _line_in(path: Path, error: BaseException) -> int | None:
     if isinstance(error, SyntaxError):
         return error.lineno
-    frames = traceback.extract_tb(error.__traceback__)
-    lines = [frame.lineno for frame in frames if frame.filename == str(path)]
-    return lines[-1] if lines else None
+    frames = reversed(traceback.extract_tb(error.__traceback__))
+    return next((frame.lineno for frame in frames if frame.filename == str(path)), None)

@@ -9,16 +9,15 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from importlib import import_module
-from typing import Any
 
 from seacrane.cli.command_line import INTERRUPTED
 from seacrane.errors import SceneError, WorkerVersionError
 from seacrane.version import __version__
 
 
-def run(arguments: argparse.Namespace) -> int:
+def study(arguments: argparse.Namespace) -> int:
     """Run the members that are not there, and tell what all of them say; 130 after Ctrl-C."""
-    from seacrane.cli.show_command import show_study
+    from seacrane.cli.result_commands import show_study
     from seacrane.lift.study_run import run_study
 
     progress = arguments.progress or sys.stderr.isatty()
@@ -64,9 +63,8 @@ def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
 def _end_workers(executor: Executor | None) -> None:
     """End the processes of the pool, with the members in flight.
 
-    Nobody then reads what the pool still writes to them, nor ends what one of them was writing, and the pool
-    would wait for both: their ends of the two pipes are closed, as CPython does itself with one of them where
-    a pool breaks (python/cpython issue 94777).
+    The pool would wait for what it still writes to them, and for what one of them was writing: their ends of
+    the two pipes are closed, as CPython does with one of them where a pool breaks (its issue 94777).
     """
     from multiprocessing import active_children
 
@@ -76,12 +74,9 @@ def _end_workers(executor: Executor | None) -> None:
     for child in active_children():
         child.terminate()
         child.join()
-    for end in (
-        getattr(queue, side, None) for queue, side in zip(queues, ("_reader", "_writer"), strict=True)
-    ):
-        if end is not None:
-            with contextlib.suppress(OSError):
-                end.close()
+    for queue, side in zip(queues, ("_reader", "_writer"), strict=True):
+        with contextlib.suppress(OSError, AttributeError):
+            getattr(queue, side).close()
 
 
 def leave_ctrl_c_to_the_parent() -> None:
@@ -92,7 +87,9 @@ def leave_ctrl_c_to_the_parent() -> None:
 @contextlib.contextmanager
 def _cluster(address: str) -> Iterator[Executor]:
     try:
-        client = _distributed().Client(address, timeout="10s")
+        client = import_module("distributed").Client(address, timeout="10s")
+    except ModuleNotFoundError as error:
+        raise SceneError("--dask takes dask.distributed: pip install 'seacrane[ensemble]'") from error
     except (OSError, ValueError) as error:
         raise SceneError(f"--dask {address}: no scheduler answers there ({error})") from error
     with client:
@@ -124,10 +121,3 @@ def _require_seacrane(address: str, versions: Mapping[str, str | None]) -> None:
             raise WorkerVersionError(
                 f"--dask {address}: worker {worker} has {has}; install {__version__} there"
             )
-
-
-def _distributed() -> Any:
-    try:
-        return import_module("distributed")
-    except ModuleNotFoundError as error:
-        raise SceneError("--dask takes dask.distributed: pip install 'seacrane[ensemble]'") from error

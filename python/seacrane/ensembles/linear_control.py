@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.drag_in_sea import drag_in_components
 from seacrane.analysis.frequency_domain import component_forces
-from seacrane.analysis.linear_system import LinearModel, Resolvent, linear_model
+from seacrane.analysis.frequency_memory import Resolvent
+from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.description.channels import CHANNELS, FIXED
 from seacrane.description.crane_parts import hooks
@@ -203,7 +204,7 @@ class LinearControl:
         self._parts = PartsInWaves(linear)
         self.times = times
         self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
-        self._resolvent = Resolvent(linear)
+        self._resolvent = Resolvent(linear.a, linear.scene.name)
         self._rows = np.array([motion.row(linear) for motion in motions])
         self._orders = [ORDERS[motion.channel] for motion in motions]
         self._decays = _decays(linear.a, self._rows, self._orders, self.times)

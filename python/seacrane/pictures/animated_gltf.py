@@ -11,15 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.pictures.drawing import Drawing
 from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.pose_curves import quaternion_rate
-from seacrane.pictures.shapes import HULL, WIRES, BoxShape, HullShape, MeshShape, Shape, body_colour, rgb
+from seacrane.pictures.shapes import HULL, WIRES, BoxShape, HullShape, MeshShape, body_colour, rgb
 from seacrane.pictures.wheels import turns
 from seacrane.version import __version__
-
-Array = NDArray[np.float64]
 
 GENERATOR = '"generator":"seacrane '  # what the head of every model says
 UPRIGHT = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # z up becomes glTF's y up; quaternion x, y, z, w
@@ -39,15 +38,10 @@ BOX_FACES = np.array(QUADS)[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
 
 
 def gltf_of(drawing: Drawing) -> bytes:
-    """The model as a .glb file.
+    """The model as a .glb file, as of `View.save_gltf`; SceneError for a run too long for one file.
 
-    Under one node, which turns z up into glTF's y up, every body is a node of its name at its centre of mass,
-    in the axes and metres of the result. Its animation is a cubic spline with the velocities of the run, from
-    0 s at the first output; `extras` of the scene tell the time of that. Wires and links are nodes that turn
-    and stretch, straight also where they are slack. Sheaves and drums are nodes below their bodies'.
-    The sea is left out.
-
-    Raises SceneError for a run too long for one file.
+    Its animation is a cubic spline with the velocities of the run, from 0 s at the first output; `extras` of
+    the scene tell the time of that. Wires and links are nodes that turn and stretch.
     """
     model = _Model(drawing)
     model.bodies()
@@ -87,8 +81,10 @@ class _Model:
             place, turn = motion.position[:, i], _xyzw(motion.quaternion[:, i])
             node = self._node(name, mesh, translation=place[0], rotation=turn[0])
             self.nodes[node]["extras"] = {"role": drawing.looks[name].role}
-            self._cubic(node, "translation", place, motion.velocity[:, i])
-            self._cubic(node, "rotation", turn, _xyzw(rate[:, i]))
+            paths = {"translation": (place, motion.velocity[:, i]), "rotation": (turn, _xyzw(rate[:, i]))}
+            for path, (values, rates) in paths.items():  # tangent, value, tangent: the page's Hermite curves
+                knots = np.stack([rates, values, rates], axis=1).reshape(-1, values.shape[1])
+                self._sampler(node, path, knots, "CUBICSPLINE")
 
     def wheels(self) -> None:
         """Sheaves and drums, below the nodes of their bodies."""
@@ -112,11 +108,10 @@ class _Model:
             turn = _from_z((end - start) / length[:, None])
             there = np.where(drawing.absent(wire, motion.times), SMALLEST, 1.0)
             scale = np.column_stack([there, there, there * length])
-            node = self._node(
-                wire["name"], self._mesh(wire["name"], [bar]), translation=start[0], rotation=turn[0],
-                scale=scale[0],
-            )  # fmt: skip
-            for path, values in (("translation", start), ("rotation", turn), ("scale", scale)):
+            paths = {"translation": start, "rotation": turn, "scale": scale}
+            first = {path: values[0] for path, values in paths.items()}
+            node = self._node(wire["name"], self._mesh(wire["name"], [bar]), **first)
+            for path, values in paths.items():
                 self._sampler(node, path, values, "LINEAR")
 
     def _node(self, name: str, mesh: int, *, below: int = 0, **pose: Array) -> int:
@@ -145,11 +140,6 @@ class _Model:
             material = {"name": colour, "pbrMetallicRoughness": paint, "doubleSided": True}
             self.glb.document["materials"].append(material)
         return self.materials[colour]
-
-    def _cubic(self, node: int, path: str, values: Array, rates: Array) -> None:
-        """Tangent, value, tangent at each time: the Hermite curves of the page."""
-        knots = np.stack([rates, values, rates], axis=1).reshape(-1, values.shape[1])
-        self._sampler(node, path, knots, "CUBICSPLINE")
 
     def _sampler(self, node: int, path: str, values: Array, interpolation: str) -> None:
         if self.times < 0:
@@ -206,10 +196,7 @@ class Glb:
     def add(self, values: Any, *, target: int | None = None, bounds: bool = False) -> int:
         """Numbers (n,) or (n, 3 or 4) in single precision, or as indices if they are whole.
 
-        Parameters
-        ----------
-        target : VERTICES or INDICES.
-        bounds : Whether to tell the lowest and highest, as glTF demands of positions and times.
+        `bounds`: whether to tell the lowest and highest, as glTF demands of positions and times.
         """
         array = np.asarray(values)
         whole = array.dtype.kind in "iu"
@@ -259,18 +246,18 @@ def surfaces_of(look: Look, number: int) -> list[Surface]:
     """What a body, by its number among the bodies, shows: relative to its centre of mass, body axes."""
     found: list[Surface] = []
     for shape in look.shapes:
-        found += _hull(shape) if isinstance(shape, HullShape) else [_part(shape, look.role, number)]
+        if isinstance(shape, HullShape):
+            found += _hull(shape)
+            continue
+        if isinstance(shape, MeshShape):
+            vertices, faces = shape.vertices, shape.faces
+        elif isinstance(shape, BoxShape):
+            vertices, faces = shape.points, BOX_FACES
+        else:
+            vertices, faces = tube(shape.start, shape.end, shape.radius, SIDES)
+        colour = body_colour(shape.colour, look.role, number)
+        found.append(Surface(vertices=vertices, faces=faces, colour=colour))
     return found
-
-
-def _part(shape: Shape, role: str, number: int) -> Surface:
-    if isinstance(shape, MeshShape):
-        vertices, faces = shape.vertices, shape.faces
-    elif isinstance(shape, BoxShape):
-        vertices, faces = shape.points, BOX_FACES
-    else:
-        vertices, faces = tube(shape.start, shape.end, shape.radius, SIDES)
-    return Surface(vertices=vertices, faces=faces, colour=body_colour(shape.colour, role, number))
 
 
 def _hull(shape: HullShape) -> list[Surface]:
@@ -280,11 +267,8 @@ def _hull(shape: HullShape) -> list[Surface]:
     deck = height.min(axis=1) > top - 1e-3 * abs(top) - 1e-4
     below = ~deck & (height.max(axis=1) <= shape.waterline + NEAR)
     parts = (("below", below), ("above", ~deck & ~below), ("deck", deck))
-    return [
-        Surface(vertices=shape.vertices, faces=shape.faces[part], colour=HULL[name])
-        for name, part in parts
-        if part.any()
-    ]
+    there = [(HULL[name], shape.faces[part]) for name, part in parts if part.any()]
+    return [Surface(vertices=shape.vertices, faces=faces, colour=colour) for colour, faces in there]
 
 
 def tube(start: Array, end: Array, radius: float, sides: int) -> tuple[Array, Faces]:

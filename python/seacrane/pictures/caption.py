@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of
 from seacrane.description.pick import Pick
@@ -28,7 +28,6 @@ from seacrane.scene.file import scene_digest
 AXES = "x forward, y to port, z up, about the origin of the inertial frame; m, s"
 REAL_WIRES = "as thick as steel ropes of their EA, EA = 40 GPa times the square of the diameter"
 ESTIMATE = "error_estimate_"
-Array = NDArray[np.float64]
 FINENESS = 2.0**-14  # step of a force over its largest
 MOST_LINES, MOST_PANELS, USUAL_PANELS = 6, 8, 4
 LINE_FINENESS = 2.0**-13  # step of a line over its range
@@ -111,11 +110,10 @@ def _drawn(looks: Mapping[str, Look]) -> str:
     for name, look in looks.items():
         if look.note:
             by_note.setdefault(look.note, []).append(name)
-    few = {
-        note: ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+    return "; ".join(
+        f"{', '.join(names[:3])}{f' and {len(names) - 3} more' if len(names) > 3 else ''}: {note}"
         for note, names in by_note.items()
-    }
-    return "; ".join(f"{names}: {note}" for note, names in few.items())
+    )
 
 
 def sea_components(scene: Description) -> Array:
@@ -142,11 +140,8 @@ def _sea_words(scene: Description) -> str:
     if scene.waves is None:
         return "" if without_sea(scene) else "calm water"
     known = scene.waves.provenance
-    told = (
-        (known.realised_hs, "Hs {:.2f} m realised"),
-        (known.tp, "Tp {:g} s"),
-        (known.wave_direction_deg, "towards {:g} deg from x to y"),
-    )
+    told = ((known.realised_hs, "Hs {:.2f} m realised"), (known.tp, "Tp {:g} s"),
+            (known.wave_direction_deg, "towards {:g} deg from x to y"))  # fmt: skip
     words = [text.format(value) for value, text in told if value is not None]
     return ", ".join([f"{np.size(scene.waves.omega)} wave components", *words])
 
@@ -195,8 +190,7 @@ def strip_of(
 ) -> list[dict[str, Any]]:
     """Panels of the strip: title, unit, lines over the frames, and their least and largest values between.
 
-    Raises SceneError for a channel that the result does not hold, a name along its dimensions that there is
-    not, or more lines than a panel shows.
+    Raises SceneError for a channel or a name that the result does not hold, or too many lines or panels.
     """
     if result is None:
         if channels:
@@ -233,29 +227,19 @@ def _panel(result: Result, choice: str | Pick, motion: Motion, blob: Blob) -> di
             f"'{lines[0].channel}[{lines[0].names[0]}]'"
         )
     rows = linear_rows(motion, result.time, np.array([one.values for one in lines]).T)
-    least = between_frames(motion, result.time, [one.least for one in lines], np.fmin, rows)
-    largest = between_frames(motion, result.time, [one.largest for one in lines], np.fmax, rows)
+    least, largest = rows.copy(), rows.copy()  # since the frame before, with those of the frames
+    at = np.ceil((result.time - motion.start) / motion.interval - 1e-6)
+    frame = np.clip(at, 0, rows.shape[1] - 1).astype(int)
+    for i, one in enumerate(lines):
+        for row, bound, extreme in ((least[i], one.least, np.fmin), (largest[i], one.largest, np.fmax)):
+            good = np.isfinite(bound)
+            extreme.at(row, frame[good], bound[good])
     low, high = float(least.min()), float(largest.max())
     step = max((high - low) * LINE_FINENESS, 1e-12)
     alone = len(lines) == 1
     return {
         "title": lines[0].title if alone else str(choice).replace("_", " "),
         "unit": ", ".join(dict.fromkeys(one.unit for one in lines)),
-        "labels": ["" if alone else one.label for one in lines],
-        "low": low,
-        "high": high,
-        "values": blob.series(rows, step),
-        "bounds": blob.series(np.concatenate([least, largest]), step),
-    }
-
-
-def between_frames(
-    motion: Motion, time: Array, bounds: Sequence[Array], extreme: np.ufunc, rows: Array
-) -> Array:
-    """The least or largest values (k, frames) of curves since the frame before, with those of the frames."""
-    out = rows.copy()
-    frame = np.clip(np.ceil((time - motion.start) / motion.interval - 1e-6), 0, rows.shape[1] - 1).astype(int)
-    for row, bound in zip(out, bounds, strict=True):
-        good = np.isfinite(bound)
-        extreme.at(row, frame[good], bound[good])
-    return out
+        "labels": ["" if alone else one.label for one in lines], "low": low, "high": high,
+        "values": blob.series(rows, step), "bounds": blob.series(np.concatenate([least, largest]), step),
+    }  # fmt: skip

@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.crane import Crane
 from seacrane.description import crane_parts
 from seacrane.description.compilation import compile_scene
@@ -26,20 +26,12 @@ from seacrane.pictures.wheels import Wheel, end_of, surfaces_of_contacts, wheels
 from seacrane.result import Result
 from seacrane.result.kept_scene import NOT_KEPT
 
-Array = NDArray[np.float64]
 Spans = list[list[float]]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Drawing:
-    """Bodies with their looks and their motion.
-
-    Attributes
-    ----------
-    result : None: bodies stand at their assembled start.
-    looks : mapping of str to Look
-        By body, in the order of the motion.
-    """
+    """Bodies with their looks, in the order of their motion; without a result they stand at their start."""
 
     title: str
     scene: Description
@@ -50,8 +42,7 @@ class Drawing:
     @cached_property
     def wires(self) -> list[dict[str, Any]]:
         """As `wires_of`, with the times at which each is absent."""
-        gone = absences(self.result)
-        wires = wires_of(self.scene, self.motion.bodies)
+        gone, wires = absences(self.result), wires_of(self.scene, self.motion.bodies)
         return [wire | {"absent": gone.get(wire["element"], [])} for wire in wires]
 
     @cached_property
@@ -75,15 +66,14 @@ class Drawing:
 
     @cached_property
     def box(self) -> Array:
-        """(2, 3): lowest and highest coordinates that bodies, wheels and cylinders reach, m: at the start,
-        midway, and at the end."""
+        """(2, 3): what bodies, wheels and cylinders reach at the start, midway and at the end, m."""
         times = self.motion.start + np.array([0.0, 0.5, 1.0]) * (self.motion.end - self.motion.start)
         position, quaternion = self.motion.at(np.minimum(times, self.motion.end))
-        reached = []
-        for i, name in enumerate(self.motion.bodies):
-            points = self.looks[name].points
-            for centre, turn in zip(position[:, i], quaternion[:, i], strict=True):
-                reached.append(centre + points @ rotation_matrix(turn).T)
+        reached = [
+            centre + self.looks[name].points @ rotation_matrix(turn).T
+            for i, name in enumerate(self.motion.bodies)
+            for centre, turn in zip(position[:, i], quaternion[:, i], strict=True)
+        ]
         for wheel in self.wheels:
             centres = self.place(wheel.at, position, quaternion)
             reached += [centres - wheel.reach, centres + wheel.reach]
@@ -120,22 +110,21 @@ class Drawing:
 
 
 def drawing_of(
-    what: Any,
-    *,
-    scene: Any = None,
-    hulls: Mapping[str, Hull] | None = None,
-    crane: Crane | None = None,
+    what: Any, *, scene: Any = None, hulls: Mapping[str, Hull] | None = None, crane: Crane | None = None
 ) -> Drawing:
     """The drawing of a result or a scene; arguments and errors as of `view`."""
     described = _scene_of(what, scene)
     result = what if isinstance(what, Result) else None
     motion = _at_start(described) if result is None else motion_of(result)
-    _require_same_bodies(described, motion)
+    apart = sorted(set(described.bodies) ^ set(motion.bodies))
+    if apart:
+        raise SceneError(
+            f"view: scene {described.name!r} is not the one of the result: {', '.join(map(repr, apart[:5]))} "
+            f"{'is' if len(apart) == 1 else 'are'} only in one of them; give the scene that was run"
+        )
     found = looks(described, hulls=hulls, crane=crane)
-    return Drawing(
-        title=described.name, scene=described, result=result, motion=motion,
-        looks={name: found[name] for name in motion.bodies},
-    )  # fmt: skip
+    there = {name: found[name] for name in motion.bodies}
+    return Drawing(title=described.name, scene=described, result=result, motion=motion, looks=there)
 
 
 def _scene_of(what: Any, scene: Any) -> Description:
@@ -159,15 +148,6 @@ def _scene_of(what: Any, scene: Any) -> Description:
     return found
 
 
-def _require_same_bodies(scene: Description, motion: Motion) -> None:
-    if set(scene.bodies) != set(motion.bodies):
-        apart = sorted(set(scene.bodies) ^ set(motion.bodies))
-        raise SceneError(
-            f"view: scene {scene.name!r} is not the one of the result: {', '.join(map(repr, apart[:5]))} "
-            f"{'is' if len(apart) == 1 else 'are'} only in one of them; give the scene that was run"
-        )
-
-
 def _at_start(scene: Description) -> Motion:
     """One frame: the assembled start."""
     names = tuple(scene.bodies)
@@ -186,8 +166,7 @@ def _at_start(scene: Description) -> Motion:
 def absences(result: Result | None) -> dict[str, Spans]:
     """Times from which and up to which elements are absent, s, by name; only those that ever are.
 
-    What a lift connects before it releases it is absent from the start. What stages that were not run
-    released (`first` of `simulate`) is not known.
+    What a lift connects first is absent from the start; what stages that were not run released is not known.
     """
     found: dict[str, Spans] = {}
     if result is None:

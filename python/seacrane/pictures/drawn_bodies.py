@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.crane import Crane, load_crane, shipped_cranes
 from seacrane.crane.mass_properties import MassProperties, Member, Tube, member_axes
 from seacrane.description import crane_parts
@@ -31,11 +31,9 @@ from seacrane.pictures.shapes import (
     equivalent_box,
     framework,
     hull_shape,
-    schematic_hull,
+    schematic_size,
     wet_shapes,
 )
-
-Array = NDArray[np.float64]
 
 SLENDER = 0.02  # radius of a generic body's tubes over its extent
 SMALLEST = 0.02  # edge of a box over the scene's extent
@@ -50,13 +48,9 @@ COLOURS = {
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Look:
-    """The looks of one body.
+    """The looks of a "vessel", "payload", "crane" or "body": shapes about its centre of mass, body axes.
 
-    Attributes
-    ----------
-    role : "vessel", "payload", "crane" or "body".
-    shapes : Relative to the centre of mass, body axes, m.
-    note : What the shapes stand for, where they are no more than that.
+    The note tells what they stand for, where they are no more than that.
     """
 
     role: str
@@ -72,10 +66,7 @@ class Look:
 def looks(
     scene: Description, *, hulls: Mapping[str, Hull] | None = None, crane: Crane | None = None
 ) -> dict[str, Look]:
-    """The look of every body, by name.
-
-    Raises SceneError for a hull that is none, or of a body that is no vessel.
-    """
+    """The look of every body, by name; SceneError for a hull that is none, or of a body that is no vessel."""
     floating = floating_bodies(scene)
     given = _checked_hulls(hulls or {}, floating)
     members = crane_shapes(scene, crane)
@@ -85,15 +76,16 @@ def looks(
     meshed = {mesh.body for mesh in scene.meshes.values()}
     of_cranes = crane_parts.crane_bodies(scene) if meshed else set()
     for name in scene.bodies:
+        role = "payload" if name in hanging else "body"
         if name in meshed and name not in given:
-            role = "payload" if name in hanging else "crane" if name in of_cranes else "body"
+            role = "crane" if role == "body" and name in of_cranes else role
             found[name] = _by_meshes(scene, name, "vessel" if name in floating else role)
         elif name in floating:
             found[name] = _vessel(scene, name, given.get(name))
         elif name in members:
             found[name] = Look(role="crane", shapes=members[name])
         else:
-            found[name] = _generic(scene, name, "payload" if name in hanging else "body", extent)
+            found[name] = _generic(scene, name, role, extent)
     return found
 
 
@@ -138,8 +130,9 @@ def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
         size = shown_size(scene, name)
         note = "schematic hull, whose size nobody gave" if size == USUAL_SIZE else "schematic hull"
         return Look(role="vessel", shapes=[box_hull(*size, deck, centre)], note=note)
-    shape = schematic_hull(body.mass, np.asarray(body.inertia), deck, centre)
-    return Look(role="vessel", shapes=[shape], note="schematic hull, from mass and inertia")
+    size = schematic_size(body.mass, np.asarray(body.inertia))
+    note = "schematic hull, from mass and inertia"
+    return Look(role="vessel", shapes=[box_hull(*size, deck, centre)], note=note)
 
 
 def _by_meshes(scene: Description, name: str, role: str) -> Look:
@@ -170,10 +163,7 @@ def _is_shipped(scene: Description, name: str) -> bool:
 
 
 def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
-    """The box of its size; else tubes between the points at which other bodies take hold of it, or a box.
-
-    And its parts in the water.
-    """
+    """Its box; else tubes between the points at which others take hold of it, or a box. And its wet parts."""
     body, wet = scene.bodies[name], wet_shapes(scene, name)
     more = " and its parts in water" if wet else ""
     if np.any(body.size):
@@ -216,18 +206,16 @@ def _extent(scene: Description) -> float:
 
 
 def crane_shapes(scene: Description, crane: Crane | None) -> dict[str, list[Shape]]:
-    """Members of the bodies that are this crane's (default: those that come with seacrane) by their mass,
-    centre of mass and inertia, in every crane of the scene."""
+    """Members of the bodies that have the mass, centre and inertia of this crane's, or of a shipped one."""
     if not scene.roles:
         return {}
     known = [crane] if crane is not None else [load_crane(name) for name in shipped_cranes()]
-    shapes: dict[str, list[Shape]] = {}
-    for prefix in scene.roles:
-        for body in [body for one in known for body in one.data.bodies if body.members]:
-            if _is(scene, prefix + body.name, body.properties):
-                centre = body.properties.center_of_mass
-                shapes[prefix + body.name] = [_shape(body.name, part, centre) for part in body.members]
-    return shapes
+    every = [(prefix, body) for prefix in scene.roles for one in known for body in one.data.bodies]
+    return {
+        prefix + body.name: [_shape(body.name, part, body.properties.center_of_mass) for part in body.members]
+        for prefix, body in every
+        if body.members and _is(scene, prefix + body.name, body.properties)
+    }
 
 
 def _is(scene: Description, body: str, wanted: MassProperties) -> bool:

@@ -12,13 +12,11 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.pictures.pose import save_pose_figure
 from seacrane.plotting.panel import Line, Panel, Picture, Sheet, save_sheet
 from seacrane.result import MOTIONS, Result
-
-Array = NDArray[np.float64]
 
 OSCILLATION_START, OSCILLATION_PERIOD = 50.0, 5.0
 CLEAR_CHANGE = 0.1  # share of a motion's own size from which a change counts as clear
@@ -43,13 +41,23 @@ OF_MOTIONS: Mapping[int, tuple[str, str, Sequence[str], Mapping[str, str]]] = {
 
 @dataclass(frozen=True, kw_only=True)
 class PaperRuns:
-    """The five runs that the paper's figures compare; all with the same output times."""
+    """The five runs that the paper's figures compare; ValueError unless all have the same output times."""
 
     vessel: Result
     vessel_without_memory: Result
     case1: Result
     case2: Result
     case3: Result
+
+    def __post_init__(self) -> None:
+        first = self.vessel
+        for other in (self.vessel_without_memory, self.case1, self.case2, self.case3):
+            if not np.array_equal(first.time, other.time):
+                raise ValueError(
+                    f"runs {first.stats['scene']!r} and {other.stats['scene']!r} were recorded at different "
+                    f"times: {first.time.size} outputs to {first.time[-1]:g} s, {other.time.size} outputs to "
+                    f"{other.time[-1]:g} s; give both the same t_end and dt_out"
+                )
 
 
 def motion_of(result: Result, motion: str) -> Array:
@@ -63,16 +71,11 @@ def _motions(number: int, runs: PaperRuns) -> Sheet:
     title, caption, motions, pairs = OF_MOTIONS[number]
     of = {label: getattr(runs, name) for label, name in pairs.items()}
     curves = {motion: {label: motion_of(run, motion) for label, run in of.items()} for motion in motions}
-    columns = 2 if len(motions) == 6 else 1
-    return _sheet(
-        f"Figure {number}: {title}", caption, getattr(runs, next(iter(pairs.values()))), curves, columns
-    )
+    return _sheet(f"Figure {number}: {title}", caption, runs, curves)
 
 
-def _sheet(
-    title: str, caption: str, run: Result, curves: Mapping[str, Mapping[str, Array]], columns: int = 1
-) -> Sheet:
-    """Labelled curves by what they are, over the time of a run; angles are those that end in a rotation."""
+def _sheet(title: str, caption: str, runs: PaperRuns, curves: Mapping[str, Mapping[str, Array]]) -> Sheet:
+    """Labelled curves by what they are; angles are those that end in a rotation."""
     panels = []
     for quantity, by_label in curves.items():
         lines = tuple(
@@ -80,7 +83,8 @@ def _sheet(
             for i, (label, values) in enumerate(by_label.items())
         )
         panels.append(Panel(quantity=quantity, unit="deg" if quantity in ANGLES else "m", lines=lines))
-    return Sheet(title=title, caption=caption, abscissa=run.time, panels=tuple(panels), columns=columns)
+    columns, time = 2 if len(panels) == 6 else 1, runs.vessel.time
+    return Sheet(title=title, caption=caption, abscissa=time, panels=tuple(panels), columns=columns)
 
 
 def figure_7(runs: PaperRuns) -> Sheet:
@@ -95,27 +99,15 @@ def figure_7(runs: PaperRuns) -> Sheet:
         "the paper's difference of phi_z between bodies 2 and 1."
     )
     curves["slew angle"] = {"": np.rad2deg(case3["slew_angle"])}
-    return _sheet("Figure 7: cylinder strokes and slew angle, case 3", caption, case3, curves)
+    return _sheet("Figure 7: cylinder strokes and slew angle, case 3", caption, runs, curves)
 
 
 def figure_10(runs: PaperRuns) -> Sheet:
     """Heave of case 3 minus heave of case 1."""
-    require_same_times(runs.case3, runs.case1)
     difference = motion_of(runs.case3, "heave") - motion_of(runs.case1, "heave")
     title = "Figure 10: heave of case 3 minus heave of case 1"
     caption = "What the oscillating cylinders add to the heave."
-    return _sheet(title, caption, runs.case1, {"heave, case 3 - case 1": {"": difference}})
-
-
-def require_same_times(first: Result, second: Result) -> None:
-    """Raise ValueError unless two runs were recorded at the same times."""
-    if not np.array_equal(first.time, second.time):
-        raise ValueError(
-            f"runs {first.stats['scene']!r} and {second.stats['scene']!r} were recorded at different times: "
-            f"{first.time.size} outputs to {first.time[-1]:g} s, "
-            f"{second.time.size} outputs to {second.time[-1]:g} s; "
-            "give both the same t_end and dt_out"
-        )
+    return _sheet(title, caption, runs, {"heave, case 3 - case 1": {"": difference}})
 
 
 TIME_FIGURES: dict[int, Callable[[PaperRuns], Sheet]] = {
@@ -128,25 +120,8 @@ TIME_FIGURES: dict[int, Callable[[PaperRuns], Sheet]] = {
 def save_paper_figures(*, runs: PaperRuns, folder: Path) -> dict[int, Picture]:
     """Write ``figure_03.png`` to ``figure_10.png``, and the data behind them as ``figure_NN.csv``.
 
-    Parameters
-    ----------
-    runs : PaperRuns
-        Five runs of equal output times.
-    folder : Path
-        Existing folder.
-
-    Returns
-    -------
-    dict of int to Picture
-        By figure number, in order.
-
-    Raises
-    ------
-    ValueError
-        If the runs were not recorded at the same times.
+    The folder exists. Returns them by figure number, in order.
     """
-    for other in (runs.vessel_without_memory, runs.case1, runs.case2, runs.case3):
-        require_same_times(runs.vessel, other)
     pictures = {
         number: save_sheet(sheet(runs), folder, f"figure_{number:02d}")
         for number, sheet in TIME_FIGURES.items()
@@ -157,18 +132,10 @@ def save_paper_figures(*, runs: PaperRuns, folder: Path) -> dict[int, Picture]:
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """One finding of the paper, what our runs give for it, and whether they agree.
+    """One finding of the paper in our words, what our runs give for it, with units, and whether they agree.
 
-    Attributes
-    ----------
-    finding : str
-        In our words.
-    number : str
-        What was measured, with units.
-    expected : str
-        The condition the verdict was taken from.
-    verdict : str
-        "reproduced", "not reproduced", or "measured" where the paper makes no statement to agree with.
+    The verdict, taken from the condition `expected`, is "reproduced" or "not reproduced", or "measured" where
+    the paper makes no statement to agree with.
     """
 
     finding: str
@@ -209,12 +176,7 @@ def slew_stop(result: Result, *, share: float = 0.99) -> float:
 def amplitude_at(time: Array, values: Array, *, period: float, start: float) -> float:
     """Amplitude of the component of one period, by least squares with a mean and a trend, from `start` s on.
 
-    Parameters
-    ----------
-    time, values : (n,) s, and any unit.
-    period, start : s; at least two periods must follow the start.
-
-    Raises ValueError if fewer than two periods follow the start.
+    Time and values are (n,). Raises ValueError if fewer than two periods (s) follow the start.
     """
     late = time >= start
     if not late.any() or time[-1] - time[late][0] < 2 * period:
@@ -229,12 +191,9 @@ def amplitude_at(time: Array, values: Array, *, period: float, start: float) -> 
 
 def memory_effect(runs: PaperRuns) -> Finding:
     """How much leaving memory out changes the vessel alone (figure 3)."""
-    changes = {}
-    for motion in MOTIONS:
-        with_memory = motion_of(runs.vessel, motion)
-        size = _rms(with_memory)
-        if size > 0:
-            changes[motion] = _rms(motion_of(runs.vessel_without_memory, motion) - with_memory) / size
+    kept, without = ({m: motion_of(run, m) for m in MOTIONS}
+                     for run in (runs.vessel, runs.vessel_without_memory))  # fmt: skip
+    changes = {m: _rms(without[m] - kept[m]) / _rms(kept[m]) for m in MOTIONS if _rms(kept[m]) > 0}
     return _found(
         "Fluid memory changes the vessel's response clearly",
         "rms change over rms: " + ", ".join(f"{m} {100 * c:.0f} %" for m, c in changes.items()),
@@ -260,7 +219,6 @@ def memory_cost(runs: PaperRuns) -> Finding:
 
 def roll_shows_most(before: Result, after: Result, what: str, where: str) -> Finding:
     """Which rotation of the vessel an addition changes most."""
-    require_same_times(before, after)
     change = {m: _rms(motion_of(after, m) - motion_of(before, m)) for m in ("roll", "pitch", "yaw")}
     return _found(
         f"{what} shows most in roll ({where})",
@@ -283,7 +241,6 @@ def mean_heel(runs: PaperRuns) -> Finding:
 
 def yaw_at_slew_stop(runs: PaperRuns) -> Finding:
     """Yaw rate of case 1 over the vessel alone, late in the slew and after it has stopped."""
-    require_same_times(runs.case1, runs.vessel)
     time, stop = runs.case1.time, slew_stop(runs.case1)
     rate = np.gradient(motion_of(runs.case1, "yaw") - motion_of(runs.vessel, "yaw"), time)
     moving = float(np.mean(rate[(time >= 0.5 * stop) & (time <= 0.9 * stop)]))
@@ -298,7 +255,6 @@ def yaw_at_slew_stop(runs: PaperRuns) -> Finding:
 
 def oscillation(runs: PaperRuns) -> Finding:
     """The 5 s component that case 3 adds to case 1, in each motion."""
-    require_same_times(runs.case3, runs.case1)
     time, asked = runs.case1.time, {"period": OSCILLATION_PERIOD, "start": OSCILLATION_START}
     change = {m: motion_of(runs.case3, m) - motion_of(runs.case1, m) for m in MOTIONS}
     added = {motion: amplitude_at(time, values, **asked) for motion, values in change.items()}
@@ -326,11 +282,5 @@ FINDINGS: tuple[Callable[[PaperRuns], Finding], ...] = (
 
 
 def paper_findings(runs: PaperRuns) -> list[Finding]:
-    """Every finding of the paper, measured on five runs of at least 60 s.
-
-    Raises
-    ------
-    ValueError
-        If the runs differ in output times, or end too early to judge.
-    """
+    """Every finding of the paper, measured on five runs; ValueError for those that end too early to judge."""
     return [measure(runs) for measure in FINDINGS]

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.analysis.frequency_domain import excitation_of, linear_of, motion_rao
 from seacrane.errors import SceneError
@@ -34,7 +33,6 @@ if TYPE_CHECKING:
     from seacrane.analysis.linear_system import LinearModel
     from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 FEWEST_OUTPUTS = 64  # of a spectrum
 SEGMENTS = 8  # of a long record, half overlapping, that a spectrum is averaged over
 RESOLVED = 100.0  # s: shorter segments are not taken where the record is longer
@@ -68,10 +66,6 @@ def _vessels(result: Result) -> Panels:
     return several or [("vessel", traces(result, "vessel_motion"))]
 
 
-def _payload(result: Result) -> Panels:
-    return [(f"{body} position", traces(result, "position", body=body)) for body in payload_bodies(result)]
-
-
 def _channel(name: str) -> Callable[[Result], Panels]:
     return lambda result: [(name.replace("_", " "), traces(result, name))]
 
@@ -80,7 +74,9 @@ def _channel(name: str) -> Callable[[Result], Panels]:
 PANELS: dict[str, Callable[[Result], Panels]] = {
     "vessel_motion": _vessels,
     "wave_elevation": _channel("wave_elevation"),
-    "position": _payload,
+    "position": lambda result: [
+        (f"{body} position", traces(result, "position", body=body)) for body in payload_bodies(result)
+    ],
     **{
         name: _channel(name)
         for name in ("slew_angle", "stroke", "cylinder_force", "link_tension", "line_tension", "limit_force")
@@ -119,20 +115,10 @@ def _panels(result: Result, chosen: Callable[[list[Trace]], list[Trace]]) -> lis
 
 @named
 def plot_overview(result: Result) -> Figure:
-    """Draw what a run recorded: motions, waves, payload, crane, forces and energy balance.
+    """Draw what any run recorded: motions, waves, payload, crane, forces and energy balance.
 
     What is zero up to rounding is left out, as the sway of a ship in head seas. Events of limits are marked,
-    and the largest and the smallest value of every panel.
-
-    Parameters
-    ----------
-    result : Result
-        Any run.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        ``figure.savefig(path)`` writes it; a notebook shows it. Our axes: x forward, y to port, z up.
+    and the largest and the smallest value of every panel. ``figure.savefig(path)`` writes it.
 
     Raises
     ------
@@ -143,22 +129,18 @@ def plot_overview(result: Result) -> Figure:
 
 
 def plot_spectrum(result: Result, *channels: str, after: float = 0.0, **names: str) -> Figure:
-    """Draw the variance of channels over frequency, by averaged periodograms (Welch).
+    """Draw one-sided densities of channels over omega, by averaged periodograms (Welch).
+
+    The area below a curve is the variance about the mean.
 
     Parameters
     ----------
     result : Result
         At least 64 outputs, evenly spaced.
-    *channels : str
     after : float
         Leave out what comes before, s.
     **names : str
         As of `Result.plot`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        One-sided densities over omega: the area below a curve is the variance about the mean.
 
     Raises
     ------
@@ -182,12 +164,16 @@ def spectrum_sheet(result: Result, *channels: str, after: float = 0.0, **names: 
         for channel, every in found.items()
     }
     frequency = next(iter(spectra.values()))[0][0]
-    last = _last_shown([density for every in spectra.values() for _, density in every])
+    sums = [np.cumsum(density) for every in spectra.values() for _, density in every if density.sum() > 0.0]
+    # One past the frequency up to which every curve has shown nearly all of its variance.
+    most = max((int(np.searchsorted(one, SHOWN * one[-1])) for one in sums), default=frequency.size)
+    last = min(frequency.size, most + 3 + most // 3)
     omega, panels = 2.0 * np.pi * frequency[:last], []
     for channel, every in found.items():
+        units = [one.unit if one.unit.isalpha() else f"({one.unit})" for one in every]
         densities = [
-            replace(one, unit=_squared(one.unit), values=density[:last] / (2.0 * np.pi), bounds=None)
-            for one, (_, density) in zip(every, spectra[channel], strict=True)
+            replace(one, unit=f"{unit}2 s/rad", values=density[:last] / (2.0 * np.pi), bounds=None)
+            for one, unit, (_, density) in zip(every, units, spectra[channel], strict=True)
         ]
         panels += panels_of(f"S, {channel.replace('_', ' ')}", densities)
     return Sheet(
@@ -196,17 +182,6 @@ def spectrum_sheet(result: Result, *channels: str, after: float = 0.0, **names: 
         abscissa=omega, abscissa_name="omega", abscissa_unit="rad/s", panels=tuple(panels),
         columns=2 if len(panels) > 3 else 1,
     )  # fmt: skip
-
-
-def _last_shown(densities: Sequence[Array]) -> int:
-    """One past the frequency up to which every curve has shown nearly all of its variance."""
-    sums = [np.cumsum(density) for density in densities if density.sum() > 0.0]
-    most = max((int(np.searchsorted(one, SHOWN * one[-1])) for one in sums), default=densities[0].size)
-    return min(densities[0].size, most + 3 + most // 3)
-
-
-def _squared(unit: str) -> str:
-    return f"{unit}2 s/rad" if unit.isalpha() else f"({unit})2 s/rad"
 
 
 def _even_part(result: Result, after: float) -> slice:
@@ -226,17 +201,8 @@ def _even_part(result: Result, after: float) -> slice:
 def plot_track(result: Result, *bodies: str) -> Figure:
     """Draw where centres of mass went, seen from above, from starboard and from ahead.
 
-    Parameters
-    ----------
-    result : Result
-        A run with `position`.
-    *bodies : str
-        Default: what hangs, or all bodies where nothing does.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        A circle marks the start, a square the end; both axes of a view have the same scale.
+    Of what hangs by default, or all bodies where nothing does. A circle marks the start, a square the end;
+    both axes of a view have the same scale.
 
     Raises
     ------
@@ -274,14 +240,7 @@ def draw_track(result: Result, *bodies: str) -> Figure:
 
 
 def plot_reactions(result: Result, *joints: str) -> Figure:
-    """Draw the size of joint forces and moments over time.
-
-    Parameters
-    ----------
-    result : Result
-        A run with `reaction_force`, and `reaction_moment` where it is drawn too.
-    *joints : str
-        Default: all.
+    """Draw the size of joint forces and moments over time, of all joints by default.
 
     Raises
     ------
@@ -320,31 +279,20 @@ def plot_rao(
     """Draw the motion of a point of any body per metre of wave amplitude, over frequency.
 
     ``database.plot("motion")`` draws those of the vessel alone. A ship at a forward speed comes as a
-    `linear_model` of its database.
+    `linear_model` of its database. Arguments and errors are as of `motion_rao`.
 
     Parameters
     ----------
-    scene, body, point
-        As `motion_rao`.
     directions_deg : sequence of float
         Directions that the waves travel to, deg; 0 following.
     omega : array_like, shape (n,), optional
         rad/s; default: the database's.
-
-    Raises
-    ------
-    SceneError
-        As `motion_rao`.
     """
     return draw(rao_sheet(scene, body, point, directions_deg, omega))
 
 
 def rao_sheet(
-    scene: Scene | LinearModel,
-    body: str,
-    point: Any,
-    directions_deg: Sequence[float],
-    omega: Any,
+    scene: Scene | LinearModel, body: str, point: Any, directions_deg: Sequence[float], omega: Any
 ) -> Sheet:
     """The panels of `plot_rao` with their numbers."""
     linear = linear_of(scene, None)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Picture, new_figure, plain, save_figure, save_table
 from seacrane.result import Result
@@ -16,7 +16,6 @@ from seacrane.result import Result
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 Skeleton = Mapping[str, Sequence[Array]]
 """Lines of each body, each of shape (k, 3), m, in the body's frame, relative to its centre of mass."""
 
@@ -46,10 +45,7 @@ def box_lines(size: Sequence[float]) -> list[Array]:
 
 
 def outlined_skeleton(result: Result) -> dict[str, list[Array]]:
-    """Lines of every body by what the run noted of its scene: ships, boxes, lines through joints.
-
-    Empty where a result notes nothing, or has no poses.
-    """
+    """Lines of every body by what the run noted of its scene; empty where it noted nothing, or no poses."""
     if not {"position", "quaternion"} <= set(result.channels):
         return {}
     bodies = result.about.outline.get("bodies", {})
@@ -90,29 +86,19 @@ def posed_lines(result: Result, skeleton: Skeleton, index: int) -> Iterator[tupl
 
 def link_lines(result: Result, index: int) -> list[Array]:
     """Links, wires and springs (2, 3) at one output, between the points that the run noted, inertial axes."""
-    return [
-        np.array([_at(result, first, start, index), _at(result, second, end, index)])
-        for first, start, second, end in result.about.outline.get("links", [])
-    ]
 
+    def place(body: str, point: Sequence[float]) -> Array:
+        if body not in result.coords["body"]:
+            return np.asarray(point, dtype=float)
+        turn, centre = _pose(result, body, index)
+        return np.asarray(centre + turn @ np.asarray(point, dtype=float))
 
-def _at(result: Result, body: str, point: Sequence[float], index: int) -> Array:
-    if body not in result.coords["body"]:
-        return np.asarray(point, dtype=float)
-    turn, centre = _pose(result, body, index)
-    return np.asarray(centre + turn @ np.asarray(point, dtype=float))
+    links = result.about.outline.get("links", [])
+    return [np.array([place(first, start), place(second, end)]) for first, start, second, end in links]
 
 
 def save_pose_figure(*, result: Result, folder: Path, stem: str = "figure_04") -> Picture:
-    """Figure 4: the first and last pose of a run as `stem`.png, and every point drawn as `stem`.csv.
-
-    Parameters
-    ----------
-    result : Result
-        As of `plot_scene`.
-    folder : Path
-        Existing folder.
-    """
+    """Figure 4: the first and last pose of a run as `stem`.png, and every point drawn as `stem`.csv."""
     title = "Figure 4: initial and final pose, case 2"
     image = save_figure(_draw_poses(result, title), folder / f"{stem}.png")
     rows = []
@@ -181,11 +167,6 @@ def plot_scene(result: Result) -> Figure:
     """Draw the first and the last pose of any run: bodies as lines through their joints, ships and boxes.
 
     Ships have the length and breadth of their radii of gyration, boxes the inertia of their bodies.
-
-    Parameters
-    ----------
-    result : Result
-        A run with `position` and `quaternion`.
 
     Raises
     ------

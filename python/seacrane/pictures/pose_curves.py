@@ -9,12 +9,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.result import Result
 
-Array = NDArray[np.float64]
 POSES = ("position", "quaternion", "velocity", "angular_velocity")
 STEPS = {"position": 1e-4, "quaternion": 1e-6, "velocity": 1e-3, "angular_velocity": 1e-5}  # m, 1, m/s, rad/s
 INTERVALS = (0.2, 0.1)  # s, coarse first
@@ -43,15 +42,10 @@ class Blob:
         data = folded.reshape(-1).view(np.uint8).reshape(-1, 4).T.tobytes()
         return {**self._add(data), "shape": list(rows.shape), "step": step}
 
-    def floats(self, values: Any) -> dict[str, Any]:
-        """Add values as they are, in single precision."""
-        return self._plain(np.asarray(values, dtype="<f4"))
-
-    def whole(self, values: Any) -> dict[str, Any]:
-        """Add indices."""
-        return self._plain(np.asarray(values, dtype="<u4"))
-
-    def _plain(self, array: NDArray[Any]) -> dict[str, Any]:
+    def plain(self, values: Any) -> dict[str, Any]:
+        """Add values as they are, in single precision, or as indices if they are whole."""
+        array = np.asarray(values)
+        array = array.astype("<u4" if array.dtype.kind in "iu" else "<f4")
         return {**self._add(array.tobytes()), "shape": list(array.shape)}
 
     def _add(self, data: bytes) -> dict[str, Any]:
@@ -82,12 +76,8 @@ def rounded(values: Any, step: float) -> Array:
 class Motion:
     """Poses and twists of bodies at even times.
 
-    Attributes
-    ----------
-    start, interval : s.
-    position, quaternion, velocity, angular_velocity : ndarray, shape (frames, bodies, 3 or 4)
-        Of centres of mass, as in a result, rounded to `STEPS`.
-    error : Largest distance (m) and angle (rad) between the curves and the run's outputs.
+    From `start` on every `interval` (s): of centres of mass, as in a result, (frames, bodies, 3 or 4),
+    rounded to `STEPS`; `error` is the largest distance (m) and angle (rad) from the run's outputs.
     """
 
     start: float
@@ -109,22 +99,23 @@ class Motion:
         """s."""
         return float(self.times[-1])
 
+    def series(self, blob: Blob) -> dict[str, Any]:
+        """For the page, by what they are."""
+        return {
+            name: blob.series(getattr(self, name).reshape(len(self.position), -1).T, step)
+            for name, step in STEPS.items()
+        }
+
     def at(self, times: Any) -> tuple[Array, Array]:
         """Positions (n, bodies, 3), m, and unit quaternions (n, bodies, 4) at times within the run, s."""
-        return poses_between(
-            np.asarray(times, dtype=float), self.times, self.position, self.quaternion, self.velocity,
-            self.angular_velocity,
-        )  # fmt: skip
+        at = np.asarray(times, dtype=float)
+        return poses_between(at, self.times, *(getattr(self, name) for name in POSES))
 
 
 def motion_of(result: Result) -> Motion:
-    """The motion of a result, at 5 Hz where that keeps to `LARGEST_ERROR`, else at 10 Hz; never more often
-    than it was recorded.
+    """The motion of a result, at 5 Hz where that keeps to `LARGEST_ERROR`, else at 10 Hz, or as recorded.
 
-    Raises
-    ------
-    SceneError
-        If the result holds no poses, or none that are finite.
+    Raises SceneError if the result holds no poses, or none that are finite.
     """
     missing = [name for name in POSES if name not in result.channels]
     if missing:
@@ -153,20 +144,14 @@ def _sampled(time: Array, channels: dict[str, Array], bodies: Sequence[str], int
     step = span / (frames - 1) if span > 0.0 else interval
     at = np.minimum(time[0] + step * np.arange(frames), time[-1])
     position, quaternion = poses_between(at, time, *(channels[name] for name in POSES))
-    velocity, turning = (_linear(at, time, channels[name]) for name in POSES[2:])
-    motion = Motion(
-        start=float(time[0]), interval=step, bodies=tuple(bodies),
-        position=rounded(position, STEPS["position"]), quaternion=rounded(quaternion, STEPS["quaternion"]),
-        velocity=rounded(velocity, STEPS["velocity"]),
-        angular_velocity=rounded(turning, STEPS["angular_velocity"]),
-    )  # fmt: skip
-    return _with_error(motion, time, channels["position"], channels["quaternion"])
-
-
-def _with_error(motion: Motion, time: Array, position: Array, quaternion: Array) -> Motion:
+    speeds = (_linear(at, time, channels[name]) for name in POSES[2:])
+    values = dict(zip(POSES, (position, quaternion, *speeds), strict=True))
+    kept: dict[str, Any] = {name: rounded(value, STEPS[name]) for name, value in values.items()}
+    motion = Motion(start=float(time[0]), interval=step, bodies=tuple(bodies), **kept)
     found, turned = motion.at(np.minimum(time, motion.end))
-    distance = float(np.linalg.norm(found - position, axis=-1).max(initial=0.0))
-    chord = np.minimum(*(np.linalg.norm(turned - sign * quaternion, axis=-1) for sign in (1.0, -1.0)))
+    distance = float(np.linalg.norm(found - channels["position"], axis=-1).max(initial=0.0))
+    ways = (sign * channels["quaternion"] for sign in (1.0, -1.0))
+    chord = np.minimum(*(np.linalg.norm(turned - way, axis=-1) for way in ways))
     angle = float(4.0 * np.arcsin(np.clip(chord.max(initial=0.0) / 2.0, 0.0, 1.0)))
     return replace(motion, error=(distance, angle))
 
@@ -175,10 +160,8 @@ def poses_between(
     times: Array, knots: Array, position: Array, quaternion: Array, velocity: Array, angular_velocity: Array
 ) -> tuple[Array, Array]:
     """Cubic Hermite curves through poses with their rates; quaternions component by component, made unit."""
-    rate = quaternion_rate(quaternion, angular_velocity)
-    where = hermite(times, knots, position, velocity)
-    turn = hermite(times, knots, quaternion, rate)
-    return where, turn / np.linalg.norm(turn, axis=-1, keepdims=True)
+    turn = hermite(times, knots, quaternion, quaternion_rate(quaternion, angular_velocity))
+    return hermite(times, knots, position, velocity), turn / np.linalg.norm(turn, axis=-1, keepdims=True)
 
 
 def quaternion_rate(quaternion: Array, angular_velocity: Array) -> Array:

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.outline import GYRATION
 from seacrane.description.revolved import revolved
 from seacrane.description.wet_parts import immersed_parts
 from seacrane.hydro import Hull
 
-Array = NDArray[np.float64]
 BLOCK = 0.7  # usual share of length x breadth x draught that displaces water
 DENSITY = 1025.0  # kg/m3
 DRAUGHTS = (0.1, 0.6)  # of the breadth, within which a schematic hull's draught stays
@@ -26,25 +26,13 @@ STATIONS = 40
 AROUND, DOWN = 16, 8  # faces of a sphere
 THINNEST = 0.01  # m, that is drawn of a plate
 BODIES = {
-    "crane": "#f0a818",
-    "tower": "#e8e4da",
-    "barrel": "#5b6670",
-    "rod": "#c9d1d6",
-    "payload": "#b5432f",
-    "sheave": "#5b6670",
-    "hub": "#c9d1d6",
-    "drum": "#2f4a6b",
-    "mark": "#ffe14d",
-}
+    "crane": "#f0a818", "tower": "#e8e4da", "barrel": "#5b6670", "rod": "#c9d1d6", "payload": "#b5432f",
+    "sheave": "#5b6670", "hub": "#c9d1d6", "drum": "#2f4a6b", "mark": "#ffe14d",
+}  # fmt: skip
 PLAIN = ("#7c6aa6", "#3f8f8a", "#b0793a", "#5578a8", "#8a8f3c", "#a65a7c")  # bodies of no other kind, in turn
 HULL = {"above": "#2f5f86", "deck": "#93a58e", "below": "#8c3b32"}
-WIRES = {
-    "link": "#1b1f24",
-    "wire": "#1b1f24",
-    "spring": "#6a4fa0",
-    "barrel": BODIES["barrel"],
-    "rod": BODIES["rod"],
-}
+WIRES = {"link": "#1b1f24", "wire": "#1b1f24", "spring": "#6a4fa0", "barrel": BODIES["barrel"],
+         "rod": BODIES["rod"]}  # fmt: skip
 SLACK = "#e0701a"
 TRACKS = {"tip": "#ffffff", "payload": "#ffe14d"}
 
@@ -158,18 +146,11 @@ def distinct(points: Sequence[Any], apart: float = 1e-3) -> Array:
 
 
 def hull_shape(hull: Hull, deck: float, center_of_mass: Array) -> HullShape:
-    """The panels of a hull (body axes from the body's origin) and topsides straight up to a deck at height
-    `deck`, m."""
+    """The panels of a hull (axes from the body's origin), straight sides up to a deck at height `deck`, m."""
     panels = np.asarray(hull.panels)
     x, half = _waterline(panels)
     soup = np.concatenate([_halved(panels), _topsides(x, half, deck)]) - center_of_mass
     return _hull_of(soup, -float(center_of_mass[2]))
-
-
-def schematic_hull(mass: float, inertia: Array, deck: float | None, center_of_mass: Array) -> HullShape:
-    """A box with a bow whose length and breadth have the usual ratio to the radii of gyration, and whose
-    draught displaces the mass; the deck at height `deck`, m, or half a draught above the water."""
-    return box_hull(*schematic_size(mass, inertia), deck, center_of_mass)
 
 
 def box_hull(
@@ -184,7 +165,7 @@ def box_hull(
 
 
 def schematic_size(mass: float, inertia: Array) -> tuple[float, float, float]:
-    """Length, breadth and draught, m."""
+    """Length, breadth and draught, m: in the usual ratio to the radii of gyration, to displace the mass."""
     roll, pitch = np.sqrt(np.maximum(np.diag(inertia)[:2], 0.0) / mass)
     length, breadth = float(pitch) / GYRATION[1], float(roll) / GYRATION[0]
     if not (length > 0.0 and breadth > 0.0):

@@ -11,12 +11,12 @@ from functools import cache
 from html import escape
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.crane import Crane
 from seacrane.description.description import Description
 from seacrane.description.pick import Pick
@@ -41,7 +41,7 @@ from seacrane.pictures.caption import (
 )
 from seacrane.pictures.drawing import Drawing, drawing_of
 from seacrane.pictures.drawn_bodies import Look
-from seacrane.pictures.pose_curves import POSES, STEPS, Blob, Motion, linear_rows
+from seacrane.pictures.pose_curves import POSES, Blob, Motion, linear_rows
 from seacrane.pictures.shapes import HULL, SLACK, TRACKS, WIRES, HullShape, MeshShape, body_colour
 from seacrane.pictures.wheels import Wheel, end_of
 from seacrane.result import Result
@@ -52,61 +52,47 @@ LOWEST, HIGHEST = 200, 4000  # pixels
 ANGLE_STEP = 1e-3  # rad, of a drum
 SLOT = re.compile(r"@@(\w+)@@")
 INSIDE_SCRIPT = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
-Array = NDArray[np.float64]
 Arrow = tuple[str, str, list[float], Array]  # name, group, point of application, force over the outputs
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class View:
-    """A page that shows a scene or a result in three dimensions.
-
-    The last expression of a notebook cell shows it there; `save` writes it as a file that any browser opens
-    from disk, without network.
+class Page:
+    """A page that holds everything: a notebook shows it, any browser opens its file, without network.
 
     Attributes
     ----------
     html : str
         The whole page.
-    motion : Motion
-        The poses that it shows.
-    drawing : Drawing
-        What it draws.
     height : int
         Of the frame in a notebook, pixels.
     """
 
     title: str
     html: str
-    motion: Motion = field(compare=False)
-    drawing: Drawing = field(compare=False)
     height: int = 640
+    _frame: ClassVar[str] = 'sandbox="allow-scripts"'
 
     def __repr__(self) -> str:
-        return f"<View of {self.title!r}: {len(self.html) / 1e6:.2f} MB>"
+        return f"<{type(self).__name__} {self.title!r}: {len(self.html) / 1e3:.0f} kB>"
 
     def _repr_html_(self) -> str:
-        frame = f"width:100%;height:{self.height}px;border:1px solid #c9d2d9"
+        """In a frame of its own: the notebook's looks and the page's do not mix."""
+        style = f"width:100%;height:{self.height}px;border:1px solid #c9d2d9"
         return (
-            f'<iframe title="{escape(self.title)}" srcdoc="{escape(self.html)}" style="{frame}" '
-            'allow="fullscreen"></iframe>'
+            f'<iframe srcdoc="{escape(self.html)}" title="{escape(self.title)}" {self._frame} '
+            f'style="{style}"></iframe>'
         )
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
-        """Write the page, as `Report.save` does."""
-        return _written(path, self.html.encode("utf-8"), overwrite, mark=GENERATOR)
-
-    def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
-        """Write bodies, sheaves, drums and wires as an animated glTF model, which modellers and viewers open.
-
-        A node for each body, by its name, at its centre of mass; its animation is exact to what the page
-        shows. The root node turns z up into glTF's y up. Slack wires are straight; the sea is left out.
+        """Write the page: complete under its name, or not at all.
 
         Parameters
         ----------
         path : path
-            Target, such as "lift.glb"; its folder must exist.
+            Target file; its folder must exist.
         overwrite : bool, optional
-            As of `Report.save`, of a model instead of a page.
+            By default an earlier page of seacrane is replaced, and no other file. True: any file of that
+            name. False: none.
 
         Returns
         -------
@@ -115,10 +101,38 @@ class View:
 
         Raises
         ------
+        FileExistsError
+            If there is a file of that name that is to stay.
+        OSError
+            If it cannot be written; an older file stays.
+        """
+        return _written(path, self.html.encode("utf-8"), overwrite, mark=GENERATOR)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class View(Page):
+    """A page that shows a scene or a result in three dimensions, by the poses of `drawing`."""
+
+    drawing: Drawing = field(compare=False)
+    _frame: ClassVar[str] = 'allow="fullscreen"'
+
+    @property
+    def motion(self) -> Motion:
+        """The poses that it shows."""
+        return self.drawing.motion
+
+    def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
+        """Write bodies, sheaves, drums and wires as an animated glTF model, which modellers and viewers open.
+
+        A node for each body, by its name, at its centre of mass; its animation is exact to what the page
+        shows. The root node turns z up into glTF's y up. Slack wires are straight; the sea is left out.
+
+        The path ends in .glb; `overwrite` and errors are as of `save`, of a model instead of a page.
+
+        Raises
+        ------
         SceneError
             For another ending than .glb, and for a run too long for one file.
-        FileExistsError, OSError
-            As of `Report.save`.
         """
         if Path(path).suffix.lower() != ".glb":
             raise SceneError(f"view: save_gltf writes .glb; path ends in {shown(Path(path).name)}")
@@ -187,11 +201,11 @@ def view(
     motion, shown_scene = drawing.motion, drawing.scene
     blob = Blob()
     data = {
-        "motion": _motion_data(motion, blob),
+        "motion": {"start": motion.start, "interval": motion.interval, **motion.series(blob)},
         "least": SCENE_ALONE if result is None and shown_scene.waves is not None else 0.0,
         "bodies": [_body_data(name, i, drawing.looks[name], blob) for i, name in enumerate(motion.bodies)],
         "wheels": [_wheel_data(wheel, blob) for wheel in drawing.wheels],
-        "sea": None if without_sea(shown_scene) else blob.floats(sea_components(shown_scene)),
+        "sea": None if without_sea(shown_scene) else blob.plain(sea_components(shown_scene)),
         "wires": [wire | {"colours": [WIRES[wire["kind"]], SLACK]} for wire in drawing.wires],
         "tracks": [track | {"colour": TRACKS[track["kind"]]} for track in drawing.tracks],
         "forces": forces_of(result, drawing.wires, motion, blob),
@@ -201,18 +215,11 @@ def view(
     }
     rows = caption(shown_scene, result, motion, drawing.looks)
     html = page(title=drawing.title, caption=rows, data=data, blob=blob.text())
-    return View(title=drawing.title, html=html, motion=motion, drawing=drawing, height=size)
-
-
-def _motion_data(motion: Motion, blob: Blob) -> dict[str, Any]:
-    frames = len(motion.position)
-    rows = {name: getattr(motion, name).reshape(frames, -1).T for name in STEPS}
-    series = {name: blob.series(values, STEPS[name]) for name, values in rows.items()}
-    return {"start": motion.start, "interval": motion.interval, **series}
+    return View(title=drawing.title, html=html, drawing=drawing, height=size)
 
 
 def _mesh(shape: MeshShape, blob: Blob) -> dict[str, Any]:
-    return {"vertices": blob.floats(shape.vertices), "faces": blob.whole(shape.faces)}
+    return {"vertices": blob.plain(shape.vertices), "faces": blob.plain(shape.faces)}
 
 
 def _body_data(name: str, number: int, look: Look, blob: Blob) -> dict[str, Any]:
@@ -220,9 +227,8 @@ def _body_data(name: str, number: int, look: Look, blob: Blob) -> dict[str, Any]
     for shape in look.shapes:
         own = {"colour": body_colour(shape.colour, look.role, number)}
         if isinstance(shape, HullShape):
-            shapes.append(
-                {"kind": "hull", "waterline": shape.waterline, "colours": HULL, **_mesh(shape, blob)}
-            )
+            painted = {"kind": "hull", "waterline": shape.waterline, "colours": HULL}
+            shapes.append(painted | _mesh(shape, blob))
         elif isinstance(shape, MeshShape):
             shapes.append({"kind": "mesh", **_mesh(shape, blob), **own})
         else:
@@ -237,20 +243,12 @@ def _wheel_data(wheel: Wheel, blob: Blob) -> dict[str, Any]:
 
 
 def page(*, title: str, caption: Sequence[tuple[str, str]], data: Mapping[str, Any], blob: str) -> str:
-    """One page with everything inside; all names in it appear as text.
-
-    Parameters
-    ----------
-    caption : sequence of (str, str)
-        Rows of what and its words.
-    data : mapping
-        Plain data for the script.
-    blob : str
-        Its arrays, base64.
-    """
+    """One page with everything inside, as text: rows of words, data for the script, its arrays as base64."""
     rows = "".join(f"<tr><th>{escape(what)}</th><td>{escape(words)}</td></tr>" for what, words in caption)
+    # What would end the element of the bundle is escaped.
+    script = re.sub(r"</(script)", r"<\\/\1", _asset("viewer.js"), flags=re.IGNORECASE)
     filled = {"title": escape(title), "style": _asset("page.css"), "caption": rows, "data": json_text(data),
-              "blob": blob, "script": script()}  # fmt: skip
+              "blob": blob, "script": script.replace("<!--", "<\\!--")}  # fmt: skip
     return SLOT.sub(lambda slot: filled[slot[1]], _asset("page.html"))
 
 
@@ -258,12 +256,6 @@ def json_text(data: Any) -> str:
     """JSON that no HTML parser takes for markup, wherever it stands."""
     text = json.dumps(data, allow_nan=False, separators=(",", ":"))
     return re.sub("[<>&\u2028\u2029]", lambda found: INSIDE_SCRIPT[found[0]], text)
-
-
-def script() -> str:
-    """The bundle, with what would end its element escaped."""
-    escaped = re.sub(r"</(script)", r"<\\/\1", _asset("viewer.js"), flags=re.IGNORECASE)
-    return escaped.replace("<!--", "<\\!--")
 
 
 @cache
@@ -294,14 +286,11 @@ def arrows_of(scene: Description, result: Result | None, motion: Motion, blob: B
 def _reactions(scene: Description, result: Result, bodies: Sequence[str]) -> Iterator[Arrow]:
     """What each joint exerts on its second body."""
     names = result.coords["joint"] if "reaction_force" in result.channels else ()
-    for name in names:
-        if name not in scene.joints:
-            continue
+    for name in (name for name in names if name in scene.joints):
         joint = scene.joints[name]
         hangs = joint.kind == "distance"
-        slides = "displacement" in _core.joint_kinds()[joint.kind].coordinates
-        first = slides and not hangs
-        body, frame = (joint.first, joint.first_frame) if first else (joint.second, joint.second_frame)
+        slides = "displacement" in _core.joint_kinds()[joint.kind].coordinates and not hangs
+        body, frame = (joint.first, joint.first_frame) if slides else (joint.second, joint.second_frame)
         force = result.select("reaction_force", joint=name)
         yield name, "link" if hangs else "joint", end_of(scene, bodies, body, frame.point), force
 
@@ -330,12 +319,8 @@ def _waves(scene: Description, result: Result, bodies: Sequence[str]) -> Iterato
         pick = {"vessel": vessel.name} if several else {}
         force, yaw = result.select("wave_force", **pick)[:, :3].copy(), np.zeros(len(result.time))
         if vessel.kinematics == "yaw_following":
-            yaw = _yaw(result.select("quaternion", body=vessel.body))
+            w, x, y, z = np.moveaxis(result.select("quaternion", body=vessel.body), -1, 0)
+            yaw = np.arctan2(2.0 * (x * y + w * z), w * w + x * x - y * y - z * z)
         turn = np.exp(1j * yaw) * (force[:, 0] + 1j * force[:, 1])
         force[:, 0], force[:, 1] = turn.real, turn.imag
         yield vessel.name, "wave", end_of(scene, bodies, vessel.body, np.zeros(3)), force
-
-
-def _yaw(quaternion: Array) -> Array:
-    w, x, y, z = np.moveaxis(quaternion, -1, 0)
-    return np.asarray(np.arctan2(2.0 * (x * y + w * z), w * w + x * x - y * y - z * z))

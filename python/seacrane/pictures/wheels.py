@@ -44,10 +44,8 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
 
     Of each: name, the element that it is of, kind ("link", "wire", "spring", "barrel" or "rod"; a span is a
     link), both ends as the body's number (-1: the ground) and a point relative to its centre of mass, the
-    length (m) below which it hangs slack, 0 if it never does, the radius (m) that it has, 0 for that of all
-    lines, how far it goes (m), 0 for all the way, and the radius (m) of a steel rope of its EA, 0 where that
-    is not known. A luffing rope whose hinge is led by the moment is a link. Arcs over sheaves are short links
-    without a name. Where a line meets a sheave is as in the pose that the scene describes.
+    length below which it hangs slack, its radius, its reach, and as `size` the radius of a steel rope of its
+    EA, m, 0 where that does not apply. Arcs over sheaves are short links without a name, as described.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -83,14 +81,10 @@ def _cylinder(
     scene: Description, bodies: Sequence[str], name: str, one: _core.HydraulicCylinder
 ) -> list[dict[str, Any]]:
     """A rod from point to point, and about it the barrel, as long as the cylinder is retracted."""
-    piston = np.sqrt(one.full_area / np.pi)
+    piston, ends = np.sqrt(one.full_area / np.pi), _ends(scene, bodies, one)
     rod = max(np.sqrt((one.full_area - one.rod_side_area) / np.pi), THINNEST_ROD * piston)
-    ends = _ends(scene, bodies, one)
-    wall = float(WALL * piston)
-    return [
-        _wire(name, "rod", *ends, radius=float(rod)),
-        _wire(name, "barrel", *ends, name="", radius=wall, reach=one.retracted_length),
-    ]
+    barrel: dict[str, Any] = {"name": "", "radius": float(WALL * piston), "reach": one.retracted_length}
+    return [_wire(name, "rod", *ends, radius=float(rod)), _wire(name, "barrel", *ends, **barrel)]
 
 
 def _over(scene: Description, bodies: Sequence[str], name: str, line: _core.Line) -> list[dict[str, Any]]:
@@ -138,17 +132,10 @@ def _free_length(spring: Any) -> float:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Wheel:
-    """A sheave or a drum on its body; or a surface of a contact, which does not turn.
+    """A "sheave" or a "drum" on its body; or a "surface" of a contact, which does not turn.
 
-    Attributes
-    ----------
-    name : Such as "hoist sheave 1" or "hoist drum".
-    at : Its centre, as the end of a wire.
-    axis : (3,) Of length one, body axes.
-    kind : "sheave", "drum" or "surface".
-    shapes : Relative to the centre, body axes.
-    angle : ndarray, shape (frames,), or None
-        By which it has turned about its axis, rad; None for what stands still on its body.
+    Its centre is as the end of a wire, its axis of length one and its shapes about the centre are in body
+    axes, the angle (frames,) is that by which it has turned, rad; None for what stands still on its body.
     """
 
     name: str
@@ -186,16 +173,10 @@ def wheels_of(scene: Description, result: Result | None, motion: Motion) -> list
         for i in np.flatnonzero(line.radii).tolist()
     ]
     found: dict[tuple[float, ...], Wheel] = {}
-    for wheel in (*drums, *sheaves):
-        if wheel is not None:
-            found.setdefault(_place(wheel), wheel)
+    for wheel in filter(None, (*drums, *sheaves)):
+        sign = np.sign(wheel.axis[int(np.argmax(np.abs(wheel.axis)))])  # at one place, about one axis
+        found.setdefault((*wheel.at, *plain(sign * wheel.axis)), wheel)
     return list(found.values())
-
-
-def _place(wheel: Wheel) -> tuple[float, ...]:
-    """Alike for wheels at one place about one axis, whatever its sign."""
-    sign = np.sign(wheel.axis[int(np.argmax(np.abs(wheel.axis)))])
-    return (*wheel.at, *plain(sign * wheel.axis))
 
 
 def _sheave(scene: Description, motion: Motion, name: str, line: _core.Line, i: int) -> Wheel:
@@ -293,14 +274,16 @@ def _contact_shape(scene: Description, contact: _core.Contact) -> Shape:
     if contact.surface == "box":
         return BoxShape(centre=np.zeros(3), axes=axes, size=size)
     if contact.surface == "post":
-        half = 0.5 * float(size[2]) * axes[:, 2]
-        return TubeShape(start=-half, end=half, radius=0.5 * float(size[1]))
+        return _round(axes[:, 2], float(size[2]), 0.5 * float(size[1]), "")
     if contact.surface == "pipe":
         inner, outer, half = 0.5 * size
         wall = np.array([[inner, -half], [outer, -half], [outer, half], [inner, half]])
         points, faces = revolved(wall, AROUND, closed=True)
         return MeshShape(vertices=points @ axes.T, faces=faces)
-    return _plate(axes, _points(scene, contact) @ axes)
+    points = _points(scene, contact) @ axes  # a piece of a plane below them, in its own axes
+    low, high = points[:, :2].min(axis=0) - MARGIN, points[:, :2].max(axis=0) + MARGIN
+    centre = axes @ np.array([*(0.5 * (low + high)), -0.5 * PLATE])
+    return BoxShape(centre=centre, axes=axes, size=np.array([*(high - low), PLATE]))
 
 
 def _points(scene: Description, contact: _core.Contact) -> Array:
@@ -309,10 +292,3 @@ def _points(scene: Description, contact: _core.Contact) -> Array:
     away = places - place_of(scene, body=contact.on, point=contact.place)
     body = scene.bodies.get(contact.on)
     return away if body is None else np.asarray(away @ rotation_matrix(body.quaternion))
-
-
-def _plate(axes: Array, points: Array) -> BoxShape:
-    """A piece of a plane below points (n, 3) in its own axes."""
-    low, high = points[:, :2].min(axis=0) - MARGIN, points[:, :2].max(axis=0) + MARGIN
-    centre = axes @ np.array([*(0.5 * (low + high)), -0.5 * PLATE])
-    return BoxShape(centre=centre, axes=axes, size=np.array([*(high - low), PLATE]))

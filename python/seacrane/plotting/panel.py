@@ -14,15 +14,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.inputs.atomic import atomic_write
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
 SHADE = "#EEF3F8"
 NOTE_COLOUR = "0.35"
@@ -43,13 +42,14 @@ def new_figure(**given: Any) -> Figure:
     from matplotlib.figure import Figure
 
     figure = Figure(**given)
-    figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]
+    figure._repr_png_ = partial(png_of, figure, bbox_inches="tight")  # type: ignore[attr-defined]
     return figure
 
 
-def _png(figure: Figure) -> bytes:
+def png_of(figure: Figure, **given: Any) -> bytes:
+    """The image of a figure."""
     target = BytesIO()
-    figure.savefig(target, format="png", bbox_inches="tight")
+    figure.savefig(target, format="png", **given)
     return target.getvalue()
 
 
@@ -79,15 +79,12 @@ class Panel:
         """Line, index and value of the smallest and of the largest; None where nothing is finite."""
         if not np.isfinite([line.values for line in self.lines]).any():
             return None
-        least, largest = (
-            np.array([line.values if line.bounds is None else line.bounds[i] for line in self.lines])
-            for i in (0, 1)
-        )
-        low = np.unravel_index(int(np.nanargmin(least)), least.shape)
-        high = np.unravel_index(int(np.nanargmax(largest)), largest.shape)
-        ends = ((low, least), (high, largest))
-        first, last = ((int(at[0]), int(at[1]), float(values[at])) for at, values in ends)
-        return first, last
+        found = []
+        for i, where in enumerate((np.nanargmin, np.nanargmax)):
+            ends = np.array([one.values if one.bounds is None else one.bounds[i] for one in self.lines])
+            line, at = np.unravel_index(int(where(ends)), ends.shape)
+            found.append((int(line), int(at), float(ends[line, at])))
+        return found[0], found[1]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,22 +93,13 @@ class Sheet:
 
     Attributes
     ----------
-    title, caption : str
-        Heading of the picture, and the text under it in the report.
-    abscissa : ndarray, shape (n,)
-        Shared by all lines, in `abscissa_unit`.
-    columns : int
-        Panels side by side; they fill column by column.
-    shaded : (float, float) or None
-        Range of the abscissa that is shaded in every panel.
-    shaded_name : str
-        What it is called in the legend; empty: not there.
-    marks : mapping of str to ndarray
-        Places on the abscissa that dashed lines mark, by what is there.
-    extremes : bool
-        Whether the largest and the smallest value of every panel are marked.
-    logarithmic : bool
-        Whether values are drawn on a logarithmic axis.
+    title, caption : Heading of the picture, and the text under it in the report.
+    abscissa : ndarray, shape (n,), shared by all lines, in `abscissa_unit`.
+    columns : Panels side by side; they fill column by column.
+    shaded, shaded_name : Range of the abscissa that is shaded in every panel, and its name in the legend.
+    marks : Places on the abscissa that dashed lines mark, by what is there.
+    extremes : Whether the largest and the smallest value of every panel are marked.
+    logarithmic : Whether values are drawn on a logarithmic axis.
     """
 
     title: str
@@ -138,14 +126,12 @@ class Sheet:
 
     def table(self) -> tuple[list[str], Array]:
         """Column names with units, and the numbers of every line, shape (n, 1 + lines)."""
-        names = [f"{self.abscissa_name} [{self.abscissa_unit}]"]
-        columns = [self.abscissa]
-        for panel in self.panels:
-            for line in panel.lines:
-                label = f", {line.label}" if line.label else ""
-                names.append(f"{panel.quantity}{label} [{panel.unit}]")
-                columns.append(line.values)
-        return names, np.column_stack(columns)
+        every = [(panel, line) for panel in self.panels for line in panel.lines]
+        names = [
+            f"{one.quantity}{f', {line.label}' if line.label else ''} [{one.unit}]" for one, line in every
+        ]
+        columns = [self.abscissa, *(line.values for _, line in every)]
+        return [f"{self.abscissa_name} [{self.abscissa_unit}]", *names], np.column_stack(columns)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,17 +151,10 @@ def plain(text: str) -> str:
 
 
 def draw(sheet: Sheet, *, note: str = "") -> Figure:
-    """Draw a sheet.
+    """Draw a sheet as a figure.
 
-    Parameters
-    ----------
-    note : str
-        Words below the panels, for a figure that stands alone.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Belongs to no window and no global state; ``savefig`` writes it.
+    It belongs to no window and no global state; ``savefig`` writes it. `note`: words below the panels, for a
+    figure that stands alone.
     """
     rows = -(-len(sheet.panels) // sheet.columns)
     figure = new_figure(figsize=(max(8.0, 5.6 * sheet.columns), 1.0 + 2.1 * rows), layout="constrained")
@@ -192,7 +171,9 @@ def draw(sheet: Sheet, *, note: str = "") -> Figure:
         if sheet.shaded is not None:
             low, high = np.clip(sheet.shaded, sheet.abscissa[0], sheet.abscissa[-1])
             shade = cell.axvspan(low, high, color=SHADE, linewidth=0.0, zorder=0)
-        _mark_places(cell, sheet.marks)
+        for number, places in enumerate(sheet.marks.values()):
+            for place in places[:MOST_MARKS]:
+                cell.axvline(place, **_mark(number), zorder=1)
     for cell in cells[len(sheet.panels) :]:
         cell.set_visible(False)
     for column in grid.T:
@@ -263,13 +244,6 @@ def _mark_extremes(cell: Axes, panel: Panel, sheet: Sheet) -> None:
         )  # fmt: skip
 
 
-def _mark_places(cell: Axes, marks: Mapping[str, Array]) -> None:
-    for number, places in enumerate(marks.values()):
-        colour = MARK_COLOURS[number % len(MARK_COLOURS)]
-        for place in places[:MOST_MARKS]:
-            cell.axvline(place, color=colour, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
-
-
 def _shared_handles(cell: Axes, marks: Mapping[str, Array], *, every: bool) -> list[Any]:
     """What the figure's own legend explains: lines that all panels have, and marks."""
     from matplotlib.lines import Line2D
@@ -277,9 +251,13 @@ def _shared_handles(cell: Axes, marks: Mapping[str, Array], *, every: bool) -> l
     handles: list[Any] = cell.get_legend_handles_labels()[0] if every else []
     handles = handles if len(handles) <= MOST_NAMED else []
     for number, (name, places) in enumerate(marks.items()):
-        colour, label = MARK_COLOURS[number % len(MARK_COLOURS)], f"{plain(name)} ({len(places)})"
-        handles.append(Line2D([], [], color=colour, linewidth=0.8, linestyle=(0, (4, 3)), label=label))
+        handles.append(Line2D([], [], **_mark(number), label=f"{plain(name)} ({len(places)})"))
     return handles
+
+
+def _mark(number: int) -> dict[str, Any]:
+    colour = MARK_COLOURS[number % len(MARK_COLOURS)]
+    return {"color": colour, "linewidth": 0.8, "linestyle": (0, (4, 3))}
 
 
 def save_figure(figure: Figure, path: Path) -> Path:
@@ -290,29 +268,19 @@ def save_figure(figure: Figure, path: Path) -> Path:
 
 
 def save_table(names: Sequence[str], rows: Sequence[Sequence[object]], path: Path) -> Path:
-    """Write a comma-separated table; numbers keep ten significant digits, none is an empty cell.
+    """Write a comma-separated table, complete or not at all; `names` have units in brackets.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Column names, units in brackets.
-    rows : sequence of rows
-        Numbers are floats; anything else is written as it prints.
-    path : Path
-        Target, written atomically.
+    Floats keep ten significant digits, no number is an empty cell, anything else is written as it prints.
     """
+
+    def written(value: object) -> object:
+        return ("" if np.isnan(value) else f"{value:.10g}") if isinstance(value, float) else value
+
     with atomic_write(path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(names)
-        for row in rows:
-            writer.writerow([_written(value) for value in row])
+        writer.writerows([written(value) for value in row] for row in rows)
     return path
-
-
-def _written(value: object) -> object:
-    if isinstance(value, float):
-        return "" if np.isnan(value) else f"{value:.10g}"
-    return value
 
 
 def save_sheet(sheet: Sheet, folder: Path, stem: str) -> Picture:

@@ -67,28 +67,11 @@ def read_as(unit: str) -> tuple[float, str]:
 class Column:
     """What a table holds under one name.
 
-    Attributes
-    ----------
-    values : array_like
-        Over the axes of the table: numbers in SI units, flags or texts; None where nothing applies.
-    name : str
-        Of the data; empty: it is printed and nothing else.
-    unit : str
-        SI. It prints in the unit in which that is read.
-    head : str or None
-        What is printed above it, before the unit; default: its name.
-    form : str
-        In which numbers are printed.
-    least : float
-        Smaller numbers print as zero: they are so up to rounding.
-    read : (str, array_like) or None
-        Unit and values of the print, where these are others.
-    printed : bool
-        Whether it is printed at all.
-    over : sequence of str or None
-        Axes of the data; default: all.
-    long_name : str
-        What the data say of it.
+    `values` over the axes of the table: numbers in SI units (`unit`), flags or texts; None where nothing
+    applies. They print in the unit in which that is read, or as `read` has it (unit and values), below `head`
+    (default: the name), by their `form`; numbers below `least` are zero up to rounding. One without a name is
+    printed and no data, one that is not `printed` is data alone, over the axes `over` (default: all), with a
+    `long_name`.
     """
 
     values: Any
@@ -120,9 +103,8 @@ class Column:
         if factor != 1.0:
             values = [None if one is None else factor * one for one in values]
         small = (isinstance(one, float) and abs(one) < self.least for one in values)
-        return [
-            format_value(0.0 if zero else one, self.form) for one, zero in zip(values, small, strict=True)
-        ]
+        shown = zip(values, small, strict=True)
+        return [format_value(0.0 if zero else one, self.form) for one, zero in shown]
 
     def right(self) -> bool:
         """Whether it is aligned to the right, as numbers under a head are."""
@@ -145,38 +127,24 @@ def _flat(values: Any) -> list[Any]:
     return list(values) if isinstance(values, Iterable) and not isinstance(values, str) else [values]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Table:
-    """Columns over axes. Without an axis it is one row, and prints names beside values.
+class Answer(ABC):
+    """What says which columns it has: it prints, shows itself in a notebook, and becomes data in SI units."""
 
-    Attributes
-    ----------
-    columns, axes : sequence of Column
-        A row for each place of the axes, the last of them fastest; a number as an axis has no length.
-    title, remarks : str, sequence of str
-        Above and below; each remark is a line.
-    below : sequence of Table
-        What is printed after it.
-    attributes : mapping
-        Of the data set.
-    data : xarray.Dataset or None
-        What it becomes as data, where that is more than its columns.
-    """
+    @abstractmethod
+    def _shown(self) -> Table:
+        """Its columns."""
 
-    columns: Sequence[Column] = ()
-    axes: Sequence[Column] = ()
-    title: str = ""
-    remarks: Sequence[str] = ()
-    below: Sequence[Table] = ()
-    attributes: Mapping[str, Any] = field(default_factory=dict)
-    data: xarray.Dataset | None = None
+    def _data(self) -> Table:
+        """What it becomes as data, where that is not what it shows."""
+        return self._shown()
 
     def __str__(self) -> str:
         """As a terminal shows it: the last column is wrapped."""
-        head, right, rows = self._printed()
+        table = self._shown()
+        head, right, rows = table._printed()
         widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
         before = sum(widths[:-1]) + 2 * len(widths[:-1])
-        lines = [self.title] if self.title else []
+        lines = [table.title] if table.title else []
         for *first, last in [head, *rows] if rows and any(head) else rows:
             room = max(WIDTH - before, LEAST_WIDTH)
             parts = wrap(last, room, break_long_words=False, break_on_hyphens=False) or [""]
@@ -184,12 +152,13 @@ class Table:
             cells = zip(first, widths, right, strict=False)
             start = "".join(f"{c.rjust(w) if to else c.ljust(w)}  " for c, w, to in cells)
             lines += [f"{start}{parts[0]}".rstrip(), *(f"{'':{before}}{part}" for part in parts[1:])]
-        return "\n\n".join(["\n".join([*lines, *self.remarks]), *map(str, self.below)])
+        return "\n\n".join(["\n".join([*lines, *table.remarks]), *map(str, table.below)])
 
     def html(self) -> str:
-        """For a page; everything that a user may have named is escaped."""
-        head, right, rows = self._printed()
-        title = escape(self.title)
+        """Its tables alone, for a page; everything that a user may have named is escaped."""
+        table = self._shown()
+        head, right, rows = table._printed()
+        title = escape(table.title)
         shown = f"<p>{title}</p>" if title else ""
         if rows:
             names = "".join(f"<th>{escape(name)}</th>" for name in head)
@@ -198,27 +167,32 @@ class Table:
             kind = "" if top else ' class="facts"'
             caption = f"<caption>{title}</caption>" if title else ""
             shown = f"<table{kind}>{caption}{top}<tbody>\n{lines}\n</tbody></table>"
-        notes = "".join(f'<p class="note">{escape(one)}</p>' for one in self.remarks)
-        return shown + notes + "".join(one.html() for one in self.below)
+        notes = "".join(f'<p class="note">{escape(one)}</p>' for one in table.remarks)
+        return shown + notes + "".join(one.html() for one in table.below)
+
+    def __html__(self) -> str:
+        """For templates, which take it as it is."""
+        return self.html()
 
     def _repr_html_(self) -> str:
         return f'<div class="seacrane"><style>{NOTEBOOK}</style>{self.html()}</div>'
 
     def to_xarray(self) -> xarray.Dataset:
-        """Columns over the axes, with their units."""
+        """Columns over their axes, with their units."""
         import xarray
 
-        if self.data is not None:
-            return self.data.copy()
-        dims = [axis.name for axis in self.axes if np.ndim(axis.values)]
+        table = self._data()
+        if table.data is not None:
+            return table.data.copy()
+        dims = [axis.name for axis in table.axes if np.ndim(axis.values)]
         return xarray.Dataset(
-            {one.name: one.variable(dims) for one in self.columns if one.name},
-            {axis.name: axis.variable([axis.name][: np.ndim(axis.values)]) for axis in self.axes},
-            dict(self.attributes),
+            {one.name: one.variable(dims) for one in table.columns if one.name},
+            {axis.name: axis.variable([axis.name][: np.ndim(axis.values)]) for axis in table.axes},
+            dict(table.attributes),
         )
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """The same as a table, over the axes; `attrs["units"]` holds the units."""
+        """The same columns as a table, over the axes; `attrs["units"]` holds the units that are known."""
         import pandas
 
         data = self.to_xarray()
@@ -231,13 +205,37 @@ class Table:
         return table
 
     def to_csv(self, path: str | os.PathLike[str]) -> Path:
-        """Write it as comma-separated values; returns the path."""
+        """Write these columns as comma-separated values, units in brackets; returns the path.
+
+        An older file of that name is replaced, complete or not at all. Raises OSError.
+        """
         table, known = self.to_dataframe(), self.to_xarray().variables.items()
         named = {name: f"{name} [{one.attrs['units']}]" for name, one in known if "units" in one.attrs}
         index = [named.get(name, name) for name in table.index.names]
         with atomic_write(Path(path)) as draft:
             table.rename(columns=named).to_csv(draft, index=any(index), index_label=index)
         return Path(path)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Table(Answer):
+    """Columns over axes. Without an axis it is one row, and prints names beside values.
+
+    A row for each place of the axes, the last of them fastest; a number as an axis has no length. Above
+    stands the title, below are remarks, a line each, and the tables `below`. As data it has `attributes`, or
+    is `data`.
+    """
+
+    columns: Sequence[Column] = ()
+    axes: Sequence[Column] = ()
+    title: str = ""
+    remarks: Sequence[str] = ()
+    below: Sequence[Table] = ()
+    attributes: Mapping[str, Any] = field(default_factory=dict)
+    data: xarray.Dataset | None = None
+
+    def _shown(self) -> Table:
+        return self
 
     def _printed(self) -> tuple[list[str], list[bool], list[tuple[str, ...]]]:
         """Heads, what is aligned to the right, and rows."""
@@ -261,53 +259,14 @@ def _cell(text: str, right: bool) -> str:
 
 def table_of(head: Sequence[str], rows: Iterable[Iterable[Any]], *, form: str = ".5g", **given: Any) -> Table:
     """A table of rows, which is printed and nothing else."""
-    columns = list(zip(*rows, strict=True)) or [()] * len(head)
-    first, *others = [
-        Column(head=name, values=one, form=form) for name, one in zip(head, columns, strict=True)
-    ]
+    every = zip(head, list(zip(*rows, strict=True)) or [()] * len(head), strict=True)
+    first, *others = [Column(head=name, values=one, form=form) for name, one in every]
     return Table(axes=[first], columns=others, **given)
 
 
 def facts(rows: Iterable[tuple[str, Any]], title: str = "") -> Table:
     """Names beside values."""
     return table_of(("", ""), rows, title=title)
-
-
-class Answer(ABC):
-    """What says which columns it has: it prints, shows itself in a notebook, and becomes data in SI units."""
-
-    @abstractmethod
-    def _shown(self) -> Table:
-        """Its columns."""
-
-    def __str__(self) -> str:
-        return str(self._shown())
-
-    def _repr_html_(self) -> str:
-        return self._shown()._repr_html_()
-
-    def html(self) -> str:
-        """Its tables alone, for a page."""
-        return self._shown().html()
-
-    def _data(self) -> Table:
-        """What it becomes as data, where that is not what it shows."""
-        return self._shown()
-
-    def to_xarray(self) -> xarray.Dataset:
-        """Columns over their axes, with their units."""
-        return self._data().to_xarray()
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """The same columns as a table, over the axes; `attrs["units"]` holds the units that are known."""
-        return self._data().to_dataframe()
-
-    def to_csv(self, path: str | os.PathLike[str]) -> Path:
-        """Write these columns as comma-separated values, units in brackets; returns the path.
-
-        An older file of that name is replaced, complete or not at all. Raises OSError.
-        """
-        return self._data().to_csv(path)
 
 
 class Named(Protocol):
@@ -322,12 +281,7 @@ Row = TypeVar("Row", bound=Named)
 
 @dataclass(frozen=True, repr=False)
 class Rows(Sequence[Row], Answer):
-    """An answer of rows that have names.
-
-    Attributes
-    ----------
-    rows : tuple
-    """
+    """An answer of rows that have names."""
 
     rows: tuple[Row, ...]
 

@@ -95,7 +95,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   LoopClosure loops_;
   InertialTensions tensions_;
   TreeActuators actuators_;
-  std::vector<std::vector<int>> hung_;   // by element: of a link that is a branch, all bodies that hang on it
+  std::vector<std::vector<int>> hung_;  // by element: of a link that is a branch, all bodies that hang on it
   // Of the last derivative(), where projections overwrite it.
   std::vector<Vec6d> kept_load_, kept_acceleration_;
   VecXd kept_multipliers_;

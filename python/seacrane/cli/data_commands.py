@@ -1,22 +1,28 @@
-"""``seacrane hydro``: read a hydrodynamic database, check it against itself, and plot it."""
+"""``seacrane hydro``, ``schema`` and ``examples``: databases, and what comes with the package."""
 
 from __future__ import annotations
 
 import argparse
 import dataclasses
+import shutil
+from collections import Counter
+from collections.abc import Sequence
+from importlib.resources import as_file, files
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seacrane.cli.as_json import to_json
-from seacrane.cli.output_folder import output_folder
+from seacrane.cli.output import output_folder, to_json
 from seacrane.plotting.table import table_of
 
 if TYPE_CHECKING:
     from seacrane.hydro import CheckRow, HydroDatabase, HydroGroup
 
 COLUMNS = ("check", "value", "limit", "verdict")
+KINDS = {(".", ".py"): "scripts", ("jobs", ".py"): "jobs", ("lifts", ".toml"): "lift files",
+         ("notebooks", ".ipynb"): "notebooks"}  # fmt: skip
 
 
-def run(arguments: argparse.Namespace) -> int:
+def hydro(arguments: argparse.Namespace) -> int:
     """Print the verdict table; a failing verdict is a finding about the file, not an error of ours."""
     from seacrane.hydro import HydroGroup, load_database
 
@@ -67,3 +73,43 @@ def _with_memory(database: HydroDatabase, *, kind: str | None, asked: bool) -> H
         return database
     model = fit_memory(database=database) if kind is None else fit_memory(database=database, kind=kind)
     return dataclasses.replace(database, memory=model)
+
+
+def schema(arguments: argparse.Namespace) -> int:
+    """Print the schema, or its path."""
+    from seacrane.lift.schema import schema_path, schema_text
+
+    print(schema_path() if arguments.path else schema_text(), end="\n" if arguments.path else "")
+    return 0
+
+
+def examples(arguments: argparse.Namespace) -> int:
+    """Copy them, and say what opens the notebooks."""
+    with as_file(files("seacrane") / "examples") as source:
+        if not source.is_dir():
+            raise FileNotFoundError(
+                "this seacrane runs from its sources, without the examples that an installed one has; they "
+                "are in the folders examples and notebooks of the sources"
+            )
+        found = [path for path in sorted(source.rglob("*")) if path.is_file() and path.suffix != ".pyc"]
+        names = [path.relative_to(source) for path in found]
+        folder = output_folder(
+            arguments.folder, holds=map(str, names), overwrite=arguments.overwrite, called=""
+        )
+        for path, name in zip(found, names, strict=True):
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, folder / name)
+    _tell(folder, names)
+    return 0
+
+
+def _tell(folder: Path, names: Sequence[Path]) -> None:
+    counts = Counter((str(name.parent), name.suffix) for name in names)
+    for kind, what in KINDS.items():
+        if counts[kind]:
+            print(f"{counts[kind]:3} {what} in {folder / kind[0]}")
+    if counts["notebooks", ".ipynb"]:
+        print("Notebooks hold their outputs; to open and run them: pip install 'seacrane[notebooks]', then")
+        print(f"jupyter lab {folder / 'notebooks'}")
+    else:
+        print("This seacrane was built without notebooks; the wheel holds them.")

@@ -1,0 +1,9 @@
+"""Names of the arrays that numbers are handed on in."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
