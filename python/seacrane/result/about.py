@@ -25,6 +25,10 @@ ALWAYS_STATED = (
     "rejected_steps", "states", "coordinates", "constraints", "degrees_of_freedom", "compiled_coordinates",
     "compiled_constraints",
 )  # fmt: skip
+SUMS = (
+    "simulated_s", "wall_s", "steps", "rejected_steps", "evaluations", "jacobians", "newton_iterations",
+    "projections", "restarts", "dense_solves", "events",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,3 +175,14 @@ def plain_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
             raise ValueError(f"stat {name!r} is not a number; leave out what is not defined")
         plain[name] = value
     return plain
+
+
+def added_stats(before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any]:
+    """Stats of two pieces of a run as of one: counters are added, and what either was warned of is told."""
+    out = dict(now)
+    out |= {key: before.get(key, 0) + now.get(key, 0) for key in SUMS if key in before or key in now}
+    for key in ("described", "validity"):
+        lines = [line for stats in (before, now) for line in str(stats.get(key, "")).splitlines()]
+        if lines:
+            out[key] = "\n".join(dict.fromkeys(lines))
+    return out

@@ -21,7 +21,7 @@ from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.keywords import named
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.shown import shown
-from seacrane.inputs.state import state_to_bytes
+from seacrane.inputs.state import state_from_bytes, state_to_bytes
 from seacrane.plotting.panel import draw
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result.about import (
@@ -37,7 +37,7 @@ from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.history import axes_note, history_sheet
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.partial_file import Piece, is_partial, partial_path, read_partial
-from seacrane.result.result_file import read_arrays, write_netcdf
+from seacrane.result.result_file import read_netcdf, write_netcdf
 from seacrane.result.traces import Record, as_arrays, curves_of, inside, parted
 from seacrane.result.utilisation import Utilisation, utilisation_of
 
@@ -578,8 +578,14 @@ class Result(Record, Mapping[str, Array], Answer):
                 + (f"; its run has left {started} so far" if started.is_file() else "")
             )
         try:
-            read = read_partial if is_partial(path) else read_arrays
-            return cls.from_arrays(**read(path, largest, channels))
+            piece = (read_partial if is_partial(path) else read_netcdf)(path, largest, channels)
+            arrays = dict(piece.arrays)
+            return cls.from_arrays(
+                time=arrays.pop("time"), arrays=arrays, coords=piece.coords, events=piece.events,
+                stats=piece.stats, about=piece.about, interrupted=piece.interrupted,
+                state=state_from_bytes(piece.state, path) if piece.state else None,
+                scene=KeptScene.from_text(piece.scene, f"{path.name}: its scene") if piece.scene else None,
+            )  # fmt: skip
         except NETCDF_ERRORS as error:
             if isinstance(error, SeacraneError):
                 raise

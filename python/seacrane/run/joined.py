@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.channels import CHANNELS, COUNTED_ON, DERIVED, NAMED, channel_of
-from seacrane.result.about import About, StageSpan
+from seacrane.result.about import About, StageSpan, added_stats
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.run.derived import derived_channels, squeezed
@@ -20,10 +21,6 @@ from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
-SUMS = (
-    "simulated_s", "wall_s", "steps", "rejected_steps", "evaluations", "jacobians", "newton_iterations",
-    "projections", "restarts", "dense_solves", "events",
-)  # fmt: skip
 LOST = "impact_energy_lost_J"
 NOTHING = ("N", "N m", "N or N m", "W", "Pa")  # units of what is zero where its element is not there
 
@@ -197,20 +194,11 @@ def _about(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> About:
 
 def _stats(pieces: Sequence[Piece], before: str) -> dict[str, Any]:
     every = [piece.result.stats for piece in pieces]
-    out: dict[str, Any] = dict(every[-1])
-    out |= {
-        key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)
-    }
-    out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
+    out = reduce(added_stats, every, {"validity": before} if before else {})
     out.pop("kept_apart", None)
     out |= joined_lanes(every)
     if any(one.get("rank_changed") for one in every):
         out["rank_changed"] = 1
     if any(LOST in one for one in every):
         out[LOST] = sum(_lost_in_impacts(piece) for piece in pieces)
-    for key, first in (("described", ""), ("validity", before)):
-        texts = [first, *(str(one.get(key, "")) for one in every)]
-        told = dict.fromkeys(line for text in texts for line in text.splitlines())
-        if told:
-            out[key] = "\n".join(told)
     return out
