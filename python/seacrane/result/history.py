@@ -11,7 +11,8 @@ from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet
-from seacrane.result.traces import Record, Trace, traces
+from seacrane.result.record import Record
+from seacrane.result.traces import Trace, traces
 
 Array = NDArray[np.float64]
 STYLES = ("-", "--", ":")

@@ -12,20 +12,10 @@ NOT_KEPT = "scene_not_kept"  # among the stats of a result: what of the scene it
 
 
 class KeptScene:
-    """A scene, or its text. Made by `of` and `from_text`."""
+    """A scene of the process that ran it, or the text that `written` made, found at a place."""
 
-    def __init__(self, scene: Scene | None, text: bytes, place: str) -> None:
+    def __init__(self, scene: Scene | None, text: bytes = b"", place: str = "") -> None:
         self._live, self._text, self._place = scene, text, place
-
-    @classmethod
-    def of(cls, scene: Scene) -> KeptScene:
-        """The scene of a run, as long as the run's process holds it."""
-        return cls(scene, b"", "")
-
-    @classmethod
-    def from_text(cls, text: bytes, place: str) -> KeptScene:
-        """What `written` made, found at a place that errors name."""
-        return cls(None, text, place)
 
     @property
     def scene(self) -> Scene:

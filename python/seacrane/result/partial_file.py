@@ -188,15 +188,7 @@ class PartialFile:
         self._end = 0
 
     def claim(self) -> None:
-        """Open the file, made if absent, for this writer alone.
-
-        Raises
-        ------
-        FileExistsError
-            If another writer has it.
-        OSError
-            If it cannot be made.
-        """
+        """Open the file, made if absent, for this writer alone; FileExistsError if another one has it."""
         while self._number < 0:
             self._number = sole_writer.opened(self.path)
             if not sole_writer.claim(self._number):

@@ -95,10 +95,6 @@ def has_slew(scene: Description, crane: CraneRoles | None) -> bool:
     return crane.slew[0] in scene.joints and crane.tip[0] in scene.bodies
 
 
-def _rated_hooks(scene: Description) -> list[Hung]:
-    return [one for one in on_cranes(scene) if is_rated(one.crane)]
-
-
 def _slewing_hooks(scene: Description) -> list[Hung]:
     return [one for one in on_cranes(scene) if has_slew(scene, one.crane)]
 
@@ -133,7 +129,10 @@ PARTS: Mapping[str, Names] = {  # of those that some of these names have, and ot
     "link_tension": (hooks, "a link on a crane: name a distance joint by add_roles(link=...)"),
     "offlead": (_slewing_hooks, _SLEWING_HOOK),
     "sidelead": (_slewing_hooks, _SLEWING_HOOK),
-    "utilisation": (_rated_hooks, f"{_HOOK}, on a crane with a tip, a slew drive and a capacity table"),
+    "utilisation": (
+        lambda scene: [one for one in on_cranes(scene) if is_rated(one.crane)],
+        f"{_HOOK}, on a crane with a tip, a slew drive and a capacity table",
+    ),
 }
 
 
@@ -175,10 +174,15 @@ def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
 
 @once
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
-    """SceneError where a limit state or an expression has a channel or a place that the scene has not."""
-    known = model.channel_names(defaults_only=False)
-    axes = all_names(scene, model)
-    _require_own(scene, axes)
+    """SceneError where a limit state or an expression has a channel or a place that the scene has not.
+
+    Also where an expression leaves one of several places open.
+    """
+    known, axes = model.channel_names(defaults_only=False), all_names(scene, model)
+    for channel, curves in picks(scene).items():
+        for pick in curves:
+            for dim in CHANNELS[pick.channel].dims_of_several[1:]:
+                _require_name(f"channel {channel!r}: {pick}", dim, pick.names.get(dim), axes.get(dim, ()))
     require_names(scene, [OWN] if scene.channels else [])
     for name, state in scene.limit_states.items():
         try:
@@ -188,15 +192,6 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
             raise SceneError(f"limit state {name!r}: {error}") from error
         for dim, chosen in state.names.items():
             _require_name(f"limit state {name!r}", dim, chosen, axes.get(dim, ()))
-
-
-def _require_own(scene: Description, names: Mapping[str, Sequence[str]]) -> None:
-    """SceneError where an expression has a name that the scene has not, or leaves one of several open."""
-    for channel, curves in picks(scene).items():
-        for pick in curves:
-            for dim in CHANNELS[pick.channel].dims_of_several[1:]:
-                known = names.get(dim, ())
-                _require_name(f"channel {channel!r}: {pick}", dim, pick.names.get(dim), known)
 
 
 def _require_name(what: str, dim: str, name: str | None, known: Sequence[str]) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.description import Description
 from seacrane.description.places import POSE
-from seacrane.result.traces import Extremes
+from seacrane.result.record import Extremes
 from seacrane.run.channel_names import sources_of, with_sources
 from seacrane.run.derived import named_channels
 
@@ -56,14 +56,9 @@ def followed_extremes(
     made_of: Mapping[str, set[str]],
     named: Callable[[Mapping[str, Array], set[str]], Mapping[str, Array]],
 ) -> dict[str, tuple[Array, Array]]:
-    """Least and largest values of derived channels, from their values at every step.
+    """Least and largest values of derived channels, from what the core kept of every step (`trail`).
 
-    Parameters
-    ----------
-    trail : What the core has kept of every step.
-    outputs : The channels at outputs.
-    made_of : Of `followed`.
-    named : Makes channels of those of the core.
+    `named` makes channels of those of the core; `made_of` is that of `followed`.
     """
     names = {
         name for name, sources in made_of.items() if name in outputs and sources and sources <= trail.keys()

@@ -112,7 +112,10 @@ def run_to_file(
                 outputs_from=None if left is None else left.first,
             )  # fmt: skip
             writer = _Writer(run, digest, file, every)
-            writer.begin(left, overwrite=overwrite, unlike=_unlike(scene, controllers))
+            unlike = "this scene has C functions, which cannot be compared" if scene.function_forces else ""
+            if controllers:
+                unlike = "this run has controllers, whose code cannot be compared"
+            writer.begin(left, overwrite=overwrite, unlike=unlike)
             try:
                 drive(
                     run, Calls(controllers, run.start.time), interrupts, progress=progress, watch=writer.look
@@ -129,15 +132,6 @@ def run_to_file(
         path=where, outputs=file.outputs, stats=file.told.stats, about=file.told.about,
         interrupted=run.interrupted,
     )  # fmt: skip
-
-
-def _unlike(scene: Scene, controllers: Sequence[SampledController]) -> str:
-    """Why nobody can tell whether another run is the same."""
-    if controllers:
-        return "this run has controllers, whose code cannot be compared"
-    if scene.function_forces:
-        return "this scene has C functions, which cannot be compared"
-    return ""
 
 
 def _refuse(left: Left, reason: str) -> None:
@@ -157,7 +151,7 @@ class _Writer:
     def __init__(self, run: Run, digest: str, file: ResultFile, every: float) -> None:
         self.found: list[Finding] = []
         self._run, self._file, self._every, self._digest = run, file, every, digest
-        self._scene, self._lacks = KeptScene.of(run.scene).written()
+        self._scene, self._lacks = KeptScene(run.scene).written()
         self._nothing = run.wanted(run.core.channels(0))
         self._rows = rows_of_piece(sum(int(np.prod(one.shape[1:])) for one in self._nothing.values()))
         self._due = run.start.time + every
