@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from seacrane.description.channels import CHANNELS, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs import sole_writer
-from seacrane.result.about import About, parted
-from seacrane.result.events import Event
+from seacrane.result.about import About, Event, parted
 
 Array = NDArray[np.float64]
 MAGIC = b"seacrane partial result\n"

@@ -15,8 +15,7 @@ from seacrane.description.pick import Pick, column_name, pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.keywords import named
 from seacrane.plotting.table import Column, Table
-from seacrane.result.about import About, StageSpan, Stat
-from seacrane.result.events import Event
+from seacrane.result.about import About, Event, StageSpan, Stat
 
 Array = NDArray[np.float64]
 Extremes = Mapping[str, tuple[Array, Array]]  # least and largest values by channel

@@ -24,11 +24,19 @@ from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_from_bytes, state_to_bytes
 from seacrane.plotting.panel import draw
 from seacrane.plotting.table import Answer, Column, Table
-from seacrane.result.about import About, checked_array, checked_names, checked_stats, checked_time
-from seacrane.result.events import TEXTS as EVENT_TEXTS
-from seacrane.result.events import Event, checked_events, event_arrays
+from seacrane.result.about import (
+    NOT_KEPT,
+    About,
+    Event,
+    KeptScene,
+    checked_array,
+    checked_events,
+    checked_names,
+    checked_stats,
+    checked_time,
+    event_arrays,
+)
 from seacrane.result.history import axes_note, history_sheet
-from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.partial_file import Piece, is_partial, partial_path, read_partial
 from seacrane.result.record import Record, dims_of
 from seacrane.result.result_file import read_netcdf, write_netcdf
@@ -291,8 +299,7 @@ class Result(Record, Answer):
         }
         if self.events:
             for name, array in event_arrays(self.events).items():
-                text = name.removeprefix("event_") in EVENT_TEXTS
-                variables[name] = (("event",), array.astype(str) if text else array, {})
+                variables[name] = (("event",), array.astype(str) if array.dtype == object else array, {})
         coords: dict[str, Any] = {"time": ("time", self.time.copy(), attributes("time"))}
         coords.update({dim: list(names) for dim, names in self.coords.items()})
         if self.stages:
@@ -341,7 +348,7 @@ class Result(Record, Answer):
         channels: Sequence[str] | None = None,
         largest: int = LARGEST_RESULT,
     ) -> Result:
-        """Read a result that `save` or `simulate` wrote.
+        """Read a result that `save` or `simulate` wrote: the same arrays, bit for bit.
 
         Parameters
         ----------
@@ -352,11 +359,6 @@ class Result(Record, Answer):
         largest : int
             Bytes that its arrays may take in memory, 4 GiB by default: what a file says that it holds is
             looked at before any of it is read.
-
-        Returns
-        -------
-        Result
-            With the same arrays, bit for bit.
 
         Raises
         ------

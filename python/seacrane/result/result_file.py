@@ -12,8 +12,7 @@ import numpy as np
 from seacrane.description.channels import attributes, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs.netcdf_limits import open_netcdf
-from seacrane.result.about import parted, plain_stats
-from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
+from seacrane.result.about import NUMBERS, PREFIX, event_arrays, events_from_arrays, parted, plain_stats
 from seacrane.result.partial_file import Piece
 from seacrane.scene.file import LARGEST_FILE
 
@@ -65,7 +64,11 @@ def write_netcdf(path: Path, told: Piece, blocks: Iterable[Mapping[str, Any]], o
                 file[name][at : at + count] = block[name]
             at += count
         if told.events:
-            _add_events(file, told.events)
+            file.createDimension("event", len(told.events))
+            for name, array in event_arrays(told.events).items():
+                file.createVariable(name, str if array.dtype == object else "f8", ("event",))[:] = array
+            for key, (unit, long_name) in NUMBERS.items():
+                file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
         if told.state:
             file.createDimension(STATE_DIMENSION, len(told.state))
             file.createVariable(STATE, "u1", (STATE_DIMENSION,))[:] = np.frombuffer(told.state, "u1")
@@ -83,14 +86,6 @@ def _add_variable(file: Any, name: str, dims: tuple[str, ...], chunks: tuple[int
     # Written chunk by chunk: the library's own cache would hold 64 MB of every variable.
     variable.set_var_chunk_cache(size=2 * 8 * math.prod(chunks), nelems=2, preemption=1.0)
     variable.setncatts(attributes(name))
-
-
-def _add_events(file: Any, events: Sequence[Event]) -> None:
-    file.createDimension("event", len(events))
-    for name, array in event_arrays(events).items():
-        file.createVariable(name, str if array.dtype == object else "f8", ("event",))[:] = array
-    for key, (unit, long_name) in NUMBERS.items():
-        file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
 
 
 def read_netcdf(

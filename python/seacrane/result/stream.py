@@ -15,8 +15,7 @@ from seacrane.errors import FileFormatError
 from seacrane.inputs.atomic import atomic_write, require_replaceable, space_left
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.state import state_from_bytes
-from seacrane.result.about import added_stats, checked_time
-from seacrane.result.events import Event
+from seacrane.result.about import Event, added_stats, checked_time
 from seacrane.result.partial_file import PartialFile, Piece, partial_path
 from seacrane.result.result_file import read_netcdf, rows_of_chunk, rows_of_piece, write_netcdf
 

@@ -1,4 +1,4 @@
-"""Names of channels: what the core records for those that are wanted, and what a scene needs to have them."""
+"""Names of channels: what the core records and keeps for those that are wanted, and what they need."""
 
 from __future__ import annotations
 
@@ -16,12 +16,23 @@ from seacrane.description.crane_parts import cylinders, hooks, piston_areas, sle
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, whole_of, winches_of
 from seacrane.description.once import once, once_in_any_sea
+from seacrane.description.places import POSE
 from seacrane.description.roles import CraneRoles
 from seacrane.description.suspension import Hung, hung_loads, names_of_suspensions
 from seacrane.description.wet_parts import wet_names
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
 from seacrane.scene.own_channels import picks
+
+USUAL = (
+    "vessel_motion", "actuator_force", "driver_force", "hydraulic_force", "tension", "line_tension",
+    "end_tension", "section_tension", "gas_spring_tension", "contact_press", "limit_force",
+)  # fmt: skip
+# Derived channels that rise, or fall, with what they are made of.
+MONOTONE = (
+    "stroke", "stroke_rate", "cylinder_force", "cylinder_pressure", "slew_torque", "link_tension",
+    "hook_load", "slack_margin", "utilisation", "wire_paid_out", "wire_spare",
+)  # fmt: skip
 
 
 def sources_of(name: str) -> tuple[str, ...]:
@@ -70,12 +81,37 @@ def all_names(scene: Description, model: _core.Model) -> Mapping[str, Sequence[s
 def recorded_channels(scene: Description, model: _core.Model, asked: tuple[str, ...] | None) -> Set[str]:
     """The core's channels that a run records for those that it is asked for; None: for the usual ones."""
     ends = ["end_tension"] if lowest_segments(scene) else []
-    usual = [*model.channel_names(), *ends, *(state.channel for state in scene.limit_states.values()), OWN]
+    usual = [*model.channel_names(), *ends, *limited_channels(scene), OWN]
     wanted = with_sources(scene, usual if asked is None else asked)
     if "slack_margin" in wanted:
         least_pulls(scene)  # before the run: what comes to no rest is refused
     made_of = core_channels(scene, wanted, model.channel_names(defaults_only=False))
     return made_of if ends or "end_tension" in wanted else made_of - {"end_tension"}
+
+
+def limited_channels(scene: Description) -> list[str]:
+    """The channels of its limit states."""
+    return [state.channel for state in scene.limit_states.values()]
+
+
+def wanted_extremes(scene: Description, recorded: Set[str], asked: tuple[str, ...] | None) -> set[str]:
+    """Those of the core's recorded channels, for the channels that are asked for; None: the usual ones."""
+    names = (*USUAL, *limited_channels(scene)) if asked is None else asked
+    made_of = {source for name in names if name in MONOTONE for source in sources_of(name)}
+    wanted = {*names, *made_of.difference(POSE)}
+    return {name for name in recorded & wanted if CHANNELS[name].has_extremes}
+
+
+def followed(scene: Description, recorded: Set[str], asked: tuple[str, ...] | None) -> dict[str, set[str]]:
+    """Derived channels that are made anew at every step: of what recorded channels."""
+    names = limited_channels(scene) if asked is None else asked
+    found = {}
+    for name in names:
+        if name not in DERIVED or name in MONOTONE or DERIVED[name].turns:
+            continue
+        made_of = {source for part in with_sources(scene, [name]) for source in sources_of(part)}
+        found[name] = made_of & recorded
+    return found
 
 
 def on_cranes(scene: Description) -> list[Hung]:
@@ -141,8 +177,8 @@ def require_channels(scene: Description, wanted: Iterable[str]) -> None:
 
     Of a scene that cannot be compiled as it is described, those that Python derives are known.
     """
-    limits, asked = [state.channel for state in scene.limit_states.values()], list(wanted)
-    require_names(scene, [*asked, *limits])
+    asked = list(wanted)
+    require_names(scene, [*asked, *limited_channels(scene)])
     if all(name in CHANNELS and "body" in CHANNELS[name].dims for name in asked):  # what has bodies has these
         return
     known = list(CHANNELS)

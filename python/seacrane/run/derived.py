@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any
 
@@ -29,12 +29,15 @@ from seacrane.description.suspension import (
 )
 from seacrane.description.wet_parts import immersed_depths
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.result.record import Extremes
 from seacrane.run.channel_names import (
+    MONOTONE,
     has_slew,
     is_rated,
     lowest_segments,
     missing_names,
     on_cranes,
+    sources_of,
     with_sources,
 )
 from seacrane.scene.own_channels import picked, programs
@@ -245,14 +248,9 @@ class _Made:
         return np.stack(columns, axis=1)
 
     def relative(self, *, velocity: bool) -> Array:
-        every = self.scene.relatives.values()
-        return np.stack(
-            [
-                relative_motion(self.scene, self.arrays, one.point, one.to, one.axes, velocity=velocity)
-                for one in every
-            ],
-            axis=1,
-        )
+        motion = partial(relative_motion, self.scene, self.arrays, velocity=velocity)
+        every = [motion(one.point, one.to, one.axes) for one in self.scene.relatives.values()]
+        return np.stack(every, axis=1)
 
     def lengths_over(self, length: Callable[[_core.Line], float]) -> Array:
         """Unstretched lengths of the lines on winches over given ones, m."""
@@ -327,6 +325,54 @@ def _falls(scene: Description, arrays: Mapping[str, Array], line: Any) -> Array:
 def swing_of(hang: Array) -> Array:
     """Angle (n,) of hanging vectors (n, 3) from straight down, rad."""
     return np.asarray(np.arctan2(np.hypot(hang[:, 0], hang[:, 1]), -hang[:, 2]))
+
+
+def followed_extremes(
+    trail: Mapping[str, Array],
+    outputs: Mapping[str, Array],
+    made_of: Mapping[str, set[str]],
+    named: Callable[[Mapping[str, Array], set[str]], Mapping[str, Array]],
+) -> dict[str, tuple[Array, Array]]:
+    """Least and largest values of derived channels, from what the core kept of every step (`trail`).
+
+    `named` makes channels of those of the core; `made_of` is that of `followed`.
+    """
+    names = {
+        name for name, sources in made_of.items() if name in outputs and sources and sources <= trail.keys()
+    }
+    if not names:
+        return {}
+    at = np.searchsorted(outputs["time"], trail["time"])
+    seen = at < len(outputs["time"])
+    found = {}
+    for name, values in named(trail, names).items():
+        if name in names:
+            least, largest = outputs[name].copy(), outputs[name].copy()
+            np.fmin.at(least, at[seen], values[seen])
+            np.fmax.at(largest, at[seen], values[seen])
+            found[name] = least, largest
+    return found
+
+
+def derived_extremes(
+    scene: Description, arrays: Mapping[str, Array], extremes: Extremes, wanted: Collection[str]
+) -> dict[str, tuple[Array, Array]]:
+    """Least and largest values of derived channels, from those of what they rise or fall with."""
+    names = [one for one in MONOTONE if one in wanted and any(part in extremes for part in sources_of(one))]
+    if not names:
+        return {}
+    known = {name: values for name, values in arrays.items() if name != "time"}
+    ends = [
+        named_channels(scene, known | {name: both[i] for name, both in extremes.items()}, names)
+        for i in (0, 1)
+    ]
+    values = named_channels(scene, known, names)
+    found = {}
+    for name in names:
+        every = [one[name] for one in (*ends, values) if name in one]
+        if len(every) == 3:
+            found[name] = (np.min(every, axis=0), np.max(every, axis=0))
+    return found
 
 
 def own_values(

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.channels import CHANNELS, COUNTED_ON, DERIVED, NAMED, channel_of
-from seacrane.result.about import About, StageSpan, added_stats
-from seacrane.result.events import Event
+from seacrane.result.about import About, Event, StageSpan, added_stats
 from seacrane.result.result import Result
 from seacrane.run.derived import derived_channels, squeezed
 from seacrane.run.lanes import joined_lanes

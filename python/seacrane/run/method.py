@@ -196,8 +196,13 @@ def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Sc
     Raises SceneError for a combination that does not exist.
     """
     model = scene.compile() if model is None else model
-    known = integrator(method.integrator)
-    formulation = _formulation(model, method, known)
+    known, formulation = integrator(method.integrator), method.formulation
+    reason = _redundant_because(model, known)
+    if formulation == "recursive" and reason:
+        raise SceneError(f"formulation 'recursive' is not available here: {reason}; choose 'redundant'")
+    if formulation == "auto":
+        pays = not reason and (model.tree["loop_rows"] == 0 or recursive_pays(model))
+        formulation = "recursive" if pays else "redundant"
     dependent = model.redundant if known.name == SOLVES_FOR_MULTIPLIERS else ()
     joints = ", ".join(name for name in dependent if name not in model.merge["dropped"])
     if joints:
@@ -207,18 +212,6 @@ def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Sc
             "'cvode-bdf', which projects"
         )
     return scene, model, formulation
-
-
-def _formulation(model: _core.Model, method: Method, known: Integrator) -> str:
-    """The formulation to step; SceneError where the recursive one is asked for and does not exist."""
-    reason = _redundant_because(model, known)
-    if method.formulation == "recursive" and reason:
-        raise SceneError(f"formulation 'recursive' is not available here: {reason}; choose 'redundant'")
-    if method.formulation != "auto":
-        return method.formulation
-    if reason:
-        return "redundant"
-    return "recursive" if model.tree["loop_rows"] == 0 or recursive_pays(model) else "redundant"
 
 
 def _redundant_because(model: _core.Model, known: Integrator) -> str | None:

@@ -122,14 +122,6 @@ def _check_names(stage: Stage, there: Scene) -> None:
                 )
 
 
-def place_of(stages: Sequence[Stage], first: str | None) -> int:
-    """The place of the stage to begin with; SceneError for a name that no stage has."""
-    names = [stage.name for stage in stages]
-    if first is not None and first not in names:
-        raise SceneError(f"first is {shown(first)}; the stages are {', '.join(names)}")
-    return 0 if first is None else names.index(first)
-
-
 def table_of(scene: Scene, what: str, name: str) -> str:
     """The table of a connection; a joint goes before what acts on it and bears its name.
 

@@ -23,20 +23,21 @@ from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import finite_of, number_of
 from seacrane.inputs.keywords import named
-from seacrane.result.about import About, plain_stats
-from seacrane.result.events import Event
+from seacrane.result.about import About, Event, plain_stats
 from seacrane.result.result import Result
 from seacrane.result.traces import as_arrays
 from seacrane.run.carried_state import carried, changed_inputs, steered
 from seacrane.run.channel_names import (
     all_names,
+    followed,
+    limited_channels,
     recorded_channels,
     require_limited_channels,
     require_names,
+    wanted_extremes,
     with_sources,
 )
-from seacrane.run.derived import named_channels, own_values
-from seacrane.run.extremes import derived_extremes, followed, followed_extremes, wanted_extremes
+from seacrane.run.derived import derived_extremes, followed_extremes, named_channels, own_values
 from seacrane.run.line_rungs import COMPILED, all_elastic, line_rungs, struck, warn_of_quasi_static
 from seacrane.run.method import REST, Method, Shorthand, Start, core_options, settled, start_state, stepped
 from seacrane.run.modes import Modes
@@ -143,7 +144,11 @@ class Run:
         self._lasting = lasting_stats(self.scene, self.model, self.formulation, self.method)
         self._hold()
         self._prepare()
-        self._require_plain()
+        try:  # what a result could not hold is refused now, not when the run is over
+            plain_stats(self.stats())
+            self.about.to_attributes()
+        except ValueError as error:
+            raise SceneError(f"scene {self.scene.name!r}: {error}") from error
 
     def in_sea(self, waves: Waves) -> Run:
         """A run of the same scene in another sea, by the same method, with the same outputs.
@@ -233,14 +238,6 @@ class Run:
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.lanes: dict[str, Any] = {}  # how it was stepped beside others, where that was asked for
 
-    def _require_plain(self) -> None:
-        """What a result could not hold is refused now, not when the run is over."""
-        try:
-            plain_stats(self.stats())
-            self.about.to_attributes()
-        except ValueError as error:
-            raise SceneError(f"scene {self.scene.name!r}: {error}") from error
-
     def _started(self) -> _core.State:
         """The state at the start; one of the model but for what rungs of lines add is carried over."""
         if self._given_start is None:
@@ -303,7 +300,7 @@ class Run:
         if asked is not None and not DERIVED.keys() & set(asked):
             return {name: values for name, values in arrays.items() if name in asked}
         if asked is None:
-            limited = {state.channel for state in self.scene.limit_states.values()}
+            limited = limited_channels(self.scene)
             kept = {name for name in DERIVED if DERIVED[name].by_default or name in limited}
             kept |= {*arrays.keys() - {"time"}, *with_sources(self.scene, [OWN])}
         else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -111,11 +112,7 @@ class Stage:
             raise SceneError(f"{self.title}: maximum_duration goes with until; leave it out")
 
     def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled itself
-        return _made, (vars(self) | {"commands": dict(self.commands)},)
-
-
-def _made(parts: dict[str, Any]) -> Stage:
-    return Stage(**parts)
+        return partial(Stage, **vars(self) | {"commands": dict(self.commands)}), ()
 
 
 @dataclass(frozen=True)

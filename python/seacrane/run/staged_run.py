@@ -16,8 +16,8 @@ from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.caller import keeping, silently
 from seacrane.inputs.checked import number_of
-from seacrane.result.about import StageSpan
-from seacrane.result.events import Event
+from seacrane.inputs.shown import shown
+from seacrane.result.about import Event, StageSpan
 from seacrane.result.result import Result
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import (
@@ -38,7 +38,7 @@ from seacrane.run.joined import Piece, counted, joined
 from seacrane.run.locate import Course, to_its_end
 from seacrane.run.method import REST, Method, Shorthand, Start, core_options, settled, start_state, stepped
 from seacrane.run.outputs import Outputs
-from seacrane.run.plan import check_limits, checked_stages, place_of, waiting, without
+from seacrane.run.plan import check_limits, checked_stages, waiting, without
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import Calls, SampledController, checked_controllers
 from seacrane.run.stage import Level, Stage
@@ -100,7 +100,10 @@ class StagedRun:
         self.method, self.outputs = settled(method, outputs, shorthand)
         scene = decided(scene)
         every = checked_stages(scene, stages)
-        count = place_of(every, first)
+        names = [stage.name for stage in every]
+        if first is not None and first not in names:
+            raise SceneError(f"first is {shown(first)}; the stages are {', '.join(names)}")
+        count = 0 if first is None else names.index(first)
         self.stages, self._given, self._whole = every[count:], scene, scene.copy()
         begin: Start = REST if start is None and first is not None else start
         if count:
@@ -214,7 +217,9 @@ class StagedRun:
         try:
             self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
             self._connect(stage)
-            like = self._like(stage)
+            # The run of the same stage of an alike lift that began at the same time, in this sea.
+            known = self._alike.runs.get(self._key(stage)) if self._shares else None
+            like = None if known is None or self.scene.waves is None else known.in_sea(self.scene.waves)
             if stage.commands:
                 self._whole = commanded(self._whole, stage.title, stage.commands, begin)
                 self.scene = without(self._whole, self._absent)
@@ -351,12 +356,6 @@ class StagedRun:
 
     def _key(self, stage: Stage) -> Key:
         return stage.name, self.state.time, frozenset(self._absent)
-
-    def _like(self, stage: Stage) -> Run | None:
-        """The run of the same stage of an alike lift that began at the same time, in this sea."""
-        waves = self.scene.waves if self._shares else None
-        known = self._alike.runs.get(self._key(stage))
-        return None if known is None or waves is None else known.in_sea(waves)
 
     def _kept(self, run: Run, inputs: Mapping[str, Any]) -> dict[str, Any]:
         """Inputs without those of elements that are absent in this stage."""

@@ -16,17 +16,16 @@ from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
 from seacrane.description.suspension import hung_loads, static_weights
 from seacrane.inputs.plain_data import plain_data, plain_notes
-from seacrane.result.about import About
-from seacrane.result.events import Event
+from seacrane.result.about import About, Event
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import Finding
 from seacrane.version import __version__
 from seacrane.warnings import BoilingOilWarning, ThroughSeatWarning
 
 OPTIONAL = ("dt", "maximum_step", "spectral_radius", "energy_limit")
 Channels = Mapping[str, NDArray[np.float64]]
-Finding = tuple[type[Warning], str]
 SIDES = {"vapour": "full", "vapour_rod": "rod"}  # by what its event is called
 VOIDS = "hydraulic_void"
 

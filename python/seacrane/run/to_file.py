@@ -15,8 +15,7 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_from_bytes, state_to_bytes
-from seacrane.result.about import About, checked_stats
-from seacrane.result.kept_scene import NOT_KEPT, KeptScene
+from seacrane.result.about import NOT_KEPT, About, KeptScene, checked_stats
 from seacrane.result.partial_file import Piece
 from seacrane.result.result import Result
 from seacrane.result.result_file import rows_of_piece
