@@ -102,7 +102,8 @@ class Calls:
             for i in due:
                 made.update(self._returned(self.controllers[i], run, interrupts))
                 self._due[i] = self._next_call(self.controllers[i], now)
-            self._made |= {now: made} if made else {}
+            if made:
+                self._made[now] = made
         inputs = self._made.get(now, {})
         if inputs:
             run.set_inputs(inputs if self._kept is None else self._kept(run, inputs))
