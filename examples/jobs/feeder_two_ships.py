@@ -22,7 +22,7 @@ scene.add_sea(vessel="feeder")
 for i, at in enumerate(((3, 3, -3), (3, -3, -3), (-3, 3, -3), (-3, -3, -3))):
     scene.add_point(name=f"corner {i}", body="load", point=at)
 box = {"body": "feeder", "center": (0, 0, DECK - 5), "size": (60, 18, 10)}
-scene.add_clearance("deck", points=[f"corner {i}" for i in range(4)], **box)
+scene.add_channel("deck", points=[f"corner {i}" for i in range(4)], **box)
 free = Until.release("load on feeder")
 lift = Stage(name="lift", until=free, maximum_duration=60.0, commands={"hoist.rate": -RATE})
 

@@ -223,7 +223,7 @@ def lattice(*, drum: bool = False, link: bool = False) -> Scene:
     scene.add_crane(load_crane("lattice_boom_100t"), base="ground", payload=load, damping=False, **pose)
     if not link:
         hang(scene, ("boom", (-48.0, 0.0, 0.0)), drum=("house", (4.0, 0.0, 2.0)) if drum else None)
-    scene.add_luffing_rope()
+    scene.add_winch("luffing rope")
     return scene
 
 

@@ -34,7 +34,7 @@ def pendulum() -> sc.Scene:
     scene.add_joint(kind="distance", name="rod", first="ground", second="bob", point=(0, 0, 0),
                     second_point=(SWING, 0.0, -LENGTH))  # fmt: skip
     scene.add_pendulum_damping("friction", first="ground", second="bob", ratio=RATIO)
-    scene.add_air_drag("bob", frontal_area=2.0, lateral_area=3.0, drag_coefficient=0.0)
+    scene.add_wind(body="bob", frontal_area=2.0, lateral_area=3.0, drag_coefficient=0.0)
     return scene
 
 

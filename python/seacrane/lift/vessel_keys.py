@@ -41,6 +41,7 @@ def vessel_keys() -> tuple[Key, ...]:
     more = CHOSEN | {
         "mooring": {"type": "array", "unit": "N/m, N m/rad", "shapes": ((6, 6),), "text": matrix},
         "mooring_period": {"unit": "s", "text": mooring},
+        "slack_moment": EACH | {"unit": "kg m"},
         "position": POINT, "ramp": TIME, "duration": TIME, "size": POINT,
     }  # fmt: skip
     return (

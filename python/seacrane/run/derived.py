@@ -17,7 +17,7 @@ from seacrane.description.description import Description
 from seacrane.description.expression import Curve, Number, values_of, worked_out
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.loads import lines_of, path_of, winches_of
-from seacrane.description.places import POSE, position_of, relative_motion, velocity_of
+from seacrane.description.places import POSE, place_along, position_of, velocity_of
 from seacrane.description.roles import allowed_at, pressure
 from seacrane.description.suspension import (
     Hung,
@@ -36,8 +36,7 @@ from seacrane.run.channel_names import (
     on_cranes,
     with_sources,
 )
-from seacrane.scene.own_channels import picked, programs
-from seacrane.scene.recorded import Clearance, distance_from_box
+from seacrane.scene.recorded import Clearance, distance_from_box, picked, programs
 
 Array = NDArray[np.float64]
 Places = Mapping[str, tuple[str, str]]  # joint coordinates by label
@@ -172,12 +171,6 @@ class _Made:
     def sidelead(self) -> Array:
         return self._leads[1]
 
-    def relative_position(self) -> Array:
-        return self._relative(velocity=False)
-
-    def relative_velocity(self) -> Array:
-        return self._relative(velocity=True)
-
     def heel(self) -> Array:
         turn = rotation_matrix(self.arrays["quaternion"])
         return np.asarray(np.arctan2(turn[..., 2, 1], turn[..., 2, 2]))
@@ -293,15 +286,6 @@ class _Made:
             found.append(distance_from_box((away[:, None, :] @ turn)[:, 0], gap.size))
         return np.asarray(np.min(found, axis=0))
 
-    def _relative(self, *, velocity: bool) -> Array:
-        return np.stack(
-            [
-                relative_motion(self.scene, self.arrays, one.point, one.to, one.axes, velocity=velocity)
-                for one in self.scene.relatives.values()
-            ],
-            axis=1,
-        )
-
     def _lengths(self, over: list[float]) -> Array:
         """Unstretched lengths of the lines on winches over given ones, m."""
         lines, wound = list(lines_of(self.scene.loads)), winches_of(self.scene.loads).values()
@@ -361,6 +345,8 @@ def own_values(
     def leaf(step: Number | Curve) -> Array:
         if isinstance(step, Number):
             return np.asarray(step.value)
+        if step.along:
+            return place_along(scene, arrays, step)
         pick = picked(scene, "channel", step)
         array = arrays[pick.channel]
         for dim in reversed(CHANNELS[pick.channel].dims_of(array.ndim)[1:]):

@@ -153,7 +153,7 @@ def add_crane(
     for one in joints:
         frame.add_joint(one, prefix + one.name, names[one.first], names[one.second])
     for joint, (low, high) in parts.ranges.items():
-        add_range(scene, joint=prefix + joint, minimum=low, maximum=high)
+        add_range(scene, prefix + joint, joint=prefix + joint, minimum=low, maximum=high)
     for body_name, meshes in parts.meshes.items():
         for mesh in meshes:
             _draw(scene, mesh, names[body_name], prefix, parts)

@@ -56,7 +56,7 @@ FloatArray = NDArray[np.float64]
 
 
 def add_hydrodynamics(
-    scene: Description, *, body: str, name: str | None = None, **hydrodynamics: Any
+    scene: Description, *, body: str, name: str | None = None, slack_moment: Any = 0.0, **hydrodynamics: Any
 ) -> VesselHydrodynamics:
     """Linear hydrodynamics of a body about its origin; see `VesselHydrodynamics` for the arguments."""
     name = name_of("vessel", name, body)
@@ -64,8 +64,27 @@ def add_hydrodynamics(
     for key in hydrodynamics:
         if key not in (*known, "database"):
             raise SceneError.of(f"vessel {name!r}: {key}", f"is unknown; a vessel takes {', '.join(known)}")
+    taken = _slack(f"vessel {name!r}: slack_moment", slack_moment) * scene.gravity
     element = VesselHydrodynamics(name=name, body=body, **hydrodynamics)
+    if taken.any():
+        restoring = np.array(element.restoring)
+        restoring[[3, 4], [3, 4]] -= taken
+        if restoring[[3, 4], [3, 4]].min() <= 0.0:
+            raise SceneError.of(
+                f"vessel {name!r}: slack_moment",
+                f"is {shown(slack_moment)} kg m, as much as its restoring holds or more; 1 t m is 1000 kg m",
+            )
+        element = VesselHydrodynamics(**{**element.__getstate__(), "restoring": restoring})
+        scene.provenance[name] = VesselProvenance(slack_tanks=(float(taken[0]), float(taken[1])))
     return insert("vessel", scene.vessels, element)
+
+
+def _slack(what: str, given: Any) -> FloatArray:
+    """Free-surface moments of roll and pitch, kg m."""
+    one = shaped_of(what, given if np.ndim(given) else (given, 0.0), (2,))
+    if not (np.isfinite(one).all() and one.min() >= 0.0):
+        raise SceneError.of(what, f"is {shown(given)}; give rho i of the tanks, kg m, zero or more")
+    return one
 
 
 def add_group(scene: Description, *, name: str, **matrices: Any) -> _core.GroupHydrodynamics:
@@ -80,7 +99,7 @@ def add_hull(
     scene: Description, database: HydroDatabase, *, name: str = "vessel", position: Any = (0.0, 0.0, 0.0),
     heading_deg: float = 0.0, memory: str = "by-motion", kinematics: str = "yaw_following",
     mooring: Any = None, mooring_period: float | None = MOORING_PERIOD,
-    mooring_damping: float = MOORING_DAMPING,
+    mooring_damping: float = MOORING_DAMPING, slack_moment: Any = 0.0,
 ) -> VesselHydrodynamics:  # fmt: skip
     """A hull that floats by itself, as `Scene.add_vessel` describes it."""
     if memory not in MEMORY:
@@ -94,10 +113,12 @@ def add_hull(
         scene, database, parameters, name=name, pose=(place, float(heading)),
         memory=[] if memory == "none" else _core_memory(parameters.memory), kinematics=kinematics,
         mooring=mooring, mooring_period=mooring_period, mooring_damping=mooring_damping,
+        slack_moment=slack_moment,
     )  # fmt: skip
     band = (float(database.omega[0]), float(database.omega[-1]))
-    scene.provenance[name] = VesselProvenance(
-        database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory),
+    scene.provenance[name] = replace(
+        scene.provenance.get(name, VesselProvenance()), database=database.name, omega=band, memory=memory,
+        memory_error=_memory_error(parameters, memory),
         free_surface=free_surface(database, parameters.memory.additional_stiffness),
     )  # fmt: skip
     return added
@@ -106,7 +127,7 @@ def add_hull(
 def _put_afloat(
     scene: Description, database: HydroDatabase, parameters: VesselParameters, *, name: str,
     pose: tuple[FloatArray, float], memory: Any, kinematics: str, mooring: Any,
-    mooring_period: float | None, mooring_damping: float,
+    mooring_period: float | None, mooring_damping: float, slack_moment: Any = 0.0,
 ) -> VesselHydrodynamics:  # fmt: skip
     """A body with the parameters of a database, and its hydrodynamics; `pose`: position (3,), m, yaw, rad."""
     place, half = pose[0], 0.5 * pose[1]
@@ -132,6 +153,7 @@ def _put_afloat(
         scene, body=name, added_mass=parameters.added_mass, linear_damping=parameters.linear_damping,
         quadratic_damping=parameters.quadratic_damping, restoring=restoring, mooring_stiffness=stiffness,
         mooring_damping=damping, memory=memory, kinematics=kinematics, database=database,
+        slack_moment=slack_moment,
     )  # fmt: skip
 
 

@@ -41,15 +41,14 @@ from seacrane.inputs.whole_file import read_whole
 from seacrane.scene.afloat import add_group, add_hydrodynamics
 from seacrane.scene.bodies import add_body, mesh_from_node, mesh_to_data
 from seacrane.scene.lift_factors import LiftFactors, Rating, add_lift_factors, note_rating, rating_of
-from seacrane.scene.own_channels import OwnChannel, add_channel
 from seacrane.scene.recorded import (
     Clearance,
-    Relative,
+    OwnChannel,
+    add_channel,
     add_clearance,
     add_limit_state,
     add_point,
     add_range,
-    add_relative,
     record_coordinate,
 )
 from seacrane.scene.roles import add_roles
@@ -112,7 +111,6 @@ _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what i
     "ranges": (Range, add_range),
     "limit_states": (LimitState, add_limit_state),
     "clearances": (Clearance, add_clearance),
-    "relatives": (Relative, add_relative),
     "channels": (OwnChannel, add_channel),
     "ratings": (Rating, _add_rating),
     "lift_factors": (LiftFactors, add_lift_factors),
@@ -174,8 +172,8 @@ def scene_digest(scene: Description) -> str:
     """SHA-256 of what a scene describes: equal for scenes that move alike.
 
     Notes, provenance, databases, limit states, clearances, ratings, lift factors and meshes do not count,
-    and of C functions only their names. Relatives and channels of one's own do: a file goes on with those
-    that it has begun with.
+    and of C functions only their names. Channels of one's own do: a file goes on with those that it has begun
+    with.
     """
     data = _elements(scene.copy(**{key: {} for key in UNMOVING}))
     for roles in data["roles"]:

@@ -15,7 +15,7 @@ from seacrane.crane.parts import BOX_DRAG, SWING_RATIO
 from seacrane.description.description import GROUND, KINDS, Description
 from seacrane.description.elements import add_joint
 from seacrane.description.loads import changed
-from seacrane.description.places import place_of
+from seacrane.description.places import ORIGIN, place_of
 from seacrane.description.roles import CraneRoles
 from seacrane.description.rungs import ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung, StretchingRung
 from seacrane.errors import SceneError
@@ -37,7 +37,7 @@ from seacrane.scene.lift_factors import note_rating, rating_of
 from seacrane.scene.limits import add_contact, add_stop
 from seacrane.scene.lines import TAKEN_BY, add_line, hung_from
 from seacrane.scene.recorded import add_point
-from seacrane.scene.rigging import add_bridle, add_winch
+from seacrane.scene.rigging import add_winch
 from seacrane.scene.wind_current import damp_load
 
 Array = NDArray[np.float64]
@@ -206,8 +206,8 @@ def add_hoist(
     ------
     SceneError
         For no crane, one without a tip or with a load; fewer than one fall; slings that are too short; a
-        place above the tip; slack of a line that a weight keeps taut; and what `add_line`, `add_winch` and
-        `add_bridle` refuse.
+        place above the tip; slack of a line that a weight keeps taut; and what `add_line` and `add_winch`
+        refuse.
 
     Warns
     -----
@@ -477,11 +477,12 @@ def _sling(scene: Description, name: str, block: str, load: str, rig: Slings, *,
     lengths = np.linalg.norm(spans, axis=1)
     # Equal tensions per length carry the load where the hook is over its middle: sum T_i / l_i d_i = W.
     density = 0.0 if standing else scene.gravity * body.mass / float(-spans[:, 2].sum())
-    add_bridle(
-        scene, f"{name} sling", hook=block, load=load, points=ends, EA=rig.EA,
-        lengths=lengths / (1.0 + density * lengths / rig.EA),
-        breaking_load=rig.breaking_load, safety_factor=rig.safety_factor, rung=rig.rung,
-    )  # fmt: skip
+    for i, (end, length) in enumerate(zip(ends, lengths, strict=True), start=1):
+        add_line(
+            scene, f"{name} sling {i}", bodies=[block, load], points=[ORIGIN, end], EA=rig.EA,
+            length=length / (1.0 + density * length / rig.EA), mass=body.mass / len(ends), rung=rig.rung,
+            breaking_load=rig.breaking_load, safety_factor=rig.safety_factor,
+        )  # fmt: skip
 
 
 def _preload(scene: Description, structure: str, weight: float) -> None:

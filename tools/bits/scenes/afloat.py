@@ -49,8 +49,8 @@ def given_by_raos() -> Scene:
     scene.add_joint(kind="distance", name="wire", first="barge", second="load", **rod)
     scene.add_point(name="edge", body="barge", point=(30.0, 10.0, 3.0))
     scene.add_point(name="below", body="load", point=(0, 0, -1.0))
-    scene.add_relative(name="over the edge", point="below", to="edge", axes="barge")
-    scene.add_clearance(name="deck", points="below", body="barge", center=(0, 0, 0), size=(90, 18, 10))
+    scene.add_channel("over the edge", expression="below.z in barge - edge.z in barge")
+    scene.add_channel("deck", points="below", body="barge", center=(0, 0, 0), size=(90, 18, 10))
     scene.add_channel(name="drop", expression="edge.z - below.z")
     return scene
 

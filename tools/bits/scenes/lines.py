@@ -89,7 +89,9 @@ def slings_that_go_slack() -> Scene:
     scene.add_body(name="hook", mass=500.0, inertia=(50.0,) * 3, position=(0, 0, -12.0))
     scene.add_line(name="wire", bodies=["ground", "hook"], points=np.zeros((2, 3)), EA=5e6, length=11.8)
     corners = [(x, y, 0.5) for x in (-2.0, 2.0) for y in (-1.5, 1.5)]
-    scene.add_bridle(name="sling", hook="hook", load="load", points=corners, EA=[3e6])
+    for i, corner in enumerate(corners, start=1):
+        ends = {"bodies": ["hook", "load"], "points": [(0, 0, 0), corner]}
+        scene.add_line(f"sling {i}", **ends, EA=3e6, mass=2e3)
     return scene
 
 
