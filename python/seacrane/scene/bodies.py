@@ -23,12 +23,14 @@ from seacrane.inputs.mesh_files import MOST_TRIANGLES, READERS
 from seacrane.inputs.node import Node
 from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import told_by
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int64]
 LARGEST, FARTHEST = 1000.0, 1e5  # m: of a mesh, and from the body's origin
 
 
+@told_by(_core.Body)
 def add_body(
     scene: Description,
     name: str,
@@ -49,21 +51,11 @@ def add_body(
 
     Parameters
     ----------
-    mass : float
-        kg.
     inertia : array_like, shape (3,) or (3, 3), optional
         About the centre of mass in body axes, kg m2; three values are the diagonal. Default: that of a solid
         box of `size`, ``mass / 12 * (y**2 + z**2, z**2 + x**2, x**2 + y**2)``.
-    center_of_mass : array_like, shape (3,)
-        From the body origin in body axes, m.
-    position, quaternion : array_like
-        Start pose of the body origin in the inertial frame; quaternion (w, x, y, z), body to inertial.
-    velocity, angular_velocity : array_like, shape (3,)
-        Of the body origin at the start, inertial axes, m/s and rad/s.
     gravity : bool
         Whether weight acts on it. The body of a vessel never gets weight: its restoring carries it.
-    size : array_like, shape (3,), optional
-        Edges (x, y, z) of the box that it is, m, about its centre of mass along body axes.
     below : str, optional
         In place of a position, a point such as "tip", as `place_of` takes it: the top of the box, or the
         origin of a body without a size, is straight below it.

@@ -22,9 +22,11 @@ from seacrane.description.hydraulic_cylinders import (
 )
 from seacrane.description.places import ORIGIN
 from seacrane.errors import SceneError
+from seacrane.inputs.values import told_by
 from seacrane.scene.edit import replace_element
 
 
+@told_by(_core.HydraulicCylinder)
 def add_hydraulic_cylinder(
     scene: Description,
     name: str,
@@ -59,14 +61,6 @@ def add_hydraulic_cylinder(
 
     Parameters
     ----------
-    first, second : str
-        Bodies; "ground" is one too.
-    full_area, rod_side_area : float
-        Of the piston, m2; of the rod side less the rod.
-    retracted_length, stroke : float
-        m, between the points at stroke 0; largest.
-    first_point, second_point : array_like, shape (3,)
-        m, in coordinates of the bodies.
     chamber, rod_chamber : Chamber, optional
         Start pressures and hoses of the full side and of the rod side. A cylinder whose pressures are not
         given is added after what it carries, or see `hold_pressures`.

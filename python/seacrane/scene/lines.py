@@ -19,6 +19,7 @@ from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, RIGID, WITH_
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import told_by
 from seacrane.scene.heavy_line import chain_of_segments
 from seacrane.scene.lift_factors import note_rating, rating_of
 from seacrane.scene.limits import STICKING_SPEED, add_wire
@@ -40,6 +41,7 @@ TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung take
 UNKNOWN_LENGTH = 1.0  # m, of a line that is made to be measured
 
 
+@told_by(_core.Line)
 def add_line(
     scene: Description,
     name: str | None = None,
@@ -122,19 +124,9 @@ def add_line(
         kg; default (0): that with which the line bounces at the start, as bodies are joined and whichever way
         its path is written: of a load on n falls its mass over n^2. `Scene.report` tells it, and the ratio
         that the bounce reaches.
-    radii : array_like, shape (n,), optional
-        Of the sheaves of which the points are the centres, m; 0: a point. Lines begin and end at points.
-    axes : array_like, shape (n, 3), optional
-        Of the sheaves, in coordinates of their bodies: the line runs about them by the right hand.
-    turns : array_like, shape (n,), optional
-        Whole turns on each sheave besides its wrap, which is between 0 and 264 degrees.
     efficiencies : array_like, shape (n,), optional
         Of each sheave or point, the smaller tension over the larger; 1: no friction. Roller bearings have
         0.98, bushings 0.96.
-    frictions : array_like, shape (n,), optional
-        Coefficient mu of each sheave: tensions differ by exp(mu wrap).
-    slip_speed : float
-        m/s, of the rope over a sheave: friction acts with tanh of the rate over it.
     strains, tensions : array_like, shape (m,), optional
         Of a shock cord, in place of EA, N: a monotone cubic spline runs through them; both start at 0 and
         increase. Beyond the last it goes on along its tangent.

@@ -33,6 +33,7 @@ from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, text
 from seacrane.inputs.keywords import taken
 from seacrane.inputs.plain_data import DERIVED
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import told_by
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -46,6 +47,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {  # of channels of one's own: what they 
 PLACES = {"points": ("point_", "point"), "bodies": ("", "body")}  # how channels begin, and their dimension
 
 
+@told_by(_core.Point)
 def add_point(scene: Description, name: str, *, body: str, point: Any = (0.0, 0.0, 0.0)) -> _core.Point:
     """Record the motion of a point of a body: channels point_position, point_velocity, point_acceleration.
 
@@ -53,8 +55,6 @@ def add_point(scene: Description, name: str, *, body: str, point: Any = (0.0, 0.
     ----------
     name : str
         Of the point along the dimension "point" of these channels.
-    body : str
-        Body that carries it.
     point : array_like, shape (3,)
         In the coordinates of the body, m; default: the origin of the body.
 

@@ -10,6 +10,7 @@ from seacrane.description.description import Description
 from seacrane.description.loads import changed, lines_of, refuse_winch_of_segment, whole_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
+from seacrane.inputs.values import told_by
 from seacrane.scene.heavy_line import on_a_winch
 from seacrane.scene.hydraulics import holding_forces
 from seacrane.scene.lines import add_line
@@ -18,6 +19,7 @@ NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
 STRONGEST = 1e12  # N or W: likewise
 
 
+@told_by(_core.Line)
 def add_winch(
     scene: Description,
     line: str,
@@ -42,9 +44,10 @@ def add_winch(
 
     With a lag the rate is a state too, "<line>.rate". Input "<line>.rate" adds to the command during a run.
     A line with mass goes by its own name too, and its first segment, "<line>.1", is on the winch.
-    With `tension` and `tension_gain` it holds a tension; with `drum_inertia` and `drum_radius` its drum has
-    inertia, a motor within bounds and a brake. A bound that is reached is an event of the result, of kind
-    "limit". See docs/winches.md.
+    With `tension` and `tension_gain` it holds a tension: it pays out above it and hauls in below it, also a
+    slack line. With `drum_inertia` and `drum_radius` its drum has inertia, a motor within bounds and a brake,
+    which takes its share of the motor away; these need a lag. A bound that is reached is an event of the
+    result, of kind "limit". See docs/winches.md.
 
     A crane's luffing rope, by its name in the crane's file, then carries its jib, as an elastic line of all
     its falls. It starts with the tension that holds what is beyond the hinge as described: add the hoist
@@ -55,37 +58,11 @@ def add_winch(
     ----------
     line : str
         A line of the scene, whose length is a number: that at the start. It leaves the drum at its first end.
-    rate : Curve or float
-        Commanded, m/s; positive pays out, negative hauls in.
-    maximum_rate : float
-        m/s, of the command in both directions; 1e7 (default): no bound.
-    maximum_acceleration : float
-        m/s2, of the rate; needs a lag. 1e7 (default): no bound.
     lag : float
         s, of the rate behind the command, first order, from rest; 0 (default): the rate is the command. A
         line with mass needs one.
     minimum_length : float
         m, at which hauling in stops; on a line with mass a run ends there.
-    tension : Curve or float
-        N, held: the winch pays out above it and hauls in below it, also a slack line. Needs `tension_gain`.
-    tension_gain : float
-        m/s for each N beyond the tension and its dead band, added to the command; 0 (default): none is held.
-    dead_band : float
-        N on both sides of the tension, in which nothing is added.
-    drum_inertia : float
-        kg m2, of drum, gear and motor at the drum; needs a lag. 0 (default): the rate is that of the lag.
-    drum_radius : float
-        m, at which the rope runs.
-    maximum_tension : float
-        N at the rope, of the motor in both directions; 0: no motor. 1e12 (default): no bound.
-    maximum_power : float
-        W that the motor gives; what it takes is not bounded. 1e12 (default): no bound.
-    brake : Curve or float
-        Share of its capacity that is applied, 0 (open) to 1 (closed). The motor lets go by that share.
-    brake_capacity : float
-        N at the rope, beyond which the brake slips; 0 (default): no brake.
-    brake_give : float
-        m of rope that the drum turns before the brake bears its capacity.
 
     Returns
     -------

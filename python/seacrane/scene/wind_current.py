@@ -20,6 +20,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of, vector_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
+from seacrane.inputs.values import told_by
 from seacrane.warnings import DoubleCountedDampingWarning
 from seacrane.water.density import SEA_WATER
 
@@ -145,6 +146,7 @@ class FlowCoefficients:
         return angle, np.concatenate([rows, rows[mirrored] * PORT_STARBOARD])
 
 
+@told_by(_core.FlowForce)
 def add_wind(
     scene: Description,
     coefficients: FlowCoefficients | None = None,
@@ -182,13 +184,9 @@ def add_wind(
         m/s at the height that the coefficients refer to; a curve for gusts, see `gust_curve`.
     direction_deg : float
         Where the wind blows *to*, deg from +x towards +y, as for waves.
-    body : str
-        That it acts on.
     point : array_like, shape (3,)
         Where the load acts, m, body coordinates; N is about it. Default: the origin; of a drag the centre of
         mass.
-    density : float
-        kg/m3.
     name : str
         Default: "wind"; of a drag the body's and " drag".
 
@@ -295,6 +293,7 @@ def _flow_of(
     return of_sea.mean(not_negative_of(f"{what}: draught", draught, "m"))
 
 
+@told_by(_core.PendulumDamping)
 def add_pendulum_damping(
     scene: Description,
     name: str,
@@ -314,16 +313,12 @@ def add_pendulum_damping(
 
     Parameters
     ----------
-    first : str
-        Body that the load hangs from; "ground" is one too.
     second : str
         The load.
     first_point, second_point : array_like, shape (3,)
         In coordinates of these bodies, m. Default of the second: the load's centre of mass.
     ratio : float
         Of critical damping; 0 is none. Default 0.005: an estimate.
-    mass : float
-        kg, that swings; default (0): that of the load.
 
     Raises
     ------
