@@ -72,10 +72,17 @@ GAS = _values(
 DRIVE = _values(
     drive="Drive actuator_frequency=frequency actuator_damping=damping maximum_rate maximum_stroke settling"
 )
+LINE = _values(
+    wire="Wire mass_per_length segments diameter drag_coefficient drag_coefficient_along"
+    " added_mass_coefficient density flow medium seabed",
+    sheaves="Sheaves radii axes turns efficiencies frictions slip_speed",
+)
 OF_OTHERS = {"pressure", "gain", "friction", "air", "overlap"}  # keys of dicts that may be of anything
 IMPORTED = "import the values from seacrane.scene; in dicts of keywords one replaces another as a whole"
+WITH_MASS = "import the values from seacrane.scene; rung='with mass' goes, and segment_rung is rung"
 CALLS = {
     "add_hydraulic_cylinder": Call("add_hydraulic_cylinder", values=OIL, note=IMPORTED),
+    "add_line": Call("add_line", values=LINE, note=WITH_MASS),
     "add_gas_spring": Call("add_gas_spring", values=GAS, note=IMPORTED),
     "add_heave_compensation": Call("add_heave_compensation", values=DRIVE, note=IMPORTED),
     "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),

@@ -73,7 +73,7 @@ def test_a_capstan_holds_by_euler_and_eytelwein(turns: float) -> None:
 
 def test_forces_are_the_gradient_of_the_length_out_of_plane() -> None:
     """Without friction and damping the energy is kept while the line leans far out of its sheaves' planes."""
-    scene = slewing(efficiencies=[], frictions=[], damping_ratio=0.0)
+    scene = slewing({"efficiencies": [], "frictions": []}, damping_ratio=0.0)
     scene.replace("hoist", winch=False, rate=0.0, lag=0.0)
     scene.remove("cord")
     scene.replace("load", velocity=(0.0, 1.5, 0.0))

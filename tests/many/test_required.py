@@ -91,9 +91,8 @@ def drifting(*, drift: bool = True, phase: Any = "mean") -> sc.Scene:
 def heavy(segments: int = 4, **more: Any) -> sc.Scene:
     """A load on a wire with mass in water, off a winch."""
     scene = held()
-    wire = {"segments": segments, "medium": "sea", "diameter": 0.05, **more}
-    line = {"length": 50.0, "EA": 6e7, "rung": "with mass", "mass_per_length": 20.0, "wire": wire}
-    scene.add_hoist(mass=35e3, size=(6, 4, 4), winch={"lag": 0.2}, **line)
+    wire = {"mass_per_length": 20.0, "segments": segments, "medium": "sea", "diameter": 0.05, **more}
+    scene.add_hoist(mass=35e3, size=(6, 4, 4), winch={"lag": 0.2}, length=50.0, EA=6e7, wire=wire)
     return scene
 
 

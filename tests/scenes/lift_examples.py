@@ -78,8 +78,8 @@ natural_length_m = 0.3
 name = "hoist"; bodies = ["ground", "box", "bob"]; points_m = [[0, 0, 9], [0, 0, 1], [0, 0, 0]]; EA_N = 1e6
 length_m = 12; damping_ratio = 0.05; mass_kg = 300
 [[line]]; name = "whip"; bodies = ["ground", "ground", "bob"]; points_m = [[-3, 0, 9], [0, 0, 9], [0, 0, 0]]
-strains = [0, 0.1]; tensions_N = [0, 1000]; length_m = 12; radii_m = [0, 0.3, 0]
-axes = [[0, 0, 0], [0, 1, 0], [0, 0, 0]]; efficiencies = [1, 0.98, 1]; slip_speed_m_per_s = 0.02
+strains = [0, 0.1]; tensions_N = [0, 1000]; length_m = 12
+sheaves = { radii_m = [0, 0.3, 0], axes = [[0, 0, 0], [0, 1, 0], [0, 0, 0]], efficiencies = [1, 0.98, 1] }
 [[roles]]; prefix = "quay "; tip = { body = "hull", point_m = [6, 0, 20] }
 [[hoist]]
 name = "quay hoist"; crane = "quay "; load = "anode"; mass_kg = 2e3; size_m = [1, 1, 2]; length_m = 5
@@ -109,15 +109,15 @@ rupture = { time_s = 9, area_m2 = 1e-5 }
 [[force]]
 name = "gust"; body = "box"; times_s = [0, 1]; force_N = [[0, 1, 2, 3, 4, 5], [6, 7, 8, 9, 10, 11]]
 [[line]]
-name = "chain"; rung = "with mass"; bodies = ["ground", "box"]; points_m = [[20, 5, 10], [0, 0, 1]]
-EA_N = 1e8; length_m = 40; mass_per_length_kg_per_m = 5; segments = 3; segment_rung = "quasi-static"
-settling_s = 0.3; diameter_m = 0.02; flow_m_per_s = [1, 0, 0]
+name = "chain"; rung = "quasi-static"; bodies = ["ground", "box"]; points_m = [[20, 5, 10], [0, 0, 1]]
+EA_N = 1e8; length_m = 40; settling_s = 0.3
+[line.wire]; mass_per_length_kg_per_m = 5; segments = 3; diameter_m = 0.02; flow_m_per_s = [1, 0, 0]
 seabed = { depth_m = 50, stiffness_N_per_m2 = 1e4, friction = 0.5, damping_ratio = 0.4, give_m = 0.02 }
 [[line]]
-name = "wet chain"; rung = "with mass"; bodies = ["ground", "box"]; points_m = [[20, 5, -10], [0, 0, 1]]
+name = "wet chain"; bodies = ["ground", "box"]; points_m = [[20, 5, -10], [0, 0, 1]]
 EA_N = 1e8; length_m = {kind = "quintic", start_time_s = 1, end_time_s = 9, start = 30, end = 34}
-mass_per_length_kg_per_m = 5; segments = 2; diameter_m = 0.05; medium = "sea"; density_kg_per_m3 = 1000
-drag_coefficient_along = 0.02; added_mass_coefficient = 0.9
+[line.wire]; mass_per_length_kg_per_m = 5; segments = 2; diameter_m = 0.05; medium = "sea"
+density_kg_per_m3 = 1000; drag_coefficient_along = 0.02; added_mass_coefficient = 0.9
 [[immersed]]; body = "bob"; parts = [
     { kind = "sphere", diameter_m = 0.4 },
     { kind = "box", size_m = [1, 2, 0.5], strips = [2, 1], point_m = [0, 0, 0.1], slam = 6 },

@@ -62,6 +62,15 @@ def told_by(*elements: Any) -> Callable[[Call], Call]:
     return told
 
 
+def made_of(what: str, word: str, kind: type[T], given: T | Mapping[str, Any]) -> T:
+    """A value of a kind, or its keywords as one. SceneError for what is neither."""
+    if isinstance(given, kind):
+        return given
+    if not isinstance(given, Mapping):
+        raise SceneError(f"{what}: {word} is {shown(given)}; give {word}={kind.__name__}(...)")
+    return kind(**given)
+
+
 def entries_of(word: str, kind: type) -> dict[str, str]:
     """Entries of the element by the fields of a value, for a keyword; those of a rod side end so."""
     end = "_rod" if word.startswith("rod_") else ""

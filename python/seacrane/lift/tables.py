@@ -41,7 +41,7 @@ from seacrane.scene import (
 )
 from seacrane.scene.add_crane import add_crane
 from seacrane.scene.ballast import add_ballast
-from seacrane.scene.line_fluid import Seabed
+from seacrane.scene.line_fluid import Seabed, Wire
 from seacrane.scene.scene import Scene
 from seacrane.scene.wind_current import gust_curve
 from seacrane.simulation import simulate
@@ -137,13 +137,15 @@ SLINGS = keys_of(
         "rung": {"choices": lines.STRETCHING},
     },
 )
-WIRE: dict[str, dict[str, Any]] = {
-    "diameter": LENGTH,
-    "density": {"unit": "kg/m3"},
-    "flow": {"type": "array", "unit": "m/s", "shapes": ((3,),)},
-    "segment_rung": {"type": "text", "choices": lines.STRETCHING},
-}
 SEABED = keys_of(Seabed, more={"depth": LENGTH, "stiffness": {"unit": "N/m2"}, "give": LENGTH})
+WIRE: dict[str, Any] = {
+    "type": "table",
+    "keys": keys_of(Wire, more={
+        "mass_per_length": {"unit": "kg/m"}, "diameter": LENGTH, "density": {"unit": "kg/m3"},
+        "flow": {"type": "array", "unit": "m/s", "shapes": ((3,),)},
+        "seabed": {"type": "table", "keys": SEABED},
+    }),
+}  # fmt: skip
 CONTACT = {
     "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
     "surface": {"type": "text", "choices": limits.SURFACES},
@@ -286,9 +288,8 @@ _ALL = (
     _call(
         "line", lines.add_line, _core.Line,
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
-        sticking_speed={"unit": "m/s"}, mass_per_length={"unit": "kg/m"},
-        breaking_load={"unit": "N"}, rung={"choices": lines.RUNGS}, **WIRE,
-        seabed={"type": "table", "keys": SEABED},
+        sticking_speed={"unit": "m/s"}, breaking_load={"unit": "N"}, rung={"choices": lines.RUNGS},
+        wire=WIRE, sheaves={"type": "table", "keys": keys_of(lines.Sheaves, _core.Line)},
     ),
     Table(
         name="roles", text=_summary(roles.add_roles),
@@ -309,12 +310,12 @@ _ALL = (
     _call(
         "hoist", hoist.add_hoist,
         mass={"unit": "kg"}, size=POINT, length=LENGTH, height=LENGTH, slack=LENGTH, EA={"unit": "N"},
-        crane={"type": "text"}, stiffness={"unit": "N/m"}, mass_per_length={"unit": "kg/m"},
+        crane={"type": "text"}, stiffness={"unit": "N/m"},
         block_mass={"unit": "kg"}, breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
         winch={"type": "table", "keys": keys_of(rigging.add_winch, _core.Line, without=("line",))},
         feet={"type": "table", "keys": FEET},
-        wire={"type": "table", "keys": keys_of(lines.add_line, _core.Line, more=WIRE, only=hoist.WIRE_KEYS)},
+        wire=WIRE,
     ),
     _call("winch", rigging.add_winch, _core.Line),
     _call(

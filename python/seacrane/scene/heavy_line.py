@@ -20,7 +20,7 @@ from seacrane.inputs.checked import positive_of, shaped_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.one_thread import one_thread
 from seacrane.scene.bodies import add_body
-from seacrane.scene.line_fluid import Fluid, Seabed
+from seacrane.scene.line_fluid import Seabed, Wire
 
 Array = NDArray[np.float64]
 LARGEST_ERROR = 1e-12  # of the chain's length
@@ -170,9 +170,8 @@ class _End:
 
 
 def chain_of_segments(
-    scene: Description, name: str, bodies: Any, points: Any, *, EA: float | None, length: Any,
-    mass_per_length: float, segments: int, damping_ratio: float, rung: str, settling: float, fluid: Fluid,
-    seabed: Seabed | Mapping[str, Any] | None,
+    scene: Description, name: str, bodies: Any, points: Any, wire: Wire, *, EA: float | None, length: Any,
+    damping_ratio: float, rung: str, settling: float,
 ) -> list[_core.Line]:  # fmt: skip
     """A line with mass between two points: equal elastic segments with point masses between them.
 
@@ -184,15 +183,16 @@ def chain_of_segments(
     """
     what = f"line {name!r}"
     first, last = _ends(scene, what, bodies, points)
-    count = _count(what, segments)
+    count = _count(what, wire.segments)
     span = float(np.linalg.norm(last.place - first.place))
     wound = length if isinstance(length, _core.Curve) else None
     given = float(wound.evaluate([0.0])[0, 0]) if wound is not None else length
     whole = positive_of(f"{what}: length", span if given is None else given)
-    step, mass = whole / count, positive_of(f"{what}: mass_per_length", mass_per_length) * whole / count
-    fluid = fluid.checked(what, wound=wound is not None)
-    weight = mass * scene.gravity - fluid.displaced(step, scene.gravity)
-    bed = None if seabed is None else Seabed.of(what, seabed)
+    per_length = positive_of(f"{what}: mass_per_length", wire.mass_per_length)
+    step, mass = whole / count, per_length * whole / count
+    wire = wire.checked(what, wound=wound is not None)
+    weight = mass * scene.gravity - wire.displaced(step, scene.gravity)
+    bed = cast(Seabed | None, wire.seabed)
     if bed is not None:
         _require_over(what, bed, (first, last), weight / step, wound=wound is not None)
     chain = Chain(
@@ -202,7 +202,7 @@ def chain_of_segments(
         bed_stiffness=1.0 if bed is None else bed.stiffness * step,
     )  # fmt: skip
     lengths = step if wound is None else scaled(wound, 1.0 / count)
-    places = _at_rest(what, chain, first.place, last.place, partial(fluid.lifts, gravity=scene.gravity))
+    places = _at_rest(what, chain, first.place, last.place, partial(wire.lifts, gravity=scene.gravity))
     inertia = np.full(3, mass * (GYRATION * step) ** 2)
     for i, place in enumerate(places, start=1):
         velocity = first.velocity + (last.velocity - first.velocity) * (i / count)
@@ -217,10 +217,10 @@ def chain_of_segments(
             length=lengths, damping_ratio=damping_ratio, mass=mass, rung=rung, settling=settling,
         )  # fmt: skip
         lines.append(put_load(scene, segment))
-        if fluid.diameter > 0.0:
-            put_load(scene, fluid.along(f"{name}.{i}", (one, two), lengths))
+        if wire.diameter > 0.0:
+            put_load(scene, wire.along(f"{name}.{i}", (one, two), lengths))
         if wound is not None:
-            put_load(scene, _winding(segment, mass_per_length, (i, count)))
+            put_load(scene, _winding(segment, per_length, (i, count)))
     if bed is not None:
         shares = [0.5, *[1.0] * (count - 1), 0.5]
         for node, place, share in zip(path, [first.place, *places, last.place], shares, strict=True):

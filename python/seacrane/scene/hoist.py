@@ -17,7 +17,7 @@ from seacrane.description.elements import add_joint
 from seacrane.description.loads import changed
 from seacrane.description.places import ORIGIN, place_of
 from seacrane.description.roles import CraneRoles
-from seacrane.description.rungs import ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung, StretchingRung
+from seacrane.description.rungs import ELASTIC, QUASI_STATIC, RIGID, Rung, StretchingRung
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import (
     flag_of,
@@ -32,10 +32,12 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import made_of
 from seacrane.scene.bodies import add_body
 from seacrane.scene.lift_factors import note_rating, rating_of
 from seacrane.scene.limits import add_contact, add_stop
-from seacrane.scene.lines import TAKEN_BY, add_line, hung_from
+from seacrane.scene.line_fluid import Wire
+from seacrane.scene.lines import add_line, hung_from
 from seacrane.scene.recorded import add_point
 from seacrane.scene.rigging import add_winch
 from seacrane.scene.wind_current import damp_load
@@ -44,9 +46,6 @@ Array = NDArray[np.float64]
 BLOCK_DENSITY = 2000.0  # kg/m3 over its outline: plates, sheaves and gaps; gives a block its size alone
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 Place = tuple[str, Any]  # a body, and a point in its coordinates, m
-OWN = ("mass_per_length", "seabed")  # a keyword of its own; what no line on a winch takes
-OF_A_WIRE = tuple(key for key, rungs in TAKEN_BY.items() if rungs == (WITH_MASS,) and key not in OWN)
-WIRE_KEYS = ("settling", "damping_ratio", *OF_A_WIRE)
 FEET_KEYS = ("points", "stiffness", "damping", "table", "friction", "hold", "edge", "name")
 
 
@@ -129,8 +128,7 @@ def add_hoist(
     EA: float | None = None,
     stiffness: float | None = None,
     rung: Rung = "elastic",
-    mass_per_length: float = 0.0,
-    wire: Mapping[str, Any] | None = None,
+    wire: Wire | Mapping[str, Any] | None = None,
     block_mass: float = 0.0,
     slings: Slings | Mapping[str, Any] | None = None,
     winch: Mapping[str, Any] | bool = False,
@@ -176,14 +174,11 @@ def add_hoist(
         Axial stiffness of the rope, N.
     stiffness : float
         In its place, of all falls together at the hook as described, N/m.
-    rung : {"rigid", "quasi-static", "elastic", "auto", "with mass"}
-        Of the line, as in `add_line`. "rigid" takes no EA and no winch, "with mass" a `mass_per_length`; both
-        have one fall.
-    mass_per_length : float
-        Of a line with mass, kg/m.
-    wire : mapping, optional
-        Of a line with mass, further keywords of `add_line`: segments, segment_rung, settling, damping_ratio
-        and those of what it is in, such as ``{"segments": 10, "medium": "sea", "diameter": 0.06}``.
+    rung : {"rigid", "quasi-static", "elastic", "auto"}
+        Of the line, as in `add_line`. "rigid" takes no EA and no winch, and has one fall.
+    wire : Wire or mapping, optional
+        Of a line with mass, which has one fall too, as in `add_line`, such as ``{"mass_per_length": 25,
+        "segments": 10, "medium": "sea", "diameter": 0.06}``.
     block_mass : float
         Hook block, kg; slings need one.
     slings : Slings or mapping, optional
@@ -218,9 +213,11 @@ def add_hoist(
     roles = _crane(scene, what, crane)
     if not isinstance(falls, int) or isinstance(falls, bool) or falls < 1:
         raise SceneError.of(f"{what}: falls", f"is {shown(falls)}; give a whole number from 1 on")
-    if falls > 1 and rung in (RIGID, WITH_MASS):
-        raise SceneError(f"{what}: rung {rung!r} has one fall, and falls is {falls}; choose rung 'elastic'")
-    if not_negative_of(f"{what}: slack", slack) and (on is None or block_mass > 0.0 or rung != ELASTIC):
+    if falls > 1 and (rung == RIGID or wire is not None):
+        raise SceneError(f"{what}: a rigid line or one with mass has one fall, and falls is {falls}")
+    if not_negative_of(f"{what}: slack", slack) and (
+        on is None or block_mass > 0.0 or rung != ELASTIC or wire
+    ):
         raise SceneError.of(
             f"{what}: slack",
             f"is {slack:g} m, and a line is slack by its length where it is elastic and has no "
@@ -230,15 +227,13 @@ def add_hoist(
     if stand is not None and on is None:
         raise SceneError(f"{what}: has feet and no deck; give on=, the body that they stand on")
     _require_keys(what, "feet", stand, FEET_KEYS)
-    if wire is not None and rung != WITH_MASS:
-        raise SceneError(f"{what}: rung {rung!r} takes no wire; leave it out, or choose rung {WITH_MASS!r}")
-    _require_keys(what, "wire", wire, WIRE_KEYS)
-    if rung in (QUASI_STATIC, WITH_MASS) and drive is not None and not drive.get("lag"):
+    heavy = None if wire is None else made_of(what, "wire", Wire, wire)
+    if (rung == QUASI_STATIC or heavy) and drive is not None and not drive.get("lag"):
         raise SceneError(
-            f"{what}: rung {rung!r} needs a smooth length, and its winch has no lag; give one, such as "
+            f"{what}: its line needs a smooth length, and its winch has no lag; give one, such as "
             "winch={\"lag\": 0.1}, or rung 'elastic'"
         )
-    rig = Slings(**slings) if isinstance(slings, Mapping) else slings
+    rig = None if slings is None else made_of(what, "slings", Slings, slings)
     not_negative_of(f"{what}: block_mass", block_mass)
     if rig is not None and block_mass == 0.0:
         raise SceneError(f"{what}: slings hang on a block, and block_mass is 0; give its mass in kg")
@@ -258,7 +253,7 @@ def add_hoist(
             hook = (_add_block(scene, what, name, load, block_mass, rig), (0.0, 0.0, 0.0))
         weight = scene.gravity * (block_mass + (0.0 if on else scene.bodies[load].mass))
         _tie(scene, what, name, roles.tip, hook, falls, weight,
-             {"EA": EA, "stiffness": stiffness}, rung, mass_per_length, wire, slack)  # fmt: skip
+             {"EA": EA, "stiffness": stiffness}, rung, heavy, slack)  # fmt: skip
         if roles.structure is not None:
             _preload(scene, roles.structure, weight)
         note_rating(scene, rating_of(name, breaking_load, safety_factor))
@@ -431,8 +426,7 @@ def _add_block(scene: Description, what: str, name: str, load: str, mass: float,
 
 def _tie(
     scene: Description, what: str, name: str, tip: Place, hook: Place, falls: int, weight: float,
-    given: Mapping[str, float | None], rung: Rung, mass_per_length: float, wire: Mapping[str, Any] | None,
-    slack: float,
+    given: Mapping[str, float | None], rung: Rung, wire: Wire | None, slack: float,
 ) -> None:  # fmt: skip
     """The line over its falls, which carries a weight (N) from the start, or is slack."""
     ends = [tip, hook]
@@ -452,16 +446,11 @@ def _tie(
     if axial is None:
         axial = positive_of(f"{what}: stiffness", given["stiffness"]) * drop / falls
     pull = weight / falls
-    if rung == WITH_MASS:
-        own = not_negative_of(f"{what}: mass_per_length", mass_per_length) * scene.gravity * drop
+    if wire is not None:
+        own = not_negative_of(f"{what}: mass_per_length", wire.mass_per_length) * scene.gravity * drop
         length = drop / (1.0 + (pull + 0.5 * own) / positive_of(f"{what}: EA", axial))
-        add_line(scene, name, bodies=bodies, points=points, rung=rung, EA=axial, length=length,
-                 mass_per_length=mass_per_length, **(wire or {}))  # fmt: skip
+        add_line(scene, name, bodies=bodies, points=points, rung=rung, EA=axial, length=length, wire=wire)
         return
-    if mass_per_length:
-        raise SceneError(
-            f"{what}: rung {rung!r} has no mass; leave mass_per_length out, or choose 'with mass'"
-        )
     add_line(
         scene, name, bodies=bodies, points=points, rung=rung, EA=axial,
         length=falls * (drop + slack) if slack else None, tension_at_start=None if slack else pull,
