@@ -83,6 +83,7 @@ WITH_MASS = "import the values from seacrane.scene; rung='with mass' goes, and s
 CALLS = {
     "add_hydraulic_cylinder": Call("add_hydraulic_cylinder", values=OIL, note=IMPORTED),
     "add_line": Call("add_line", values=LINE, note=WITH_MASS),
+    "add_vessel": Call("add_vessel", renamed={"mooring_period": "mooring"}),
     "add_gas_spring": Call("add_gas_spring", values=GAS, note=IMPORTED),
     "add_heave_compensation": Call("add_heave_compensation", values=DRIVE, note=IMPORTED),
     "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),
@@ -167,7 +168,7 @@ def _changes(tree: ast.AST) -> Iterator[Change]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and (old := _called(node.func)) in CALLS:
             new = CALLS[old]
-            if old == new.name and not {one.arg for one in node.keywords} & new.values.keys():
+            if old == new.name and not {one.arg for one in node.keywords} & {*new.values, *new.renamed}:
                 continue
             yield node, _written(node, new), f"{old} is {new.name}; {new.note}".rstrip("; ")
         elif isinstance(node, ast.Dict) and (named := _oil_in(node)):

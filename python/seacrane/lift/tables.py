@@ -41,6 +41,7 @@ from seacrane.scene import (
 )
 from seacrane.scene.add_crane import add_crane
 from seacrane.scene.ballast import add_ballast
+from seacrane.scene.hung_load import Slings
 from seacrane.scene.line_fluid import Seabed, Wire
 from seacrane.scene.scene import Scene
 from seacrane.scene.wind_current import gust_curve
@@ -127,7 +128,7 @@ PISTON = (
     Key(name="rod_side", type="number", unit="m2", required=True, text="Area of the rod side."),
 )
 SLINGS = keys_of(
-    hoist.Slings,
+    Slings,
     more={
         "EA": {"unit": "N"},
         "length": LENGTH,

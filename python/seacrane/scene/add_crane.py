@@ -47,24 +47,12 @@ FOOT: Vector = (33.0, 10.0, 10.0)
 
 
 def add_crane(
-    scene: Description,
-    crane: Crane | None = None,
-    *,
-    base: str = "vessel",
-    foot: Vector = FOOT,
-    slew: float = 0.0,
-    s1: float = 0.0,
-    s2: float = 0.0,
-    coordinates: Mapping[str, float] | None = None,
-    payload: Payload | None = None,
-    payload_mass: float | None = None,
-    damping: bool = True,
-    held: bool | None = None,
-    hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
-    design_factor: float = 1.0,
-    stiffness: float | None = None,
-    prefix: str = "",
-) -> CraneRoles:
+    scene: Description, crane: Crane | None = None, *, base: str = "vessel", foot: Vector = FOOT,
+    slew: float = 0.0, s1: float = 0.0, s2: float = 0.0, coordinates: Mapping[str, float] | None = None,
+    payload: Payload | None = None, payload_mass: float | None = None, damping: bool = True,
+    held: bool | None = None, hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
+    design_factor: float = 1.0, stiffness: float | None = None, prefix: str = "",
+) -> CraneRoles:  # fmt: skip
     """Add a crane, and a payload at rest; its coordinates are recorded and keep the data file's ranges.
 
     Parameters

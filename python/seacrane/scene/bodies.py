@@ -32,21 +32,12 @@ LARGEST, FARTHEST = 1000.0, 1e5  # m: of a mesh, and from the body's origin
 
 @told_by(_core.Body)
 def add_body(
-    scene: Description,
-    name: str,
-    *,
-    mass: float,
-    inertia: Any = None,
-    center_of_mass: Any = (0.0, 0.0, 0.0),
-    position: Any = (0.0, 0.0, 0.0),
-    quaternion: Any = (1.0, 0.0, 0.0, 0.0),
-    velocity: Any = (0.0, 0.0, 0.0),
-    angular_velocity: Any = (0.0, 0.0, 0.0),
-    gravity: bool = True,
-    size: Any = None,
-    below: str | None = None,
-    drop: float = 0.0,
-) -> _core.Body:
+    scene: Description, name: str, *, mass: float, inertia: Any = None,
+    center_of_mass: Any = (0.0, 0.0, 0.0), position: Any = (0.0, 0.0, 0.0),
+    quaternion: Any = (1.0, 0.0, 0.0, 0.0), velocity: Any = (0.0, 0.0, 0.0),
+    angular_velocity: Any = (0.0, 0.0, 0.0), gravity: bool = True, size: Any = None,
+    below: str | None = None, drop: float = 0.0,
+) -> _core.Body:  # fmt: skip
     """Add a rigid body.
 
     Parameters
@@ -153,12 +144,6 @@ class Mesh:
     def _content(self) -> tuple[str, str, bytes, bytes]:
         return self.name, self.body, self.vertices.tobytes(), self.faces.tobytes()
 
-    def __copy__(self) -> Mesh:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Mesh:
-        return self
-
     def __reduce__(self) -> tuple[Any, ...]:  # arrays come back from a pickle writeable
         return partial(Mesh, name=self.name, body=self.body, vertices=self.vertices, faces=self.faces), ()
 
@@ -208,8 +193,13 @@ def add_mesh(
     require(scene, "mesh", "body", body)
     what = f"mesh {name_of('mesh', name, body)!r}"
     points, triangles = _given(what, file, vertices, faces)
-    points = _placed(what, points, triangles, scale, frame)
-    mesh = _mesh(scene, name or body, body, points, triangles)
+    factor = number_of(f"{what}: scale", scale)
+    if not (np.isfinite(factor) and factor > 0.0):
+        raise SceneError.of(f"{what}: scale", f"is {factor:g}; give a positive number, such as 1e-3 for mm")
+    if frame is not None and not isinstance(frame, _core.Frame):
+        raise SceneError.of(f"{what}: frame", f"is {shown(frame)}; give a seacrane.Frame")
+    frame = _core.Frame() if frame is None else frame
+    mesh = _mesh(scene, name or body, body, points, triangles, factor, frame)
     return insert("mesh", scene.meshes, mesh)
 
 
@@ -242,30 +232,22 @@ def _from_arrays(what: str, vertices: Any, faces: Any) -> tuple[Array, Faces]:
     return points, corners
 
 
-def _placed(what: str, points: Array, faces: Faces, scale: Any, frame: Any) -> Array:
-    """Points in body coordinates, m."""
-    factor = number_of(f"{what}: scale", scale)
-    if not (np.isfinite(factor) and factor > 0.0):
-        raise SceneError.of(f"{what}: scale", f"is {factor:g}; give a positive number, such as 1e-3 for mm")
-    if frame is not None and not isinstance(frame, _core.Frame):
-        raise SceneError.of(f"{what}: frame", f"is {shown(frame)}; give a seacrane.Frame")
+def _mesh(
+    scene: Description, name: str, body: str, points: Array, faces: Any, factor: float, frame: _core.Frame
+) -> Mesh:
+    """The mesh in body coordinates, m, once it is one that can be drawn."""
+    what = f"mesh {name!r}"
     if not np.isfinite(points).all():
         raise SceneError(f"{what}: vertices hold a coordinate that is not finite; repair it")
     with np.errstate(over="ignore"):
         size = float(factor * np.ptp(points, axis=0).max())
+        points = np.asarray((factor * points) @ np.asarray(frame.axes).T + np.asarray(frame.point))
     if size > LARGEST:
         raise SceneError(
             f"{what}: is {size:.4g} m large, above {LARGEST:g} m; if it is in mm give scale="
             f"{1e-3 * factor:g}, else draw a part of it"
         )
-    frame = _core.Frame() if frame is None else frame
-    return np.asarray((factor * points) @ np.asarray(frame.axes).T + np.asarray(frame.point))
-
-
-def _mesh(scene: Description, name: str, body: str, points: Array, faces: Any) -> Mesh:
-    """The mesh, once it is one that can be drawn."""
-    what = f"mesh {name!r}"
-    if not np.isfinite(points).all() or np.abs(points).max() > FARTHEST:
+    if np.abs(points).max() > FARTHEST:
         raise SceneError(
             f"{what}: has a vertex more than {FARTHEST:g} m from its body; check scale and frame"
         )
@@ -301,9 +283,7 @@ def mesh_from_node(node: Node, scene: Description) -> None:
         node.at("body").fail("give a body of the scene")
     with node.scene_errors():
         name = name_of("mesh", node.at("name").text())
-        if len(points) and np.isfinite(points).all():
-            points = _placed(f"mesh {name!r}", points, faces, 1.0, None)
-        insert("mesh", scene.meshes, _mesh(scene, name, body, points, faces))
+        insert("mesh", scene.meshes, _mesh(scene, name, body, points, faces, 1.0, _core.Frame()))
 
 
 def _bytes(node: Node) -> bytes:

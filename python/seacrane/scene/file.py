@@ -92,10 +92,6 @@ def _no_constant(name: str) -> Any:
     raise ValueError(f"{name} is not a number; give a finite one")
 
 
-def _add_rating(scene: Description, **entries: Any) -> None:
-    note_rating(scene, rating_of(**entries))
-
-
 _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what it holds, and how it is added
     "bodies": (_core.Body, add_body),
     "joints": (_core.Joint, add_joint),
@@ -112,7 +108,7 @@ _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what i
     "limit_states": (LimitState, add_limit_state),
     "clearances": (Clearance, add_clearance),
     "channels": (OwnChannel, add_channel),
-    "ratings": (Rating, _add_rating),
+    "ratings": (Rating, lambda scene, **entries: note_rating(scene, rating_of(**entries))),
     "lift_factors": (LiftFactors, add_lift_factors),
 }
 
@@ -219,19 +215,16 @@ def _elements(scene: Description) -> dict[str, Any]:
     """All but the databases of its vessels, on which no motion depends."""
     held = vars(scene) | {key: float(getattr(scene, key)) for key in SETTINGS}
     held |= {key: [*held[key].values()] for key in (*_ADD, "roles")}
-    made = {
-        "loads": [{"kind": kind_of(one), **_load_entries(one)} for one in held["loads"]],
+    loads = [(kind_of(one), plain_data("load", one)) for one in held["loads"]]
+    made = {  # an entry "kind" of a load's own goes by the kind's name
+        "loads": [{"kind": kind} | {kind if key == "kind" else key: one for key, one in load.items()}
+                  for kind, load in loads],
         "joints": [{**plain_data("joint", one), "parameters": one.parameters} for one in held["joints"]],
         "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
-    }
+    }  # fmt: skip
     what = f"scene {scene.name!r}"
     plain = {key: made[key] if key in made else plain_data(f"{what}: {key}", held[key]) for key in _FIELDS}
     return {"format": FORMAT, "version": FILE_VERSION, **plain}
-
-
-def _load_entries(load: Any) -> dict[str, Any]:
-    """Of a load; an entry "kind" of its own goes by the kind's name."""
-    return {kind_of(load) if key == "kind" else key: one for key, one in plain_data("load", load).items()}
 
 
 def _add(scene: Description, kind: str, node: Node) -> None:

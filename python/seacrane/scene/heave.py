@@ -68,21 +68,10 @@ VALUES: dict[str, type[Any]] = {"drive": Drive, "gas": Gas, "stops": Stops}
 
 @told_by(_core.HeaveCompensator)
 def add_heave_compensation(
-    scene: Description,
-    name: str,
-    *,
-    body: str,
-    point: Any = ORIGIN,
-    winch: str | None = None,
-    actuator: str | None = None,
-    ratio: float | None = None,
-    direction: Any = UP,
-    gain: float = 1.0,
-    high_pass: float = 0.03,
-    lag: float = 0.0,
-    lag_order: float = 1,
-    drive: Drive | None = None,
-) -> _core.HeaveCompensator:
+    scene: Description, name: str, *, body: str, point: Any = ORIGIN, winch: str | None = None,
+    actuator: str | None = None, ratio: float | None = None, direction: Any = UP, gain: float = 1.0,
+    high_pass: float = 0.03, lag: float = 0.0, lag_order: float = 1, drive: Drive | None = None,
+) -> _core.HeaveCompensator:  # fmt: skip
     """Let a winch or an actuator take the motion of a point away: active heave compensation.
 
     The motion of the point along the direction, behind a high-pass filter, a lag and a drive, is the stroke,
@@ -153,21 +142,10 @@ def _ratio(scene: Description, what: str, winch: str | None, actuator: str | Non
 
 @told_by(_core.GasSpring)
 def add_gas_spring(
-    scene: Description,
-    name: str,
-    *,
-    first: str,
-    second: str,
-    area: float,
-    gas: Gas,
-    first_point: Any = ORIGIN,
-    second_point: Any = ORIGIN,
-    length: float | None = None,
-    pushes: bool = False,
-    damping: float = 0.0,
-    quadratic_damping: float = 0.0,
-    stops: Stops | None = None,
-) -> _core.GasSpring:
+    scene: Description, name: str, *, first: str, second: str, area: float, gas: Gas,
+    first_point: Any = ORIGIN, second_point: Any = ORIGIN, length: float | None = None, pushes: bool = False,
+    damping: float = 0.0, quadratic_damping: float = 0.0, stops: Stops | None = None,
+) -> _core.GasSpring:  # fmt: skip
     """Join two points by a cylinder on a gas accumulator: passive heave compensation.
 
     Its tension is p area, with p V^exponent constant; lengthening compresses the gas. About the length it has

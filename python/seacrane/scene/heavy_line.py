@@ -183,7 +183,11 @@ def chain_of_segments(
     """
     what = f"line {name!r}"
     first, last = _ends(scene, what, bodies, points)
-    count = _count(what, wire.segments)
+    count = wire.segments
+    if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 1 <= count <= MOST_SEGMENTS:
+        raise SceneError.of(
+            f"{what}: segments", f"is {count!r}; give a whole number from 1 to {MOST_SEGMENTS}"
+        )
     span = float(np.linalg.norm(last.place - first.place))
     wound = length if isinstance(length, _core.Curve) else None
     given = float(wound.evaluate([0.0])[0, 0]) if wound is not None else length
@@ -364,11 +368,3 @@ def _shape(what: str, chain: Chain) -> Array:
             "are not one above the other, or gravity",
         )
     return np.arange(1, chain.count)[:, None] / chain.count * chain.span
-
-
-def _count(what: str, segments: Any) -> int:
-    if isinstance(segments, bool) or not isinstance(segments, (int, np.integer)):
-        raise SceneError.of(f"{what}: segments", f"is {segments!r}; give a whole number")
-    if not 1 <= segments <= MOST_SEGMENTS:
-        raise SceneError.of(f"{what}: segments", f"is {segments}; give 1 to {MOST_SEGMENTS}")
-    return int(segments)

@@ -28,30 +28,14 @@ from seacrane.scene.edit import replace_element
 
 @told_by(_core.HydraulicCylinder)
 def add_hydraulic_cylinder(
-    scene: Description,
-    name: str,
-    *,
-    first: str,
-    second: str,
-    full_area: float,
-    rod_side_area: float,
-    retracted_length: float,
-    stroke: float,
-    first_point: Any = ORIGIN,
-    second_point: Any = ORIGIN,
-    chamber: of.Chamber | None = None,
-    rod_chamber: of.Chamber | None = None,
-    oil: of.Oil | None = None,
-    pump: of.Pump | None = None,
-    valve: of.Valve | None = None,
-    command: _core.Curve | float | None = None,
-    reference: _core.Curve | float | None = None,
-    relief: of.Relief | None = None,
-    counterbalance: of.Counterbalance | None = None,
-    accumulator: of.Accumulator | None = None,
-    piston: of.Piston | None = None,
-    rupture: of.Rupture | None = None,
-) -> _core.HydraulicCylinder:
+    scene: Description, name: str, *, first: str, second: str, full_area: float, rod_side_area: float,
+    retracted_length: float, stroke: float, first_point: Any = ORIGIN, second_point: Any = ORIGIN,
+    chamber: of.Chamber | None = None, rod_chamber: of.Chamber | None = None, oil: of.Oil | None = None,
+    pump: of.Pump | None = None, valve: of.Valve | None = None, command: _core.Curve | float | None = None,
+    reference: _core.Curve | float | None = None, relief: of.Relief | None = None,
+    counterbalance: of.Counterbalance | None = None, accumulator: of.Accumulator | None = None,
+    piston: of.Piston | None = None, rupture: of.Rupture | None = None,
+) -> _core.HydraulicCylinder:  # fmt: skip
     """Join two points by a hydraulic cylinder: pressures of both chambers, valves, pump, leakage, friction.
 
     Its states are "<name>.pressure", "<name>.pressure_rod", "<name>.spool" and, of an accumulator,

@@ -15,7 +15,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, name_of, positive_of, shaped_of, text_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.shown import shown
-from seacrane.inputs.values import told_by
+from seacrane.inputs.values import made_of, told_by
 from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.mesh_part import from_mesh
 from seacrane.water.openings import Opening
@@ -167,10 +167,6 @@ def add_entrapped_water(
     name : str, optional
         Default: "water in <body>".
 
-    Returns
-    -------
-    EntrappedWater
-
     Raises
     ------
     SceneError
@@ -193,8 +189,12 @@ def add_entrapped_water(
     holes = _openings(what, openings)
     bottom, tall = shaped_of(f"{what}: point", point, (3,)), positive_of(f"{what}: height", height, "m")
     kept = _air(what, air, [np.asarray(hole.point, dtype=float)[2] - bottom[2] for hole in holes], tall)
+    if (kept == "shut") == (exponent is None):
+        asked = "give exponent, 1 (slow) to 1.4 (quick)" if exponent is None else "leave exponent out"
+        raise SceneError.of(f"{what}: air", f"is {kept!r}, and exponent is {shown(exponent)}; {asked}")
     element = _core.EntrappedWater(
-        name=label, body=body, point=bottom, air=kept, exponent=_exponent(what, kept, exponent),
+        name=label, body=body, point=bottom, air=kept,
+        exponent=0.0 if exponent is None else finite_of(f"{what}: exponent", exponent),
         area=area, height=tall, air_pressure=air_pressure, initial=initial, wave_factor=wave_factor,
         opening_points=np.array([np.asarray(hole.point, dtype=float) for hole in holes]),
         opening_areas=[float(hole.area) for hole in holes],
@@ -207,18 +207,7 @@ def add_entrapped_water(
 def _openings(what: str, given: Any) -> list[Opening]:
     if isinstance(given, Mapping | str) or not isinstance(given, Sequence) or not given:
         raise SceneError.of(f"{what}: openings", f"is {shown(given)}; give a list of seacrane.water.Opening")
-    return [_opening(what, one) for one in given]
-
-
-def _opening(what: str, given: Any) -> Opening:
-    if isinstance(given, Opening):
-        return given
-    if not isinstance(given, Mapping):
-        raise SceneError.of(f"{what}: openings", f"holds {shown(given)}; give seacrane.water.Opening")
-    try:
-        return Opening(**given)
-    except TypeError as error:
-        raise SceneError(f"{what}: {error}") from None
+    return [made_of(what, "openings", Opening, one) for one in given]
 
 
 def _air(what: str, given: str | None, heights: list[float], top: float) -> str:
@@ -228,13 +217,6 @@ def _air(what: str, given: str | None, heights: list[float], top: float) -> str:
     if given not in AIR:
         raise SceneError.of(f"{what}: air", f"is {shown(given)}; give one of {', '.join(AIR)}")
     return given
-
-
-def _exponent(what: str, air: str, given: float | None) -> float:
-    if (air == "shut") == (given is None):
-        asked = "give exponent, 1 (slow) to 1.4 (quick)" if given is None else "leave exponent out"
-        raise SceneError.of(f"{what}: air", f"is {air!r}, and exponent is {shown(given)}; {asked}")
-    return 0.0 if given is None else finite_of(f"{what}: exponent", given)
 
 
 def _check_upright(what: str, body: _core.Body) -> None:

@@ -129,10 +129,6 @@ def add_lift_factors(
     sources : mapping of str to str, optional
         By these names, such as ``{"skew_load": "DNV-ST-N001, the edition and its table"}``.
 
-    Returns
-    -------
-    LiftFactors
-
     Raises
     ------
     SceneError
@@ -141,15 +137,14 @@ def add_lift_factors(
     given: dict[str, Any] = {key: one for key, one in locals().items() if key not in ("scene", "load")}
     what = f"lift factors of {load!r}"
     require(scene, "lift factors", "load", load)
-    for key in AT_LEAST_ONE:
-        _factor(what, key, given[key])
+    skews = vector_of(f"{what}: skew_load", np.atleast_1d(np.asarray(skew_load, dtype=object)))
+    for key, value in (*((key, given[key]) for key in AT_LEAST_ONE), *(("skew_load", one) for one in skews)):
+        if value is not None and not 1.0 <= number_of(f"{what}: {key}", value) <= LARGEST:
+            raise SceneError.of(f"{what}: {key}", f"is {value:g}; give a factor from 1 to {LARGEST:g}")
     if shackle_breaking_load is not None:
         positive_of(f"{what}: shackle_breaking_load", shackle_breaking_load, "N")
     if not 0.0 < number_of(f"{what}: alpha", alpha) <= 1.0:
         raise SceneError.of(f"{what}: alpha", f"is {alpha:g}; give operational over design Hs, above 0 to 1")
-    skews = vector_of(f"{what}: skew_load", np.atleast_1d(np.asarray(skew_load, dtype=object)))
-    for skew in skews:
-        _factor(what, "skew_load", skew)
     x, y, z = np.abs(shaped_of(f"{what}: center_of_gravity", center_of_gravity, (3,))).tolist()
     if not all(map(math.isfinite, (x, y, z))):
         raise SceneError.of(
@@ -158,11 +153,6 @@ def add_lift_factors(
     given |= {"center_of_gravity": (x, y, z), "skew_load": tuple(skews), "alpha": float(alpha)}
     factors = LiftFactors(name=load, **given | {"sources": _sources(what, sources or {})})
     return insert("lift factors", scene.lift_factors, factors)
-
-
-def _factor(what: str, key: str, value: Any) -> None:
-    if value is not None and not 1.0 <= number_of(f"{what}: {key}", value) <= LARGEST:
-        raise SceneError.of(f"{what}: {key}", f"is {value:g}; give a factor from 1 to {LARGEST:g}")
 
 
 def _sources(what: str, given: Any) -> dict[str, str]:

@@ -216,10 +216,6 @@ def add_contact(
     name : str, optional
         Default: "<body> on <on>".
 
-    Returns
-    -------
-    Contact
-
     Raises
     ------
     SceneError

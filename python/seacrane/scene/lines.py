@@ -54,32 +54,16 @@ class Sheaves:
 
 @told_by(_core.Line)
 def add_line(
-    scene: Description,
-    name: str | None = None,
-    first: str | None = None,
-    second: str | None = None,
-    *,
-    first_point: ArrayLike | None = None,
-    second_point: ArrayLike | None = None,
-    bodies: Sequence[str] | None = None,
-    points: ArrayLike | None = None,
-    joint: str | None = None,
-    EA: float | None = None,
-    length: _core.Curve | float | None = None,
-    tension_at_start: float | None = None,
-    rung: Rung = "elastic",
-    settling: float = 0.2,
-    damping_ratio: float = 0.02,
-    mass: float = 0.0,
-    sheaves: Sheaves | Mapping[str, Any] | None = None,
-    strains: ArrayLike = (),
-    tensions: ArrayLike = (),
-    restitution: float = 0.0,
-    sticking_speed: float = STICKING_SPEED,
-    wire: Wire | Mapping[str, Any] | None = None,
-    breaking_load: float | None = None,
-    safety_factor: float | None = None,
-) -> _core.Line | _core.Limit | list[_core.Line]:
+    scene: Description, name: str | None = None, first: str | None = None, second: str | None = None, *,
+    first_point: ArrayLike | None = None, second_point: ArrayLike | None = None,
+    bodies: Sequence[str] | None = None, points: ArrayLike | None = None, joint: str | None = None,
+    EA: float | None = None, length: _core.Curve | float | None = None,
+    tension_at_start: float | None = None, rung: Rung = "elastic", settling: float = 0.2,
+    damping_ratio: float = 0.02, mass: float = 0.0, sheaves: Sheaves | Mapping[str, Any] | None = None,
+    strains: ArrayLike = (), tensions: ArrayLike = (), restitution: float = 0.0,
+    sticking_speed: float = STICKING_SPEED, wire: Wire | Mapping[str, Any] | None = None,
+    breaking_load: float | None = None, safety_factor: float | None = None,
+) -> _core.Line | _core.Limit | list[_core.Line]:  # fmt: skip
     """A line, which pulls and never pushes: between two bodies, or over points and sheaves of several.
 
     What it is made of is its rung. "rigid": a length that is never exceeded; it snatches. "elastic": it
@@ -198,14 +182,12 @@ def _check_rung(what: str, rung: str, given: Mapping[str, Any]) -> None:
         rung = WITH_MASS
     usual = inspect.signature(add_line).parameters
     for keyword, one in given.items():
-        if rung in TAKEN_BY[keyword] or _alike(one, usual[keyword].default):
+        default = usual[keyword].default
+        left = one is default or (isinstance(one, type(default)) and bool(one == default))
+        if left or rung in TAKEN_BY[keyword]:
             continue
         others = " or ".join(map(repr, TAKEN_BY[keyword]))
         raise SceneError(f"{what}: a line {rung!r} takes no {keyword}; leave it out, or choose {others}")
-
-
-def _alike(value: Any, usual: Any) -> bool:
-    return value is usual or (isinstance(value, type(usual)) and bool(value == usual))
 
 
 def _refuse_second(what: str, has: str, *given: Any) -> None:

@@ -21,25 +21,13 @@ STRONGEST = 1e12  # N or W: likewise
 
 @told_by(_core.Line)
 def add_winch(
-    scene: Description,
-    line: str,
-    *,
-    rate: _core.Curve | float = 0.0,
-    maximum_rate: float = NO_BOUND,
-    maximum_acceleration: float = NO_BOUND,
-    lag: float = 0.0,
-    minimum_length: float = 0.1,
-    tension: _core.Curve | float = 0.0,
-    tension_gain: float = 0.0,
-    dead_band: float = 0.0,
-    drum_inertia: float = 0.0,
-    drum_radius: float = 0.0,
-    maximum_tension: float = STRONGEST,
-    maximum_power: float = STRONGEST,
-    brake: _core.Curve | float = 0.0,
-    brake_capacity: float = 0.0,
+    scene: Description, line: str, *, rate: _core.Curve | float = 0.0, maximum_rate: float = NO_BOUND,
+    maximum_acceleration: float = NO_BOUND, lag: float = 0.0, minimum_length: float = 0.1,
+    tension: _core.Curve | float = 0.0, tension_gain: float = 0.0, dead_band: float = 0.0,
+    drum_inertia: float = 0.0, drum_radius: float = 0.0, maximum_tension: float = STRONGEST,
+    maximum_power: float = STRONGEST, brake: _core.Curve | float = 0.0, brake_capacity: float = 0.0,
     brake_give: float = 1e-3,
-) -> _core.Line:
+) -> _core.Line:  # fmt: skip
     """Put a line on a winch: its unstretched length becomes a state, "<line>.length", driven by a rate.
 
     With a lag the rate is a state too, "<line>.rate". Input "<line>.rate" adds to the command during a run.

@@ -23,23 +23,13 @@ from seacrane.inputs.shown import shown
 
 
 def add_roles(
-    scene: Description,
-    *,
-    prefix: str = "",
-    slew: str | tuple[str, str] | None = None,
-    cylinders: Mapping[str, str] | None = None,
-    link: str | None = None,
-    line: str | None = None,
-    payload: str | None = None,
-    tip: tuple[str, Vector] | None = None,
-    capacity: Any = (),
-    areas: Mapping[str, Any] | None = None,
-    luffs: Mapping[str, str | tuple[str, str]] | None = None,
-    ropes: Mapping[str, LuffingRope] | None = None,
-    design_factor: float = 1.0,
-    held: bool = False,
+    scene: Description, *, prefix: str = "", slew: str | tuple[str, str] | None = None,
+    cylinders: Mapping[str, str] | None = None, link: str | None = None, line: str | None = None,
+    payload: str | None = None, tip: tuple[str, Vector] | None = None, capacity: Any = (),
+    areas: Mapping[str, Any] | None = None, luffs: Mapping[str, str | tuple[str, str]] | None = None,
+    ropes: Mapping[str, LuffingRope] | None = None, design_factor: float = 1.0, held: bool = False,
     structure: str | None = None,
-) -> CraneRoles:
+) -> CraneRoles:  # fmt: skip
     """Tell which elements are the parts of a crane that was described by hand; `add_crane` does it by itself.
 
     From the roles come the channels stroke, stroke_rate, cylinder_force, slew_angle, slew_torque and
@@ -89,18 +79,20 @@ def add_roles(
     what = f"crane {text_of('crane: prefix', prefix)!r}" if prefix else "crane"
     if prefix in scene.roles:
         raise SceneError(f"{what}: its prefix {prefix!r} is used twice; give each crane its own")
+    place: Any = tip
     if link is not None:
         kind = scene.joints[require(scene, what, "link", link, "joints")].kind
         if kind != "distance":
             raise SceneError(f"{what}: link {link!r} is a {kind} joint; give a distance joint")
         payload = scene.joints[link].second if payload is None else payload
-        tip = _start_of(scene, link) if tip is None else tip
+        start, body = scene.joints[link].first_frame.point, scene.joints[link].first
+        place = (body, start) if tip is None and body in scene.bodies else tip  # not on the ground
     if line is not None:
         if link is not None:
             raise SceneError(f"{what}: has link {link!r} and line {line!r}; its payload hangs on one of them")
         path = _path(scene, what, line)
         payload = path[-1][0] if payload is None else payload
-        tip = path[0] if tip is None else tip
+        place = path[0] if tip is None else tip
     if structure is not None:
         require(scene, what, "structure", structure, "joints")
         require(scene, what, "structure", structure, "springs")
@@ -108,13 +100,16 @@ def add_roles(
         require(scene, what, f"cylinder {label!r}", joint, "joints")
     if payload is not None:
         require(scene, what, "payload", payload)
+    if place is not None:
+        point = shaped_of(f"{what}: tip", place[1], (3,)).tolist()
+        place = require(scene, what, "tip", place[0]), tuple(point)
     hinges = {label: _drive(scene, f"{what}: luff {label!r}", one) for label, one in (luffs or {}).items()}
     for label, rope in (ropes or {}).items():
         _check_rope(scene, what, label, rope, hinges)
     parts |= {
         "payload": payload, "luffs": hinges, "ropes": ropes or {}, "cylinders": cylinders or {},
         "slew": None if slew is None else _drive(scene, f"{what}: slew", slew),
-        "tip": None if tip is None else _tip(scene, what, tip),
+        "tip": place,
         "capacity": capacity_of(what, capacity),
         "areas": areas_by_label(what, {} if areas is None else areas, cylinders or {}),
         "held": flag_of(f"{what}: held", held), "design_factor": design_factor_of(what, design_factor),
@@ -145,13 +140,6 @@ def _check_rope(
         )
 
 
-def _tip(scene: Description, what: str, tip: tuple[str, Vector]) -> tuple[str, Vector]:
-    body, point = tip
-    require(scene, what, "tip", body)
-    x, y, z = (float(value) for value in shaped_of(f"{what}: tip", point, (3,)))
-    return body, (x, y, z)
-
-
 def _path(scene: Description, what: str, line: str) -> list[tuple[str, Vector]]:
     """Bodies and points of a line by name, or of the segments of one with mass."""
     lines = lines_of(scene.loads)
@@ -160,10 +148,3 @@ def _path(scene: Description, what: str, line: str) -> list[tuple[str, Vector]]:
         known = ", ".join(dict.fromkeys(whole_of(name, one) for name, one in lines.items())) or "none"
         raise SceneError(f"{what}: its line is {line!r}, which is not in the scene, that has {known}")
     return [(body, tuple(map(float, at))) for one in parts for body, at in path_of(one)]  # type: ignore[misc]
-
-
-def _start_of(scene: Description, link: str) -> tuple[str, Vector] | None:
-    """Where a link begins, on its first body; None on the ground."""
-    joint = scene.joints[link]
-    x, y, z = np.asarray(joint.first_frame.point).tolist()
-    return (joint.first, (x, y, z)) if joint.first in scene.bodies else None

@@ -148,20 +148,11 @@ class FlowCoefficients:
 
 @told_by(_core.FlowForce)
 def add_wind(
-    scene: Description,
-    coefficients: FlowCoefficients | None = None,
-    *,
-    frontal_area: float,
-    lateral_area: float,
-    drag_coefficient: float | None = None,
-    length: float | None = None,
-    speed: float | _core.Curve | None = None,
-    direction_deg: float | None = None,
-    body: str = "vessel",
-    point: Any = None,
-    density: float = AIR,
-    name: str | None = None,
-) -> _core.FlowForce:
+    scene: Description, coefficients: FlowCoefficients | None = None, *, frontal_area: float,
+    lateral_area: float, drag_coefficient: float | None = None, length: float | None = None,
+    speed: float | _core.Curve | None = None, direction_deg: float | None = None, body: str = "vessel",
+    point: Any = None, density: float = AIR, name: str | None = None,
+) -> _core.FlowForce:  # fmt: skip
     """Add wind on a body by coefficients (DNV-RP-C205; OCIMF, Mooring Equipment Guidelines), or one of drag.
 
     F_x = density / 2 C_x frontal_area V^2, F_y = density / 2 C_y lateral_area V^2, N = density / 2 C_n
@@ -220,20 +211,11 @@ def add_wind(
 
 
 def add_current(
-    scene: Description,
-    coefficients: FlowCoefficients,
-    *,
-    speed: float | _core.Curve | None = None,
-    direction_deg: float | None = None,
-    frontal_area: float,
-    lateral_area: float,
-    length: float,
-    body: str = "vessel",
-    point: Any = (0.0, 0.0, 0.0),
-    density: float = SEA_WATER,
-    name: str = "current",
+    scene: Description, coefficients: FlowCoefficients, *, speed: float | _core.Curve | None = None,
+    direction_deg: float | None = None, frontal_area: float, lateral_area: float, length: float,
+    body: str = "vessel", point: Any = (0.0, 0.0, 0.0), density: float = SEA_WATER, name: str = "current",
     draught: float = 0.0,
-) -> _core.FlowForce:
+) -> _core.FlowForce:  # fmt: skip
     """Add current on a vessel by coefficients: `add_wind` with water, areas below the waterline.
 
     The velocity relative to the water is that of `point`, so the load also damps surge and sway; a turning
