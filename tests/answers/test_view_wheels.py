@@ -88,10 +88,9 @@ def test_sheaves_are_discs_about_their_axes_on_their_bodies() -> None:
     assert set(wheels(hoist(drum_on_path=True))) == {"hoist drum", "hoist sheave 2"}
     line = scene.loads["hoist"]
     for name, sign in (("again", 1.0), ("backwards", -1.0)):
-        scene.add_line(
-            name=name, bodies=line.bodies, points=[(10 if sign < 0 else 0, 0.0, 0.0), *line.points[1:]],
-            sheaves={"radii": line.radii, "axes": sign * line.axes}, EA=1e7, length=12.0,
-        )  # fmt: skip
+        scene.add_line(name=name, bodies=line.bodies, points=[(10 if sign < 0 else 0, 0.0, 0.0),
+                       *line.points[1:]], sheaves={"radii": line.radii, "axes": sign * line.axes}, EA=1e7,
+                       length=12.0)  # fmt: skip
     assert set(wheels(scene)) == set(found) == {"hoist drum", "hoist sheave 1"}
 
 

@@ -83,10 +83,9 @@ def test_what_the_line_does_not_carry_lies_on_the_seabed() -> None:
     """`start="rest"`: what the seabed bears and the pull of the ground are the weight of what is free."""
     scene = Scene(name="landed", gravity=10.0)
     scene.add_body(name="load", mass=200.0, inertia=(90.0,) * 3, position=(6.0, 0.0, -9.9))
-    scene.add_line(
-        "line", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), EA=2e5,
-        length=15.0, wire={"mass_per_length": 40.0, "segments": 6, "seabed": BED},
-    )  # fmt: skip
+    scene.add_line("line", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
+                   EA=2e5, length=15.0, wire={"mass_per_length": 40.0, "segments": 6,
+                   "seabed": BED})  # fmt: skip
     result = simulate(scene, t_end=1.0, dt_out=0.5, start="rest", rtol=1e-8)
     assert np.abs(result["velocity"]).max() < 1e-6
     place = {name: np.asarray(result.select("position", body=name))[-1] for name in scene.bodies}
@@ -139,11 +138,9 @@ def pulled(segments: int) -> float:
     scene = Scene(name="pulled", gravity=10.0)
     draw = Curve.quintic(start_time=0.0, end_time=4.0, start=0.0, end=0.013)
     add_led(scene, "sled", draw, place=(20.0, 0.0, -10.0 - sunk), axis=(1, 0, 0))
-    scene.add_line(
-        "line", "ground", "sled", first_point=(0.0, 0.0, -10.0 - sunk), second_point=(0.0, 0.0, 0.0),
-        EA=1e6, length=20.0 / (1.0 + strain), wire={"mass_per_length": 50.0, "segments": segments,
-        "seabed": BED | {"give": 1e-3}}, damping_ratio=0.3,
-    )  # fmt: skip
+    scene.add_line("line", "ground", "sled", first_point=(0.0, 0.0, -10.0 - sunk), second_point=(0.0, 0.0,
+                   0.0), EA=1e6, length=20.0 / (1.0 + strain), wire={"mass_per_length": 50.0,
+                   "segments": segments, "seabed": BED | {"give": 1e-3}}, damping_ratio=0.3)  # fmt: skip
     result = simulate(scene, t_end=5.0, dt_out=0.5, rtol=1e-8)
     last = np.asarray(result.select("line_tension", line=f"line.{segments}"))
     return float(last[-1] - last[0])

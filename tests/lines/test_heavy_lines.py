@@ -54,11 +54,9 @@ def test_drag_slows_a_line_across_and_not_along() -> None:
         scene = Scene(name="falling")
         for name, place in (("one", (0.0, 0.0, 0.0)), ("two", along)):
             scene.add_body(name=name, mass=100.0, inertia=(1.0, 1.0, 1.0), position=place)
-        scene.add_line(
-            name="line", bodies=["one", "two"], points=np.zeros((2, 3)), EA=1e6, length=50.0,
-            wire={"mass_per_length": 4.0, "segments": 1, "diameter": 0.1, "density": 1.2,
-            "drag_coefficient": 1.1},
-        )  # fmt: skip
+        scene.add_line(name="line", bodies=["one", "two"], points=np.zeros((2, 3)), EA=1e6, length=50.0,
+                       wire={"mass_per_length": 4.0, "segments": 1, "diameter": 0.1, "density": 1.2,
+                       "drag_coefficient": 1.1})  # fmt: skip
         speed = simulate(scene, t_end=5.0, rtol=1e-8).select("velocity", body="one")[:, 2]
         final = np.sqrt(400.0 * G / (0.5 * 1.2 * 1.1 * area)) if area else 1e9
         assert speed[-1] == pytest.approx(-final * np.tanh(5.0 * G / final), rel=1e-6 if area else 1e-9)

@@ -24,10 +24,9 @@ def hauled(length: Curve | float, *, rung: Any) -> Scene:
     """Taut, with a load that swings."""
     scene = Scene(name="hauled", gravity=G)
     scene.add_body(name="load", mass=4e3, inertia=(9e2, 8e2, 7e2), position=(1.0, 0.0, -FIRST))
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), EA=4e6,
-        length=length, wire={"mass_per_length": 40.0, "segments": 4}, rung=rung,
-    )  # fmt: skip
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
+                   EA=4e6, length=length, wire={"mass_per_length": 40.0, "segments": 4},
+                   rung=rung)  # fmt: skip
     if not isinstance(length, Curve):
         scene.add_winch("wire", rate=asked(LAG), lag=LAG)
     return scene
@@ -219,10 +218,9 @@ def test_at_a_steady_rate_an_upright_line_carries_its_weight_as_at_rest(directio
     scene.add_body(name="load", mass=4e3, inertia=(4e3,) * 3,
                    position=(0.0, 0.0, -first * (1.0 + tension / 1e9)))  # fmt: skip
     paid = Curve.quintic(start_time=0.0, end_time=120.0, start=first, end=last)
-    scene.add_line(
-        "wire", "ground", "load", EA=1e9, length=paid, wire={"mass_per_length": MU, "segments": 6},
-        first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), rung="quasi-static",
-    )  # fmt: skip
+    scene.add_line("wire", "ground", "load", EA=1e9, length=paid, wire={"mass_per_length": MU, "segments": 6},
+                   first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
+                   rung="quasi-static")  # fmt: skip
     result = simulate(scene, t_end=120.0, dt_out=20.0, rtol=1e-6)
     here = paid.evaluate(np.asarray(result.time))
     upper, lower = heavy_line_tension(result, line="wire").T

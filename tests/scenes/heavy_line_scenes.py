@@ -73,10 +73,9 @@ def string(count: int) -> Scene:
     scene = Scene(name="string", gravity=0.0)
     scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(50.0, 0.0, 0.0))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_line(
-        name="line", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e6,
-        length=50.0 / (1.0 + strain), wire={"mass_per_length": 2.0 * (1.0 + strain), "segments": count},
-    )  # fmt: skip
+    scene.add_line(name="line", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e6,
+                   length=50.0 / (1.0 + strain), wire={"mass_per_length": 2.0 * (1.0 + strain),
+                   "segments": count})  # fmt: skip
     return scene
 
 
@@ -87,11 +86,9 @@ def in_waves(length: Curve | float, *, seed: int = 3, rung: Any = "elastic") -> 
                   current=Current(depth=0.0, speed=0.8, direction_deg=20.0))  # fmt: skip
     scene.add_body(name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
                    velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6))  # fmt: skip
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4), EA=2e5,
-        length=length, wire={"mass_per_length": 40.0, "diameter": 0.25, "medium": "sea", "segments": 4},
-        rung=rung,
-    )  # fmt: skip
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4),
+                   EA=2e5, length=length, wire={"mass_per_length": 40.0, "diameter": 0.25, "medium": "sea",
+                   "segments": 4}, rung=rung)  # fmt: skip
     return scene
 
 
@@ -103,11 +100,9 @@ def dropped(*, friction: float = 0.5, segments: int = 6, **given: Any) -> Scene:
     scene = Scene(name="dropped")
     scene.add_body(name="load", mass=300.0, inertia=(90.0, 80.0, 70.0), position=(14.0, 2.0, -8.5),
                    velocity=(1.0, 2.0, -0.5), angular_velocity=(0.2, -0.1, 0.3))  # fmt: skip
-    scene.add_line(
-        "line", "ground", "load", first_point=(0.0, 0.0, -4.0), second_point=(0.1, -0.2, 0.1), EA=2e5,
-        length=16.0, damping_ratio=0.1,
-        wire={"mass_per_length": 40.0, "segments": segments, "seabed": BED | {"friction": friction}, **given},
-    )  # fmt: skip
+    scene.add_line("line", "ground", "load", first_point=(0.0, 0.0, -4.0), second_point=(0.1, -0.2, 0.1),
+                   EA=2e5, length=16.0, damping_ratio=0.1, wire={"mass_per_length": 40.0,
+                   "segments": segments, "seabed": BED | {"friction": friction}, **given})  # fmt: skip
     return scene
 
 

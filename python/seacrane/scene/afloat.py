@@ -154,13 +154,9 @@ def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
 
 
 def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, float] | None:
-    """N m/rad that additional causes (roll tanks) take from C44: as used, least and most of all fits.
+    """N m/rad that additional causes (roll tanks) take from C44: as used (6, 6), least and most of all fits.
 
     A table of matrices by frequency does not tell a static stiffness: it is what a fit extends them to.
-
-    Parameters
-    ----------
-    used : (6, 6) `additional_stiffness` of the model that a vessel has.
     """
     if not database.additional:
         return None

@@ -173,13 +173,11 @@ def chain_of_segments(
     scene: Description, name: str, bodies: Any, points: Any, wire: Wire, *, EA: float | None, length: Any,
     damping_ratio: float, rung: str, settling: float,
 ) -> list[_core.Line]:  # fmt: skip
-    """A line with mass between two points: equal elastic segments with point masses between them.
+    """A line with mass between two points, in its rest shape; keywords as of `Scene.add_line`.
 
-    Adds the lines and bodies "<name>.1", "<name>.2", ... from the first end on, segments and one body less;
-    half a segment's mass sits at either end, on bodies "<name>.first" and "<name>.last" that are welded to
-    what is not the ground. It starts in its rest shape. Keywords as of `Scene.add_line`; `rung` is that of
-    every segment. With a curve for its length the masses stay at equal shares of it, and what they gain and
-    what moves past them is "<name>.1 winding", ...; so they do on a winch (`on_a_winch`).
+    Lines and bodies are "<name>.1", ... from the first end on; half a segment's mass sits at either end, on
+    bodies "<name>.first" and "<name>.last" that are welded to what is not the ground. With a curve for its
+    length the masses stay at equal shares of it, and what moves past them is "<name>.1 winding", ...
     """
     what = f"line {name!r}"
     first, last = _ends(scene, what, bodies, points)

@@ -31,13 +31,7 @@ class Rating:
 
 
 def rating_of(name: str, breaking_load: float | None, safety_factor: float | None) -> Rating | None:
-    """What a line breaks at; None where no breaking load is given.
-
-    Raises
-    ------
-    SceneError
-        For a breaking load that is not positive, and a safety factor below 1 or without one.
-    """
+    """What a line breaks at; None without a breaking load. SceneError for a factor below 1, or alone."""
     what = f"line {name!r}"
     if breaking_load is None:
         if safety_factor is not None:

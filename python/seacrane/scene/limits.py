@@ -52,13 +52,7 @@ def _limit(
 def add_wire(
     scene: Description, joint: str, restitution: float, sticking_speed: float, name: str | None
 ) -> _core.Limit:
-    """Let a distance joint pull only: it goes slack when its tension would turn negative, and snatches.
-
-    Slack, its ends move freely within its length. Stretched again, an impact keeps momentum, in the mass
-    metric, over all joints: M (v+ - v-) = D^T Lambda; the rate of its length turns to -restitution times what
-    it was. It starts slack if its points are described closer than its length, by more than 1e-6 of it, or
-    approach each other.
-    """
+    """Let a distance joint pull only: it goes slack where its tension would turn negative, and snatches."""
     return _limit(scene, "wire", joint, name, restitution=restitution, sticking_speed=sticking_speed)
 
 

@@ -253,10 +253,7 @@ def path_between(
 
 
 def hung_from(scene: Description, body: str) -> tuple[float, float, float]:
-    """Where a line is tied to a body unless a point is given, in its coordinates, m.
-
-    That is the top centre of a body that has a size, else its origin.
-    """
+    """Where a line is tied by default, body coordinates, m: the top centre of a size, else the origin."""
     described = scene.bodies.get(body)
     if described is None or not np.any(described.size):
         return (0.0, 0.0, 0.0)
@@ -265,13 +262,7 @@ def hung_from(scene: Description, body: str) -> tuple[float, float, float]:
 
 
 def starting_length(scene: Description, line: _core.Line, tension: float | None) -> float:
-    """The unstretched length at which a line carries a tension (N) along its path as described, m.
-
-    Parameters
-    ----------
-    line : Its own length does not count.
-    tension : 0 or None: the length is that of the path.
-    """
+    """Unstretched length, m, with which a line carries a tension (N; None: 0) along its path as described."""
     what = f"line {line.name!r}"
     pull = 0.0 if tension is None else number_of(f"{what}: tension_at_start", tension)
     if not (np.isfinite(pull) and pull >= 0.0):

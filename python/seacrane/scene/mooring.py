@@ -172,13 +172,7 @@ def mooring_matrix(springs: Sequence[MooringSpring]) -> Array:
 
 
 def mooring_of(what: str, given: Any) -> Mooring:
-    """A mooring by its matrix or its springs; `what` names the vessel in errors.
-
-    Raises
-    ------
-    SceneError
-        Neither of them, a matrix that is not symmetric or pushes away, or one that no springs have.
-    """
+    """A mooring by its matrix or its springs. SceneError for what is neither, or pushes the vessel away."""
     if isinstance(given, Sequence) and all(isinstance(one, MooringSpring) for one in given):
         return Mooring(
             matrix=mooring_matrix(given), horizontal=np.zeros(3), floating=np.zeros((3, 3)),

@@ -246,10 +246,7 @@ class MotionHistory:
     def curves(self, ramp: float) -> tuple[_core.Curve, ...]:
         """Splines through the samples, of each motion; from rest over `ramp` (s) where it is not zero.
 
-        Raises
-        ------
-        SceneError
-            For samples so far apart that the spline swings out between them.
+        Raises SceneError for samples so far apart that the spline swings out between them.
         """
         values = self.motion * ramp_of(self.time, ramp)[:, None]
         curves = tuple(spline_curve(times=self.time, values=column) for column in values.T)

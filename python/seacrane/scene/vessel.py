@@ -299,11 +299,6 @@ def motion_of_components(
 
     In axes of the ship at rest, at a place (x, y), m, and a heading, rad. A database without motions of its
     own has those of the linear model of the ship alone, floating as `Scene.add_vessel` describes it.
-
-    Warns
-    -----
-    OutsideRaosWarning
-        More than 2 % of the energy of the waves is outside the table's frequencies.
     """
     sea = waves.components()
     omega, direction = np.array(sea.omega), np.array(sea.direction)
