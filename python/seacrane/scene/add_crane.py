@@ -232,10 +232,13 @@ class _Frame:
         add_joint(self.scene, kind=joint.kind, name=name, first=first, second=second, **used)
 
     def in_body(self, name: str, point: Array) -> tuple[str, Vector]:
-        """A point of the base's frame in the coordinates of a body of the scene."""
-        body = self.scene.bodies[name]
-        at = self.origin + self.to_inertial @ point
-        x, y, z = (rotation_matrix(body.quaternion).T @ (at - body.position)).tolist()
+        """A point of the base's frame in the coordinates of a body, which may be a base that is not there."""
+        at = point
+        if name in self.scene.bodies:
+            body = self.scene.bodies[name]
+            inertial = self.origin + self.to_inertial @ point
+            at = rotation_matrix(body.quaternion).T @ (inertial - body.position)
+        x, y, z = at.tolist()
         return name, (x, y, z)
 
     def add_lean(
@@ -243,7 +246,7 @@ class _Frame:
     ) -> None:
         """The spring that holds a crane up, and its load, kg: vertical, as far out as the tip."""
         first, second = (
-            self._block(names[body], at)
+            self.in_body(names[body], at)
             for body, at in ((lean.first, lean.point + FAR * UP), (lean.second, lean.point))
         )
         add_spring(
@@ -254,13 +257,7 @@ class _Frame:
 
     def rope(self, rope: RopeData, prefix: str, names: Mapping[str, str]) -> LuffingRope:
         """With its blocks in the coordinates of the scene's bodies."""
-        ends = [self._block(names.get(body, names[""]), at) for body, at in (rope.first, rope.second)]
+        ends = [self.in_body(names.get(body, names[""]), at) for body, at in (rope.first, rope.second)]
         return LuffingRope(
             name=prefix + rope.name, falls=rope.falls, EA=rope.EA, first=ends[0], second=ends[1]
         )
-
-    def _block(self, name: str, at: Array) -> tuple[str, Vector]:
-        if name in self.scene.bodies:
-            return self.in_body(name, at)
-        x, y, z = at.tolist()
-        return name, (x, y, z)

@@ -149,16 +149,9 @@ class Mesh:
 
 
 def add_mesh(
-    scene: Description,
-    body: str,
-    *,
-    file: str | os.PathLike[str] | None = None,
-    vertices: Any = None,
-    faces: Any = None,
-    scale: float = 1.0,
-    frame: _core.Frame | None = None,
-    name: str | None = None,
-) -> Mesh:
+    scene: Description, body: str, *, file: str | os.PathLike[str] | None = None, vertices: Any = None,
+    faces: Any = None, scale: float = 1.0, frame: _core.Frame | None = None, name: str | None = None,
+) -> Mesh:  # fmt: skip
     """Draw a body by a mesh, in place of what is drawn otherwise; its motion does not change.
 
     The scene holds the triangles themselves: files of scenes and results need the mesh's file no more. A mesh

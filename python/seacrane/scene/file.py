@@ -38,19 +38,10 @@ from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import arguments, notes_from_node, plain_data, value_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole
+from seacrane.scene import recorded
 from seacrane.scene.afloat import add_group, add_hydrodynamics
 from seacrane.scene.bodies import add_body, mesh_from_node, mesh_to_data
 from seacrane.scene.lift_factors import LiftFactors, Rating, add_lift_factors, note_rating, rating_of
-from seacrane.scene.recorded import (
-    Clearance,
-    OwnChannel,
-    add_channel,
-    add_clearance,
-    add_limit_state,
-    add_point,
-    add_range,
-    record_coordinate,
-)
 from seacrane.scene.roles import add_roles
 
 LARGEST_FILE = 32 * 2**20  # bytes
@@ -102,12 +93,12 @@ _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what i
     "force_tables": (_core.ForceTable, add_load),
     "vessels": (VesselHydrodynamics, add_hydrodynamics),
     "groups": (_core.GroupHydrodynamics, add_group),
-    "points": (_core.Point, add_point),
+    "points": (_core.Point, recorded.add_point),
     "loads": (object, add_load),  # of any kind
-    "ranges": (Range, add_range),
-    "limit_states": (LimitState, add_limit_state),
-    "clearances": (Clearance, add_clearance),
-    "channels": (OwnChannel, add_channel),
+    "ranges": (Range, recorded.add_range),
+    "limit_states": (LimitState, recorded.add_limit_state),
+    "clearances": (recorded.Clearance, recorded.add_clearance),
+    "channels": (recorded.OwnChannel, recorded.add_channel),
     "ratings": (Rating, lambda scene, **entries: note_rating(scene, rating_of(**entries))),
     "lift_factors": (LiftFactors, add_lift_factors),
 }
@@ -188,7 +179,7 @@ def _scene(root: Node, scene: Some) -> Some:
     scene.waves = value_of(root.at("waves"), Waves | None)
     for name, (joint, coordinate) in _by_name(root, "recorded", tuple[str, str]).items():
         with root.at("recorded").at(name).scene_errors():
-            record_coordinate(scene, joint, coordinate=coordinate, name=name)
+            recorded.record_coordinate(scene, joint, coordinate=coordinate, name=name)
     for node in root.at("roles").items():
         entries = arguments(CraneRoles, node)
         with node.scene_errors():

@@ -321,6 +321,8 @@ def _ends(scene: Description, what: str, bodies: Any, points: Any) -> tuple[_End
     if names[0] == names[1]:
         raise SceneError(f"{what}: both ends are on {names[0]!r}; name two bodies")
     rows = shaped_of(f"{what}: points", points, (2, 3))
+    if not np.all(np.isfinite(rows)):
+        raise SceneError.of(f"{what}: points", f"holds {rows.tolist()}; give finite numbers")
     first, last = (_end(scene, what, *end) for end in zip(names, rows, strict=True))
     if not np.any(last.place - first.place):
         raise SceneError.of(f"{what}: points", f"are both at {first.place.tolist()} m; give two places")
@@ -328,8 +330,6 @@ def _ends(scene: Description, what: str, bodies: Any, points: Any) -> tuple[_End
 
 
 def _end(scene: Description, what: str, name: str, point: Array) -> _End:
-    if not np.all(np.isfinite(point)):
-        raise SceneError.of(f"{what}: points", f"holds {point.tolist()}; give finite numbers")
     if name == GROUND:
         return _End(body=name, point=point, place=point, velocity=np.zeros(3))
     body = scene.bodies[require(scene, what, "bodies", name)]

@@ -17,13 +17,7 @@ from seacrane.description.places import place_of
 from seacrane.description.roles import CraneRoles
 from seacrane.description.rungs import ELASTIC, QUASI_STATIC, RIGID, Rung
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import (
-    flag_of,
-    name_of,
-    not_negative_of,
-    positive_of,
-    text_of,
-)
+from seacrane.inputs.checked import flag_of, name_of, not_negative_of, positive_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.inputs.values import made_of

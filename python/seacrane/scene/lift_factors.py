@@ -82,19 +82,12 @@ NUMBERS = tuple(one.name for one in fields(LiftFactors) if one.name not in ("nam
 
 
 def add_lift_factors(
-    scene: Description,
-    load: str = "load",
-    *,
-    weight_contingency: float = 1.0,
-    center_of_gravity: ArrayLike = (0.0, 0.0, 0.0),
-    skew_load: ArrayLike = 1.0,
-    dynamic_factor: float | None = None,
-    sling_safety_factor: float | None = None,
-    shackle_safety_factor: float | None = None,
-    shackle_breaking_load: float | None = None,
-    alpha: float = 1.0,
-    sources: Mapping[str, str] | None = None,
-) -> LiftFactors:
+    scene: Description, load: str = "load", *, weight_contingency: float = 1.0,
+    center_of_gravity: ArrayLike = (0.0, 0.0, 0.0), skew_load: ArrayLike = 1.0,
+    dynamic_factor: float | None = None, sling_safety_factor: float | None = None,
+    shackle_safety_factor: float | None = None, shackle_breaking_load: float | None = None,
+    alpha: float = 1.0, sources: Mapping[str, str] | None = None,
+) -> LiftFactors:  # fmt: skip
     """State what a lift is calculated with beside its scene: `lift_sheet` and the report print its sheet.
 
     None of them moves anything. No standard's numbers are here: take those of the edition that the project is

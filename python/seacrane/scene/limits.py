@@ -136,14 +136,9 @@ def _require_above(scene: Description, joint: _core.Joint) -> None:
 
 @told_by(_core.Friction)
 def add_friction(
-    scene: Description,
-    joint: str,
-    *,
-    load: float,
-    speed: float,
-    coordinate: str | None = None,
+    scene: Description, joint: str, *, load: float, speed: float, coordinate: str | None = None,
     name: str | None = None,
-) -> _core.Friction:
+) -> _core.Friction:  # fmt: skip
     """Add dry friction on a joint coordinate: -load tanh(rate / speed).
 
     Coulomb friction, made smooth: within 1e-4 of it where the coordinate is faster than 5 times `speed`. It

@@ -242,13 +242,12 @@ def path_between(
     scene: Description, what: str, bodies: tuple[Any, Any], points: tuple[ArrayLike | None, ArrayLike | None]
 ) -> tuple[list[str], list[ArrayLike]]:
     """The bodies of both ends and a point on each, by default the one of `hung_from`."""
-    for role, body in zip(("first", "second"), bodies, strict=True):
+    names, places = [], []
+    for role, body, point in zip(("first", "second"), bodies, points, strict=True):
         if body is None:
             raise SceneError(f"{what}: has no {role}; name the body of that end, which may be 'ground'")
-    names = [text_of(f"{what}: {role}", body) for role, body in zip(("first", "second"), bodies, strict=True)]
-    places = [
-        hung_from(scene, body) if point is None else point for body, point in zip(names, points, strict=True)
-    ]
+        names.append(text_of(f"{what}: {role}", body))
+        places.append(hung_from(scene, names[-1]) if point is None else point)
     return names, places
 
 

@@ -289,14 +289,9 @@ def _coordinate(scene: Description, pick: Pick) -> str:
 
 
 def add_limit_state(
-    scene: Description,
-    channel: str,
-    *,
-    maximum: float | None = None,
-    minimum: float | None = None,
-    names: Mapping[str, str] | None = None,
-    name: str | None = None,
-) -> LimitState:
+    scene: Description, channel: str, *, maximum: float | None = None, minimum: float | None = None,
+    names: Mapping[str, str] | None = None, name: str | None = None,
+) -> LimitState:  # fmt: skip
     """State what a channel may reach: every result then tells its utilisation, `Result.utilisation`.
 
     It exerts no load. The channel is recorded even where it is none of the usual ones.

@@ -174,8 +174,8 @@ for _name, _method in list(vars(Scene).items()):
         setattr(Scene, _name, heard(_method))
 
 
-def rows(scene: Description) -> list[tuple[str, list[str]]]:
-    """Kinds of element and the elements of each."""
+def as_table(scene: Description) -> Table:
+    """Kinds of element, their number and the names of each."""
     found = [(kind, list(names)) for kind, names in elements_of(scene)]
     found.append(("points", [f"{name} ({at.body})" for name, at in scene.points.items()]))
     found.append(("recorded", [f"{name} ({joint} {c})" for name, (joint, c) in scene.recorded.items()]))
@@ -183,11 +183,6 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
     found.append(("ranges", [f"{name} ({bound})" for name, bound in bounds.items()]))
     others = ("limit_states", "clearances", "channels", "lift_factors", "meshes")
     found += [(key.replace("_", " "), list(getattr(scene, key))) for key in others]
-    return [(kind, names) for kind, names in found if names]
-
-
-def as_table(scene: Description) -> Table:
-    """Kind, number and names."""
-    held = [(kind, len(names), ", ".join(names)) for kind, names in rows(scene)]
+    held = [(kind, len(names), ", ".join(names)) for kind, names in found if names]
     title = f"Scene {scene.name!r}, gravity {scene.gravity:g} m/s2"
     return table_of(("", "number", "names"), held, title=title, remarks=() if held else ["empty"])

@@ -151,8 +151,9 @@ def add_sea(
         depth = float("inf") if vessel not in scene.bodies else _depth_of(source_of(scene, str(vessel)))
         scene.waves = None if current is None else flowing_water(current, depth, stretching or STRETCHING[0])
         return scene.waves
-    if vessel is not None:
-        _require_vessel(scene, vessel)
+    if vessel is not None and vessel not in scene.bodies:
+        known = ", ".join(repr(one.body) for one in scene.vessels.values()) or "none"
+        raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
     if scene.waves is None and sea is None:
         _tell_assumed(given)
     database = None if vessel is None else source_of(scene, vessel)
@@ -259,12 +260,6 @@ def _require_few(sea: SeaState | None, given: dict[str, Any]) -> None:
             f"is {count:,}, components whose loads would take minutes to make; give at most "
             f"{MOST_COMPONENTS:,}: with 5,000 three hours do not repeat",
         )
-
-
-def _require_vessel(scene: Description, vessel: str) -> None:
-    if vessel not in scene.bodies:
-        known = ", ".join(repr(one.body) for one in scene.vessels.values()) or "none"
-        raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
 
 
 def _evaluated(waves: Waves, **given: Any) -> Waves:

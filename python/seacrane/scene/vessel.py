@@ -116,14 +116,12 @@ def add_vessel(
     heading_deg : float
         At the start, of the hull's or the group's x axis, deg from +x towards +y; default 0.
     memory : str, or list of StateSpaceBlock, or RetardationFunctions
-        With a database, "by-motion" (default): fluid memory as one passive state-space model per group of
-        coupled motions, the smallest that leaves the motions within 1 % of the database's own. "per-pair":
-        the paper's, one model per pair of motions, eqs (28)-(31), judged by R2. "convolution": the reference,
-        without a fit: the database's retardation functions convolved with the history of the motion, see
-        `seacrane.hydro.retardation_functions`; the steps land on its samples. "none": without radiation
-        damping, as the paper does for comparison. The database's own fitted memory is used where it is of the
-        kind asked for; else one is fitted here, once for each database. Of a group: "joint" (default), one
-        passive model of all motions, or "none". With matrices: the models themselves.
+        With a database, "by-motion" (default): one passive state-space model per group of coupled motions,
+        the smallest that leaves the motions within 1 % of the database's own. "per-pair": the paper's, eqs
+        (28)-(31), judged by R2. "convolution": the reference, `seacrane.hydro.retardation_functions` with the
+        history of the motion; the steps land on its samples. "none": without radiation damping. The
+        database's own memory is used where it is of that kind; else one is fitted here, once for each. Of a
+        group: "joint" (default), one passive model of all motions, or "none". With matrices: the models.
     kinematics : str
         Of one hull: "yaw_following" (default) or "paper", eqs (17)-(31).
     mooring : float, array_like of shape (6, 6), list of MooringSpring, or None

@@ -277,16 +277,9 @@ def _flow_of(
 
 @told_by(_core.PendulumDamping)
 def add_pendulum_damping(
-    scene: Description,
-    name: str,
-    *,
-    first: str,
-    second: str,
-    first_point: Any = (0.0, 0.0, 0.0),
-    second_point: Any = None,
-    ratio: float = SWING_RATIO,
-    mass: float = 0.0,
-) -> _core.PendulumDamping:
+    scene: Description, name: str, *, first: str, second: str, first_point: Any = (0.0, 0.0, 0.0),
+    second_point: Any = None, ratio: float = SWING_RATIO, mass: float = 0.0,
+) -> _core.PendulumDamping:  # fmt: skip
     """Damping of a load's swing below the point where it hangs, as a ratio of critical.
 
     -2 ratio mass sqrt(g / L) times the velocity of the load across the line of length L from `first_point` to
