@@ -10,7 +10,7 @@ from seacrane.hydro import load_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, keys_of
-from seacrane.scene import afloat, given_vessel, sea, vessel
+from seacrane.scene import afloat, sea, vessel
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.sea import Current, SeaState, WaveSystem
@@ -40,7 +40,7 @@ def vessel_keys() -> tuple[Key, ...]:
     )
     more = CHOSEN | {
         "mooring": {"type": "array", "unit": "N/m, N m/rad", "shapes": ((6, 6),), "text": matrix},
-        "mooring_period": {"unit": "s", "text": mooring},
+        "slack_moment": EACH | {"unit": "kg m"},
         "position": POINT, "ramp": TIME, "duration": TIME, "size": POINT,
     }  # fmt: skip
     return (
@@ -55,7 +55,8 @@ def vessel_keys() -> tuple[Key, ...]:
         Key(name="raos", type="table", keys=_rao_keys(), text="Led by a table of RAOs, without a database."),
         Key(name="history", type="table", keys=history, text="Led by a history, without a database."),
         *keys_of(afloat.add_hull, described=vessel.add_vessel, more=more, without=("database",)),
-        *keys_of(given_vessel.add_given, described=vessel.add_vessel, more=more, only=OF_MOTION),
+        *keys_of(vessel.add_given, described=vessel.add_vessel, more=more, only=OF_MOTION),
+        Key(name="mooring_period", type="number", unit="s", text=mooring),
         Key(name="mooring_springs", type="tables", keys=spring, text="Mooring by horizontal springs."),
         *keys_of(load_database, more=READING, only=tuple(READING)),
     )  # fmt: skip

@@ -19,7 +19,7 @@ from seacrane.description.suspension import hung_loads
 from seacrane.errors import SceneError
 from seacrane.needs.choice import Choice, by_calls, call
 from seacrane.scene.heavy_line import chain_of_segments, on_a_winch, scaled
-from seacrane.scene.line_fluid import Fluid
+from seacrane.scene.line_fluid import Wire
 from seacrane.scene.scene import Scene
 
 TOUCHING = 0.05  # m: a body this near to a plane, or in it, stands on it
@@ -260,14 +260,14 @@ def with_segments(scene: Scene, name: str, segments: int) -> Scene:
     start = float(length.evaluate([0.0])[0, 0])
     wound = not first.paid_out_by and f"{name}.1 winding" in scene.loads
     ends = [_end(scene, chain[0], 0, f"{name}.first"), _end(scene, chain[-1], 1, f"{name}.last")]
-    fluid = Fluid.of(scene.loads.get(f"{name}.1 water", scene.loads.get(f"{name}.1 drag")))
+    around = Wire.around(scene.loads.get(f"{name}.1 water", scene.loads.get(f"{name}.1 drag")))
+    wire = Wire(mass_per_length=first.mass / start, segments=segments, **around)
     out = scene.copy()
     _remove(out, name, chain)
     chain_of_segments(
-        out, name, [body for body, _ in ends], [point for _, point in ends], EA=first.EA,
+        out, name, [body for body, _ in ends], [point for _, point in ends], wire, EA=first.EA,
         length=scaled(length, len(chain)) if wound else start * len(chain),
-        mass_per_length=first.mass / start, segments=segments, damping_ratio=first.damping_ratio,
-        rung=first.rung, settling=first.settling, fluid=fluid, seabed=None,
+        damping_ratio=first.damping_ratio, rung=first.rung, settling=first.settling,
     )  # fmt: skip
     if first.paid_out_by:
         on_a_winch(out, name, _winch(first))

@@ -22,7 +22,7 @@ from seacrane.description.suspension import Hung, hung_loads, names_of_suspensio
 from seacrane.description.wet_parts import wet_names
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
-from seacrane.scene.own_channels import picks
+from seacrane.scene.recorded import picks
 
 USUAL = (
     "vessel_motion", "actuator_force", "driver_force", "hydraulic_force", "tension", "line_tension",
@@ -153,8 +153,7 @@ ALONG: Mapping[str, Names] = {  # by dimension of derived channels: its names, a
     "weighed": (weighed_suspensions,
                 "a link, a wire or lines that carry a load which nothing else holds: add one"),
     "immersed": (wet_names, "parts in water: add_immersed them"),
-    "gap": (attrgetter("clearances"), "a clearance: add_clearance one"),
-    "pair": (attrgetter("relatives"), "two points: add_relative them"),
+    "gap": (attrgetter("clearances"), "points and a box: add_channel(points=...) them"),
     "expression": (attrgetter("channels"), "an expression: add_channel one"),
     "winch": (lambda scene: winches_of(scene.loads), "a line on a winch: add_winch one"),
     "slew": (slews, "a slew drive: add_crane, or name it by add_roles(slew=...)"),

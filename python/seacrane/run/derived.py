@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -18,7 +18,7 @@ from seacrane.description.description import Description
 from seacrane.description.expression import Curve, Number, values_of, worked_out
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.loads import lines_of, path_of, winches_of
-from seacrane.description.places import POSE, position_of, relative_motion, velocity_of
+from seacrane.description.places import POSE, place_along, position_of, velocity_of
 from seacrane.description.roles import allowed_at, pressure
 from seacrane.description.suspension import (
     Hung,
@@ -40,8 +40,7 @@ from seacrane.run.channel_names import (
     sources_of,
     with_sources,
 )
-from seacrane.scene.own_channels import picked, programs
-from seacrane.scene.recorded import distance_from_box
+from seacrane.scene.recorded import distance_from_box, picked, programs
 
 Array = NDArray[np.float64]
 Places = Mapping[str, tuple[str, str]]  # joint coordinates by label
@@ -247,11 +246,6 @@ class _Made:
             columns.append(np.min(found, axis=0))
         return np.stack(columns, axis=1)
 
-    def relative(self, *, velocity: bool) -> Array:
-        motion = partial(relative_motion, self.scene, self.arrays, velocity=velocity)
-        every = [motion(one.point, one.to, one.axes) for one in self.scene.relatives.values()]
-        return np.stack(every, axis=1)
-
     def lengths_over(self, length: Callable[[_core.Line], float]) -> Array:
         """Unstretched lengths of the lines on winches over given ones, m."""
         lines, wound = list(lines_of(self.scene.loads)), winches_of(self.scene.loads).values()
@@ -277,8 +271,6 @@ MADE: Mapping[str, Callable[[_Made], Array | None]] = {
     "sling_angle": _Made.sling_angles,
     "offlead": lambda made: made.leads[0],
     "sidelead": lambda made: made.leads[1],
-    "relative_position": lambda made: made.relative(velocity=False),
-    "relative_velocity": lambda made: made.relative(velocity=True),
     "heel": lambda made: np.arctan2(made.turns[..., 2, 1], made.turns[..., 2, 2]),
     "trim": lambda made: np.arcsin(np.clip(-made.turns[..., 2, 0], -1.0, 1.0)),
     "yaw": lambda made: np.arctan2(made.turns[..., 1, 0], made.turns[..., 0, 0]),
@@ -385,6 +377,8 @@ def own_values(
     def leaf(step: Number | Curve) -> Array:
         if isinstance(step, Number):
             return np.asarray(step.value)
+        if step.along:
+            return place_along(scene, arrays, step)
         pick = picked(scene, "channel", step)
         array = arrays[pick.channel]
         for dim in reversed(CHANNELS[pick.channel].dims_of(array.ndim)[1:]):

@@ -18,7 +18,7 @@ from seacrane.inputs.shown import shown
 from seacrane.run.channel_names import derived_coords, missing_names
 from seacrane.run.commands import HOLE, Command, Move, check_command, targets
 from seacrane.run.stage import Contact, Level, Stage, of_contact
-from seacrane.scene.own_channels import picks
+from seacrane.scene.recorded import picks
 from seacrane.scene.scene import Scene
 
 TABLES = ("joints", "drivers", *LOADS)
