@@ -16,6 +16,7 @@ void bind_channels(py::module_& m);
 void bind_copies();
 void bind_curve(py::module_& m);
 void bind_elements(py::module_& m);
+void bind_given(py::module_& m);
 void bind_integrators(py::module_& m);
 void bind_sea(py::module_& m);
 void bind_lanes(py::module_& m);

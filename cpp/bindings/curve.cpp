@@ -1,6 +1,7 @@
 #include "seacrane/math/curve.hpp"
 
 #include "bindings.hpp"
+#include "given.hpp"
 #include "seacrane/math/curve_table.hpp"
 
 using seacrane::Curve;
@@ -39,9 +40,8 @@ py::array_t<double> evaluate(const Curve& curve, const py::array_t<double, py::a
 
 /// Samples as users give them: any array of one dimension, also one that a result recorded.
 Curve table(const py::object& times, const py::object& values, const std::string& between) {
-  const auto row = py::module_::import("seacrane.inputs.checked").attr("vector_of");
-  return seacrane::tabulated(row("curve: times", times).cast<std::vector<double>>(),
-                             row("curve: values", values).cast<std::vector<double>>(), between);
+  return seacrane::tabulated(given::vector_of("curve: times", times),
+                             given::vector_of("curve: values", values), between);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "given.hpp"
+
 namespace description {
 
 namespace {
@@ -67,7 +69,7 @@ std::string signature(const Table& table) {
 void take_parameters(const py::kwargs& given, const std::string& what, Parameters& out) {
   for (const auto& [key, value] : given) {
     const auto name = key.cast<std::string>();
-    value_type<double>().take(&out[name], what + name, value);
+    out[name] = given::number_of(what + name, py::reinterpret_borrow<py::object>(value));
   }
 }
 
@@ -81,9 +83,8 @@ py::object made(const Table& table, const py::kwargs& given) {
   };
   if (table.name >= 0) {
     const py::object name = take("name");
-    const py::object checked = py::module_::import("seacrane.inputs.checked").attr("name_of");
     auto& text = at<std::string>(value, table.name);
-    text = checked(table.kind, name ? name : py::none()).cast<std::string>();
+    text = given::name_of(table.kind, name ? name : py::none());
     what = table.kind + " " + py::repr(py::str(text)).cast<std::string>() + ": ";
   }
   std::string known;

@@ -21,7 +21,7 @@ struct ValueType {
   std::string given_as, seen_as;  // in stubs
   std::vector<int> shape;         // of an array; -1: any length
   py::object (*seen)(const void* value);
-  void (*take)(void* value, const std::string& what, const py::handle& given);  // checks
+  void (*take)(void* value, const std::string& what, const py::object& given);  // checks
 };
 
 /// Those that there are stand at the end of value_types.cpp.

@@ -1,6 +1,7 @@
 #include <exception>
 
 #include "bindings.hpp"
+#include "given.hpp"
 #include "seacrane/elements/check.hpp"
 #include "seacrane/integrate/integration_error.hpp"
 #include "seacrane/run/contacts.hpp"
@@ -17,6 +18,9 @@ void translate(std::exception_ptr pointer) {
   };
   try {
     if (pointer) std::rethrow_exception(pointer);
+  } catch (const given::Refused& error) {
+    const py::object type = py::module_::import("seacrane.errors").attr("SceneError");
+    PyErr_SetObject(type.ptr(), type.attr("of")(error.value, error.text).ptr());
   } catch (const std::invalid_argument& error) {  // SceneError too
     raise("SceneError", error.what());
   } catch (const seacrane::ChatteringError& error) {
@@ -49,6 +53,7 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "Compiled core of seacrane: descriptions, compiled model, stepping loop. SI units, radians.";
   py::register_exception_translator(&translate);
   bind_curve(m);
+  bind_given(m);
   bind_sea(m);
   bind_elements(m);
   bind_model(m);

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "description.hpp"
+#include "given.hpp"
 #include "seacrane/elements/joint.hpp"
 #include "seacrane/elements/loads/function_force.hpp"
 #include "seacrane/math/curve.hpp"
@@ -20,9 +21,9 @@ constexpr bool is_matrix = requires {
   V::ColsAtCompileTime;
 };
 
-/// What a value is called in FIELDS and in stubs, where it is given and where it is seen, and what checks it.
+/// What a value is called in FIELDS and in stubs, where it is given and where it is seen.
 struct Words {
-  const char *name, *given_as, *seen_as = "", *check = "";
+  const char *name, *given_as, *seen_as = "";
 };
 using Memory = decltype(VesselDescription::memory);
 using Blocks = std::vector<StateSpaceBlock>;
@@ -32,21 +33,17 @@ template <class V>
 constexpr Words words_of(const V*) {
   return {"array", "numpy.typing.ArrayLike"};
 }
-constexpr Words words_of(const std::string*) { return {"text", "str", "str", "text_of"}; }
-constexpr Words words_of(const Texts*) {
-  return {"texts", "collections.abc.Sequence[str]", "list[str]", "texts_of"};
-}
-constexpr Words words_of(const double*) { return {"number", "typing.SupportsFloat", "float", "number_of"}; }
-constexpr Words words_of(const bool*) { return {"flag", "bool", "bool", "flag_of"}; }
+constexpr Words words_of(const std::string*) { return {"text", "str", "str"}; }
+constexpr Words words_of(const Texts*) { return {"texts", "collections.abc.Sequence[str]", "list[str]"}; }
+constexpr Words words_of(const double*) { return {"number", "typing.SupportsFloat", "float"}; }
+constexpr Words words_of(const bool*) { return {"flag", "bool", "bool"}; }
 constexpr Words words_of(const Curve*) {
-  return {"curve", "Curve | typing.SupportsFloat", "seacrane._core.Curve", "curve_of"};
+  return {"curve", "Curve | typing.SupportsFloat", "seacrane._core.Curve"};
 }
 constexpr Words words_of(const Frame*) { return {"frame", "Frame", "seacrane._core.Frame"}; }
 constexpr Words words_of(const VesselKinematics*) { return {"text", "str", "str"}; }
 constexpr Words words_of(const ForceFunction*) { return {"function", "int"}; }
-constexpr Words words_of(const Numbers*) {
-  return {"array", "numpy.typing.ArrayLike", "list[float]", "vector_of"};
-}
+constexpr Words words_of(const Numbers*) { return {"array", "numpy.typing.ArrayLike", "list[float]"}; }
 constexpr Words words_of(const Blocks*) {
   return {"object", "typing.Any", "list[seacrane._core.StateSpaceBlock]"};
 }
@@ -102,42 +99,50 @@ std::string seen_as() {
          (shape.size() == 1 ? "1" : size(shape[1], "n")) + "]\"]";
 }
 
-/// A function of the Python module that checks what users give.
-py::object checked(const char* name) { return py::module_::import("seacrane.inputs.checked").attr(name); }
-
 template <class V>
-V from_python(const std::string& what, const py::handle& given) {
-  if constexpr (*words<V>.check) {
-    return checked(words<V>.check)(what, given).template cast<V>();
+V from_python(const std::string& what, const py::object& value) {
+  if constexpr (std::is_same_v<V, std::string>) {
+    return given::text_of(what, value);
+  } else if constexpr (std::is_same_v<V, Texts>) {
+    return given::texts_of(what, value);
+  } else if constexpr (std::is_same_v<V, double>) {
+    return given::number_of(what, value);
+  } else if constexpr (std::is_same_v<V, bool>) {
+    return given::flag_of(what, value);
+  } else if constexpr (std::is_same_v<V, Curve>) {
+    return given::curve_of(what, value);
+  } else if constexpr (std::is_same_v<V, Numbers>) {
+    return given::vector_of(what, value);
+  } else if constexpr (std::is_same_v<V, ForceFunction>) {
+    return reinterpret_cast<V>(given::address_of(what, value));
   } else if constexpr (std::is_same_v<V, MatXd>) {
-    const Columns matrix = checked("matrix_of")(what, given);
+    const Columns matrix = given::matrix_of(what, value);
     return Eigen::Map<const V>(matrix.data(), matrix.shape(0), matrix.shape(1));
   } else if constexpr (is_rows<V>) {
-    const Rows rows = checked("rows_of")(what, given, shape_of<V>()[1]);
+    const Rows rows = given::rows_of(what, value, shape_of<V>()[1]);
     V out;
     for (py::ssize_t i = 0; i < rows.shape(0); ++i) out.emplace_back(rows.data(i, 0));
     return out;
   } else if constexpr (std::is_same_v<V, VesselKinematics>) {
-    const auto name = from_python<std::string>(what, given);
+    const std::string name = given::text_of(what, value);
     if (name == "yaw_following") return VesselKinematics::yaw_following;
     if (name == "paper") return VesselKinematics::paper;
     throw SceneError(what + " '" + name + "' is unknown; choose 'yaw_following' or 'paper'");
-  } else if constexpr (std::is_same_v<V, ForceFunction>) {
-    return reinterpret_cast<V>(checked("address_of")(what, given).template cast<std::uintptr_t>());
   } else if constexpr (std::is_same_v<V, Frame>) {
-    if (py::isinstance<Frame>(given)) return given.cast<V>();
-    throw SceneError(what + " is " + py::repr(given).cast<std::string>() + "; a frame is a seacrane.Frame");
+    if (py::isinstance<Frame>(value)) return value.cast<V>();
+    throw SceneError(what + " is " + py::repr(value).cast<std::string>() + "; a frame is a seacrane.Frame");
   } else if constexpr (std::is_same_v<V, Memory> || std::is_same_v<V, Blocks>) {
     try {
-      return given.cast<V>();
+      return value.cast<V>();
     } catch (const py::cast_error&) {
       const bool blocks = std::is_same_v<V, Blocks>;
-      throw SceneError(what + " is " + py::repr(given).cast<std::string>() +
+      throw SceneError(what + " is " + py::repr(value).cast<std::string>() +
                        "; give a list of seacrane.StateSpaceBlock" +
                        (blocks ? "" : " or seacrane.RetardationFunctions"));
     }
   } else {
-    const Columns array = checked("shaped_of")(what, given, py::tuple(py::cast(shape_of<V>())));
+    const std::vector<int> shape = shape_of<V>();
+    const Columns array = given::shaped_of(what, value, {shape.begin(), shape.end()});
     return V(array.data());
   }
 }
@@ -151,7 +156,7 @@ const ValueType& value_type() {
                              seen_as<V>(),
                              shape_of<V>(),
                              [](const void* value) { return seen(*static_cast<const V*>(value)); },
-                             [](void* value, const std::string& what, const py::handle& given) {
+                             [](void* value, const std::string& what, const py::object& given) {
                                *static_cast<V*>(value) = from_python<V>(what, given);
                              }};
   return out;

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Contact', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'GroupHydrodynamics', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'SeabedNode', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'dnv_gamma', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Contact', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'GroupHydrodynamics', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'SeabedNode', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'curve_of', 'dnv_gamma', 'finite_of', 'flag_of', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'matrix_of', 'name_of', 'not_negative_of', 'number_of', 'numbers_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'positive_of', 'realise_waves', 'require_unmasked', 'rows_of', 'section_radiation', 'shaped_of', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'text_of', 'texts_of', 'torsethaugen', 'vector_of', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -3725,9 +3725,21 @@ def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, 
     """
     Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.
     """
+def curve_of(what: str, value: typing.Any) -> Curve:
+    """
+    A curve, or a number as a constant one.
+    """
 def dnv_gamma(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex) -> float:
     """
     Peak enhancement by DNV-RP-C205 (3.5.5): 5 for tp / sqrt(hs) <= 3.6, 1 from 5 on, between them exp(5.75 - 1.15 tp / sqrt(hs)); m and s.
+    """
+def finite_of(what: str, value: typing.Any, unit: str = '') -> float:
+    """
+    A number that is neither infinite nor none; the unit is for the error.
+    """
+def flag_of(what: str, value: typing.Any) -> bool:
+    """
+    A truth value, nothing that merely counts as one.
     """
 def has_instructions(name: str) -> bool:
     """
@@ -3785,6 +3797,26 @@ def lanes_of(module: types.ModuleType) -> int:
     """
     How many runs a lane module steps side by side.
     """
+def matrix_of(what: str, value: typing.Any) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Rows of numbers, of any length; an empty list is none.
+    """
+def name_of(kind: str, value: typing.Any, usual: str = '') -> str:
+    """
+    A printable text that is not empty; None and the empty text stand for the usual one.
+    """
+def not_negative_of(what: str, value: typing.Any, unit: str = '') -> float:
+    """
+    A finite number of zero or more.
+    """
+def number_of(what: str, value: typing.Any) -> float:
+    """
+    A float; not a text that reads like one, nor a row of one number.
+    """
+def numbers_of(what: str, value: typing.Any) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    An array of floats of any shape; no texts that read like numbers, no dates.
+    """
 def ochi_hubble(*, hs: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"], tp: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"], shape: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"]) -> Spectrum:
     """
     Ochi-Hubble spectrum: two systems of three parameters each.
@@ -3831,6 +3863,10 @@ def pierson_moskowitz(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: ty
     -----
     W. J. Pierson and L. Moskowitz, J. Geophys. Res. 69 (24), 1964.
     """
+def positive_of(what: str, value: typing.Any, unit: str = '') -> float:
+    """
+    A finite number above zero.
+    """
 def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, count: typing.Any = 200, minimum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, maximum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, placement: str = 'jittered', system: typing.Any = 0) -> WaveComponents:
     """
     Long-crested sea with deterministic amplitudes and jittered frequencies.
@@ -3869,6 +3905,14 @@ def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.Sup
     ValueError
         A parameter is not finite or out of range.
     """
+def require_unmasked(what: str, value: typing.Any) -> None:
+    """
+    Refuses NumPy's masked values, below which anything may stand.
+    """
+def rows_of(what: str, value: typing.Any, width: typing.SupportsInt | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Rows of so many numbers; an empty list is no rows.
+    """
 def section_radiation(*, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rho: typing.SupportsFloat | typing.SupportsIndex = 1025.0, g: typing.SupportsFloat | typing.SupportsIndex = 9.81, panels: typing.SupportsInt | typing.SupportsIndex = 40) -> dict:
     """
     Added mass and damping of a symmetric section on deep water, per metre of length.
@@ -3903,6 +3947,10 @@ def section_radiation(*, points: typing.Annotated[numpy.typing.ArrayLike, numpy.
     Close-fit sources on straight panels (Frank, NSRDC report 2375, 1967), with a rigid lid on the interior free
     surface against irregular frequencies. Sections thinner than 2 % are solved as 2 % thick: a stem in sway is
     a plate.
+    """
+def shaped_of(what: str, value: typing.Any, shape: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    An array of floats of one shape.
     """
 def stability_polynomial(integrator: str) -> list[float]:
     """
@@ -3960,6 +4008,14 @@ def tabulated_density(*, omega: typing.Annotated[numpy.typing.ArrayLike, numpy.f
     """
     Spectrum from a table in rad/s and m2 s/rad, linear between its points, zero outside.
     """
+def text_of(what: str, value: typing.Any, usual: str = '') -> str:
+    """
+    A printable text; None and the empty text stand for the usual one.
+    """
+def texts_of(what: str, value: typing.Any) -> list[str]:
+    """
+    A list of printable texts.
+    """
 def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> Spectrum:
     """
     Torsethaugen's spectrum in its simplified form: wind sea and swell from one height and period.
@@ -3982,6 +4038,10 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     -----
     K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
     quadrature instead of the fitted factor A_gamma.
+    """
+def vector_of(what: str, value: typing.Any) -> list[float]:
+    """
+    A list of floats from a one-dimensional array_like.
     """
 def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], values: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128]) -> numpy.typing.NDArray[numpy.complex128]:
     """

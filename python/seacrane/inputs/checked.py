@@ -1,170 +1,36 @@
-"""Values from outside turned into what the core takes, or a SceneError that names object, value and fix."""
+"""Values from outside turned into what the core takes, or a SceneError that names object, value and fix: the
+checks of the core itself."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
-from seacrane.errors import SceneError
-from seacrane.inputs.shown import shown
+from seacrane._core import (
+    curve_of,
+    finite_of,
+    flag_of,
+    matrix_of,
+    name_of,
+    not_negative_of,
+    number_of,
+    numbers_of,
+    positive_of,
+    require_unmasked,
+    rows_of,
+    shaped_of,
+    text_of,
+    texts_of,
+    vector_of,
+)
 
-Array = NDArray[np.float64]
+__all__ = [
+    "curve_of", "finite_of", "flag_of", "is_finite", "matrix_of", "name_of", "not_negative_of", "number_of",
+    "numbers_of", "positive_of", "require_unmasked", "rows_of", "shaped_of", "text_of", "texts_of", "vector_of",
+]  # fmt: skip
 FEW = 2000  # numbers, which are looked at one by one sooner than they are added
-
-
-def text_of(what: str, value: Any, usual: str = "") -> str:
-    """A printable text; None and the empty text stand for the usual one."""
-    if value is None or (isinstance(value, str) and not value):
-        value = usual or value
-    if not isinstance(value, str) or not value.isprintable():
-        raise SceneError.of(what, f"is {shown(value)}; give a name, a printable text")
-    return str(value)
-
-
-def name_of(kind: str, value: Any, usual: str = "") -> str:
-    """A printable text that is not empty; None and the empty text stand for the usual one."""
-    name = text_of(f"{kind}: name", value, usual)
-    if not name:
-        raise SceneError.of(f"{kind}: name", "is empty; give every element a name")
-    return name
-
-
-def texts_of(what: str, value: Any) -> list[str]:
-    """A list of printable texts."""
-    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
-        raise SceneError.of(what, f"is {shown(value)}; give a list of texts")
-    texts = list(value)
-    if not all(isinstance(text, str) for text in texts):
-        raise SceneError.of(what, f"is {shown(value)}; give a list of texts")
-    return [text_of(f"{what}[{i}]", text) for i, text in enumerate(texts)]
-
-
-def flag_of(what: str, value: Any) -> bool:
-    """A truth value, nothing that merely counts as one."""
-    if not isinstance(value, (bool, np.bool_)):
-        raise SceneError.of(what, f"is {shown(value)}; give True or False")
-    return bool(value)
-
-
-def number_of(what: str, value: Any) -> float:
-    """A float; not a text that reads like one, nor a row of one number."""
-    if getattr(value, "ndim", 0):
-        kind, shape = type(value).__name__, getattr(value, "shape", "")
-        raise SceneError.of(
-            what, f"is a {kind} of shape {shape}; give a number: one of its values, not a row"
-        )
-    try:
-        if isinstance(value, (str, bytes)):
-            raise TypeError
-        return float(value)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise SceneError.of(what, f"is {shown(value)}; give a number") from error
-
-
-def finite_of(what: str, value: Any, unit: str = "") -> float:
-    """A number that is neither infinite nor none; the unit is for the error."""
-    return _within(what, value, unit, -math.inf, "give a finite number")
-
-
-def positive_of(what: str, value: Any, unit: str = "") -> float:
-    """A finite number above zero."""
-    return _within(what, value, unit, math.ulp(0.0), "give a finite number above zero")
-
-
-def not_negative_of(what: str, value: Any, unit: str = "") -> float:
-    """A finite number of zero or more."""
-    return _within(what, value, unit, 0.0, "give a finite number, zero or more")
-
-
-def _within(what: str, value: Any, unit: str, least: float, fix: str) -> float:
-    number = number_of(what, value)
-    if not (math.isfinite(number) and number >= least):
-        raise SceneError.of(what, f"is {number}{unit and f' {unit}'}; {fix}")
-    return number
-
-
-def vector_of(what: str, value: Any) -> list[float]:
-    """A list of floats from a one-dimensional array_like."""
-    array = numbers_of(what, value)
-    if array.ndim != 1:
-        raise SceneError.of(what, f"has shape {array.shape}; give one row of numbers")
-    return [float(v) for v in array]
-
-
-def numbers_of(what: str, value: Any) -> Array:
-    """An array of floats of any shape; no texts that read like numbers, no dates."""
-    require_unmasked(what, value)
-    try:
-        array = np.asarray(value)
-        if array.dtype.kind not in "biufO" or any(isinstance(item, (str, bytes)) for item in _objects(array)):
-            raise TypeError
-        return np.asarray(array, dtype=float)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise SceneError.of(what, f"is {shown(value)}; give numbers") from error
-
-
-def require_unmasked(what: str, value: Any) -> None:
-    """Refuse NumPy's masked values, below which anything may stand."""
-    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
-        mask = np.ma.getmaskarray(value)
-        place = ", ".join(str(int(i)) for i in np.argwhere(mask)[0])
-        raise SceneError.of(
-            what,
-            f"has {int(mask.sum())} masked values, the first at [{place}]; leave such samples out, or "
-            "fill them by seacrane.statistics.interpolated(time, values)",
-        )
-
-
-def _objects(array: NDArray[Any]) -> Iterable[Any]:
-    return array.flat if array.dtype.kind == "O" else ()
-
-
-def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:
-    """An array of floats of one shape."""
-    array = numbers_of(what, value)
-    if array.shape != shape:
-        raise SceneError.of(what, f"has shape {array.shape}; give {shape}")
-    return array
-
-
-def rows_of(what: str, value: Any, width: int) -> Array:
-    """Rows of so many numbers; an empty list is no rows."""
-    array = numbers_of(what, value)
-    array = array.reshape(0, width) if array.shape == (0,) else array
-    if array.ndim != 2 or array.shape[1] != width:
-        raise SceneError.of(what, f"has shape {array.shape}; give (n, {width})")
-    return array
-
-
-def matrix_of(what: str, value: Any) -> Array:
-    """Rows of numbers, of any length; an empty list is none."""
-    array = numbers_of(what, value)
-    array = array.reshape(0, 0) if array.shape == (0,) else array
-    if array.ndim != 2:
-        raise SceneError.of(what, f"has shape {array.shape}; give rows of numbers")
-    return array
-
-
-def address_of(what: str, value: Any) -> int:
-    """The address of a C function."""
-    if not isinstance(value, int) or not 0 < value < 2**64:
-        raise SceneError.of(what, f"is {value!r}; give the address of a C function")
-    return value
-
-
-def curve_of(what: str, value: Any) -> _core.Curve:
-    """A curve, or a number as a constant one."""
-    if isinstance(value, _core.Curve):
-        return value
-    number = number_of(what, value)
-    if not np.isfinite(number):
-        raise SceneError.of(what, f"is {number}; give a finite number or a curve")
-    return _core.Curve.constant(value=number)
 
 
 def is_finite(array: NDArray[Any]) -> bool:
