@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.gap import long_wave_lift
 from seacrane.hydro.group.group import HydroGroup
@@ -20,10 +21,9 @@ from seacrane.inputs.frames import MOTIONS
 from seacrane.warnings import FloatingPositionWarning, RoughDataWarning
 
 FloatArray = NDArray[np.float64]
-Data = TypeVar("Data", bound=Hydrodynamics)
 Found = TypeVar("Found", bound=HydroDatabase | HydroGroup)
+Given = ArrayLike | Mapping[str, ArrayLike]  # of one body, or by name
 
-SYMMETRIC = ("added_mass", "damping", "infinite_frequency_added_mass", "zero_frequency_added_mass")
 SAME_FREQUENCY = 1e-3  # of one that is to be left out, as messages round it
 LIGHTEST, HEAVIEST = 0.5, 2.0  # mass over displaced mass of a vessel that floats
 SHALLOWEST = 1e-3  # draught over breadth
@@ -38,65 +38,54 @@ COARSEST = 0.15  # step by frequency, beyond which a table does not tell noise f
 NEIGHBOURS = 4
 
 
-def as_read(where: object, reader: str, found: Data, motions: Sequence[str] | None) -> Data:
-    """The database or group, halves of its matrices completed.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Asked:
+    """Who reads which file (for messages), and what the caller gives that it does not hold.
 
-    Parameters
-    ----------
-    where : file, for messages.
-    reader : name of the function that takes ``motions``.
-    motions : names of those that were solved, as the caller says; None: all.
-
-    Raises FileFormatError: a motion has neither added mass nor damping, and ``motions`` does not say so.
-
-    Warns
-    -----
-    FloatingPositionWarning : it turns over by itself.
+    ``motions`` names those that were solved (None: all), ``leave_out`` frequencies in rad/s to do without;
+    the matrices are (6, 6) in SI, of several bodies by name.
     """
-    require_solved(where, reader, found, motions)
-    halves: dict[str, Any] = {
-        name: mirrored(getattr(found, name)) for name in SYMMETRIC if getattr(found, name) is not None
-    }
-    if isinstance(found, HydroGroupData):
-        bodies = tuple(replace(body, restoring=whole_stiffness(body.restoring)) for body in found.bodies)
-        return replace(found, **halves, bodies=bodies)
-    whole = replace(found, **halves, restoring=whole_stiffness(found.restoring))
-    warn_of_turning_over(where, whole)
-    return whole
+
+    where: Path
+    reader: str
+    mass_matrix: Given | None = None
+    restoring: Given | None = None
+    motions: Sequence[str] | None = None
+    leave_out: ArrayLike | None = None
 
 
-def require_solved(where: object, reader: str, found: Hydrodynamics, motions: Sequence[str] | None) -> None:
-    """Raise where a motion was not solved, and the caller does not say so."""
-    known = set(MOTIONS) if motions is None else {str(motion).lower() for motion in motions}
+def require_solved(asked: Asked, found: HydroDatabase | HydroGroup) -> None:
+    """Raise where a motion has no added mass and damping, or no load, and the caller does not say so.
+
+    Yaw of a round body, in which water takes no part, may have none.
+    """
+    known = set(MOTIONS) if asked.motions is None else {str(motion).lower() for motion in asked.motions}
     if not known <= set(MOTIONS):
         raise FileFormatError(
-            f"{where}: motions names {', '.join(sorted(known - set(MOTIONS)))}; give some of "
+            f"{asked.where}: motions names {', '.join(sorted(known - set(MOTIONS)))}; give some of "
             f"{', '.join(MOTIONS)}"
         )
     moved = np.any(found.added_mass, axis=(0, 2)) | np.any(found.damping, axis=(0, 2))
     forced = np.any(found.force, axis=(0, 1)) | (np.abs(np.sin(2.0 * found.heading)).max() < OBLIQUE)
-    _ask_for(where, reader, found, known, ~moved, "no added mass and no damping at any frequency")
-    _ask_for(where, reader, found, known, ~forced, "no wave force at any frequency and heading")
-
-
-def _ask_for(
-    where: object, reader: str, found: Hydrodynamics, known: set[str], without: NDArray[np.bool_], what: str
-) -> None:
-    """Raise where motions that should be known are without something, but for yaw of a round body."""
-    empty = [i for i in np.flatnonzero(without).tolist() if MOTIONS[i % 6] in known]
-    lacking = [i for i in empty if i % 6 != 5 or not _is_round(found, i - 5)]
-    if lacking:
-        names = [*getattr(found, "names", [""])]
-        told = ", ".join(f"{names[i // 6]} {MOTIONS[i % 6]}".strip() for i in lacking)
-        solved = tuple(name for i, name in enumerate(MOTIONS) if i not in {one % 6 for one in lacking})
-        raise FileFormatError(
-            f"{where}: {told} {'has' if len(lacking) == 1 else 'have'} {what}: not solved for. Solve for it, "
-            f"or say which were by {reader}(motions={solved}), and keep the vessel from the others"
-        )
+    names = found.names if isinstance(found, HydroGroup) else ("",)
+    for there, what in (
+        (moved, "no added mass and no damping at any frequency"),
+        (forced, "no wave force at any frequency and heading"),
+    ):
+        empty = [i for i in np.flatnonzero(~there).tolist() if MOTIONS[i % 6] in known]
+        lacking = [i for i in empty if i % 6 != 5 or not _is_round(found, i - 5)]
+        if lacking:
+            told = ", ".join(f"{names[i // 6]} {MOTIONS[i % 6]}".strip() for i in lacking)
+            solved = tuple(name for i, name in enumerate(MOTIONS) if i not in {one % 6 for one in lacking})
+            raise FileFormatError(
+                f"{asked.where}: {told} {'has' if len(lacking) == 1 else 'have'} {what}: not solved for. "
+                f"Solve for it, or say which were by {asked.reader}(motions={solved}), and keep the vessel "
+                "from the others"
+            )
 
 
 def _is_round(found: Hydrodynamics, first: int) -> bool:
-    """Whether a body is round about its vertical axis, so that water takes no part in its yaw."""
+    """Whether a body is round about its vertical axis."""
     a = np.diagonal(found.added_mass, axis1=1, axis2=2)[:, first : first + 5]
     return bool(np.all(np.abs(a[:, 0] - a[:, 1]) <= ROUND * np.abs(a[:, 0])) and np.any(a[:, 0]))
 
@@ -137,10 +126,10 @@ def warn_of_turning_over(where: object, hull: HydroData) -> None:
 
 
 def mass_of_file(
-    where: object,
-    argument: str,
+    asked: Asked,
     mass_matrix: ArrayLike,
     *,
+    where: Path | None = None,
     displaced: float | None = None,
     box: tuple[float, float, float] | None = None,
 ) -> FloatArray:
@@ -148,7 +137,7 @@ def mass_of_file(
 
     Parameters
     ----------
-    argument : what the caller gives in its place, such as "read_wamit(mass_matrix=...)".
+    where : the file that holds it, where that is another one.
     displaced : kg, where the file tells it.
     box : length, breadth and draught of the equivalent box, m, where the mass is all that tells the last.
 
@@ -169,54 +158,52 @@ def mass_of_file(
     elif np.linalg.eigvalsh(0.5 * (matrix + matrix.T))[0] <= 0.0:
         wrong = "its mass matrix is not positive definite: no mass or no inertia in some motion"
     if wrong:
-        raise FileFormatError(f"{where}: {wrong}; give {argument}, (6, 6) in SI")
+        raise FileFormatError(
+            f"{where or asked.where}: {wrong}; give {asked.reader}(mass_matrix=...), (6, 6) in SI"
+        )
     return matrix
 
 
-def frequencies_kept(
-    where: object,
-    reader: str,
-    omega: FloatArray,
-    tables: Mapping[str, NDArray[Any]],
-    leave_out: ArrayLike | None,
-) -> NDArray[np.intp]:
-    """Places of the frequencies that are taken.
+def frequencies_kept(asked: Asked, omega: FloatArray, tables: Mapping[str, Any]) -> NDArray[np.intp]:
+    """Places of the positive, finite frequencies that are taken, rising.
 
     Parameters
     ----------
     omega : (n,) rad/s.
-    tables : by name, added mass and damping (n, ...) and force (m, n, ...), which have to be finite.
-    leave_out : rad/s of those that the caller does without.
+    tables : added_mass, damping (n, ...) and force (m, n, ...), which have to be finite.
 
     Raises FileFormatError: values are not finite, or a frequency to leave out is none of the file's.
     """
-    kept = np.ones(len(omega), dtype=bool)
-    for one in np.ravel(np.asarray([] if leave_out is None else leave_out, dtype=float)):
+    rows = np.argsort(omega)
+    rows = rows[(omega[rows] > 0.0) & np.isfinite(omega[rows])]
+    kept, omega = np.ones(len(rows), dtype=bool), omega[rows]
+    for one in np.ravel(np.asarray([] if asked.leave_out is None else asked.leave_out, dtype=float)):
         same = np.isclose(omega, one, rtol=SAME_FREQUENCY, atol=0.0)
         if not same.any():
             raise FileFormatError(
-                f"{where}: leave_out holds {one:g} rad/s, none of its frequencies, {omega.min():.4g} to "
-                f"{omega.max():.4g} rad/s"
+                f"{asked.where}: leave_out holds {one:g} rad/s, none of its frequencies, "
+                f"{omega.min(initial=np.inf):.4g} to {omega.max(initial=0.0):.4g} rad/s"
             )
         kept &= ~same
-    bad = np.zeros(len(omega), dtype=bool)
-    first = ""
-    for name, table in tables.items():
+    bad, first = np.zeros(len(omega), dtype=bool), ""
+    for name in ("added_mass", "damping", "force"):
+        table = tables[name][:, rows] if name == "force" else tables[name][rows]
         places = np.argwhere(~np.isfinite(table))
-        at = places[:, 1 if name == "force" else 0]
-        places, at = places[kept[at]], at[kept[at]]
-        bad[at] = True
+        places = places[kept[places[:, int(name == "force")]]]
+        bad[places[:, int(name == "force")]] = True
         if len(places) and not first:
             first = f"{name}{places[0].tolist()} is {table[tuple(places[0])]}"
     if bad.any():
         listed = ", ".join(f"{value:.5g}" for value in omega[bad][:8])
         raise FileFormatError(
-            f"{where}: {first}: values at {listed} rad/s are not finite, as of a solution that failed; solve "
-            f"again, or do without these frequencies by {reader}(leave_out=[{listed}])"
+            f"{asked.where}: {first}: values at {listed} rad/s are not finite, as of a solution that failed; "
+            f"solve again, or do without these frequencies by {asked.reader}(leave_out=[{listed}])"
         )
     if not kept.any():
-        raise FileFormatError(f"{where}: leave_out leaves no frequency; leave out fewer")
-    return np.flatnonzero(kept)
+        raise FileFormatError(
+            f"{asked.where}: no finite positive frequency is left; solve for some, or leave out fewer"
+        )
+    return rows[kept]
 
 
 def rising_directions(raw: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
@@ -228,23 +215,10 @@ def rising_directions(raw: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     return wrapped[order][new], order[new]
 
 
-def finished(where: object, found: Found, fix: str) -> Found:
-    """The database or group, whose hydrostatics have to be its own, with a trusted band.
-
-    Parameters
-    ----------
-    where : file, for messages.
-    fix : what the caller gives in place of hydrostatics that are another's.
-
-    Raises FileFormatError: as `require_own_hydrostatics`.
-
-    Warns
-    -----
-    RoughDataWarning : as `with_band_of_data`.
-    """
-    if isinstance(found, HydroGroup):
-        require_own_hydrostatics(where, found, fix)
-    return with_band_of_data(found)
+def rising_degrees(degrees: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+    """The same of degrees, in [0, 360) to 1e-6."""
+    wrapped = np.round(np.mod(degrees, 360.0), 6) % 360.0
+    return np.unique(wrapped, return_index=True)
 
 
 def require_own_hydrostatics(where: object, found: HydroGroup, fix: str) -> None:

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+from seacrane.errors import FileFormatError
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 
 Loaded = HydroDatabase | HydroGroup
 
@@ -22,23 +25,32 @@ class Format:
     files : what a path may be, in words.
     can_open : whether a path is a file, stem or folder of this kind; opens no more than it needs to tell.
     read : the database, of files that hold several the reader's own choice; or a FileFormatError.
+    takes : "speed" (m/s) or "depth" (m), by which `read` chooses where files may hold several.
     speeds : forward speeds in m/s, rising; by default zero alone.
-    at_speed, at_depth : the database of a speed in m/s or a depth in m, of files that may hold several; None:
-        they hold one.
     """
 
     name: str
     files: str
     can_open: Callable[[Path], bool]
-    read: Callable[[Path], Loaded]
+    read: Callable[..., Loaded]
+    takes: tuple[str, ...] = ()
     speeds: Callable[[Path], tuple[float, ...]] = lambda path: (0.0,)
-    at_speed: Callable[[Path, float], Loaded] | None = None
-    at_depth: Callable[[Path, float], Loaded] | None = None
 
 
 def is_file_of(path: Path, suffixes: tuple[str, ...]) -> bool:
     """Whether a path is a file whose name ends in one of ``suffixes``, in either case."""
     return path.suffix.lower() in suffixes and path.is_file()
+
+
+def is_kind(opened: Any, holds: Callable[[Any], bool]) -> bool:
+    """Whether a NetCDF or HDF5 file opens, and holds what those of a kind do. Raises where it is refused."""
+    try:
+        with opened as file:
+            return holds(file)
+    except FileFormatError:
+        raise
+    except NETCDF_ERRORS:
+        return False
 
 
 def sibling(stem: Path, suffix: str) -> Path | None:

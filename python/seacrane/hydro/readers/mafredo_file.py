@@ -7,7 +7,6 @@ symmetry and the phase origin, forward and to port of the point that loads and m
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.reading import reading
+from seacrane.hydro.readers.orcaflex_model import KILO, Raos, VesselType
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
@@ -28,51 +28,34 @@ SYMMETRIES = ("None", "xz plane", "yz plane", "xz and yz planes", "Circular")
 WHOLE = 1e-6  # deg beyond 180 from where headings are of both sides
 
 
-@dataclass(frozen=True, eq=False)
-class MafredoData:
-    """Contents in the file's units: te, kN; ``force`` (m, n, 6) complex, ``exp(-i omega t)``."""
-
-    omega: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
-    heading_deg: FloatArray
-    load_omega: FloatArray
-    force: ComplexArray
-    symmetry: str
-    phase_origin: FloatArray
-
-
-def read_mafredo(path: Path) -> MafredoData:
-    """Read a ``.dhyd`` file.
+def read_mafredo(path: Path) -> VesselType:
+    """Read a ``.dhyd`` file, which holds neither mass nor stiffness.
 
     Raises FileFormatError: no such form, damaged, or of different grids in its parts.
     """
     with reading(path, "a MaFreDo database", NETCDF_ERRORS), open_netcdf(path) as file:
-        found = _read(path, file)
-    return found
-
-
-def _read(path: Path, file: Any) -> MafredoData:
-    omega, added_mass = _matrices(file["mass"])
-    again, damping = _matrices(file["damping"])
-    loads = [_loads(file[motion.capitalize()]) for motion in MOTIONS]
-    heading_deg, load_omega, _ = loads[0]
-    if not np.array_equal(omega, again):
-        raise ValueError("added mass and damping have different frequencies")
-    for motion, (heading, frequency, _) in zip(MOTIONS, loads, strict=True):
-        if not (np.array_equal(heading, heading_deg) and np.array_equal(frequency, load_omega)):
-            raise ValueError(f"loads in {motion} and surge have different frequencies or directions")
-    info = file.groups.get("info")
-    return MafredoData(
-        omega=omega,
-        added_mass=added_mass,
-        damping=damping,
-        heading_deg=heading_deg,
-        load_omega=load_omega,
-        force=np.stack([values for _, _, values in loads], axis=-1),
-        symmetry=_symmetry(path, info, heading_deg),
-        phase_origin=np.array([_scalar(info, f"phase_origin_{axis}") for axis in (0, 1)]),
-    )
+        omega, added_mass = _matrices(file["mass"])
+        again, damping = _matrices(file["damping"])
+        loads = [_loads(file[motion.capitalize()]) for motion in MOTIONS]
+        heading_deg, load_omega, _ = loads[0]
+        if not np.array_equal(omega, again):
+            raise ValueError("added mass and damping have different frequencies")
+        for motion, (heading, frequency, _) in zip(MOTIONS, loads, strict=True):
+            if not (np.array_equal(heading, heading_deg) and np.array_equal(frequency, load_omega)):
+                raise ValueError(f"loads in {motion} and surge have different frequencies or directions")
+        info = file.groups.get("info")
+        at = np.array([*(_scalar(info, f"phase_origin_{axis}") for axis in (0, 1)), 0.0])
+        force = np.conj(np.stack([values for _, _, values in loads], axis=-1)) * KILO
+        return VesselType(
+            name=path.stem,
+            source=f"MaFreDo file {path.name}",
+            place="reference point of the MaFreDo database",
+            symmetry=_symmetry(path, info, heading_deg),
+            omega=omega,
+            added_mass=added_mass * KILO,
+            damping=damping * KILO,
+            loads=Raos(heading_deg, load_omega, force, np.zeros(3), at),
+        )
 
 
 def _matrices(group: Any) -> tuple[FloatArray, FloatArray]:

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.as_read import frequencies_kept, rising_directions, whole_stiffness
+from seacrane.hydro.readers.as_read import rising_directions, whole_stiffness
 from seacrane.hydro.readers.text_records import NUMBER, is_number, number_at, text_of
 
 FloatArray = NDArray[np.float64]
@@ -58,10 +58,6 @@ def sought(folder: Path, name: str) -> Path | None:
     return next((file for file in every if file.name.lower() == name.lower() and file.is_file()), None)
 
 
-def found_file(folder: Path, name: str) -> Path:
-    return needed(sought(folder, name), folder / name)
-
-
 def needed(file: Path | None, place: Path) -> Path:
     """A file that was found; raises where it was not."""
     if file is None:
@@ -84,10 +80,8 @@ class Solution:
     force: NDArray[np.complex128]
 
 
-def read_solution(
-    matrices: Path, forces: Path, control: Path | None, names: list[str], leave_out: ArrayLike | None
-) -> Solution:
-    """What both files hold, frequencies and directions rising, without those that the caller leaves out."""
+def read_solution(matrices: Path, forces: Path, control: Path | None, names: list[str]) -> Solution:
+    """What both files hold, directions rising."""
     radiation = _blocks(matrices, len(names))
     if len(radiation) != MOTIONS * len(names):
         raise FileFormatError(
@@ -95,23 +89,14 @@ def read_solution(
             "needed"
         )
     waves = _blocks(forces, len(names))
-    omega, order = _frequencies(matrices, radiation, control)
-    values = np.array([block.rows[order] for block in radiation])  # moving, omega, columns
-    if not np.array_equal(_frequencies(forces, waves, control)[0], omega):
+    omega = _frequencies(matrices, radiation, control)
+    if not np.array_equal(_frequencies(forces, waves, control), omega):
         raise FileFormatError(f"{forces}: other frequencies than {RADIATION}; use files of one run")
+    values = np.array([block.rows for block in radiation])  # moving, omega, columns
     direction, places = rising_directions(np.array([_direction(forces, each) for each in waves]))
-    wave = np.array([block.rows[order] for block in waves])[places]
+    wave = np.array([block.rows for block in waves])[places]
     added_mass, damping = (values[:, :, at::2].transpose(1, 2, 0) for at in (1, 2))
-    force = wave[:, :, 1::2] * np.exp(-1j * wave[:, :, 2::2])
-    tables = {"added_mass": added_mass, "damping": damping, "force": force}
-    rows = frequencies_kept(f"{matrices}, {forces.name}", "read_nemoh", omega, tables, leave_out)
-    return Solution(
-        omega=omega[rows],
-        direction=direction,
-        added_mass=added_mass[rows],
-        damping=damping[rows],
-        force=force[:, rows],
-    )
+    return Solution(omega, direction, added_mass, damping, wave[:, :, 1::2] * np.exp(-1j * wave[:, :, 2::2]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,10 +136,8 @@ def _blocks(path: Path, bodies: int) -> list[_Block]:
     return found
 
 
-def _frequencies(
-    path: Path, blocks: list[_Block], control: Path | None
-) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Frequencies (rad/s), rising, the same in every block, and their places in it."""
+def _frequencies(path: Path, blocks: list[_Block], control: Path | None) -> FloatArray:
+    """Frequencies (rad/s), the same in every block."""
     first = blocks[0].rows[:, 0]
     for block in blocks[1:]:
         if not np.array_equal(block.rows[:, 0], first):
@@ -165,9 +148,7 @@ def _frequencies(
     unit = _unit(path, control)
     if unit == "s" and np.any(first <= 0.0):
         raise FileFormatError(f"{path}: a period is {first.min():g} s; give positive ones")
-    omega = 2.0 * np.pi / first if unit == "s" else first * (2.0 * np.pi if unit == "Hz" else 1.0)
-    order = np.argsort(omega)
-    return omega[order], order
+    return 2.0 * np.pi / first if unit == "s" else first * (2.0 * np.pi if unit == "Hz" else 1.0)
 
 
 def _unit(path: Path, control: Path | None) -> str:

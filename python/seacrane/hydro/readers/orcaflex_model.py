@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -61,28 +61,31 @@ class VesselType:
     """One draught of a vessel type, SI; matrices about ``origin``; what is not in the file is None.
 
     ``omega`` (n,) of the matrices may hold 0 and infinity. ``mass``, ``centre`` and ``inertia`` (about the
-    centre) are of the structure; points are from the origin of the vessel's axes.
+    centre) are of the structure; points are from the origin of the vessel's axes. ``place`` says what the
+    origin is.
     """
 
     name: str
+    source: str
+    place: str
     symmetry: str
-    length: float | None
     omega: FloatArray
     added_mass: FloatArray
     damping: FloatArray
-    origin: FloatArray
     loads: Raos
-    motions: Raos | None
-    mass: float | None
-    centre: FloatArray
-    inertia: FloatArray
-    stiffness: FloatArray | None
-    volume: float | None
-    other_origin: FloatArray
-    other_linear: FloatArray
-    other_quadratic: FloatArray
-    rho: float | None
-    depth: float
+    origin: FloatArray = field(default_factory=lambda: np.zeros(3))
+    length: float | None = None
+    motions: Raos | None = None
+    mass: float | None = None
+    centre: FloatArray = field(default_factory=lambda: np.zeros(3))
+    inertia: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
+    stiffness: FloatArray | None = None
+    volume: float | None = None
+    other_origin: FloatArray = field(default_factory=lambda: np.zeros(3))
+    other_linear: FloatArray = field(default_factory=lambda: np.zeros(6))
+    other_quadratic: FloatArray = field(default_factory=lambda: np.zeros(6))
+    rho: float | None = None
+    depth: float = np.inf
 
 
 @dataclass(frozen=True)
@@ -170,8 +173,12 @@ def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None
     omega, added_mass, damping = _matrices(kind, state)
     motions = state.has("DisplacementRAOs") and state.at("DisplacementRAOs").has("RAOs")
     sea = _Node(path, "Environment", model.value.get("Environment") or {})
+    name = f"{kind.at('Name').text()}, {state.at('Name').text()}"
+    x, y, z = origin
     return VesselType(
-        name=f"{kind.at('Name').text()}, {state.at('Name').text()}",
+        name=name,
+        source=f"OrcaFlex model {path.name}, {name}",
+        place=f"reference origin of the OrcaFlex vessel type, ({x:g}, {y:g}, {z:g}) m in its axes",
         symmetry=kind.at("Symmetry").text() if kind.has("Symmetry") else "None",
         length=kind.at("Length").finite() if kind.has("Length") else None,
         omega=omega,

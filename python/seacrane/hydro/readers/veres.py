@@ -9,7 +9,7 @@ degrees. Drift coefficients: surge and sway by rho g B^2 / L, yaw by rho g B^2, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
@@ -22,19 +22,7 @@ from seacrane.hydro.data.motion import force_of_motion, one_function
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.format import Format, sibling
-from seacrane.hydro.readers.veres_files import (
-    LOST,
-    Case,
-    VeresFile,
-    VeresSet,
-    at_speed,
-    choose_speed,
-    find_stem,
-    is_veres,
-    other_run,
-    read_set,
-    veres_speeds,
-)
+from seacrane.hydro.readers.veres_files import LOST, Case, VeresSet, choose_speed, is_veres, read_set
 from seacrane.hydro.readers.veres_hydrostatics import contradictions, read_veres_hydrostatics
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import EncounterFrequencyWarning, HydrostaticsWarning, PartialSetWarning
@@ -43,6 +31,7 @@ FloatArray = NDArray[np.float64]
 
 TO_OURS = np.array([-1.0, -1.0, 1.0, -1.0, -1.0, 1.0])
 BOTH_SIDES = np.outer(TO_OURS, TO_OURS)
+GRID = {"motion_point": "motion point", "heading": "headings", "omega": "frequencies"}
 DRIFT_MOTIONS = [0, 1, 5]
 ADDITIONAL_CAUSE = "roll tanks and other additional matrices"
 LINEARISED_AMPLITUDE = 5.0  # m, the wave amplitude of the files' linearised roll damping
@@ -52,16 +41,6 @@ BAND = (0.3, 2.6)  # rad/s
 AGREEMENT = 0.02  # between headings at one encounter frequency, of the geometric mean of the diagonals
 DRIFT_DIGITS = 1e-4  # .re2 gives frequencies and headings in four and two decimals
 HEADING_DIGITS = 6e-3
-
-
-@dataclass(frozen=True, eq=False)
-class _Tables:
-    """The matrices at one speed as functions of frequency (of encounter), in our axes, frequencies rising."""
-
-    added_mass: FloatArray
-    damping: FloatArray
-    additional: AdditionalMatrices
-    roll: FloatArray
 
 
 def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> HydroDatabase:
@@ -96,7 +75,7 @@ def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> Hydr
     FileFormatError : a file is missing, truncated, inconsistent with the others, or without that speed; the
         message names the file and, where there is one, the line.
     """
-    found = read_set(find_stem(Path(path)))
+    found = read_set(Path(path))
     chosen = choose_speed(found, speed)
     with reading(found.stem):
         database = _convert(found, chosen)
@@ -104,62 +83,48 @@ def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> Hydr
     return database
 
 
-def _same_grid(path: Path, case: Case, matrices: Case) -> Case:
-    """The transfer functions, which must be on the grid of the matrices."""
-    pairs = {
-        "motion point": case.motion_point == matrices.motion_point,
-        "headings": np.array_equal(case.heading, matrices.heading),
-        "frequencies": np.array_equal(case.omega, matrices.omega),
-    }
-    for what, same in pairs.items():
-        if not same:
-            raise other_run(path, what)
-    return case
-
-
 def _convert(found: VeresSet, speed: float) -> HydroDatabase:
     """The database in our conventions."""
-    case, head = at_speed(found.matrices.cases, speed), found.matrices.header
-    force, motion = (
-        None if file is None else _same_grid(file.path, at_speed(file.cases, speed), case)
-        for file in (found.force, found.motion)
-    )
+    case, head = found.case(".re7", speed), found.matrices.header
     direction = _direction(case.heading)
     by_heading, by_omega = np.argsort(direction), np.argsort(case.omega)
+    waves: dict[str, NDArray[np.complex128]] = {}
+    for suffix in (".re8", ".re1"):
+        if suffix in found.files:
+            transfer = found.case(suffix, speed)
+            for name, what in GRID.items():
+                if not np.array_equal(getattr(transfer, name), getattr(case, name)):
+                    raise found.other_run(suffix, what)
+            waves[suffix] = np.asarray(transfer.values[by_heading][:, by_omega] * TO_OURS)
     omega = case.omega[by_omega]
-    tables = _tables(found, case, by_omega)
+    added_mass, damping, extra, roll = _tables(found, case, by_omega)
     restoring = case.blocks[:, :, 4]
     if np.any(np.abs(restoring - restoring[0, 0]) > 1e-6 * np.abs(restoring).max()):
         raise ValueError("the restoring matrix depends on heading or frequency; check the .re7 file")
-    extra = tables.additional
     present = any(np.any(x != 0.0) for x in (extra.added_mass, extra.damping, extra.restoring))
-
-    def of_wave(transfer: Case) -> NDArray[np.complex128]:
-        return np.asarray(transfer.values[by_heading][:, by_omega] * TO_OURS)
-
     x_aft, z = case.motion_point
-    names = ", ".join(file.path.suffix.lower() for file in found.files())
-    given = motion if force is None else force
-    assert given is not None
+    names = ", ".join(file.path.suffix.lower() for file in found.files.values())
+    missing = [suffix for suffix in LOST if sibling(found.stem, suffix) is None]
+    lost = "".join(f"; no {suffix}: {LOST[suffix]}" for suffix in missing)
     database = HydroDatabase(
         name=found.stem.name,
         omega=omega,
         heading=direction[by_heading],
-        added_mass=tables.added_mass,
-        damping=tables.damping,
+        added_mass=added_mass,
+        damping=damping,
         restoring=restoring[0, 0] * BOTH_SIDES + 0.0,
         mass_matrix=found.matrices.mass * BOTH_SIDES + 0.0,
-        force=of_wave(given),
-        motion_rao=None if motion is None or force is None else of_wave(motion),
+        force=waves.get(".re8", waves.get(".re1")),
+        motion_rao=waves.get(".re1") if ".re8" in waves else None,
         motion_rao_limit=CLOSURE_LIMIT if speed == 0.0 else SPEED_CLOSURE_LIMIT,
         roll_damping=RollDamping(
-            linear=tables.roll[:, 0],
-            quadratic=tables.roll[:, 1],
+            linear=roll[:, 0],
+            quadratic=roll[:, 1],
             linearised=case.roll[by_heading][:, by_omega, 2],
             linearised_amplitude=LINEARISED_AMPLITUDE,
         ),
         additional=(extra,) if present else (),
-        drift=None if found.drift is None else _drift(found.drift, at_speed(found.drift.cases, speed), case),
+        drift=_drift(found, case) if ".re2" in found.files else None,
         rho=head.rho,
         g=head.g,
         speed=case.speed,
@@ -170,11 +135,11 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
             f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
             "baseline"
         ),
-        source=f"ShipX/VERES files {found.stem.name} ({names}): {found.matrices.title}{_lost(found)}",
+        source=f"ShipX/VERES files {found.stem.name} ({names}): {found.matrices.title}{lost}",
         trusted_band=_trusted(omega),
         port_starboard_symmetric=True,
     )
-    return database if force is not None else _with_forces(found.stem, database)
+    return database if ".re8" in waves else _with_forces(found.stem, database)
 
 
 def _with_forces(stem: Path, database: HydroDatabase) -> HydroDatabase:
@@ -193,12 +158,6 @@ def _with_forces(stem: Path, database: HydroDatabase) -> HydroDatabase:
     return replace(database, force=force)
 
 
-def _lost(found: VeresSet) -> str:
-    """What files that are not there take away."""
-    missing = [suffix for suffix in LOST if sibling(found.stem, suffix) is None]
-    return "".join(f"; no {suffix}: {LOST[suffix]}" for suffix in missing)
-
-
 def _direction(heading_deg: FloatArray) -> FloatArray:
     """Directions of travel in [0, 2 pi) of the files' headings."""
     direction = np.mod(np.radians(heading_deg) + np.pi, 2.0 * np.pi)
@@ -206,8 +165,10 @@ def _direction(heading_deg: FloatArray) -> FloatArray:
     return np.asarray(direction)
 
 
-def _tables(found: VeresSet, case: Case, by_omega: NDArray[np.intp]) -> _Tables:
-    """The matrices as functions of the frequency of encounter alone."""
+def _tables(
+    found: VeresSet, case: Case, by_omega: NDArray[np.intp]
+) -> tuple[FloatArray, FloatArray, AdditionalMatrices, FloatArray]:
+    """Added mass, damping, what is additional, and roll damping, by the frequency (of encounter), rising."""
     omega = case.omega[by_omega]
     ours = case.blocks[:, by_omega] * BOTH_SIDES + 0.0  # + 0.0: no negative zeros
     roll = case.roll[:, by_omega, :2]
@@ -224,7 +185,7 @@ def _tables(found: VeresSet, case: Case, by_omega: NDArray[np.intp]) -> _Tables:
     extra = AdditionalMatrices(
         cause=ADDITIONAL_CAUSE, added_mass=added_mass_add, damping=damping_add, restoring=restoring_add
     )
-    return _Tables(added_mass, damping, extra, roll)
+    return added_mass, damping, extra, roll
 
 
 def _of_encounter(
@@ -237,45 +198,37 @@ def _of_encounter(
     encounter = omega + case.speed / found.matrices.header.g * np.outer(along, omega**2)
     flat = np.concatenate([blocks.reshape(m, n, -1), roll], axis=2)
     joined = one_function(flat, omega=omega, encounter=encounter, band=_trusted(omega) or (0.0, np.inf))
-    _warn_of_range(found.stem, case.speed, joined.known, omega)
-    _warn_of_disagreement(found.stem, case.speed, blocks, joined.difference[:-2].reshape(6, 6, 6))
-    return joined.values[:, :-2].reshape(n, 6, 6, 6), joined.values[:, -2:]
-
-
-def _warn_of_range(stem: Path, speed: float, known: tuple[float, float], omega: FloatArray) -> None:
-    if known[0] > omega[0] * (1.0 + 1e-9) or known[1] < omega[-1] * (1.0 - 1e-9):
+    low, high = joined.known
+    if low > omega[0] * (1.0 + 1e-9) or high < omega[-1] * (1.0 - 1e-9):
         warn_caller(
-            f"{stem}: at {speed:g} m/s the headings cover encounter frequencies {known[0]:.4g} to "
-            f"{known[1]:.4g} rad/s of {omega[0]:.4g} to {omega[-1]:.4g}; the end values are held beyond, and "
+            f"{found.stem}: at {case.speed:g} m/s the headings cover encounter frequencies {low:.4g} to "
+            f"{high:.4g} rad/s of {omega[0]:.4g} to {omega[-1]:.4g}; the end values are held beyond, and "
             "motions there follow from that guess. Add a beam sea to the VERES run",
             EncounterFrequencyWarning,
         )
-
-
-def _warn_of_disagreement(stem: Path, speed: float, blocks: FloatArray, difference: FloatArray) -> None:
     peak = np.sqrt(np.abs(np.diagonal(blocks, axis1=3, axis2=4)).max(axis=(0, 1)))  # (kinds, 6)
     scale = peak[:, :, None] * peak[:, None, :]
+    difference = joined.difference[:-2].reshape(6, 6, 6)
     relative = np.where(scale > 0.0, difference / np.where(scale > 0.0, scale, 1.0), 0.0)
     if relative.max() > AGREEMENT:
         kind, j, k = np.unravel_index(int(relative.argmax()), relative.shape)
         name = ("A", "A_add", "B", "B_add", "C", "C_add")[int(kind)]
         warn_caller(
-            f"{stem}: at {speed:g} m/s the headings differ at the same encounter frequency by up to "
-            f"{relative.max():.1%} of the largest diagonals, in {name}{j + 1}{k + 1}; one function is taken "
-            "for all, and motions are off accordingly",
+            f"{found.stem}: at {case.speed:g} m/s the headings differ at the same encounter frequency by up "
+            f"to {relative.max():.1%} of the largest diagonals, in {name}{j + 1}{k + 1}; one function is "
+            "taken for all, and motions are off accordingly",
             EncounterFrequencyWarning,
         )
+    return joined.values[:, :-2].reshape(n, 6, 6, 6), joined.values[:, -2:]
 
 
-def _drift(file: VeresFile, case: Case, matrices: Case) -> DriftCoefficients:
+def _drift(found: VeresSet, matrices: Case) -> DriftCoefficients:
     """Mean loads per squared amplitude in our axes, on the exact grid of the matrices."""
-    for what, rough, exact, digits in (
-        ("headings", case.heading, matrices.heading, HEADING_DIGITS),
-        ("frequencies", case.omega, matrices.omega, DRIFT_DIGITS),
-    ):
+    case, head = found.case(".re2", matrices.speed), found.files[".re2"].header
+    for name, digits in (("heading", HEADING_DIGITS), ("omega", DRIFT_DIGITS)):
+        rough, exact = getattr(case, name), getattr(matrices, name)
         if len(rough) != len(exact) or np.any(np.abs(rough - exact) > digits):
-            raise other_run(file.path, what)
-    head = file.header
+            raise found.other_run(".re2", GRID[name])
     force = head.rho * head.g * head.breadth**2
     scale = force * np.array([1.0 / head.length, 1.0 / head.length, 1.0])
     direction = _direction(matrices.heading)
@@ -294,8 +247,7 @@ def _check_hydrostatics(found: VeresSet, speed: float) -> None:
     path = sibling(found.stem, ".hyd")
     if path is None:
         return
-    case = at_speed(found.matrices.cases, speed)
-    different = contradictions(read_veres_hydrostatics(path), found.matrices, case)
+    different = contradictions(read_veres_hydrostatics(path), found.matrices, found.case(".re7", speed))
     if different:
         warn_caller(
             f"{path}: contradicts {found.matrices.path.name}: {'; '.join(different)} (SI); the matrices are "
@@ -315,6 +267,6 @@ FORMAT = Format(
     files="a ShipX/VERES folder, stem or file (.re7 with .re8, .re1, .re2, .hyd)",
     can_open=is_veres,
     read=read_veres,
-    speeds=veres_speeds,
-    at_speed=lambda path, speed: read_veres(path, speed=speed),
+    takes=("speed",),
+    speeds=lambda path: read_set(path).common_speeds(),
 )

@@ -111,7 +111,6 @@ def contradictions(hydrostatics: VeresHydrostatics, file: VeresFile, case: Case)
 def _of_matrices(file: VeresFile, case: Case) -> dict[str, tuple[float, float]]:
     """What the matrices and header of ``.re7`` say, with what rounding allows."""
     ship, matrix, restoring = file.header, file.mass, case.blocks[0, 0, 4]
-    assert ship.lcg_aft is not None and ship.vcg is not None
     mass, weight = matrix[0, 0], matrix[0, 0] * ship.g
     x, z = ship.lcg_aft - case.motion_point[0], ship.vcg - case.motion_point[1]
     along = ship.length / 2.0 - ship.lcg_aft

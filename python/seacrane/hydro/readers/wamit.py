@@ -10,14 +10,14 @@ have zero phase at the origin of the global axes, which is the group's (chapter 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
@@ -25,9 +25,9 @@ from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-from seacrane.hydro.readers.as_read import as_read, finished, mass_of_file
+from seacrane.hydro.readers.as_read import Asked, Given, mass_of_file, rising_degrees
 from seacrane.hydro.readers.format import Format, Loaded, sibling
-from seacrane.hydro.readers.of_bodies import Given, floating_body, hull_or_group, of_each_or_none
+from seacrane.hydro.readers.of_bodies import density_of, floating_body, hull_or_group, of_each
 from seacrane.hydro.readers.wamit_listing import (
     ROTATIONS,
     ForceControl,
@@ -52,14 +52,13 @@ from seacrane.hydro.readers.wamit_tables import (
 )
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
-from seacrane.warnings import AssumedDensityWarning, PartialSetWarning, RoundedPhaseWarning
+from seacrane.warnings import PartialSetWarning, RoundedPhaseWarning
 
 FloatArray = NDArray[np.float64]
 Files = dict[str, Path | None]  # by suffix
 
 SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
 NEEDED = (".1", ".3", ".hst")
-USUAL_DENSITY = 1025.0
 HASKIND_LIMIT = np.full(6, 0.01)  # two force methods differ by the mesh's error
 HASKIND_FLOOR = np.array([0.05, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4])  # surge in beam seas is a difference of errors
 DIFFRACTION_LIMIT = np.full(6, 1e-3)  # the forces of .3 themselves, in seven digits
@@ -76,6 +75,7 @@ def read_wamit(
     rho: float | None = None,
     mass_matrix: Given | None = None,
     motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> Loaded:
     """Read the WAMIT results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
@@ -94,6 +94,7 @@ def read_wamit(
         several bodies by name; by default their displaced masses with usual radii of gyration.
     motions : names of those that were solved for, where some were not: a motion without added mass and
         damping is refused unless it is left out here.
+    leave_out : rad/s of frequencies to do without.
 
     Returns
     -------
@@ -106,7 +107,7 @@ def read_wamit(
     Warns
     -----
     AssumedDensityWarning : neither ``.frc`` nor ``.out`` holds a density.
-    AssumedInertiaWarning : no ``.frc``, or one without mass matrix; or several bodies and no ``mass_matrix``.
+    AssumedInertiaWarning : no mass, in ``.frc`` or as ``mass_matrix``.
     PartialSetWarning : periods or headings are not the same in all files.
     RoundedPhaseWarning : the forces are those of the listing.
 
@@ -117,14 +118,20 @@ def read_wamit(
     """
     stem = find_wamit_stem(Path(path))
     files = {suffix: sibling(stem, suffix) for suffix in SUFFIXES}
-
-    def as_given() -> Listing:
-        return _listing_as_given(stem, volume, depth, g, length_scale)
-
+    asked = Asked(
+        where=stem, reader="read_wamit", mass_matrix=mass_matrix, motions=motions, leave_out=leave_out
+    )
     with reading(stem):
-        made = _convert(stem, files, as_given, rho, mass_matrix)
-        found = as_read(stem, "read_wamit", made, motions)
-    return finished(stem, found, "the .hst file of this run")
+        if files[".cfg"] is not None:
+            check_period_output(files[".cfg"])
+        listing = None if files[".out"] is None else read_listing(files[".out"])
+        lacking = next((suffix for suffix in NEEDED if files[suffix] is None), None)
+        if (listing is None or len(listing.bodies) == 1) and lacking is not None:
+            raise FileFormatError(
+                f"{stem}{lacking}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
+            )
+        listing = listing or _listing_as_given(stem, volume, depth, g, length_scale)
+        return _convert(asked, files, listing, rho)
 
 
 def find_wamit_stem(path: Path) -> Path:
@@ -197,29 +204,22 @@ def _numbers(files: Files, listing: Listing) -> tuple[Radiation, WaveTable, str]
     return radiation_of(rows, bodies=count), waves_of(forces, bodies=count), ".out alone"
 
 
-def _convert(
-    stem: Path, files: Files, as_given: Callable[[], Listing], given_rho: float | None, mass: Given | None
-) -> Loaded:
+def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) -> Loaded:
     """The database or the group in SI."""
-    if files[".cfg"] is not None:
-        check_period_output(files[".cfg"])
-    listing = None if files[".out"] is None else read_listing(files[".out"])
-    alone = listing is None or len(listing.bodies) == 1
-    lacking = next((suffix for suffix in NEEDED if files[suffix] is None), None)
-    if alone and lacking is not None:
-        raise FileFormatError(
-            f"{stem}{lacking}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
-        )
-    listing = listing or as_given()
-    count = len(listing.bodies)
-    whole = None if files[".hst"] is None else read_restoring(files[".hst"], bodies=count)
+    stem, count = asked.where, len(listing.bodies)
     radiation, waves, told = _numbers(files, listing)
-    motion = None if files[".4"] is None or not alone else read_waves(files[".4"])
-    control = None if files[".frc"] is None or not alone else read_force_control(files[".frc"])
+    motion = None if files[".4"] is None or count > 1 else read_waves(files[".4"])
+    control = None if files[".frc"] is None or count > 1 else read_force_control(files[".frc"])
     if files[".out"] is not None and files[".1"] is not None:
         _check_periods(listing, radiation.period, files[".1"])
     period, heading_deg = _common_periods(stem, radiation, waves, motion)
-    rho = _density(stem, listing.rho, given_rho if control is None or control.rho is None else control.rho)
+    rho = rho if control is None or control.rho is None else control.rho
+    if rho is not None and listing.rho is not None and abs(rho - listing.rho) > 1e-4 * rho:
+        raise FileFormatError(
+            f"{stem}: density {rho:g} kg/m3 in .frc but {listing.rho:g} in .out; use files of one run"
+        )
+    consequence = "every mass, stiffness and force is proportional to it"
+    rho = density_of(asked, listing.rho if rho is None else rho, consequence)
     g, scale = listing.g, listing.length_scale
     turns = np.tile(ROTATIONS, count)
     mass_scale = rho * scale ** (3 + np.add.outer(turns, turns))
@@ -234,24 +234,35 @@ def _convert(
 
     limits = (radiation.infinite_frequency_added_mass, radiation.zero_frequency_added_mass)
     infinite, zero = (None if limit is None else limit * mass_scale for limit in limits)
-    bodies = _bodies(stem, listing, whole, rho, mass, control)
+    bodies = _bodies(asked, files, listing, rho, control)
     own: dict[str, Any] = {}
     origin = "origin of WAMIT's global axes, on the still waterline"
     lids = ", ".join(f"{body.name} {body.lid_panels}" for body in listing.bodies)
     source = f"WAMIT {listing.version} files {stem.name} ({told}); interior lid panels: {lids}"
-    if alone:
+    if count == 1:
         haskind = control is None or control.motions_option != 2
+        symmetric = listing.symmetric
+        if symmetric is None:
+            symmetric = keeps_sides_apart(radiation.added_mass)
         own = {
-            **_of_one(listing, bodies[0], radiation, omega, haskind=haskind),
+            "port_starboard_symmetric": symmetric,
+            "trusted_band": _trusted(listing, bodies[0], symmetric, omega),
             "motion_rao": None if motion is None else picked(motion) / scale**ROTATIONS,
+            "motion_rao_limit": HASKIND_LIMIT if haskind else DIFFRACTION_LIMIT,
+            "motion_rao_floor": HASKIND_FLOOR if haskind else np.full(6, 1e-4),
             "drift": _drift(files, listing, rho),
         }
         height = listing.bodies[0].position[2]
         place = "on the still waterline" if height == 0.0 else f"{height:g} m above the still waterline"
         origin = f"origin of the WAMIT body axes, {place}"
-        source = _source(stem, files, listing, haskind=haskind)
+        read = ", ".join(suffix for suffix in SUFFIXES if files[suffix] is not None and suffix != ".pot")
+        source = f"WAMIT {listing.version} files {stem.name} ({read}): {listing.title}"
+        if motion is not None:
+            source += f"; motions by WAMIT from {'Haskind' if haskind else 'diffraction'} forces"
     return hull_or_group(
+        asked,
         bodies,
+        fix="the .hst file of this run",
         alone=own,
         name=stem.name,
         omega=omega,
@@ -270,65 +281,31 @@ def _convert(
 
 
 def _bodies(
-    stem: Path,
-    listing: Listing,
-    whole: FloatArray | None,
-    rho: float,
-    given: Given | None,
-    control: ForceControl | None,
+    asked: Asked, files: Files, listing: Listing, rho: float, control: ForceControl | None
 ) -> list[GroupBody]:
     g, scale, several = listing.g, listing.length_scale, len(listing.bodies) > 1
+    whole = None if files[".hst"] is None else read_restoring(files[".hst"], bodies=len(listing.bodies))
     names = [body.name for body in listing.bodies]
-    masses = of_each_or_none(listing.path, "mass_matrix", names, given)
+    masses = of_each(replace(asked, where=listing.path), "mass_matrix", names, asked.mass_matrix)
     power = scale ** (2 + np.add.outer(ROTATIONS, ROTATIONS))
     bodies = []
     for i, (body, mass) in enumerate(zip(listing.bodies, masses, strict=True)):
         at = slice(6 * i, 6 * i + 6)
         restoring = body.restoring(scale) * rho * g if whole is None else whole[at, at] * rho * g * power
-        centre = body.gravity
-        if control is not None and control.center_of_gravity is not None:
-            centre = control.center_of_gravity
-        if mass is None and control is not None:
-            mass = _mass_of_control(control, body, rho)
-        bodies.append(
-            floating_body(
-                listing.path if several else stem,
-                body.name,
-                several=several,
-                position=body.position,
-                heading=body.heading,
-                restoring=restoring,
-                volume=body.volume,
-                water=(rho, g),
-                mass=mass,
-                centre=centre,
-                lacks=(
-                    f"no mass matrix of {body.name}, pass mass_matrix to read_wamit"
-                    if several
-                    else "no mass matrix in .frc"
-                ),
-            )
-        )
-    if control is not None and control.damping is not None:
-        bodies[0] = replace(bodies[0], linear_damping=control.damping)
-    if control is not None and control.stiffness is not None:
-        bodies[0] = replace(bodies[0], restoring=bodies[0].restoring + control.stiffness)
+        centre, extra = body.gravity, {}
+        if control is not None:
+            centre = centre if control.center_of_gravity is None else control.center_of_gravity
+            mass = _mass_of_control(asked, control, body, rho) if mass is None else mass
+            extra = {"linear_damping": control.damping}
+        made = floating_body(
+            asked, body.name, where=listing.path if several else None, several=several,
+            position=body.position, heading=body.heading, restoring=restoring, volume=body.volume,
+            water=(rho, g), mass=mass, centre=centre, **extra,
+        )  # fmt: skip
+        if control is not None and control.stiffness is not None:
+            made = replace(made, restoring=restoring + control.stiffness)
+        bodies.append(made)
     return bodies
-
-
-def _of_one(
-    listing: Listing, body: GroupBody, radiation: Radiation, omega: FloatArray, *, haskind: bool
-) -> dict[str, Any]:
-    """Symmetry and trusted band of a body alone, and how far its motions may be off."""
-    symmetric = listing.symmetric
-    if symmetric is None:
-        symmetric = keeps_sides_apart(radiation.added_mass)
-    return {
-        "port_starboard_symmetric": symmetric,
-        "trusted_band": _trusted(listing, body, symmetric, omega),
-        "motion_rao_limit": HASKIND_LIMIT if haskind else DIFFRACTION_LIMIT,
-        "motion_rao_floor": HASKIND_FLOOR if haskind else np.full(6, 1e-4),
-    }
 
 
 def _drift(files: Files, listing: Listing, rho: float) -> DriftCoefficients | None:
@@ -381,48 +358,24 @@ def _common_periods(
 
 def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     """Directions in [0, 2 pi), rising, and their places in ``heading_deg``; 360 deg beside 0 is dropped."""
-    wrapped = np.round(np.mod(heading_deg, 360.0), 6) % 360.0
-    degrees, order = np.unique(wrapped, return_index=True)
-    repeated = len(wrapped) - len(degrees)
+    degrees, order = rising_degrees(heading_deg)
+    repeated = len(heading_deg) - len(degrees)
     if repeated and not (repeated == 1 and np.ptp(heading_deg) == 360.0):
         raise FileFormatError(f"{path}: headings {shown(heading_deg.tolist())} deg name one direction twice")
     return np.radians(degrees), order
 
 
-def _density(stem: Path, listed: float | None, given: float | None) -> float:
-    """kg/m3 of the listing or as given; where both tell it, they have to agree."""
-    if given is None and listed is None:
-        warn_caller(
-            f"{stem}: neither .frc nor .out holds the water density; 1025 kg/m3 is taken, and every mass, "
-            "stiffness and force is proportional to it",
-            AssumedDensityWarning,
-        )
-        return USUAL_DENSITY
-    if given is not None and listed is not None and abs(given - listed) > 1e-4 * given:
-        raise FileFormatError(
-            f"{stem}: density {given:g} kg/m3 in .frc but {listed:g} in .out; use files of one run"
-        )
-    return float(given if given is not None else listed or USUAL_DENSITY)
-
-
-def _mass_of_control(control: ForceControl, body: ListedBody, rho: float) -> FloatArray | None:
+def _mass_of_control(asked: Asked, control: ForceControl, body: ListedBody, rho: float) -> FloatArray | None:
     """Mass matrix (6, 6) of ``.frc``, or the displaced mass with its radii; None where it has neither."""
-    mass, asked = rho * body.volume, "read_wamit(mass_matrix=...)"
+    mass = rho * body.volume
     if control.mass is not None:
-        return mass_of_file(control.path, asked, control.mass, displaced=mass)
+        return mass_of_file(asked, control.mass, where=control.path, displaced=mass)
     if control.radii is None or control.height_of_gravity is None:
         return None
     centre = np.array([*body.gravity[:2], control.height_of_gravity])
     matrix = rigid_mass_matrix(mass, centre, np.zeros((3, 3)))
     matrix[3:, 3:] = mass * control.radii * np.abs(control.radii)
-    return mass_of_file(control.path, asked, matrix)
-
-
-def _source(stem: Path, files: Files, listing: Listing, *, haskind: bool) -> str:
-    read = ", ".join(suffix for suffix in SUFFIXES if files[suffix] is not None and suffix != ".pot")
-    method = "Haskind" if haskind else "diffraction"
-    motions = "" if files[".4"] is None else f"; motions by WAMIT from {method} forces"
-    return f"WAMIT {listing.version} files {stem.name} ({read}): {listing.title}{motions}"
+    return mass_of_file(asked, matrix, where=control.path)
 
 
 def _trusted(
