@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, both_sides, largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import in_trusted_band
@@ -19,8 +20,6 @@ from seacrane.warnings import (
     HeadingGapWarning,
     WaterMismatchWarning,
 )
-
-FloatArray = NDArray[np.float64]
 
 DAMPING_LIMIT = -0.01  # of the largest diagonals, as in the self-check
 SYMMETRY_LIMIT, ONE_SIDED = 0.1, 0.45  # of the diagonals, and of the larger entry; coarse meshes leave less

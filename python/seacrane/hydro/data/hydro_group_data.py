@@ -9,13 +9,12 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.frozen import freeze, require_band, require_definite, require_grid, require_positive
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.inputs.brief import brief
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 SHAPES = {
     "position": (3,),
     "mass_matrix": (6, 6),
@@ -62,6 +61,22 @@ class GroupBody:
         if not np.isfinite(self.heading):
             raise ValueError(f"{what}: heading is {self.heading}; give a finite angle in rad")
         require_definite(what, self.mass_matrix)
+
+
+def _of_bodies(name: str) -> cached_property[FloatArray]:
+    """What `GroupBody` holds, of all bodies."""
+
+    def whole(group: HydroGroupData) -> FloatArray:
+        """Of all bodies, (6 k,) or (6 k, 6 k) block by block: water at rest couples no hulls."""
+        parts = [getattr(body, name) for body in group.bodies]
+        out = np.concatenate(parts) if parts[0].ndim == 1 else np.zeros((6 * len(parts),) * 2)
+        for i, part in enumerate(parts):
+            if part.ndim == 2:
+                out[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = part
+        out.setflags(write=False)
+        return out
+
+    return cached_property(whole)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -139,31 +154,10 @@ class HydroGroupData:
         """Names of the bodies, in the order of the motions."""
         return tuple(body.name for body in self.bodies)
 
-    @cached_property
-    def mass_matrix(self) -> FloatArray:
-        """(6 k, 6 k), block by block."""
-        return self._blocks("mass_matrix")
-
-    @cached_property
-    def restoring(self) -> FloatArray:
-        """(6 k, 6 k), block by block: water at rest couples no hulls."""
-        return self._blocks("restoring")
-
-    @cached_property
-    def linear_damping(self) -> FloatArray:
-        """(6 k, 6 k) beside radiation, block by block."""
-        return self._blocks("linear_damping")
-
-    @cached_property
-    def quadratic_damping(self) -> FloatArray:
-        """(6 k,) coefficients of v |v| beside radiation."""
-        return _frozen(np.concatenate([body.quadratic_damping for body in self.bodies]))
-
-    def _blocks(self, name: str) -> FloatArray:
-        out = np.zeros((6 * len(self.bodies),) * 2)
-        for i, body in enumerate(self.bodies):
-            out[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = getattr(body, name)
-        return _frozen(out)
+    mass_matrix = _of_bodies("mass_matrix")
+    restoring = _of_bodies("restoring")
+    linear_damping = _of_bodies("linear_damping")
+    quadratic_damping = _of_bodies("quadratic_damping")
 
     def place(self, name: str) -> slice:
         """Where the six motions of a body stand among all.
@@ -179,11 +173,6 @@ class HydroGroupData:
 
 
 Hydrodynamics = HydroData | HydroGroupData  # of one hull, or of several: the same equations, of other size
-
-
-def _frozen(array: FloatArray) -> FloatArray:
-    array.setflags(write=False)
-    return array
 
 
 def in_trusted_band(database: Hydrodynamics, omega: FloatArray | None = None) -> NDArray[np.bool_]:

@@ -5,11 +5,9 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.one_thread import one_thread
-
-FloatArray = NDArray[np.float64]
 
 
 def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None = None) -> FloatArray:

@@ -5,17 +5,14 @@ from __future__ import annotations
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import motion_response
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import RaoPhaseWarning
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 FOLLOWS = (0.5, 1.6)  # of the limit's amplitude: a hull that follows the wave
 LARGEST_PHASE = np.radians(60.0)  # from the limit's

@@ -8,12 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.frozen import freeze
 from seacrane.inputs.brief import brief
 from seacrane.one_thread import one_thread
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 RADIATION = "radiation"
 MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import by_straight_lines, spline_weights
 from seacrane.sea.dispersion import wavenumber
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 SLACK = 1e-9  # of the highest frequency: the rounding of sums that meet an end of the table
 BEAM = 1e-6  # |cos(heading)| below which speed leaves the frequency as it is
 

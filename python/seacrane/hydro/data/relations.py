@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.excitation import full_circle
 from seacrane.hydro.data.heading_circle import largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import by_straight_lines, spline_weights
-
-FloatArray = NDArray[np.float64]
 
 HEADINGS = 720
 FINE_POINTS = 6001

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.database.database import HydroDatabase
@@ -20,7 +21,6 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.warnings import FloatingPositionWarning, RoughDataWarning
 
-FloatArray = NDArray[np.float64]
 Found = TypeVar("Found", bound=HydroDatabase | HydroGroup)
 Given = ArrayLike | Mapping[str, ArrayLike]  # of one body, or by name
 

@@ -15,16 +15,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
 from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_hdf5
-
-FloatArray = NDArray[np.float64]
 
 HDF5 = (".h5", ".hdf5")
 PARAMETERS = "simulation_parameters"

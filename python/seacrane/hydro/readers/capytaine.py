@@ -15,9 +15,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.readers.as_read import Asked, Given, mass_of_file, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
@@ -29,9 +30,6 @@ from seacrane.warnings import AssumedReferenceWarning, MissingMotionsWarning
 
 if TYPE_CHECKING:
     import xarray
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 MOTION_NAMES = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 NETCDF = (".nc", ".nc4")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -57,3 +57,22 @@ def sibling(stem: Path, suffix: str) -> Path | None:
     """File of a set of one stem with that suffix, in either case."""
     places = [stem.parent / (stem.name + one) for one in (suffix, suffix.upper())]
     return next((place for place in places if place.is_file()), None)
+
+
+def stem_of(path: Path, kind: str, leading: tuple[str, ...], suffixes: Collection[str]) -> Path:
+    """Common stem (folder and name without suffix) of the set of files that ``path`` points to.
+
+    In a folder it is that of the one file with the first of the ``leading`` suffixes that is there.
+    """
+    if not path.is_dir():
+        own = sibling(path, leading[0]) is None and path.suffix.lower() in suffixes
+        return path.with_suffix("") if own else path
+    files = sorted(path.iterdir())
+    by_suffix = [[one.with_suffix("") for one in files if one.suffix.lower() == each] for each in leading]
+    stems = list(dict.fromkeys(next((some for some in by_suffix if some), [])))
+    if len(stems) != 1:
+        found = ", ".join(stem.name for stem in stems) or "none"
+        raise FileFormatError(
+            f"{path}: one {leading[0]} file is needed in a {kind} folder, found: {found}; give the stem"
+        )
+    return stems[0]

@@ -12,8 +12,9 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.transform import motion_transform
@@ -36,8 +37,6 @@ from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_ea
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import AssumedDensityWarning
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 SAME_POINT = 1e-6  # m
 NEAR = 0.1  # of the distance of both points: the waves have told which
 

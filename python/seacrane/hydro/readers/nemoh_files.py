@@ -18,10 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.readers.as_read import rising_directions, whole_stiffness
 from seacrane.hydro.readers.text_records import NUMBER, is_number, number_at, text_of
-
-FloatArray = NDArray[np.float64]
 
 RADIATION, EXCITATION = "RadiationCoefficients.tec", "ExcitationForce.tec"
 STIFFNESS, HYDROSTATICS, CONTROL = "KH.dat", "Hydrostatics.dat", "Nemoh.cal"
@@ -34,7 +33,7 @@ MOTIONS = 6
 class Water:
     """``Nemoh.cal``: kg/m3, m/s2, m, and m from the origin of the mesh; ``centres`` (k, 3) of rotation.
 
-    ``names`` of the bodies are those of their mesh files.
+    ``names`` of the bodies are those of their mesh files, or numbers where these are not one each.
     """
 
     rho: float
@@ -110,30 +109,24 @@ class _Block:
 
 def _blocks(path: Path, bodies: int) -> list[_Block]:
     """The blocks of a Tecplot file; lines of text without rows below them are its head."""
-    found: list[_Block] = []
+    found: list[tuple[str, int, list[list[float]]]] = [("", 0, [])]
     motions = MOTIONS * bodies
-    title, start, rows = "", 0, list[list[float]]()
-
-    def close() -> None:
-        if rows:
-            found.append(_Block(title, start, np.array(rows)))
-
     for number, line in enumerate(_text_lines(path), start=1):
         words = line.split()
         if words and is_number(words[0]):
-            rows.append(_numbers_in(path, number, words, failed=True))
-            if len(rows[-1]) != 1 + 2 * motions:
+            row = _numbers_in(path, number, words, failed=True)
+            if len(row) != 1 + 2 * motions:
                 raise FileFormatError(
-                    f"{path}, line {number}: {len(rows[-1])} numbers; omega and two for each of {motions} "
-                    "motions are needed: the file is truncated, or of another body"
+                    f"{path}, line {number}: {len(row)} numbers; omega and two for each of {motions} motions "
+                    "are needed: the file is truncated, or of another body"
                 )
+            found[-1][2].append(row)
         elif words:
-            close()
-            title, start, rows = line.strip(), number, []
-    close()
-    if not found:
+            found.append((line.strip(), number, []))
+    blocks = [_Block(title, line, np.array(rows)) for title, line, rows in found if rows]
+    if not blocks:
         raise FileFormatError(f"{path}: no numbers; the file is empty or truncated")
-    return found
+    return blocks
 
 
 def _frequencies(path: Path, blocks: list[_Block], control: Path | None) -> FloatArray:
@@ -159,27 +152,21 @@ def _unit(path: Path, control: Path | None) -> str:
     known = {unit.lower(): unit for unit in UNITS}
     if headed is not None and headed not in known:
         raise FileFormatError(f"{path}, line 1: frequencies in {headed[:20]!r}; {', '.join(UNITS)} are read")
-    asked = None if control is None else _unit_of_control(control)
+    asked = None
+    for number, line in enumerate([] if control is None else _text_lines(control), start=1):
+        if asked is None and re.search(r"output\s+freq\w*\s+type", line, re.IGNORECASE):  # of NEMOH 3
+            asked = dict(zip("123", UNITS, strict=True)).get(line.split()[0])
+            if asked is None:
+                raise FileFormatError(
+                    f"{control}, line {number}: type {line.split()[0][:20]!r} of output frequencies; give 1, "
+                    f"2 or 3 for {', '.join(UNITS)}"
+                )
     if headed is not None and asked is not None and known[headed] != asked:
         raise FileFormatError(
             f"{path}, line 1: headed by {known[headed]}, and {control} asks for {asked}; give the files of "
             "one run"
         )
     return known[headed] if headed is not None else asked or UNITS[0]
-
-
-def _unit_of_control(path: Path) -> str | None:
-    """The unit that ``Nemoh.cal`` (NEMOH 3) asks tables to be written over."""
-    for number, line in enumerate(_text_lines(path), start=1):
-        if re.search(r"output\s+freq\w*\s+type", line, re.IGNORECASE):
-            word = line.split()[0]
-            if word not in ("1", "2", "3"):
-                raise FileFormatError(
-                    f"{path}, line {number}: type {word[:20]!r} of output frequencies; give 1, 2 or 3 for "
-                    f"{', '.join(UNITS)}"
-                )
-            return UNITS[int(word) - 1]
-    return None
 
 
 def _direction(path: Path, block: _Block) -> float:
@@ -251,14 +238,10 @@ def read_control(path: Path) -> Water:
             )
         centres.append(points.pop())
     meshes = [row[0] for _, row in rows if len(row) == 1 and row[0].lower().endswith(".dat")]
-    return Water(rho, g, depth or np.inf, np.array(centres), (origin[0], origin[1]), _names(centres, meshes))
-
-
-def _names(centres: list[tuple[float, ...]], meshes: list[str]) -> list[str]:
-    """Names of the mesh files, each once; numbers where that is not so."""
-    stems = [PureWindowsPath(mesh).stem for mesh in meshes]
-    alone = len(stems) == len(centres) and len(set(stems)) == len(centres)
-    return stems if alone else [f"body{i}" for i in range(1, len(centres) + 1)]
+    names = [PureWindowsPath(mesh).stem for mesh in meshes]
+    if not len(names) == len(set(names)) == len(centres):
+        names = [f"body{i}" for i in range(1, len(centres) + 1)]
+    return Water(rho, g, depth or np.inf, np.array(centres), (origin[0], origin[1]), names)
 
 
 def _numbers_in(path: Path, line: int, words: list[str], *, failed: bool = False) -> list[float]:

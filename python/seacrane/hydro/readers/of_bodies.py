@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.heading_circle import keeps_sides_apart, phase_at
 from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
@@ -30,8 +31,6 @@ from seacrane.hydro.readers.as_read import (
 from seacrane.hydro.readers.format import Loaded
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import AssumedDensityWarning, AssumedInertiaWarning
-
-FloatArray = NDArray[np.float64]
 
 USUAL_RADII = (0.36, 0.25, 0.25)  # of breadth, length, length
 USUAL_DENSITY = 1025.0

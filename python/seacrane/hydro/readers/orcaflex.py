@@ -10,18 +10,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.heading_circle import phase_at
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.as_read import Asked, mass_of_file, rising_degrees
 from seacrane.hydro.readers.format import Format, is_file_of
-from seacrane.hydro.readers.mafredo_file import read_mafredo
 from seacrane.hydro.readers.of_bodies import (
     LIMITS,
     box_of,
@@ -31,13 +32,13 @@ from seacrane.hydro.readers.of_bodies import (
     matrix_at,
     of_each,
 )
-from seacrane.hydro.readers.orcaflex_model import Raos, VesselType, read_vessel_type
+from seacrane.hydro.readers.orcaflex_model import KILO, Raos, VesselType, read_vessel_type
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import MOTIONS
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
-from seacrane.warnings import PartialSetWarning
+from seacrane.warnings import AssumedSymmetryWarning, PartialSetWarning
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 Places = NDArray[np.intp]
 
 GRAVITY = 9.80665  # m/s2, OrcaFlex's
@@ -51,6 +52,9 @@ MIRRORS = {
 }  # port against starboard, bow against stern
 SAME_FREQUENCY = 1e-6
 MOTION_LIMIT = np.full(6, 1e-3)
+MATRIX, LOADS = ("omega", "influenced_dof", "radiating_dof"), ("wave_direction", "omega")  # of MaFreDo
+SYMMETRIES = (*MIRRORS, "Circular")
+WHOLE = 1e-6  # deg beyond 180 from where headings are of both sides
 
 
 def read_orcaflex(
@@ -103,7 +107,7 @@ def read_orcaflex(
     )  # fmt: skip
     with reading(source):
         if source.suffix.lower() == ".dhyd":
-            kind = read_mafredo(source)
+            kind = _read_mafredo(source)
         else:
             kind = read_vessel_type(source, vessel_type=vessel_type, draught=draught)
         return _convert(asked, kind, kind.rho if rho is None else rho)
@@ -233,6 +237,81 @@ def _common(path: Path, kind: VesselType) -> tuple[Places, Places]:
             PartialSetWarning,
         )
     return np.array(rows), np.array(columns)
+
+
+def _read_mafredo(path: Path) -> VesselType:
+    """A ``.dhyd`` file: NetCDF in te and kN, phases that lag, without mass and stiffness.
+
+    Groups ``mass`` and ``damping`` hold one array each, ``Surge`` to ``Yaw`` real and imaginary part of the
+    loads, ``info`` symmetry and phase origin, forward and to port of what loads and matrices refer to.
+    """
+    with reading(path, "a MaFreDo database", NETCDF_ERRORS), open_netcdf(path) as file:
+        matrices = [_mafredo_matrices(file[name]) for name in ("mass", "damping")]
+        groups = [file[motion.capitalize()] for motion in MOTIONS]
+        grids = [[_coordinate(group[name]) for name in LOADS] for group in groups]
+        omega, (degrees, load_omega) = _coordinate(file["mass"]["omega"]), grids[0]
+        if not np.array_equal(omega, _coordinate(file["damping"]["omega"])):
+            raise ValueError("added mass and damping have different frequencies")
+        for motion, grid in zip(MOTIONS, grids, strict=True):
+            if not all(map(np.array_equal, grid, grids[0])):
+                raise ValueError(f"loads in {motion} and surge have different frequencies or directions")
+        parts = [[_by_names(group[part], LOADS) for group in groups] for part in ("real", "imag")]
+        force = np.conj(np.stack(parts[0], axis=-1) + 1j * np.stack(parts[1], axis=-1)) * KILO
+        info = file.groups["info"].variables if "info" in file.groups else {}
+        places = ("phase_origin_0", "phase_origin_1")
+        origin = [float(info[name][...]) if name in info else 0.0 for name in places]
+        if not np.isfinite(origin).all():
+            raise ValueError(f"phase_origin is {origin}")
+        if "symmetry" in info:
+            symmetry = SYMMETRIES[int(np.asarray(info["symmetry"][...]))]
+        else:  # of old versions
+            one_side = bool(np.all(np.mod(degrees, 360.0) <= 180.0 + WHOLE))
+            symmetry = "xz plane" if one_side else "None"
+            warn_caller(
+                f"{path}: does not say which symmetry the vessel has; with directions up to "
+                f"{degrees.max():g} deg {symmetry!r} is taken, and loads from the other side follow from "
+                "that guess",
+                AssumedSymmetryWarning,
+            )
+    return VesselType(
+        name=path.stem,
+        source=f"MaFreDo file {path.name}",
+        place="reference point of the MaFreDo database",
+        symmetry=symmetry,
+        omega=omega,
+        added_mass=matrices[0] * KILO,
+        damping=matrices[1] * KILO,
+        loads=Raos(degrees, load_omega, force, np.zeros(3), np.array([*origin, 0.0])),
+    )
+
+
+def _mafredo_matrices(group: Any) -> FloatArray:
+    """The group's array (n, 6, 6) with the influenced motion first, in the order of our motions."""
+    found = [variable for variable in group.variables.values() if set(variable.dimensions) == set(MATRIX)]
+    if len(found) != 1:
+        raise ValueError(f"group {group.name} holds {len(found)} arrays by {', '.join(MATRIX)}")
+    array = _by_names(found[0], MATRIX)
+    for axis, name in enumerate(MATRIX[1:], start=1):
+        labels = [str(label).lower() for label in np.asarray(group[name][...]).tolist()]
+        words = MOTIONS if labels[0] in MOTIONS else tuple(str(i) for i in range(6))
+        if sorted(labels) != sorted(words):
+            raise ValueError(f"{name} holds {', '.join(labels)[:200]}; six motions are needed")
+        array = np.take(array, [labels.index(word) for word in words], axis=axis)
+    return array
+
+
+def _by_names(variable: Any, order: tuple[str, ...]) -> FloatArray:
+    """A variable's numbers with its dimensions in that order."""
+    axes = [variable.dimensions.index(name) for name in order]
+    return np.asarray(variable[...], dtype=float).transpose(axes)
+
+
+def _coordinate(variable: Any) -> FloatArray:
+    """A list of finite numbers (infinity excepted for frequencies)."""
+    values = np.ravel(np.asarray(variable[...], dtype=float))
+    if values.size == 0 or np.any(np.isnan(values)) or np.any(np.isneginf(values)):
+        raise ValueError(f"{variable.name} is empty or holds undefined values")
+    return values
 
 
 FORMAT = Format(

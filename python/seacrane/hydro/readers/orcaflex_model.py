@@ -14,14 +14,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import decoded, read_whole
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 KILO = 1000.0  # te to kg, kN to N
 LARGEST_FILE = 64 * 2**20  # bytes; YAML is read at about 1 MiB/s

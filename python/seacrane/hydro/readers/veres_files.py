@@ -5,8 +5,8 @@ And those of one stem: which there are, whether they are of one run, which speed
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import nan
 from pathlib import Path
@@ -16,14 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.format import sibling
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.readers.format import sibling, stem_of
 from seacrane.hydro.readers.text_records import TextRecords
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
 from seacrane.warnings import PartialSetWarning, SeveralSpeedsWarning
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 HEADER_LINES = 6
 RADIATION = [0, 2, 4]  # places of A, B, C among A, A_add, B, B_add, C, C_add
@@ -93,7 +91,7 @@ class VeresFile:
 def read_matrices(path: Path) -> VeresFile:
     """Read a ``.re7`` file of version 1 (no version line, no additional blocks) or 2."""
     records = TextRecords(path)
-    title, header = _header(records, with_gravity=True)
+    title, header = _header(records)
     kinds, what = RADIATION, "A, B, C"
     if len(records.peek("the version line or counts")) != 4:  # of version 1, which has no such line
         marker, version = records.integers(2, "version line or counts")
@@ -111,13 +109,13 @@ def read_matrices(path: Path) -> VeresFile:
         blocks[kinds] = records.table(6 * len(kinds), 6, what).reshape(-1, 6, 6)
         return np.append(blocks, records.numbers(3, "roll damping"))
 
-    return VeresFile(path, header, _cases(records, counts, row), title, mass)
+    return _file(records, header, _cases(records, counts, row), title=title, mass=mass)
 
 
 def read_transfer(path: Path) -> VeresFile:
     """Read a ``.re1`` or ``.re8`` file."""
     records = TextRecords(path)
-    _, header = _header(records, with_gravity=True)
+    _, header = _header(records)
     counts = _counts(records, before=0, each=6)
 
     def row() -> ComplexArray:
@@ -126,15 +124,14 @@ def read_transfer(path: Path) -> VeresFile:
             raise records.error(f"motions {rows[:, 0].tolist()} where 1 to 6 are expected")
         return np.asarray(rows[:, 1] + 1j * rows[:, 2])
 
-    return VeresFile(path, header, _cases(records, counts, row))
+    return _file(records, header, _cases(records, counts, row))
 
 
 def _cases(
     records: TextRecords, counts: tuple[int, int, int], row: Callable[[], NDArray[Any]]
-) -> tuple[Case, ...]:
+) -> Iterator[Case]:
     """Every speed of a file, whose headings and frequencies have a ``row`` each."""
     speeds, m, n = counts
-    cases = []
     for _ in range(speeds):
         speed, _, _, x_aft, z = records.numbers(5, "speed, sinkage, trim, motion point")
         heading, omega, rows = np.empty(m), np.empty((m, n)), []
@@ -143,10 +140,7 @@ def _cases(
             for k in range(n):
                 (omega[h, k],) = records.numbers(1, "frequency")
                 rows.append(row())
-        values = np.array(rows).reshape(m, n, -1)
-        cases.append(Case(speed, heading, _one_omega(records, omega), values, (x_aft, z)))
-    records.finish()
-    return _distinct(records.path, cases)
+        yield Case(speed, heading, omega, np.array(rows).reshape(m, n, -1), (x_aft, z))
 
 
 def read_drift(path: Path) -> VeresFile:
@@ -164,10 +158,27 @@ def read_drift(path: Path) -> VeresFile:
             raise records.error(
                 f"speeds {shown(np.unique(speed).tolist())} m/s where {m} headings of one are due"
             )
-        omega = _one_omega(records, table[:, :, 0])
-        cases.append(Case(float(speed[0]), heading, omega, table[:, :, 1:].copy()))
+        cases.append(Case(float(speed[0]), heading, table[:, :, 0], table[:, :, 1:].copy()))
+    return _file(records, header, cases)
+
+
+def _file(records: TextRecords, header: VeresHeader, given: Iterable[Case], **others: Any) -> VeresFile:
+    """The file, whose headings have to repeat their frequencies, and which gives each speed once."""
+    cases = []
+    for case in given:
+        other = np.flatnonzero(np.any(case.omega != case.omega[0], axis=1))
+        if other.size:
+            raise FileFormatError(
+                f"{records.path}: frequencies of heading number {other[0] + 1} differ from those of the first"
+            )
+        cases.append(replace(case, omega=np.array(case.omega[0])))
     records.finish()
-    return VeresFile(path, header, _distinct(path, cases))
+    for one, next_one in pairwise(sorted(case.speed for case in cases)):
+        if same_speed(one, next_one):
+            raise FileFormatError(
+                f"{records.path}: speed {next_one:g} m/s is given twice; export the file again"
+            )
+    return VeresFile(records.path, header, tuple(cases), **others)
 
 
 READERS = {".re7": read_matrices, ".re8": read_transfer, ".re1": read_transfer, ".re2": read_drift}
@@ -178,7 +189,7 @@ def same_speed(a: float, b: float) -> bool:
     return abs(a - b) <= SPEED_DIGITS
 
 
-def _header(records: TextRecords, *, with_gravity: bool) -> tuple[str, VeresHeader]:
+def _header(records: TextRecords, *, with_gravity: bool = True) -> tuple[str, VeresHeader]:
     title = [records.text("the header") for _ in range(HEADER_LINES)]
     water = records.numbers(2, "density and gravity")
     sizes = records.numbers(3, "length, breadth, draught")
@@ -203,24 +214,6 @@ def _counts(records: TextRecords, *, before: int = 0, each: int | None = None) -
     lines = speeds * m * (1 + n) if each is None else before + speeds * (1 + m * (1 + n * (1 + each)))
     records.expect(lines, "the counts in its header")
     return speeds, m, n
-
-
-def _one_omega(records: TextRecords, omega: FloatArray) -> FloatArray:
-    """The frequencies, which every heading has to repeat."""
-    if np.any(omega != omega[0]):
-        heading = int(np.argwhere(np.any(omega != omega[0], axis=1))[0, 0])
-        raise FileFormatError(
-            f"{records.path}: frequencies of heading number {heading + 1} differ from those of the first"
-        )
-    return np.array(omega[0])
-
-
-def _distinct(path: Path, cases: list[Case]) -> tuple[Case, ...]:
-    """The cases, none of whose speeds may occur twice."""
-    for case, other in pairwise(sorted(cases, key=lambda case: case.speed)):
-        if same_speed(case.speed, other.speed):
-            raise FileFormatError(f"{path}: speed {other.speed:g} m/s is given twice; export the file again")
-    return tuple(cases)
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,16 +262,8 @@ def is_veres(path: Path) -> bool:
 
 
 def find_stem(path: Path) -> Path:
-    """Common stem (folder and name without suffix) of the set of files that ``path`` points to."""
-    if path.is_dir():
-        stems = sorted({file.with_suffix("") for file in path.iterdir() if file.suffix.lower() == ".re7"})
-        if len(stems) != 1:
-            found = ", ".join(stem.name for stem in stems) or "none"
-            raise FileFormatError(
-                f"{path}: one .re7 file is needed in a VERES folder, found: {found}; give the stem"
-            )
-        return stems[0]
-    return path.with_suffix("") if path.suffix.lower() in (*READERS, ".hyd") else path
+    """`stem_of` a VERES set."""
+    return stem_of(path, "VERES", (".re7",), (*READERS, ".hyd"))
 
 
 def read_set(path: Path) -> VeresSet:

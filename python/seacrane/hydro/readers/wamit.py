@@ -20,13 +20,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.readers.as_read import Asked, Given, mass_of_file, rising_degrees
-from seacrane.hydro.readers.format import Format, Loaded, sibling
+from seacrane.hydro.readers.format import Format, Loaded, sibling, stem_of
 from seacrane.hydro.readers.of_bodies import density_of, floating_body, hull_or_group, of_each
 from seacrane.hydro.readers.wamit_listing import (
     ROTATIONS,
@@ -54,7 +55,6 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
 from seacrane.warnings import PartialSetWarning, RoundedPhaseWarning
 
-FloatArray = NDArray[np.float64]
 Files = dict[str, Path | None]  # by suffix
 
 SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
@@ -135,20 +135,8 @@ def read_wamit(
 
 
 def find_wamit_stem(path: Path) -> Path:
-    """Common stem (folder and name without suffix) of the set of files that ``path`` points to."""
-    if path.is_dir():
-        files = sorted(path.iterdir())
-        stems = list(dict.fromkeys(file.with_suffix("") for file in files if file.suffix == ".1"))
-        stems = stems or [file.with_suffix("") for file in files if file.suffix.lower() == ".out"]
-        if len(stems) != 1:
-            found = ", ".join(stem.name for stem in stems) or "none"
-            raise FileFormatError(
-                f"{path}: one .1 file is needed in a WAMIT folder, found: {found}; give the stem"
-            )
-        return stems[0]
-    if sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
-        return path.with_suffix("")
-    return path
+    """`stem_of` a WAMIT set."""
+    return stem_of(path, "WAMIT", (".1", ".out"), SUFFIXES)
 
 
 def is_wamit(path: Path) -> bool:

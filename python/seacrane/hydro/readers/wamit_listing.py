@@ -10,14 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.readers.text_records import NUMBER as WORD
 from seacrane.hydro.readers.text_records import TextRecords, is_number, number_at, text_of
 from seacrane.hydro.readers.wamit_tables import INFINITE_FREQUENCY_PERIOD, ZERO_FREQUENCY_PERIOD, Table
-
-FloatArray = NDArray[np.float64]
 
 NUMBER = rf"({WORD}|\*+)"
 TRIPLE = rf"\s*:?\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}"

@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.readers.text_records import is_number, number_at, text_of
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import PartialSetWarning
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 IntArray = NDArray[np.int64]
 
 ZERO_FREQUENCY_PERIOD = -1.0
