@@ -57,19 +57,12 @@ def interpolated(time: Any, values: Any) -> Array:
 
     Parameters
     ----------
-    time : array_like, shape (n,)
-        Increasing.
-    values : array_like or masked array, shape (n,)
-        Any unit.
-
-    Returns
-    -------
-    ndarray, shape (n,)
+    time : (n,) increasing.
+    values : (n,) in any unit, masked where they are not known.
 
     Raises
     ------
-    SceneError
-        Where fewer than four are known, or the first or last is not: nothing is taken beyond what is known.
+    SceneError : fewer than four are known, or the first or last is not: nothing is taken beyond.
     """
     data = np.ma.asarray(values)
     known = ~np.ma.getmaskarray(data) & np.isfinite(np.ma.getdata(data).astype(float))
@@ -96,10 +89,7 @@ def on_grid(
 ) -> tuple[Array, Array]:
     """Times every `step` (s) from the first on, `most` at most, and the cubic splines (n, columns) there.
 
-    Raises
-    ------
-    SceneError
-        For more samples than fit, or where a coarser grid would take fast motion for slow.
+    Raises SceneError: more samples than fit.
     """
     from scipy.interpolate import CubicSpline
 

@@ -50,15 +50,14 @@ def read_series(
     wanted = _wanted(file, asked, clocks)
     given = {plain_words(name): unit for name, unit in (units or {}).items()}
     scales = {name: _unit(file, one, given.get(name)) for name, one in wanted.items()}
-    times = [_time_unit(file, one, given.get("time")) for one in clocks]
     numbers, lines, start = file.columns([*clocks, *wanted.values()], len(clocks))
     if numbers.shape[0] < FEWEST:
         raise FileFormatError(
             f"{path}: holds {numbers.shape[0]} rows of numbers; at least {FEWEST} are needed"
         )
     clock = numbers[:, : len(clocks)] * [
-        factor if start else _counted(file, one, given.get("time"), factor, numbers[:, i])
-        for i, (one, factor) in enumerate(zip(clocks, times, strict=True))
+        _seconds(file, one, given.get("time"), None if start else numbers[:, i])
+        for i, one in enumerate(clocks)
     ]
     values = numbers[:, len(clocks) :] * [factor for factor, _ in scales.values()]
     for column, (one, (_, unit)) in enumerate(zip(wanted.values(), scales.values(), strict=True)):
@@ -137,25 +136,21 @@ def _unit(file: SeriesFile, heading: Heading, given: str | None) -> tuple[float,
     return found
 
 
-def _time_unit(file: SeriesFile, heading: Heading, given: str | None) -> float:
-    """s of a unit of time; a clock without a unit has seconds, or time stamps."""
-    words = given or heading.unit or "s"
-    found = (1.0, "s") if words.lower() in ("utc", "iso", "gmt") else unit_of_words(words)
-    if found is None or found[1] != "s":
-        raise file.refused(
-            file.header,
-            heading,
-            f"has the unit {shown(words)}; a time is in s, ms, min or h, or a time stamp",
-        )
-    return found[0]
+def _seconds(file: SeriesFile, heading: Heading, given: str | None, times: Array | None) -> float:
+    """s of a clock's unit; without one it has seconds, or time stamps (``times`` is None).
 
-
-def _counted(file: SeriesFile, heading: Heading, given: str | None, factor: float, times: Array) -> float:
-    """s of a clock's unit, which numbers since 1970 tell, and whole numbers far apart leave in doubt."""
+    Numbers since 1970 tell it, and whole numbers far apart leave it in doubt.
+    """
     named = given or heading.unit
+    found = (1.0, "s") if (named or "s").lower() in ("utc", "iso", "gmt") else unit_of_words(named or "s")
+    if found is None or found[1] != "s":
+        words = f"has the unit {shown(named)}; a time is in s, ms, min or h, or a time stamp"
+        raise file.refused(file.header, heading, words)
+    if times is None:
+        return found[0]
     since = unit_since_1970(times)
     step = float(np.nanmedian(np.abs(np.diff(times)))) if times.size > 1 else 0.0
-    if since is not None and (named is None or np.isclose(POSIX[since], factor)):
+    if since is not None and (named is None or np.isclose(POSIX[since], found[0])):
         return POSIX[since]
     fix = "name its unit by units={'time': 'ms'} or 's'"
     if since is not None:
@@ -167,7 +162,7 @@ def _counted(file: SeriesFile, heading: Heading, given: str | None, factor: floa
         raise file.refused(
             file.header, heading, f"has no unit, and its whole numbers are {step:g} apart: s, or ms; {fix}",
         )  # fmt: skip
-    return factor
+    return found[0]
 
 
 def _kept(path: Path, time: Array, after: float | None, before: float | None) -> Bools:

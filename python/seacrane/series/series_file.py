@@ -65,33 +65,30 @@ class SeriesFile:
 
     def __init__(self, path: Path, *, time: str | None = None) -> None:
         self.path = path
-        self._lines = _lines_of(path)
+        data = read_whole(path, fix="cut the record into several files")
+        text = decoded(data)
+        if "\0" in text or not text.strip():
+            what = looks_like(path, data)
+            raise FileFormatError(f"{path}: is {what}; give a text file of columns (CSV, TSV)")
+        self._lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
         self._time = None if time is None else plain_words(time)
-        at = next((i for i in range(min(MOST_ABOVE, len(self._lines))) if self._is_header(i)), None)
-        if at is None:
+        for at, line in enumerate(self._lines[:MOST_ABOVE], start=1):
+            self.header = self._first = at
+            self.delimiter, cells = _cells_of_header(line)
+            self.headings = tuple(heading_of(i, cell[: LONGEST + 1]) for i, cell in enumerate(cells))
+            if any(map(self.is_named_clock, self.headings)):
+                break
+            if time is None and len(cells) > 1 and any(one.is_time for one in self.headings):
+                break
+        else:
             first = next((line for line in self._lines if line.strip()), "")
             raise FileFormatError(
                 f"{path}: no line names columns, with one of time, as in 'time [s];roll [deg]'; it begins "
                 f"with {shown(first)}: write such a line above the numbers, or give columns={{'time': ...}}"
             )
-        self.delimiter = _delimiter_of(self._lines[at])
-        self.headings = self._headings(at)
-        self.header = at + 1
-        self._first = at + 1
-        self._take_units()
-
-    def _headings(self, at: int) -> tuple[Heading, ...]:
-        cells = _cells_of_header(self._lines[at], self.delimiter)
         if any(len(cell) > LONGEST for cell in cells):
-            raise FileFormatError(f"{self.path}, line {at + 1}: a name has more than {LONGEST} characters")
-        return tuple(heading_of(place, cell) for place, cell in enumerate(cells))
-
-    def _is_header(self, at: int) -> bool:
-        cells = _cells_of_header(self._lines[at], _delimiter_of(self._lines[at]))
-        found = [heading_of(0, cell) for cell in cells if len(cell) <= LONGEST]
-        if self._time is not None:
-            return any(self.is_named_clock(one) for one in found)
-        return len(cells) > 1 and any(one.is_time for one in found)
+            raise FileFormatError(f"{path}, line {self.header}: a name has more than {LONGEST} characters")
+        self._take_units()
 
     def _take_units(self) -> None:
         """Units in a line below the header, which holds no numbers, are those of the columns without one."""
@@ -129,17 +126,9 @@ class SeriesFile:
     def columns(self, wanted: Sequence[Heading], clocks: int) -> tuple[Array, NDArray[np.intp], str]:
         """Numbers of columns, as they are written; missing ones are NaN.
 
-        Parameters
-        ----------
-        wanted : sequence of Heading
-            Columns of time first.
-        clocks : int
-            How many of them may hold time stamps.
+        ``wanted`` begins with so many ``clocks``, which may hold time stamps: they are in s from the first.
 
-        Returns
-        -------
-        ndarray (n, columns), ndarray (n,), str
-            Time stamps are in s from the first; the line of each row; and that first stamp, or "".
+        Returns the numbers (n, columns), the line of each row (n,), and that first stamp, or "".
         """
         numbers, lines = array("d"), array("q")
         stamps: dict[int, datetime] = {}
@@ -187,32 +176,21 @@ class SeriesFile:
         return value
 
 
-def _lines_of(path: Path) -> list[str]:
-    data = read_whole(path, fix="cut the record into several files")
-    text = decoded(data)
-    if "\0" in text or not text.strip():
-        raise FileFormatError(f"{path}: is {looks_like(path, data)}; give a text file of columns (CSV, TSV)")
-    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-
-
-def _delimiter_of(line: str) -> str | None:
-    """None stands for blanks."""
-    return next((one for one in DELIMITERS if one in line), None)
-
-
-def _cells_of_header(line: str, delimiter: str | None) -> list[str]:
+def _cells_of_header(line: str) -> tuple[str | None, list[str]]:
+    """The delimiter of a line, None standing for blanks, and its cells; a unit apart belongs to its name."""
     text = line.strip()
     for sign in COMMENTS:
         text = text.removeprefix(sign)
+    delimiter = next((one for one in DELIMITERS if one in line), None)
     if delimiter is not None:
-        return text.split(delimiter)
+        return delimiter, text.split(delimiter)
     cells: list[str] = []
     for word in text.split():
-        if cells and word[0] in "[(":  # its unit, apart
+        if cells and word[0] in "[(":
             cells[-1] += f" {word}"
         else:
             cells.append(word)
-    return cells
+    return delimiter, cells
 
 
 def plain_number(cell: str, *, comma: bool) -> float | None:

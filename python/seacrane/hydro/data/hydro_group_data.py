@@ -91,18 +91,14 @@ class HydroGroupData:
     Attributes
     ----------
     bodies : of each hull, what is its own (`GroupBody`).
-    omega : (n,) frequencies in rad/s, increasing and positive.
-    heading : (m,) in rad, increasing, within [0, 2 pi).
+    omega, heading, rho, g, depth, trusted_band, origin, source, name : as of `HydroDatabase`, one for all.
     added_mass, damping : (n, 6 k, 6 k) radiation: block (i, j) is the load on body i for motions of body j.
     infinite_frequency_added_mass, zero_frequency_added_mass : (6 k, 6 k), or None when not known.
     force : (m, n, 6 k) complex wave excitation per metre of amplitude, with the shielding of all hulls.
-    rho, g, depth : kg/m3, m/s2, m (inf: deep), one for all.
-    trusted_band : (low, high) in rad/s between which the source vouches for its numbers.
     port_starboard_symmetric : whether headings may be mirrored: every hull lies on the group's x axis.
     lid_damping : share of omega / g of a damping lid in the gap that the source computed with; None when it
         does not say.
     memory : fitted radiation memory of all motions, or None.
-    name, origin, source : text.
     """
 
     name: str

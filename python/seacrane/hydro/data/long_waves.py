@@ -20,15 +20,6 @@ ALONG = 0.5  # least cosine of a heading in which pitch is judged
 _SLIPS: WeakKeyDictionary[HydroData, list[str]] = WeakKeyDictionary()  # each database is judged once
 
 
-def warn_of_phases(
-    what: str, omega: float, heading: FloatArray, motions: ComplexArray, *, depth: float, g: float
-) -> None:
-    """Warn where motions (m, 6) in a wave that the hull follows lead or lag it."""
-    said = phase_slip(omega, heading, motions, depth=depth, g=g)
-    if said:
-        warn_caller(f"{what}: {said}", RaoPhaseWarning)
-
-
 def phase_slip(omega: float, heading: FloatArray, motions: ComplexArray, *, depth: float, g: float) -> str:
     """What is wrong with the phases of motions (m, 6) in a wave; empty: nothing that can be told.
 

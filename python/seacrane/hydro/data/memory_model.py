@@ -100,12 +100,11 @@ class MotionError:
 
     Attributes
     ----------
-    seas : ndarray, shape (6,), or (6 k,) of a group of k hulls
-        Standard deviation of the difference of each motion over that of the motion, at the heading where this
-        is largest; the worst heading and the worst sea of Tp 5 to 18 s (`peak_periods` of hulls below 60 m).
-    peaks : ndarray, of the same shape
-        Complex difference of heave, roll and pitch over their value, at the largest of the band; zero for the
-        others.
+    seas : (6,), or (6 k,) of a group of k hulls: standard deviation of the difference of each motion over
+        that of the motion, in the worst heading and the worst sea of Tp 5 to 18 s (`peak_periods` of hulls
+        below 60 m).
+    peaks : of the same shape: complex difference of heave, roll and pitch over their value, at the largest of
+        the band; zero for the others.
     """
 
     seas: FloatArray
@@ -137,8 +136,7 @@ class MotionFit:
     Attributes
     ----------
     limit : asked of `MotionError.worst`.
-    error : MotionError
-        Reached.
+    error : reached.
     floor : `MotionError.worst` of the database's own convolution, into which nothing is fitted.
     left_out : pairs (j, k), counted from 0, whose memory no motion feels, symmetry forbids, or of a motion
         without damping.

@@ -13,10 +13,12 @@ from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.frozen import freeze, require_grid, require_positive
 from seacrane.hydro.data.heading_circle import centred, heading_weights, travel, with_mirror_images
 from seacrane.hydro.data.interpolation import spline_weights
-from seacrane.hydro.data.long_waves import warn_of_phases
+from seacrane.hydro.data.long_waves import phase_slip
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import flag_of, number_of, numbers_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import RaoPhaseWarning
 
 TURN = 2.0 * np.pi
 STEEPEST_PITCH = 6.0  # of the wave's slope, at the longest wave of a table: hulls follow it, 57 is degrees
@@ -33,31 +35,23 @@ class MotionRaos:
 
     Parameters
     ----------
-    omega : array_like, shape (n,)
-        rad/s, increasing.
-    heading : array_like, shape (m,)
-        rad, where the waves go to: 0 following, from +x towards +y (port); increasing within [0, 2 pi).
-    values : array_like of complex, shape (m, n, 6)
-        Surge, sway, heave (m/m) and roll, pitch, yaw (rad/m).
-    depth : float
-        Of the water, m; default: deep.
-    symmetric : bool
-        Whether port and starboard are alike (default), so that headings may be mirrored.
-    name : str
-        For messages.
-    g : float
-        m/s2, for wavenumbers; default 9.81.
+    omega : (n,) rad/s, increasing.
+    heading : (m,) rad, where the waves go to: 0 following, from +x towards +y (port); increasing within
+        [0, 2 pi).
+    values : complex (m, n, 6): surge, sway, heave (m/m) and roll, pitch, yaw (rad/m).
+    depth : of the water, m; default: deep.
+    symmetric : whether port and starboard are alike (default), so that headings may be mirrored.
+    name : for messages.
+    g : m/s2, for wavenumbers; default 9.81.
 
     Raises
     ------
-    SceneError
-        For another shape, a value that is not finite, frequencies or headings out of order, headings in
+    SceneError : another shape, a value that is not finite, frequencies or headings out of order, headings in
         degrees, or rotations in degrees: a pitch in the longest wave of more than six times its slope.
 
     Warns
     -----
-    RaoPhaseWarning
-        A hull that follows the longest wave by its amplitudes, and is out of phase with it.
+    RaoPhaseWarning : a hull that follows the longest wave by its amplitudes is out of phase with it.
     """
 
     omega: Any
@@ -93,9 +87,9 @@ class MotionRaos:
         require_positive(self, what, "depth", "g")
         flag_of(f"{what}: symmetric", self.symmetric)
         self._refuse_degrees(what)
-        warn_of_phases(
-            what, float(self.omega[0]), self.heading, self.values[:, 0], depth=self.depth, g=self.g
-        )
+        lowest, motions = float(self.omega[0]), self.values[:, 0]
+        if said := phase_slip(lowest, self.heading, motions, depth=self.depth, g=self.g):
+            warn_caller(f"{what}: {said}", RaoPhaseWarning)
 
     def _refuse_degrees(self, what: str) -> None:
         slope = float(wavenumber(self.omega[:1], g=self.g, depth=self.depth)[0])
@@ -114,8 +108,7 @@ class MotionRaos:
 
         Raises
         ------
-        SceneError
-            For a heading in a gap of more than 45 deg.
+        SceneError : a heading in a gap of more than 45 deg.
         """
         w, b = np.asarray(omega, dtype=float), np.asarray(heading, dtype=float)
         circle, table, centre = self._circle

@@ -206,6 +206,14 @@ def frequencies_kept(asked: Asked, omega: FloatArray, tables: Mapping[str, Any])
     return rows[kept]
 
 
+def omega_of(values: FloatArray, unit: str) -> FloatArray:
+    """Frequencies in rad/s of those in "rad/s", "Hz" or "s"; a period of 0 is infinity."""
+    if np.any(values < 0.0):
+        raise ValueError(f"period or frequency {values.min():g}; give positive ones")
+    with np.errstate(divide="ignore"):
+        return 2.0 * np.pi / values if unit == "s" else values * (2.0 * np.pi if unit == "Hz" else 1.0)
+
+
 def rising_directions(raw: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     """Directions (rad) in [0, 2 pi), rising, and their places in ``raw``; a full turn beside 0 is dropped."""
     wrapped = np.mod(raw, 2.0 * np.pi)
@@ -264,19 +272,18 @@ def with_band_of_data(found: Found) -> Found:
         return found
     at, name, entry = min(rough, key=lambda each: each[0])
     low, high = float(found.omega[0]), float(found.omega[at - 1])
-    kind, causes, more = "database", "for the panels or of an irregular frequency", ""
+    kind, where, cause = "database", entry, ""
     if isinstance(found, HydroGroup):
-        kind, entry = "group", f"{entry} of {name}"
-        causes = (
-            "for the panels, of an irregular frequency, or of a resonance of the water between the hulls "
-            "that the frequencies do not resolve"
+        kind, where = "group", f"{entry} of {name}"
+        cause = (
+            ", or of a resonance of the water between the hulls that the frequencies do not resolve "
+            "(group.check() tells the causes apart)"
         )
-        more = "; group.check() tells the causes apart"
     warn_caller(
-        f"{kind} {found.name!r}: its files do not say how far their panels can be trusted, and {entry} "
-        f"jumps at {found.omega[at]:.4g} rad/s, as of waves too short {causes}. The trusted band ends at "
-        f"{high:.4g} rad/s; nothing above it is fitted. For another one give load_database(path, "
-        f"trusted_band=(low, high)) in rad/s{more}",
+        f"{kind} {found.name!r}: its files do not say how far their panels can be trusted, and {where} jumps "
+        f"at {found.omega[at]:.4g} rad/s, as of waves too short for the panels or of an irregular frequency"
+        f"{cause}. The trusted band ends at {high:.4g} rad/s; nothing above it is fitted. For another one "
+        "give load_database(path, trusted_band=(low, high)) in rad/s",
         RoughDataWarning,
     )
     return replace(found, trusted_band=(low, high))
@@ -287,14 +294,12 @@ def first_rough_value(database: HydroData) -> tuple[int, str] | None:
 
     Each value is left out, and compared with the cubic through its two neighbours on either side. It is rough
     where the misfit, by what noise of that size would give, exceeds 1 % of the range of A or of the peak of B
-    (geometric mean of two motions), and is not that of a curve too coarse for the cubic. Such a misfit grows
-    sixteenfold with twice the step, noise does not; and it is larger at lower frequencies, where a ship's
-    matrices turn most.
+    (geometric mean of two motions), and is not that of a curve too coarse for the cubic, which grows
+    sixteenfold with twice the step.
 
-    Looked at are frequencies whose deep-water wave is shorter than two breadths. Below, resonances of the
-    fluid are as narrow as errors; above, the matrices of a ship are smooth, the lowest irregular frequency of
-    a box as deep as it is broad is about there, and no mesh is as coarse as to fail sooner. Steps above 15 %
-    of the frequency are not judged.
+    Looked at are steps of up to 15 % of the frequency, whose deep-water wave is shorter than two breadths.
+    Below, resonances of the fluid are as narrow as errors; above, the matrices of a ship are smooth, and the
+    lowest irregular frequency of a box as deep as it is broad is about there.
     """
     omega = database.omega
     start = np.sqrt(np.pi * database.g / database.breadth)
@@ -321,25 +326,31 @@ def _by_scale(database: HydroData, start: float) -> FloatArray:
     kept = np.ones((6, 6))
     if database.port_starboard_symmetric:
         kept = 1.0 - np.add.outer(np.arange(6), np.arange(6)) % 2
+    diagonals = [np.diagonal(table, axis1=1, axis2=2) for table in (database.added_mass, database.damping)]
+    scales = (
+        np.maximum(np.ptp(diagonals[0], axis=0), LEAST_INERTIA * mass),
+        np.maximum(diagonals[1].max(axis=0), LEAST_DAMPING * start * mass),
+    )
     parts = []
-    for table in (database.added_mass, database.damping):
-        diagonal = np.diagonal(table, axis1=1, axis2=2)
-        if table is database.added_mass:
-            scale = np.maximum(np.ptp(diagonal, axis=0), LEAST_INERTIA * mass)
-        else:
-            scale = np.maximum(diagonal.max(axis=0), LEAST_DAMPING * start * mass)
+    for table, scale in zip((database.added_mass, database.damping), scales, strict=True):
         symmetric = 0.5 * (table + table.swapaxes(1, 2))
         parts.append((kept * symmetric / np.sqrt(np.outer(scale, scale))).reshape(len(table), 36))
     return np.concatenate(parts, axis=1)
 
 
 def _misfit(omega: FloatArray, values: FloatArray, step: int) -> FloatArray:
-    """Size of values (n, p) less the cubic through four others, every ``step``, in deviations of noise."""
+    """Size of values (n, p) less the cubic through four others, every ``step``, in deviations of noise.
+
+    They are two on either side, moved inwards at an end; zero where there are not so many.
+    """
     n = len(omega)
     out = np.zeros_like(values)
     for i in range(n):
-        near = _neighbours(i, n, step)
-        if near is None:
+        reach = NEIGHBOURS * step
+        others = [k for k in range(i - reach, i + reach + 1, step) if 0 <= k < n and k != i]
+        first = min(max(sum(k < i for k in others) - 2, 0), max(len(others) - NEIGHBOURS, 0))
+        near = others[first : first + NEIGHBOURS]
+        if len(near) < NEIGHBOURS:
             continue
         x = omega[near]
         away = x[:, None] - x[None, :] + np.eye(NEIGHBOURS)
@@ -347,12 +358,3 @@ def _misfit(omega: FloatArray, values: FloatArray, step: int) -> FloatArray:
         weights = np.prod(toward / away, axis=1)
         out[i] = np.abs(values[i] - weights @ values[near]) / np.sqrt(1.0 + weights @ weights)
     return out
-
-
-def _neighbours(i: int, n: int, step: int) -> NDArray[np.intp] | None:
-    """Two on either side of i, moved inwards at an end; None where there are not so many."""
-    offsets = [k for k in range(-NEIGHBOURS, NEIGHBOURS + 1) if k and 0 <= i + k * step < n]
-    below = [k for k in offsets if k < 0]
-    first = min(max(len(below) - 2, 0), max(len(offsets) - NEIGHBOURS, 0))
-    chosen = offsets[first : first + NEIGHBOURS]
-    return i + step * np.array(chosen) if len(chosen) == NEIGHBOURS else None

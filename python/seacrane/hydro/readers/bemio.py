@@ -45,9 +45,7 @@ def read_bemio(
     path : file.
     mass_matrix : (6, 6) in SI about the centre of gravity; of several bodies by name. The file holds none; by
         default the displaced mass with usual radii of gyration.
-    motions : names of those that were solved for, where some were not: a motion without added mass and
-        damping is refused unless it is left out here.
-    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
+    motions, leave_out : as `read_capytaine` takes them.
 
     Returns
     -------
@@ -65,8 +63,6 @@ def read_bemio(
     FileFormatError : the file is missing, damaged, or no BEMIO file; the message names the entry.
     """
     source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a BEMIO file")
     asked = Asked(
         where=source, reader="read_bemio", mass_matrix=mass_matrix, motions=motions, leave_out=leave_out
     )
@@ -86,7 +82,9 @@ def _convert(asked: Asked, file: Any) -> Loaded:
     )
     if not entries:
         raise FileFormatError(f"{path}: holds no body; write the whole BEMIO file")
-    rho, g, depth = _water(path, file)
+    if f"{PARAMETERS}/scaled" in file and _number(path, file, f"{PARAMETERS}/scaled") != 0.0:
+        raise FileFormatError(f"{path}: scaled is set, values have density and gravity in; write it unscaled")
+    rho, g, depth = (_number(path, file, f"{PARAMETERS}/{name}") for name in ("rho", "g", "water_depth"))
     names = _names(file, entries)
     masses = of_each(asked, "mass_matrix", names, asked.mass_matrix)
     omega = np.ravel(_values(path, file, f"{PARAMETERS}/w"))
@@ -112,24 +110,16 @@ def _convert(asked: Asked, file: Any) -> Loaded:
     x, y, z = bodies[0].position
     above = f"above the centre of gravity, which BEMIO has at ({x:g}, {y:g}, {z:g}) m"
     return hull_or_group(
-        asked,
-        bodies,
-        fix="a file that was written anew",
+        asked, bodies, fix="a file that was written anew", at=(0.0, 0.0, -z), name=path.stem,
         alone={"origin": f"on the still waterline, {above}"},
-        at=(0.0, 0.0, -z),
-        name=path.stem,
-        omega=omega,
-        heading=direction,
-        added_mass=rho * of_all("added_mass/all", size, n).transpose(2, 0, 1),
-        damping=rho * (of_all("radiation_damping/all", size, n) * omega).transpose(2, 0, 1),
-        infinite_frequency_added_mass=rho * of_all("added_mass/inf_freq", size),
-        force=np.asarray(rho * g * waves.transpose(1, 2, 0)[places], dtype=complex),
-        rho=rho,
-        g=g,
-        depth=depth,
         origin="origin of BEMIO's axes, on the still waterline",
         source=f"BEMIO file {path.name}{'' if len(entries) > 1 else f', {entries[0]}'}",
-    )
+        rho=rho, g=g, depth=depth, omega=omega, heading=direction,
+        force=np.asarray(rho * g * waves.transpose(1, 2, 0)[places], dtype=complex),
+        added_mass=rho * of_all("added_mass/all", size, n).transpose(2, 0, 1),
+        infinite_frequency_added_mass=rho * of_all("added_mass/inf_freq", size),
+        damping=rho * (of_all("radiation_damping/all", size, n) * omega).transpose(2, 0, 1),
+    )  # fmt: skip
 
 
 def _names(file: Any, entries: list[str]) -> list[str]:
@@ -140,18 +130,6 @@ def _names(file: Any, entries: list[str]) -> list[str]:
         value = file[place][()] if place in file else b""
         names.append(value.decode("utf-8", "replace").strip() if isinstance(value, bytes) else "")
     return names if all(names) and len(set(names)) == len(names) else entries
-
-
-def _water(path: Path, file: Any) -> tuple[float, float, float]:
-    """Density, gravity and depth of an unscaled file."""
-    if f"{PARAMETERS}/scaled" in file and _number(path, file, f"{PARAMETERS}/scaled") != 0.0:
-        raise FileFormatError(f"{path}: scaled is set, values have density and gravity in; write it unscaled")
-    rho, g, depth = (_number(path, file, f"{PARAMETERS}/{name}") for name in ("rho", "g", "water_depth"))
-    if not (rho > 0.0 and g > 0.0 and depth > 0.0):
-        raise FileFormatError(
-            f"{path}: rho is {rho:g} kg/m3, g {g:g} m/s2, water_depth {depth:g} m; all must be positive"
-        )
-    return rho, g, depth
 
 
 def _values(path: Path, file: Any, name: str, shape: tuple[int, ...] | None = None) -> FloatArray:

@@ -20,9 +20,9 @@ from numpy.typing import ArrayLike
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.reading import reading
-from seacrane.hydro.readers.as_read import Asked, Given, mass_of_file, rising_directions
+from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
-from seacrane.hydro.readers.of_bodies import box_of, floating_body, hull_or_group, of_each
+from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
@@ -76,8 +76,8 @@ def read_capytaine(
         or has not all six motions.
     rotation_centre : (3,) m from the origin of the mesh, of several bodies by name; of files that do not tell
         it (before Capytaine 3).
-    motions : names of those that were solved for, where some that the file names were not: a motion without
-        added mass and damping is refused unless it is left out here.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
     leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
 
     Returns
@@ -96,11 +96,9 @@ def read_capytaine(
     ------
     FileFormatError : the file is missing, damaged or no Capytaine dataset; the message names the variable.
     """
-    source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a Capytaine NetCDF file")
     import xarray
 
+    source = Path(path)
     asked = Asked(
         where=source, reader="read_capytaine", mass_matrix=mass_matrix, restoring=restoring, motions=motions,
         leave_out=leave_out,
@@ -168,15 +166,10 @@ def _convert(asked: Asked, dataset: xarray.Dataset, rotation_centre: Given | Non
     draughts = _by_body(dataset, "draught", names)
     bodies = []
     for i, (name, centre, mass, restoring) in enumerate(zip(names, centres, masses, stiffness, strict=True)):
-        volume = float(mass[0, 0]) / rho
-        if asked.mass_matrix is None:
-            where = Path(f"{path}: {name}") if several else path
-            box = box_of(path, name if several else "", restoring, volume, rho * g)
-            mass = mass_of_file(asked, mass, where=where, box=box)
         bodies.append(
             floating_body(
-                asked, name or path.stem, several=several, restoring=restoring, volume=volume, water=(rho, g),
-                mass=mass, position=centre, draught=None if draughts is None else float(draughts[i]),
+                asked, name or path.stem, several=several, restoring=restoring, water=(rho, g), mass=mass,
+                position=centre, draught=None if draughts is None else float(draughts[i]),
             )
         )  # fmt: skip
     version = str(dataset.attrs.get("capytaine_version", "of unknown version"))
@@ -188,20 +181,12 @@ def _convert(asked: Asked, dataset: xarray.Dataset, rotation_centre: Given | Non
         body = f", body {np.ravel(named[0] if named else 'unnamed')[0]}"
     return hull_or_group(
         replace(asked, motions=solved if asked.motions is None else asked.motions),
-        bodies,
-        fix="restoring={name: (6, 6)}",
-        name=path.stem,
-        omega=omega,
-        heading=direction,
+        bodies, fix="restoring={name: (6, 6)}", name=path.stem, origin=origin,
+        source=f"Capytaine {version}, file {path.name}{body}", rho=rho, g=g, depth=depth, omega=omega,
+        heading=direction, force=_wave_force(path, dataset)[order],
         added_mass=_real(path, dataset, "added_mass", ("omega", *MATRIX)),
         damping=_real(path, dataset, "radiation_damping", ("omega", *MATRIX)),
-        force=_wave_force(path, dataset)[order],
-        rho=rho,
-        g=g,
-        depth=depth,
-        origin=origin,
-        source=f"Capytaine {version}, file {path.name}{body}",
-    )
+    )  # fmt: skip
 
 
 def _water(path: Path, dataset: xarray.Dataset) -> tuple[float, float, float]:
@@ -216,10 +201,6 @@ def _water(path: Path, dataset: xarray.Dataset) -> tuple[float, float, float]:
                 )
             found[name] = float(values[0])
     rho, g, depth, speed = found.values()
-    if not (rho > 0.0 and g > 0.0):
-        raise FileFormatError(
-            f"{path}: rho is {rho:g} kg/m3 and g {g:g} m/s2; write the file with Capytaine's coordinates"
-        )
     if speed != 0.0:
         raise FileFormatError(f"{path}: forward_speed is {speed:g} m/s; only results of zero speed are read")
     return rho, g, depth
@@ -323,9 +304,9 @@ def _matrices(
     asked: Asked, dataset: xarray.Dataset, variable: str, argument: str, names: list[str]
 ) -> list[FloatArray]:
     """A constant matrix (6, 6) of each body: the caller's, else the block of the file's."""
-    given = getattr(asked, argument)
-    if given is not None:
-        return of_each(asked, argument, names, given)
+    given = of_each(asked, argument, names, getattr(asked, argument))
+    if given[0] is not None:
+        return given
     if variable not in dataset:
         raise FileFormatError(
             f"{asked.where}: {variable} is missing; set body.{variable} before solving, or pass {argument} "
@@ -393,15 +374,10 @@ def _by_body(dataset: xarray.Dataset, variable: str, names: list[str]) -> FloatA
     return values[[there.index(name) for name in names]]
 
 
-def is_netcdf(path: Path) -> bool:
-    """Whether a path is a file that says by its name to be NetCDF."""
-    return is_file_of(path, NETCDF)
-
-
 FORMAT = Format(
     name="Capytaine",
     files="a NetCDF file (.nc) of Capytaine",
-    can_open=lambda path: is_netcdf(path) and is_capytaine(path),
+    can_open=lambda path: is_file_of(path, NETCDF) and is_capytaine(path),
     read=read_capytaine,
     takes=("depth",),
 )

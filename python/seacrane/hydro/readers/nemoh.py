@@ -63,9 +63,7 @@ def read_nemoh(
     mass_matrix : (6, 6) in SI about the rotation centre, of several bodies by name; by default the displaced
         mass at the centre of gravity with usual radii of gyration.
     restoring : (6, 6) in SI about the rotation centre, of several bodies by name, in the place of ``KH.dat``.
-    motions : names of those that were solved for, where some were not: a motion without added mass and
-        damping is refused unless it is left out here.
-    leave_out : rad/s of frequencies to do without, such as those at which a solution failed (NaN).
+    motions, leave_out : as `read_capytaine` takes them.
 
     Returns
     -------
@@ -108,8 +106,8 @@ def read_nemoh(
     told = replace(asked, where=folder / ", ".join(file.name for file in files if file is not None))
     with reading(told.where):
         solved = read_solution(matrices, forces, control, water.names)
-        finite = np.isfinite(solved.force).all(axis=(0, 2))
-        lifts = solved.force[:, np.argmin(np.where(finite, solved.omega, np.inf))]
+        finite = np.isfinite(solved["force"]).all(axis=(0, 2))
+        lifts = solved["force"][:, np.argmin(np.where(finite, solved["omega"], np.inf))]
         bodies = [
             _body(asked, water, i, hydrostatics[i], masses[i], restorings[i], lifts[:, 6 * i :], usual)
             for i in range(len(water.names))
@@ -119,22 +117,10 @@ def read_nemoh(
         if len(bodies) > 1:
             origin = "origin of the meshes of NEMOH, on the still waterline"
         return hull_or_group(
-            told,
-            bodies,
-            fix="restoring={name: (6, 6)} and mass_matrix",
-            name=folder.resolve().name,
-            omega=solved.omega,
-            heading=solved.direction,
-            added_mass=solved.added_mass,
-            damping=solved.damping,
-            force=solved.force,
-            waves_from=water.phase_origin,
-            rho=water.rho,
-            g=water.g,
-            depth=water.depth,
-            origin=origin,
-            source=f"NEMOH results in folder {folder.resolve().name}",
-        )
+            told, bodies, fix="restoring={name: (6, 6)} and mass_matrix", waves_from=water.phase_origin,
+            name=folder.resolve().name, source=f"NEMOH results in folder {folder.resolve().name}",
+            origin=origin, rho=water.rho, g=water.g, depth=water.depth, **solved,
+        )  # fmt: skip
 
 
 def _body(
@@ -157,7 +143,7 @@ def _body(
             gravity = read_hydrostatics(files[1])[0]
             restoring = _stiffness_about(centre, restoring, gravity=gravity, lift=lift, usual=usual)
     if mass is not None and several:  # hydrostatics of several may be those of all together
-        gravity, volume = centre, float(mass[0, 0]) / water.rho
+        gravity, volume = centre, None
     else:
         gravity, volume = read_hydrostatics(needed(files[1], asked.where / f"Hydrostatics{number}.dat"))
     return floating_body(

@@ -13,13 +13,13 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.arrays import FloatArray
-from seacrane.hydro.readers.as_read import rising_directions, whole_stiffness
+from seacrane.hydro.readers.as_read import omega_of, rising_directions, whole_stiffness
 from seacrane.hydro.readers.text_records import NUMBER, is_number, number_at, text_of
 
 RADIATION, EXCITATION = "RadiationCoefficients.tec", "ExcitationForce.tec"
@@ -68,19 +68,8 @@ def needed(file: Path | None, place: Path) -> Path:
     return file
 
 
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """Matrices (n, 6 k, 6 k) of k bodies, forces (m, n, 6 k) with the phases of the file, rad/s, rad."""
-
-    omega: FloatArray
-    direction: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
-    force: NDArray[np.complex128]
-
-
-def read_solution(matrices: Path, forces: Path, control: Path | None, names: list[str]) -> Solution:
-    """What both files hold, directions rising."""
+def read_solution(matrices: Path, forces: Path, control: Path | None, names: list[str]) -> dict[str, Any]:
+    """What both files hold, directions (rad) rising; phases of the loads are those of the file."""
     radiation = _blocks(matrices, len(names))
     if len(radiation) != MOTIONS * len(names):
         raise FileFormatError(
@@ -95,7 +84,10 @@ def read_solution(matrices: Path, forces: Path, control: Path | None, names: lis
     direction, places = rising_directions(np.array([_direction(forces, each) for each in waves]))
     wave = np.array([block.rows for block in waves])[places]
     added_mass, damping = (values[:, :, at::2].transpose(1, 2, 0) for at in (1, 2))
-    return Solution(omega, direction, added_mass, damping, wave[:, :, 1::2] * np.exp(-1j * wave[:, :, 2::2]))
+    force = wave[:, :, 1::2] * np.exp(-1j * wave[:, :, 2::2])
+    return {
+        "omega": omega, "heading": direction, "added_mass": added_mass, "damping": damping, "force": force,
+    }  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,10 +130,7 @@ def _frequencies(path: Path, blocks: list[_Block], control: Path | None) -> Floa
                 f"{path}, line {block.line}: {block.title[:60]!r} has other frequencies than the first; the "
                 "file is truncated"
             )
-    unit = _unit(path, control)
-    if unit == "s" and np.any(first <= 0.0):
-        raise FileFormatError(f"{path}: a period is {first.min():g} s; give positive ones")
-    return 2.0 * np.pi / first if unit == "s" else first * (2.0 * np.pi if unit == "Hz" else 1.0)
+    return omega_of(first, _unit(path, control))
 
 
 def _unit(path: Path, control: Path | None) -> str:
@@ -216,11 +205,8 @@ def read_control(path: Path) -> Water:
             "bodies; give the file that NEMOH was run with"
         )
     (rho,), (g,), (depth,), origin, (bodies,) = numbers[:5]
-    if not (rho > 0.0 and g > 0.0 and depth >= 0.0):
-        raise FileFormatError(
-            f"{path}: density {rho:g} kg/m3, gravity {g:g} m/s2, depth {depth:g} m; give positive ones (a "
-            "depth of 0 is deep water)"
-        )
+    if not (rho > 0.0 and g > 0.0):
+        raise FileFormatError(f"{path}: density {rho:g} kg/m3, gravity {g:g} m/s2; give positive ones")
     turns = [row for row in numbers[5:] if len(row) == 7 and row[0] == 2.0]
     if bodies == 1.0:
         turns = turns[:3]

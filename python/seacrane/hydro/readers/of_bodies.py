@@ -21,6 +21,7 @@ from seacrane.hydro.readers.as_read import (
     Asked,
     Given,
     frequencies_kept,
+    mass_of_file,
     mirrored,
     require_own_hydrostatics,
     require_solved,
@@ -105,9 +106,10 @@ def floating_body(
     *,
     several: bool,
     restoring: FloatArray,
-    volume: float,
     water: tuple[float, float],
     mass: FloatArray | None,
+    volume: float | None = None,
+    displaced: float | None = None,
     where: Path | None = None,
     centre: FloatArray | None = None,
     **others: Any,
@@ -116,20 +118,30 @@ def floating_body(
 
     Parameters
     ----------
-    volume : m3, displaced.
     water : density and gravity, kg/m3 and m/s2.
-    mass : (6, 6), or None: that of ``volume`` at ``centre`` (3,) with usual radii of gyration.
+    mass : (6, 6), or None: that of ``volume`` (m3) at ``centre`` (3,) with usual radii of gyration.
+    volume : None: that of the mass, which has to be one of a vessel where it is the file's.
+    displaced : m3, where the file tells it beside such a mass.
     where : the file of its hydrostatics, for messages.
     others : of `GroupBody`; sizes that the file tells take the place of the box's, where they are not None.
 
-    Raises FileFormatError: as `box_of`.
+    Raises FileFormatError: as `box_of` and `mass_of_file`.
 
     Warns
     -----
     AssumedInertiaWarning : there is no ``mass``.
     """
-    where, rho = where or asked.where, water[0]
+    where, rho, of_mass = where or asked.where, water[0], volume is None
+    if not (rho > 0.0 and water[1] > 0.0):
+        raise FileFormatError(f"{asked.where}: rho is {rho:g} kg/m3, g {water[1]:g} m/s2; give positive ones")
+    if volume is None:
+        volume = np.nan if mass is None else float(mass[0, 0]) / rho
     box = box_of(where, name if several else "", restoring, volume, rho * water[1])
+    if of_mass and mass is not None and asked.mass_matrix is None:
+        told = None if displaced is None else rho * displaced
+        mass = mass_of_file(
+            asked, mass, where=Path(f"{where}: {name}") if several else where, displaced=told, box=box
+        )
     if mass is None:
         radii = np.array(USUAL_RADII) * (box[1], box[0], box[0])
         warn_caller(
@@ -141,7 +153,7 @@ def floating_body(
         )
         inertia = np.diag(rho * volume * radii**2)
         mass = rigid_mass_matrix(rho * volume, np.zeros(3) if centre is None else centre, inertia)
-    sizes = dict(zip(("length", "breadth", "draught"), box, strict=True))
+    sizes: dict[str, Any] = dict(zip(("length", "breadth", "draught"), box, strict=True))
     sizes |= {key: value for key, value in others.items() if value is not None}
     return GroupBody(name=name, mass_matrix=mass, restoring=restoring, **sizes)
 

@@ -21,11 +21,10 @@ from seacrane.hydro.data.heading_circle import phase_at
 from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.as_read import Asked, mass_of_file, rising_degrees
+from seacrane.hydro.readers.as_read import Asked, rising_degrees
 from seacrane.hydro.readers.format import Format, is_file_of
 from seacrane.hydro.readers.of_bodies import (
     LIMITS,
-    box_of,
     density_of,
     floating_body,
     hull_or_group,
@@ -77,9 +76,7 @@ def read_orcaflex(
         hydrostatic stiffness of a ``.yml`` file, and are needed for ``.dhyd``, which holds neither.
     vessel_type, draught : names, needed where a model holds several.
     rho : water density in kg/m3 in place of the model's, which is 1025 where it gives none.
-    motions : names of those that were solved for, where some were not: a motion without added mass and
-        damping is refused unless it is left out here.
-    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
+    motions, leave_out : as `read_capytaine` takes them.
 
     Returns
     -------
@@ -99,8 +96,6 @@ def read_orcaflex(
         message names the file and the place.
     """
     source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a .yml or .dhyd file")
     asked = Asked(
         where=source, reader="read_orcaflex", mass_matrix=mass_matrix, restoring=restoring, motions=motions,
         leave_out=leave_out,
@@ -117,11 +112,6 @@ def _convert(asked: Asked, kind: VesselType, rho: float | None) -> HydroDatabase
     """A vessel type about the reference origin of its matrices."""
     rho = density_of(asked, rho, "the size of the hull and the self-check follow from it")
     mass, restoring = _constant_matrices(asked, kind)
-    volume = float(mass[0, 0]) / rho
-    if asked.mass_matrix is None:
-        box = box_of(asked.where, "", restoring, volume, rho * GRAVITY)
-        displaced = None if kind.volume is None else rho * kind.volume
-        mass = mass_of_file(asked, mass, displaced=displaced, box=box)
     lever = kind.other_origin - kind.origin
     if np.any(kind.other_quadratic) and np.any(lever):
         raise FileFormatError(
@@ -130,9 +120,9 @@ def _convert(asked: Asked, kind: VesselType, rho: float | None) -> HydroDatabase
         )
     turned = _moved(lever)
     body = floating_body(
-        asked, kind.name, several=False, restoring=restoring, volume=volume, water=(rho, GRAVITY), mass=mass,
-        position=np.zeros(3), length=kind.length, quadratic_damping=kind.other_quadratic,
-        linear_damping=turned @ np.diag(kind.other_linear) @ turned.T,
+        asked, kind.name, several=False, restoring=restoring, water=(rho, GRAVITY), mass=mass,
+        displaced=kind.volume, position=np.zeros(3), length=kind.length,
+        linear_damping=turned @ np.diag(kind.other_linear) @ turned.T, quadratic_damping=kind.other_quadratic,
     )  # fmt: skip
     loads, motions = kind.loads, kind.motions
     if motions is not None and not all(
@@ -161,26 +151,16 @@ def _convert(asked: Asked, kind: VesselType, rho: float | None) -> HydroDatabase
         tables = {name: np.concatenate([table, table * FORE_AFT]) for name, table in tables.items()}
     degrees, order = rising_degrees(degrees)
     found = hull_or_group(
-        asked,
-        [body],
-        fix="restoring",
-        alone={
+        asked, [body], fix="restoring", alone={
             **{name: table[order] for name, table in tables.items()},
             **{name: matrix_at(kind.added_mass, kind.omega == limit) for name, limit in LIMITS.items()},
             "motion_rao_limit": MOTION_LIMIT,
             "port_starboard_symmetric": port,
         },
-        name=asked.where.stem,
-        omega=kind.omega[rows],
-        heading=np.radians(degrees),
-        added_mass=kind.added_mass[rows],
-        damping=kind.damping[rows],
-        rho=rho,
-        g=GRAVITY,
-        depth=kind.depth,
-        origin=kind.place,
-        source=kind.source,
-    )
+        name=asked.where.stem, origin=kind.place, source=kind.source,
+        rho=rho, g=GRAVITY, depth=kind.depth, omega=kind.omega[rows], heading=np.radians(degrees),
+        added_mass=kind.added_mass[rows], damping=kind.damping[rows],
+    )  # fmt: skip
     assert isinstance(found, HydroDatabase)
     return found
 
@@ -192,7 +172,7 @@ def _constant_matrices(asked: Asked, kind: VesselType) -> tuple[FloatArray, Floa
         told["mass_matrix"] = rigid_mass_matrix(kind.mass, kind.centre - kind.origin, kind.inertia)
     if kind.stiffness is not None:
         told["restoring"] = np.pad(kind.stiffness, (2, 1))
-    found = []
+    found: list[Any] = []
     for name, in_file in told.items():
         (given,) = of_each(asked, name, [kind.name], getattr(asked, name))
         if given is None and in_file is None:
@@ -219,24 +199,21 @@ def _at_origin(kind: VesselType, raos: Raos, moved: FloatArray, columns: Places)
 
 def _common(path: Path, kind: VesselType) -> tuple[Places, Places]:
     """Places of the finite positive frequencies that matrices and loads share, rising."""
-    rows, columns = [], []
-    usual = [(w > 0.0) & np.isfinite(w) for w in (kind.omega, kind.loads.omega)]
-    for row in np.flatnonzero(usual[0])[np.argsort(kind.omega[usual[0]])]:
-        off = np.abs(kind.loads.omega - kind.omega[row])
-        near = np.flatnonzero(off <= SAME_FREQUENCY * kind.omega[row])
-        if near.size:
-            rows.append(row)
-            columns.append(near[0])
-    if not rows:
+    usual = [np.flatnonzero((w > 0.0) & np.isfinite(w)) for w in (kind.omega, kind.loads.omega)]
+    rows = usual[0][np.argsort(kind.omega[usual[0]])]
+    omega = kind.omega[rows, None]
+    near = np.abs(kind.loads.omega[usual[1]] - omega) <= SAME_FREQUENCY * omega
+    common = near.any(axis=1)
+    if not common.any():
         raise FileFormatError(f"{path}: matrices and load RAOs have no frequency in common; check the source")
-    left_out = int(usual[0].sum() + usual[1].sum()) - 2 * len(rows)
+    left_out = len(rows) + len(usual[1]) - 2 * int(common.sum())
     if left_out:
         warn_caller(
             f"{path}: {left_out} frequencies are given for either the matrices or the load RAOs only; the "
-            f"{len(rows)} common ones are read, and nothing is known beyond them",
+            f"{common.sum()} common ones are read, and nothing is known beyond them",
             PartialSetWarning,
         )
-    return np.array(rows), np.array(columns)
+    return rows[common], usual[1][near[common].argmax(axis=1)]
 
 
 def _read_mafredo(path: Path) -> VesselType:
@@ -256,7 +233,8 @@ def _read_mafredo(path: Path) -> VesselType:
             if not all(map(np.array_equal, grid, grids[0])):
                 raise ValueError(f"loads in {motion} and surge have different frequencies or directions")
         parts = [[_by_names(group[part], LOADS) for group in groups] for part in ("real", "imag")]
-        force = np.conj(np.stack(parts[0], axis=-1) + 1j * np.stack(parts[1], axis=-1)) * KILO
+        real, imaginary = (np.stack(part, axis=-1) for part in parts)
+        force: ComplexArray = np.conj(real + 1j * imaginary) * KILO
         info = file.groups["info"].variables if "info" in file.groups else {}
         places = ("phase_origin_0", "phase_origin_1")
         origin = [float(info[name][...]) if name in info else 0.0 for name in places]
@@ -274,15 +252,10 @@ def _read_mafredo(path: Path) -> VesselType:
                 AssumedSymmetryWarning,
             )
     return VesselType(
-        name=path.stem,
-        source=f"MaFreDo file {path.name}",
-        place="reference point of the MaFreDo database",
-        symmetry=symmetry,
-        omega=omega,
-        added_mass=matrices[0] * KILO,
-        damping=matrices[1] * KILO,
+        name=path.stem, source=f"MaFreDo file {path.name}", place="reference point of the MaFreDo database",
+        symmetry=symmetry, omega=omega, added_mass=matrices[0] * KILO, damping=matrices[1] * KILO,
         loads=Raos(degrees, load_omega, force, np.zeros(3), np.array([*origin, 0.0])),
-    )
+    )  # fmt: skip
 
 
 def _mafredo_matrices(group: Any) -> FloatArray:

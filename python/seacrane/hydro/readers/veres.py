@@ -112,39 +112,25 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
     names = ", ".join(file.path.suffix.lower() for file in found.files.values())
     missing = [suffix for suffix in LOST if sibling(found.stem, suffix) is None]
     lost = "".join(f"; no {suffix}: {LOST[suffix]}" for suffix in missing)
+    damped = RollDamping(
+        linear=roll[:, 0], quadratic=roll[:, 1], linearised=case.roll[by_heading][:, by_omega, 2],
+        linearised_amplitude=LINEARISED_AMPLITUDE,
+    )  # fmt: skip
     database = HydroDatabase(
-        name=found.stem.name,
-        omega=omega,
-        heading=direction[by_heading],
-        added_mass=added_mass,
-        damping=damping,
-        restoring=restoring[0, 0] * BOTH_SIDES + 0.0,
-        mass_matrix=found.matrices.mass * BOTH_SIDES + 0.0,
-        force=waves.get(".re8", waves.get(".re1")),
-        motion_rao=waves.get(".re1") if ".re8" in waves else None,
+        name=found.stem.name, omega=omega, heading=direction[by_heading],
+        added_mass=added_mass, damping=damping,
+        restoring=restoring[0, 0] * BOTH_SIDES + 0.0, mass_matrix=found.matrices.mass * BOTH_SIDES + 0.0,
+        force=next(iter(waves.values())), motion_rao=waves.get(".re1") if ".re8" in waves else None,
         motion_rao_limit=CLOSURE_LIMIT if speed == 0.0 else SPEED_CLOSURE_LIMIT,
-        roll_damping=RollDamping(
-            linear=roll[:, 0],
-            quadratic=roll[:, 1],
-            linearised=case.roll[by_heading][:, by_omega, 2],
-            linearised_amplitude=LINEARISED_AMPLITUDE,
-        ),
-        additional=(extra,) if present else (),
+        roll_damping=damped, additional=(extra,) if present else (),
         drift=_drift(found, case) if ".re2" in found.files else None,
-        rho=head.rho,
-        g=head.g,
-        speed=case.speed,
-        length=head.length,
-        breadth=head.breadth,
-        draught=head.draught,
-        origin=(
-            f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
-            "baseline"
-        ),
+        rho=head.rho, g=head.g, speed=case.speed,
+        length=head.length, breadth=head.breadth, draught=head.draught,
+        origin=f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
+        "baseline",
         source=f"ShipX/VERES files {found.stem.name} ({names}): {found.matrices.title}{lost}",
-        trusted_band=_trusted(omega),
-        port_starboard_symmetric=True,
-    )
+        trusted_band=_trusted(omega), port_starboard_symmetric=True,
+    )  # fmt: skip
     return database if ".re8" in waves else _with_forces(found.stem, database)
 
 
@@ -203,8 +189,8 @@ def _of_encounter(
     along[np.abs(along) < 1e-12] = 0.0
     encounter = omega + case.speed / found.matrices.header.g * np.outer(along, omega**2)
     flat = np.concatenate([blocks.reshape(m, n, -1), roll], axis=2)
-    joined = one_function(flat, omega=omega, encounter=encounter, band=_trusted(omega) or (0.0, np.inf))
-    low, high = joined.known
+    band = _trusted(omega) or (0.0, np.inf)
+    joined, apart, (low, high) = one_function(flat, omega=omega, encounter=encounter, band=band)
     if low > omega[0] * (1.0 + 1e-9) or high < omega[-1] * (1.0 - 1e-9):
         warn_caller(
             f"{found.stem}: at {case.speed:g} m/s the headings cover encounter frequencies {low:.4g} to "
@@ -214,7 +200,7 @@ def _of_encounter(
         )
     peak = np.sqrt(np.abs(np.diagonal(blocks, axis1=3, axis2=4)).max(axis=(0, 1)))  # (kinds, 6)
     scale = peak[:, :, None] * peak[:, None, :]
-    difference = joined.difference[:-2].reshape(6, 6, 6)
+    difference = apart[:-2].reshape(6, 6, 6)
     relative = np.where(scale > 0.0, difference / np.where(scale > 0.0, scale, 1.0), 0.0)
     if relative.max() > AGREEMENT:
         kind, j, k = np.unravel_index(int(relative.argmax()), relative.shape)
@@ -225,7 +211,7 @@ def _of_encounter(
             "taken for all, and motions are off accordingly",
             EncounterFrequencyWarning,
         )
-    return joined.values[:, :-2].reshape(n, 6, 6, 6), joined.values[:, -2:]
+    return joined[:, :-2].reshape(n, 6, 6, 6), joined[:, -2:]
 
 
 def _drift(found: VeresSet, matrices: Case) -> DriftCoefficients:

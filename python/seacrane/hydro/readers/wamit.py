@@ -42,13 +42,14 @@ from seacrane.hydro.readers.wamit_listing import (
 )
 from seacrane.hydro.readers.wamit_tables import (
     BY_PREFERENCE,
+    RADIATION,
+    WAVES,
     Radiation,
     WaveTable,
     radiation_of,
     read_mean_drift,
-    read_radiation,
     read_restoring,
-    read_waves,
+    read_table,
     waves_of,
 )
 from seacrane.inputs.caller import warn_caller
@@ -92,9 +93,7 @@ def read_wamit(
     rho : kg/m3, of a set that does not tell it.
     mass_matrix : (6, 6) in SI about the origin; it takes the place of mass and inertia of ``.frc``. Of
         several bodies by name; by default their displaced masses with usual radii of gyration.
-    motions : names of those that were solved for, where some were not: a motion without added mass and
-        damping is refused unless it is left out here.
-    leave_out : rad/s of frequencies to do without.
+    motions, leave_out : as `read_capytaine` takes them.
 
     Returns
     -------
@@ -160,43 +159,41 @@ def _listing_as_given(stem: Path, volume: float | None, depth: float, g: float, 
             f"{stem}.out: no such file; WAMIT needs it, or read_wamit the displaced volume in m3 (and depth, "
             "g, length_scale where they are not inf, 9.80665, 1)"
         )
-    values = {"volume": float(volume), "depth": float(depth), "g": float(g), "length_scale": float(scale)}
-    for name, value in values.items():
+    given = {"volume": volume, "depth": depth, "g": g, "length_scale": scale}
+    for name, value in given.items():
         if not (value > 0.0 and (np.isfinite(value) or name == "depth")):
             raise FileFormatError(f"{stem}: {name} is {value!r}; give a positive number")
-    centre = np.zeros(3)
     return Listing(
-        path=stem,
-        version="without .out,",
-        title="volume, depth and gravity as given",
-        g=values["g"],
-        length_scale=values["length_scale"],
-        depth=values["depth"],
-        rho=None,
-        bodies=(ListedBody(stem.name, centre, 0.0, values["volume"], centre),),
-    )
+        path=stem, version="without .out,", title="volume, depth and gravity as given", g=float(g), rho=None,
+        length_scale=float(scale), depth=float(depth),
+        bodies=(ListedBody(stem.name, np.zeros(3), 0.0, float(volume), np.zeros(3)),),
+    )  # fmt: skip
 
 
 def _numbers(files: Files, listing: Listing) -> tuple[Radiation, WaveTable, str]:
     """Matrices and forces, non-dimensional, and which files hold them."""
     count = len(listing.bodies)
     if files[".1"] is not None and files[".3"] is not None:
-        found = read_radiation(files[".1"], bodies=count), read_waves(files[".3"], bodies=count)
-        return *found, ".1, .3, .out"
-    rows, forces = listed_tables(listing)
-    warn_caller(
-        f"{listing.path}: wave forces are read from the listing, whose phases are rounded to degrees: each "
-        "is off by up to 0.9 % of its size. Give the .1 and .3 files beside it",
-        RoundedPhaseWarning,
-    )
-    return radiation_of(rows, bodies=count), waves_of(forces, bodies=count), ".out alone"
+        rows, forces = read_table(files[".1"], RADIATION), read_table(files[".3"], WAVES)
+        told = ".1, .3, .out"
+    else:
+        rows, forces = listed_tables(listing)
+        told = ".out alone"
+        warn_caller(
+            f"{listing.path}: wave forces are read from the listing, whose phases are rounded to degrees: "
+            "each is off by up to 0.9 % of its size. Give the .1 and .3 files beside it",
+            RoundedPhaseWarning,
+        )
+    return radiation_of(rows, bodies=count), waves_of(forces, bodies=count), told
 
 
 def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) -> Loaded:
     """The database or the group in SI."""
     stem, count = asked.where, len(listing.bodies)
     radiation, waves, told = _numbers(files, listing)
-    motion = None if files[".4"] is None or count > 1 else read_waves(files[".4"])
+    motion = None
+    if files[".4"] is not None and count == 1:
+        motion = waves_of(read_table(files[".4"], WAVES), bodies=1)
     control = None if files[".frc"] is None or count > 1 else read_force_control(files[".frc"])
     if files[".out"] is not None and files[".1"] is not None:
         _check_periods(listing, radiation.period, files[".1"])
@@ -220,8 +217,6 @@ def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) ->
         at = np.searchsorted(table.heading_deg, heading_deg)[order]
         return np.asarray(table.values[np.ix_(at, np.searchsorted(table.period, period)[::-1])])
 
-    limits = (radiation.infinite_frequency_added_mass, radiation.zero_frequency_added_mass)
-    infinite, zero = (None if limit is None else limit * mass_scale for limit in limits)
     bodies = _bodies(asked, files, listing, rho, control)
     own: dict[str, Any] = {}
     origin = "origin of WAMIT's global axes, on the still waterline"
@@ -248,24 +243,14 @@ def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) ->
         if motion is not None:
             source += f"; motions by WAMIT from {'Haskind' if haskind else 'diffraction'} forces"
     return hull_or_group(
-        asked,
-        bodies,
-        fix="the .hst file of this run",
-        alone=own,
-        name=stem.name,
-        omega=omega,
-        heading=direction,
-        added_mass=radiation.added_mass[rows] * mass_scale,
-        damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
-        infinite_frequency_added_mass=infinite,
-        zero_frequency_added_mass=zero,
+        asked, bodies, fix="the .hst file of this run", alone=own,
+        name=stem.name, origin=origin, source=source, rho=rho, g=g, depth=listing.depth,
+        omega=omega, heading=direction,
         force=picked(waves) * rho * g * scale ** (2 + turns),
-        rho=rho,
-        g=g,
-        depth=listing.depth,
-        origin=origin,
-        source=source,
-    )
+        added_mass=radiation.added_mass[rows] * mass_scale,
+        **{name: limit * mass_scale for name, limit in radiation.limits.items()},
+        damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
+    )  # fmt: skip
 
 
 def _bodies(
@@ -280,15 +265,15 @@ def _bodies(
     for i, (body, mass) in enumerate(zip(listing.bodies, masses, strict=True)):
         at = slice(6 * i, 6 * i + 6)
         restoring = body.restoring(scale) * rho * g if whole is None else whole[at, at] * rho * g * power
-        centre, extra = body.gravity, {}
+        centre, damping = body.gravity, None
         if control is not None:
             centre = centre if control.center_of_gravity is None else control.center_of_gravity
             mass = _mass_of_control(asked, control, body, rho) if mass is None else mass
-            extra = {"linear_damping": control.damping}
+            damping = control.damping
         made = floating_body(
             asked, body.name, where=listing.path if several else None, several=several,
             position=body.position, heading=body.heading, restoring=restoring, volume=body.volume,
-            water=(rho, g), mass=mass, centre=centre, **extra,
+            water=(rho, g), mass=mass, centre=centre, linear_damping=damping,
         )  # fmt: skip
         if control is not None and control.stiffness is not None:
             made = replace(made, restoring=restoring + control.stiffness)
@@ -325,10 +310,12 @@ def _common_periods(
     stem: Path, radiation: Radiation, force: WaveTable, motion: WaveTable | None
 ) -> tuple[FloatArray, FloatArray]:
     """Periods and headings that all files hold, with a warning where one holds more."""
-    periods = [radiation.period, force.period] + ([] if motion is None else [motion.period])
-    headings = [force.heading_deg] + ([] if motion is None else [motion.heading_deg])
+    waves = [force] if motion is None else [force, motion]
     shared = []
-    for what, unit, lists in (("periods", "s", periods), ("headings", "deg", headings)):
+    for what, unit, lists in (
+        ("periods", "s", [radiation.period, *(table.period for table in waves)]),
+        ("headings", "deg", [table.heading_deg for table in waves]),
+    ):
         common = lists[0][np.all([np.isin(lists[0], other) for other in lists], axis=0)]
         if len(common) == 0:
             raise FileFormatError(f"{stem}: .1, .3 and .4 have no {what} in common; use files of one run")
