@@ -12,7 +12,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import vector_of
 
 Array = NDArray[np.float64]
-Places = NDArray[np.intp]
 WINDOW = 1.0  # s around a sample whose median it is compared with
 FEWEST = 5  # samples in it
 AROUND = 20.0  # s around it whose spread counts, where it is larger than that of the whole: a decay
@@ -28,7 +27,7 @@ FIRST, LAST = 1.5e8, 7.0e9  # s since 1970: from 1974 to 2191
 FORMS = {8: "%Y%m%d", 10: "%Y%m%d%H", 12: "%Y%m%d%H%M", 14: "%Y%m%d%H%M%S"}
 
 
-def outliers(time: Array, values: Array) -> Places:
+def outliers(time: Array, values: Array) -> NDArray[np.intp]:
     """Places of single samples, or a few in a row, that are far from the median of those around them."""
     from scipy.ndimage import median_filter
 

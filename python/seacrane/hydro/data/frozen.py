@@ -1,14 +1,18 @@
-"""Checks that databases, groups and what they consist of share: arrays of a shape, sizes, bands."""
+"""Checks that databases, groups and what they consist of share: arrays of a shape, sizes, bands.
+
+Where a file is read, what they refuse is an error of that file (`reading`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.errors import SceneError
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro.data.arrays import FloatArray
 from seacrane.inputs.checked import require_unmasked
 
@@ -72,3 +76,23 @@ def require_definite(what: str, mass_matrix: FloatArray) -> None:
     """Raise unless a mass matrix (6, 6) is positive definite."""
     if np.any(np.linalg.eigvalsh(0.5 * (mass_matrix + mass_matrix.T)) <= 0.0):
         raise SceneError(f"{what}: the mass matrix is not positive definite; check mass and inertia")
+
+
+@contextmanager
+def reading(
+    where: object, kind: str = "", errors: tuple[type[Exception], ...] = (ValueError,)
+) -> Iterator[None]:
+    """Raise what goes wrong within as a FileFormatError that names the file; one that does so stays.
+
+    Parameters
+    ----------
+    where : file or files.
+    kind : what the file should be, where ``errors`` are those of a library that cannot read it.
+    """
+    try:
+        yield
+    except FileFormatError:
+        raise
+    except errors as error:
+        told = f"cannot be read as {kind} ({str(error)[:200]}); write it again" if kind else error
+        raise FileFormatError(f"{where}: {told}") from error

@@ -62,10 +62,9 @@ def _slips(database: HydroData) -> list[str]:
     if database.speed != 0.0:
         return []
     given = {"": database.motion_rao, "by its wave loads, ": motion_response(database)}
+    lowest, water = float(database.omega[0]), {"depth": database.depth, "g": database.g}
     slips = {
-        source: phase_slip(
-            float(database.omega[0]), database.heading, motions[:, 0], depth=database.depth, g=database.g
-        )
+        source: phase_slip(lowest, database.heading, motions[:, 0], **water)
         for source, motions in given.items()
         if motions is not None
     }

@@ -57,10 +57,8 @@ class MemoryBlock:
     def transfer(self, omega: FloatArray) -> ComplexArray:
         """``C (i omega - A)^-1 B + D`` at ``omega`` (n,), as (n, outputs, inputs)."""
         resolvent = 1j * omega[:, None, None] * np.eye(len(self.A)) - self.A
-        states = np.linalg.solve(
-            resolvent, np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape))
-        )
-        return np.asarray(self.C @ states + self.D)
+        inputs = np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape))
+        return np.asarray(self.C @ np.linalg.solve(resolvent, inputs) + self.D)
 
 
 @dataclass(frozen=True, kw_only=True)

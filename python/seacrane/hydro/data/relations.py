@@ -45,9 +45,9 @@ def resolved_by_headings(database: Hydrodynamics) -> NDArray[np.bool_]:
     """
     if isinstance(database, HydroData):
         length = database.length
-    else:
-        boxes = [(body.position[:2], body.length, body.breadth) for body in database.bodies]
-        length = 2.0 * max(float(np.hypot(*place) + 0.5 * np.hypot(*sizes)) for place, *sizes in boxes)
+    else:  # over all
+        boxes = [(np.hypot(*body.position[:2]), body.length, body.breadth) for body in database.bodies]
+        length = float(2.0 * max(away + 0.5 * np.hypot(length, breadth) for away, length, breadth in boxes))
     circle, _ = full_circle(database)
     phase = largest_gap(circle) * database.omega**2 / database.g * length / 2.0
     return np.asarray(phase <= LARGEST_PHASE_STEP)

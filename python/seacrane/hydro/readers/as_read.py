@@ -186,11 +186,11 @@ def frequencies_kept(asked: Asked, omega: FloatArray, tables: Mapping[str, Any])
             )
         kept &= ~same
     bad, first = np.zeros(len(omega), dtype=bool), ""
-    for name in ("added_mass", "damping", "force"):
-        table = tables[name][:, rows] if name == "force" else tables[name][rows]
+    for name, axis in (("added_mass", 0), ("damping", 0), ("force", 1)):
+        table = np.take(tables[name], rows, axis=axis)
         places = np.argwhere(~np.isfinite(table))
-        places = places[kept[places[:, int(name == "force")]]]
-        bad[places[:, int(name == "force")]] = True
+        places = places[kept[places[:, axis]]]
+        bad[places[:, axis]] = True
         if len(places) and not first:
             first = f"{name}{places[0].tolist()} is {table[tuple(places[0])]}"
     if bad.any():

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.arrays import FloatArray
-from seacrane.hydro.data.reading import reading
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
 from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each

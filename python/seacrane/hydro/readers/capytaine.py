@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.arrays import ComplexArray, FloatArray
-from seacrane.hydro.data.reading import reading
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
 from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each
@@ -374,10 +374,15 @@ def _by_body(dataset: xarray.Dataset, variable: str, names: list[str]) -> FloatA
     return values[[there.index(name) for name in names]]
 
 
+def is_netcdf(path: Path) -> bool:
+    """Whether a path is a file that says by its name to be NetCDF."""
+    return is_file_of(path, NETCDF)
+
+
 FORMAT = Format(
     name="Capytaine",
     files="a NetCDF file (.nc) of Capytaine",
-    can_open=lambda path: is_file_of(path, NETCDF) and is_capytaine(path),
+    can_open=lambda path: is_netcdf(path) and is_capytaine(path),
     read=read_capytaine,
     takes=("depth",),
 )

@@ -15,7 +15,7 @@ from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
 from seacrane.hydro.group.parts import afloat
 from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, veres, wamit
-from seacrane.hydro.readers.format import Format, Loaded, is_file_of
+from seacrane.hydro.readers.format import Format, Loaded
 from seacrane.inputs.caller import silently
 from seacrane.inputs.keywords import named
 from seacrane.warnings import RoughDataWarning
@@ -23,7 +23,7 @@ from seacrane.warnings import RoughDataWarning
 OURS = Format(  # any NetCDF file but Capytaine's: one of no known kind is refused by what it lacks of ours
     name="seacrane",
     files="a NetCDF file (.nc) of seacrane",
-    can_open=lambda path: is_file_of(path, capytaine.NETCDF),
+    can_open=capytaine.is_netcdf,
     read=HydroDatabase.load,
     speeds=lambda path: (HydroDatabase.load(path).speed,),
 )

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_group_data import GroupBody
-from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.transform import motion_transform
 from seacrane.hydro.readers.as_read import Asked, Given
 from seacrane.hydro.readers.format import Format, Loaded
@@ -175,15 +175,12 @@ def _stiffness_about(
     return moved if (apart[0] < apart[1] if told else usual == "centre of gravity") else stiffness
 
 
-def _can_open(path: Path) -> bool:
-    return path.name in (RADIATION, EXCITATION, CONTROL) or (
-        path.is_dir() and sought(project_of(path), RADIATION) is not None
-    )
-
-
 FORMAT = Format(
     name="NEMOH",
     files="a NEMOH folder (RadiationCoefficients.tec, ExcitationForce.tec, KH.dat, Hydrostatics.dat)",
-    can_open=_can_open,
+    can_open=lambda path: (
+        path.name in (RADIATION, EXCITATION, CONTROL)
+        or (path.is_dir() and sought(project_of(path), RADIATION) is not None)
+    ),
     read=read_nemoh,
 )

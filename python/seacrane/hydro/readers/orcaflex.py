@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.heading_circle import phase_at
-from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.as_read import Asked, rising_degrees
@@ -234,7 +234,7 @@ def _read_mafredo(path: Path) -> VesselType:
                 raise ValueError(f"loads in {motion} and surge have different frequencies or directions")
         parts = [[_by_names(group[part], LOADS) for group in groups] for part in ("real", "imag")]
         real, imaginary = (np.stack(part, axis=-1) for part in parts)
-        force: ComplexArray = np.conj(real + 1j * imaginary) * KILO
+        force = np.asarray(np.conj(real + 1j * imaginary) * KILO, dtype=complex)
         info = file.groups["info"].variables if "info" in file.groups else {}
         places = ("phase_origin_0", "phase_origin_1")
         origin = [float(info[name][...]) if name in info else 0.0 for name in places]

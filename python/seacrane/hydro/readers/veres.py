@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.arrays import FloatArray
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, RollDamping
 from seacrane.hydro.data.motion import force_of_motion, one_function
-from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.format import Format, sibling
 from seacrane.hydro.readers.text_records import NUMBER as WORD
@@ -227,11 +227,8 @@ def _drift(found: VeresSet, matrices: Case) -> DriftCoefficients:
     by_heading, by_omega = np.argsort(direction), np.argsort(matrices.omega)
     load = np.zeros((*case.values.shape[:2], 6))
     load[:, :, DRIFT_MOTIONS] = case.values * scale * TO_OURS[DRIFT_MOTIONS]
-    return DriftCoefficients(
-        heading=direction[by_heading],
-        omega=matrices.omega[by_omega],
-        coefficient=load[by_heading][:, by_omega],
-    )
+    load, omega = load[by_heading][:, by_omega], matrices.omega[by_omega]
+    return DriftCoefficients(heading=direction[by_heading], omega=omega, coefficient=load)
 
 
 def _row(label: str) -> Any:

@@ -182,6 +182,7 @@ def _file(records: TextRecords, header: VeresHeader, given: Iterable[Case], **ot
 
 
 READERS = {".re7": read_matrices, ".re8": read_transfer, ".re1": read_transfer, ".re2": read_drift}
+SET = ("VERES", (".re7",), (*READERS, ".hyd"))  # as `stem_of` takes it
 
 
 def same_speed(a: float, b: float) -> bool:
@@ -257,18 +258,13 @@ def is_veres(path: Path) -> bool:
     """Whether ``path`` is a folder, stem or file of a VERES set."""
     if path.is_dir():
         return any(file.suffix.lower() in MATRICES_AND_FORCE for file in path.iterdir())
-    stem = find_stem(path)
+    stem = stem_of(path, *SET)
     return any(sibling(stem, suffix) is not None for suffix in MATRICES_AND_FORCE)
-
-
-def find_stem(path: Path) -> Path:
-    """`stem_of` a VERES set."""
-    return stem_of(path, "VERES", (".re7",), (*READERS, ".hyd"))
 
 
 def read_set(path: Path) -> VeresSet:
     """All files of the set that ``path`` points to, from one calculation."""
-    stem = find_stem(path)
+    stem = stem_of(path, *SET)
     places = {suffix: place for suffix in READERS if (place := sibling(stem, suffix)) is not None}
     if ".re7" not in places:
         raise FileFormatError(

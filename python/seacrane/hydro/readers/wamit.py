@@ -21,10 +21,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.arrays import FloatArray
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.hydro.data.hydro_group_data import GroupBody
-from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.readers.as_read import Asked, Given, mass_of_file, rising_degrees
 from seacrane.hydro.readers.format import Format, Loaded, sibling, stem_of
@@ -59,6 +59,7 @@ from seacrane.warnings import PartialSetWarning, RoundedPhaseWarning
 Files = dict[str, Path | None]  # by suffix
 
 SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
+SET = ("WAMIT", (".1", ".out"), SUFFIXES)  # as `stem_of` takes it
 NEEDED = (".1", ".3", ".hst")
 HASKIND_LIMIT = np.full(6, 0.01)  # two force methods differ by the mesh's error
 HASKIND_FLOOR = np.array([0.05, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4])  # surge in beam seas is a difference of errors
@@ -115,7 +116,7 @@ def read_wamit(
     FileFormatError : a file is missing, truncated, damaged or inconsistent with the others; the message names
         the file and, where there is one, the line.
     """
-    stem = find_wamit_stem(Path(path))
+    stem = stem_of(Path(path), *SET)
     files = {suffix: sibling(stem, suffix) for suffix in SUFFIXES}
     asked = Asked(
         where=stem, reader="read_wamit", mass_matrix=mass_matrix, motions=motions, leave_out=leave_out
@@ -133,17 +134,12 @@ def read_wamit(
         return _convert(asked, files, listing, rho)
 
 
-def find_wamit_stem(path: Path) -> Path:
-    """`stem_of` a WAMIT set."""
-    return stem_of(path, "WAMIT", (".1", ".out"), SUFFIXES)
-
-
 def is_wamit(path: Path) -> bool:
     """Whether ``path`` is a folder, stem or file of a WAMIT set, or leads to a listing of several bodies."""
     if path.is_dir() and any(file.suffix == ".1" for file in path.iterdir()):
         return True
     try:
-        stem = find_wamit_stem(path)
+        stem = stem_of(path, *SET)
     except FileFormatError:
         return False
     if not path.is_dir() and any(sibling(stem, suffix) is not None for suffix in NEEDED):
@@ -195,8 +191,12 @@ def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) ->
     if files[".4"] is not None and count == 1:
         motion = waves_of(read_table(files[".4"], WAVES), bodies=1)
     control = None if files[".frc"] is None or count > 1 else read_force_control(files[".frc"])
-    if files[".out"] is not None and files[".1"] is not None:
-        _check_periods(listing, radiation.period, files[".1"])
+    for value in [] if files[".out"] is None or files[".1"] is None else radiation.period:
+        if not np.any(np.abs(np.array(listing.period) - value) <= 1e-5 * value):
+            raise FileFormatError(
+                f"{listing.path}, line {len(listing.lines)}: the file ends without period {value:g} s of the "
+                ".1 file; it is truncated, or the files are not of one run"
+            )
     period, heading_deg = _common_periods(stem, radiation, waves, motion)
     rho = rho if control is None or control.rho is None else control.rho
     if rho is not None and listing.rho is not None and abs(rho - listing.rho) > 1e-4 * rho:
@@ -289,21 +289,8 @@ def _drift(files: Files, listing: Listing, rho: float) -> DriftCoefficients | No
     found = read_mean_drift(path)
     direction, order = _directions(path, found.heading_deg)
     scale = rho * listing.g * listing.length_scale ** (1 + ROTATIONS)
-    return DriftCoefficients(
-        heading=direction,
-        omega=(2.0 * np.pi / found.period)[::-1],
-        coefficient=found.values[order][:, ::-1] * scale,
-    )
-
-
-def _check_periods(listing: Listing, period: FloatArray, path: Path) -> None:
-    """Raise unless the listing goes through every period of the matrices."""
-    for value in period:
-        if not np.any(np.abs(np.array(listing.period) - value) <= 1e-5 * value):
-            raise FileFormatError(
-                f"{listing.path}, line {len(listing.lines)}: the file ends without period {value:g} s of "
-                f"{path.name}; it is truncated, or the files are not of one run"
-            )
+    omega, load = (2.0 * np.pi / found.period)[::-1], found.values[order][:, ::-1] * scale
+    return DriftCoefficients(heading=direction, omega=omega, coefficient=load)
 
 
 def _common_periods(

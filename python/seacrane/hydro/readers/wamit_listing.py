@@ -147,19 +147,14 @@ def read_listing(path: Path) -> Listing:
         for found in re.finditer(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)
     ]
     return Listing(
-        path=path,
-        version=version.group(1) if version else "of unknown version",
-        title=title.group(1).strip() if title else "",
-        g=g,
-        length_scale=scale,
+        path=path, version=version.group(1) if version else "of unknown version",
+        title=title.group(1).strip() if title else "", g=g, length_scale=scale,
         depth=math.inf if deep else number_at(path, whole.line(depth.start()), depth.group(1)),
-        rho=density[0] if density and density[0] > 1.0 else None,
-        bodies=tuple(_bodies(whole)),
+        rho=density[0] if density and density[0] > 1.0 else None, bodies=tuple(_bodies(whole)),
         symmetric=None if symmetry is None else "Y=0" in symmetry.group(0).replace(" ", ""),
         panels=int(panels[0]) if panels and panels[0] >= 1.0 else None,
-        period=tuple(periods),
-        lines=tuple(text.split("\n")),
-    )
+        period=tuple(periods), lines=tuple(text.split("\n")),
+    )  # fmt: skip
 
 
 def _bodies(whole: _Part) -> list[ListedBody]:
@@ -192,15 +187,11 @@ def _body(part: _Part, name: str, *, alone: bool) -> ListedBody:
     if np.mean(volumes) <= 0.0:
         raise FileFormatError(f"{part.path}: volumes {volumes}{part.whose} must be positive")
     free = part.maybe(r"Free surface panels:\s*(\d+)")
+    gravity = part.maybe(r"Center of Gravity\s+\(Xg,Yg,Zg\)" + TRIPLE) or buoyancy
     return ListedBody(
-        name=name,
-        position=np.array([x, y, z]),
-        heading=float(np.radians(angle)),
-        volume=float(np.mean(volumes)),
-        gravity=np.array(part.maybe(r"Center of Gravity\s+\(Xg,Yg,Zg\)" + TRIPLE) or buoyancy),
-        lid_panels=int(free[0]) if free else 0,
-        part=part,
-    )
+        name=name, position=np.array([x, y, z]), heading=float(np.radians(angle)), part=part,
+        volume=float(np.mean(volumes)), gravity=np.array(gravity), lid_panels=int(free[0]) if free else 0,
+    )  # fmt: skip
 
 
 def listed_tables(listing: Listing) -> tuple[Table, Table]:
