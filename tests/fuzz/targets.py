@@ -215,7 +215,7 @@ _NETCDF = _under("inputs", "netcdf_limits hdf5_structure")
 _SCENE = ("scene/file.py", *_under("inputs", "node plain_data"))
 _HYDRO = "hydro/readers"
 _ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
-_VERES = _under(_HYDRO, "veres veres_files veres_hydrostatics text_records")
+_VERES = _under(_HYDRO, "veres veres_files text_records")
 _WAMIT = _under(_HYDRO, "wamit wamit_listing wamit_tables text_records")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
 _RECORDED = (*_under("series", "series_file reading mending"), "scene/motion_history.py")
@@ -276,7 +276,7 @@ _ALL = [
     Target("motion-record", "series", "mru.csv", _motion_record, _RECORDED, refusals=_SEEN),
     Target("state", "state", "run.state", _state, ("inputs/state.py",)),
     *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py"),
-    *_netcdf_targets("mafredo", "ship.dhyd", _of_mafredo, f"{_HYDRO}/mafredo_file.py"),
+    *_netcdf_targets("mafredo", "ship.dhyd", _of_mafredo, f"{_HYDRO}/orcaflex.py"),
     *_netcdf_targets("capytaine", "ship.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
     *_netcdf_targets("bemio", "ship.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
     *_netcdf_targets("capytaine-group", "pair.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),

@@ -51,8 +51,8 @@ from seacrane.hydro.readers.load import load_hull as load_hull
 from seacrane.hydro.readers.nemoh import read_nemoh as read_nemoh
 from seacrane.hydro.readers.orcaflex import read_orcaflex as read_orcaflex
 from seacrane.hydro.readers.veres import read_veres as read_veres
-from seacrane.hydro.readers.veres_hydrostatics import VeresHydrostatics as VeresHydrostatics
-from seacrane.hydro.readers.veres_hydrostatics import read_veres_hydrostatics as read_veres_hydrostatics
+from seacrane.hydro.readers.veres import VeresHydrostatics as VeresHydrostatics
+from seacrane.hydro.readers.veres import read_veres_hydrostatics as read_veres_hydrostatics
 from seacrane.hydro.readers.wamit import read_wamit as read_wamit
 from seacrane.hydro.vessel.parameters import RigidPart as RigidPart
 from seacrane.hydro.vessel.parameters import VesselParameters as VesselParameters

@@ -10,16 +10,14 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of, text_of, vector_of
 from seacrane.inputs.shown import listed, shown
 from seacrane.plotting.table import Answer, Column, Table
-from seacrane.series.mending import ALIASED, BROKEN, is_even, low_passed, on_grid, share_above, step_of
+from seacrane.series.mending import ALIASED, BROKEN, Array, is_even, low_passed, on_grid, share_above, step_of
 from seacrane.series.reading import FEWEST, Columns, read_series
 
-Array = NDArray[np.float64]
 MOST_FILLED = 32  # times as many samples as there are, of which the rest would be in gaps
 
 
@@ -29,23 +27,16 @@ class MeasuredSeries(Answer):
 
     Attributes
     ----------
-    time : ndarray, shape (n,)
-        s, increasing; at least 8.
-    columns : mapping of str to ndarray, shape (n,)
-        By name.
-    units : mapping of str to str
-        The SI unit of each column.
-    source : str
-        Where they come from, such as the name of a file.
-    done : tuple of str
-        What was done to them since, in words, in its order.
-    headers : mapping of str to str
-        What columns are called in their file.
+    time : (n,) s, increasing; at least 8.
+    columns : mapping of each name to its values (n,).
+    units : mapping of each name to its SI unit.
+    source : where they come from, such as the name of a file.
+    done : what was done to them since, in words, in its order.
+    headers : mapping of names to what the columns are called in their file.
 
     Raises
     ------
-    SceneError
-        For columns of another length, values that are not finite, or times that do not increase.
+    SceneError : columns of another length, values that are not finite, or times that do not increase.
     """
 
     time: Array
@@ -97,39 +88,27 @@ class MeasuredSeries(Answer):
         Parameters
         ----------
         path : path
-        columns : sequence of str, or mapping of str to str
-            Which columns to take, by the names in the header, or the names there by the names here, "time"
-            among them: ``{"time": "GPS clock", "hook load": "HL main [t]"}``; a tuple of names: the first
-            that is there. Default: all.
-        units : mapping of str to str
-            Of columns without a unit in the header, or of those whose unit there is wrong.
-        after, before : float, optional
-            s of the file's own clock, from its first stamp where it has time stamps: what is earlier or later
-            is left out.
-        maximum_gap : float
-            s, the longest gap that is filled by a cubic spline; default 0: any gap is refused.
-        drop_outliers : bool
-            Take outliers for missing values, which `maximum_gap` lets be filled.
-        rate_hz : float, optional
-            At which the logger says that it samples: the clock is then compared with it.
-        filter_hz : float, optional
-            Low-pass filter, as `filtered` does it, Hz.
-        interval : float, optional
-            s between two values, as `resampled` does it. Default: as in the file.
+        columns : which columns to take, by the names in the header, or a mapping of the names here to those
+            there, "time" among them: ``{"time": "GPS clock", "hook load": "HL main [t]"}``; a tuple of names:
+            the first that is there. Default: all.
+        units : by name, of columns without a unit in the header, or of those whose unit there is wrong.
+        after, before : s of the file's own clock, from its first stamp where it has time stamps: what is
+            earlier or later is left out.
+        maximum_gap : s, the longest gap that is filled by a cubic spline; default 0: any gap is refused.
+        drop_outliers : whether outliers are missing values, which `maximum_gap` lets be filled.
+        rate_hz : at which the logger says that it samples: the clock is then compared with it.
+        filter_hz : Hz, of a low-pass filter as `filtered` does it.
+        interval : s between two values, as `resampled` does it. Default: as in the file.
 
         Returns
         -------
-        MeasuredSeries
-            `done` says what was filled, filtered and resampled.
+        MeasuredSeries : `done` says what was filled, filtered and resampled.
 
         Raises
         ------
-        FileFormatError
-            For what cannot be read: it names the file, the line and the column.
-        SceneError
-            For a keyword that makes no sense, or a name that the file does not hold.
-        OSError
-            If the file cannot be opened.
+        FileFormatError : what cannot be read: it names the file, the line and the column.
+        SceneError : a keyword that makes no sense, or a name that the file does not hold.
+        OSError : the file cannot be opened.
 
         Warns
         -----
@@ -168,8 +147,7 @@ class MeasuredSeries(Answer):
 
         Raises
         ------
-        SceneError
-            For a frequency that is not between zero and half the sampling rate.
+        SceneError : a frequency that is not between zero and half the sampling rate.
         """
         highest = 0.5 / self.interval
         if not 0.0 < (frequency := positive_of("filter_hz", filter_hz, "Hz")) < highest:
@@ -187,8 +165,7 @@ class MeasuredSeries(Answer):
 
         Raises
         ------
-        SceneError
-            Where more than 1 % of a column's variance is faster than the new times can hold: filter it first.
+        SceneError : more than 1 % of a column's variance is faster than the new times can hold: filter it.
         """
         step, even = positive_of("interval", interval, "s"), self._even()
         fast = share_above(even._table(), even.interval, 0.5 / step) if step > even.interval else 0.0

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
@@ -14,7 +12,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import vector_of
 
 Array = NDArray[np.float64]
-Places = NDArray[np.intp]
 WINDOW = 1.0  # s around a sample whose median it is compared with
 FEWEST = 5  # samples in it
 AROUND = 20.0  # s around it whose spread counts, where it is larger than that of the whole: a decay
@@ -25,16 +22,12 @@ EVEN = 1e-3  # of a step by which times may be uneven
 LARGEST = 10_000_000  # samples of a grid
 ALIASED = 0.01  # of the variance that may be faster than a coarser grid can hold
 BROKEN = 1.5  # steps: more between two samples is a gap, or a jump of the clock
-BESIDE = 4  # samples before and after a break that tell which
-WINDOWS = 200  # elsewhere in the record that tell how well a cubic fits
-WORSE = 9.0  # times their median: the square of three times
-RATE = 0.05  # by which samples may be off the nominal rate before one of both is wrong
 POSIX = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 FIRST, LAST = 1.5e8, 7.0e9  # s since 1970: from 1974 to 2191
 FORMS = {8: "%Y%m%d", 10: "%Y%m%d%H", 12: "%Y%m%d%H%M", 14: "%Y%m%d%H%M%S"}
 
 
-def outliers(time: Array, values: Array) -> Places:
+def outliers(time: Array, values: Array) -> NDArray[np.intp]:
     """Places of single samples, or a few in a row, that are far from the median of those around them."""
     from scipy.ndimage import median_filter
 
@@ -63,19 +56,12 @@ def interpolated(time: Any, values: Any) -> Array:
 
     Parameters
     ----------
-    time : array_like, shape (n,)
-        Increasing.
-    values : array_like or masked array, shape (n,)
-        Any unit.
-
-    Returns
-    -------
-    ndarray, shape (n,)
+    time : (n,) increasing.
+    values : (n,) in any unit, masked where they are not known.
 
     Raises
     ------
-    SceneError
-        Where fewer than four are known, or the first or last is not: nothing is taken beyond what is known.
+    SceneError : fewer than four are known, or the first or last is not: nothing is taken beyond.
     """
     data = np.ma.asarray(values)
     known = ~np.ma.getmaskarray(data) & np.isfinite(np.ma.getdata(data).astype(float))
@@ -102,10 +88,7 @@ def on_grid(
 ) -> tuple[Array, Array]:
     """Times every `step` (s) from the first on, `most` at most, and the cubic splines (n, columns) there.
 
-    Raises
-    ------
-    SceneError
-        For more samples than fit, or where a coarser grid would take fast motion for slow.
+    Raises SceneError: more samples than fit.
     """
     from scipy.interpolate import CubicSpline
 
@@ -142,60 +125,10 @@ def low_passed(values: Array, step: float, frequency: float) -> Array:
     return np.asarray(sosfiltfilt(sections, values, axis=0, padlen=beyond))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Break:
-    """More than a step and a half between the samples `at` and `at` + 1; s of it, and what it looks like."""
-
-    at: int
-    length: float
-    jump: bool
-
-
 def step_of(time: Array) -> float:
     """The sampling interval, s: the mean of all steps that are not broken."""
     steps = np.diff(time)
     return float(steps[steps <= BROKEN * np.median(steps)].mean())
-
-
-def breaks_of(time: Array, values: Array) -> Iterator[Break]:
-    """Each gap and each jump forward, in order; `values` (n, columns).
-
-    Where the values go on as if one sample had passed, in every column, the clock has jumped.
-    """
-    step = step_of(time)
-    places = np.flatnonzero(np.diff(time) > BROKEN * step)
-    for at in places.tolist():
-        length = float(time[at + 1] - time[at])
-        yield Break(at=at, length=length, jump=_goes_on(values, at))
-
-
-def _goes_on(values: Array, at: int) -> bool:
-    """Whether a cubic over evenly spaced samples fits across a break as well as it does elsewhere."""
-    starts = np.arange(values.shape[0] - 2 * BESIDE + 1)
-    here = at + 1 - BESIDE
-    if here < 0 or here > starts[-1:].max(initial=-1):
-        return False
-    others = starts[:: max(1, starts.size // WINDOWS)]
-    windows = np.stack([values[start : start + 2 * BESIDE] for start in (here, *others.tolist())])
-    place = np.linspace(-1.0, 1.0, 2 * BESIDE)
-    basis, _ = np.linalg.qr(np.vander(place, 4))
-    rest = windows - np.einsum("ij,kj,wkc->wic", basis, basis, windows)
-    squares = np.square(rest).sum(axis=1)  # (windows, columns)
-    size = np.square(values - values.mean(axis=0)).mean(axis=0)
-    usual = np.median(squares[1:], axis=0) + 1e-12 * size
-    return bool(np.any(size > 0.0) and np.all(squares[0] <= WORSE * usual))
-
-
-def drift_of(time: Array, other: Array) -> float:
-    """By how much of a second a clock gains on another in a second: the slope of a line, less 1."""
-    centred = other - other.mean()
-    return float(centred @ (time - time.mean() - centred) / (centred @ centred))
-
-
-def counted(time: Array, interval: float) -> Array:
-    """The times that samples would have by their number, s, with those that are missing counted."""
-    steps = np.maximum(1.0, np.round(np.diff(time) / step_of(time)))
-    return np.asarray(np.concatenate([[0.0], np.cumsum(steps)]) * interval)
 
 
 def unit_since_1970(times: Array) -> str | None:

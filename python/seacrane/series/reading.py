@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,21 +14,10 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import finite_of, flag_of, not_negative_of, positive_of
 from seacrane.inputs.shown import listed, shown
-from seacrane.series.mending import (
-    POSIX,
-    RATE,
-    breaks_of,
-    counted,
-    drift_of,
-    filled,
-    outliers,
-    step_of,
-    unit_since_1970,
-)
+from seacrane.series.mending import BROKEN, POSIX, Array, filled, outliers, step_of, unit_since_1970
 from seacrane.series.series_file import Heading, SeriesFile, plain_words, unit_of_words
 from seacrane.warnings import ClockDriftWarning, FilledGapWarning, OutlierWarning
 
-Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Columns = Sequence[str] | Mapping[str, str | tuple[str, ...]]
 DOUBTFUL = 2.0  # between two samples: a logger's s, or the ms of one at up to 500 Hz
@@ -39,6 +28,7 @@ MOST_NAMED = 5  # outliers that a warning lists
 POSSIBLE = {"roll": (0.5 * np.pi, "rad"), "pitch": (0.5 * np.pi, "rad"), "heave": (100.0, "m")}
 SHORTEST = 1e-9  # s between two times that differ
 ROUNDING = 1e-9  # of a gap
+RATE = 0.05  # by which samples may be off the nominal rate before one of both is wrong
 
 
 def read_series(
@@ -59,28 +49,30 @@ def read_series(
     wanted = _wanted(file, asked, clocks)
     given = {plain_words(name): unit for name, unit in (units or {}).items()}
     scales = {name: _unit(file, one, given.get(name)) for name, one in wanted.items()}
-    times = [_time_unit(file, one, given.get("time")) for one in clocks]
     numbers, lines, start = file.columns([*clocks, *wanted.values()], len(clocks))
     if numbers.shape[0] < FEWEST:
         raise FileFormatError(
             f"{path}: holds {numbers.shape[0]} rows of numbers; at least {FEWEST} are needed"
         )
     clock = numbers[:, : len(clocks)] * [
-        factor if start else _counted(file, one, given.get("time"), factor, numbers[:, i])
-        for i, (one, factor) in enumerate(zip(clocks, times, strict=True))
+        _seconds(file, one, given.get("time"), None if start else numbers[:, i])
+        for i, one in enumerate(clocks)
     ]
     values = numbers[:, len(clocks) :] * [factor for factor, _ in scales.values()]
+    for column, (one, (_, unit)) in enumerate(zip(wanted.values(), scales.values(), strict=True)):
+        if unit == "rad" and TURNING & set(one.name.split()):  # where a logger jumps from 360 deg to 0
+            known = ~np.isnan(values[:, column])
+            values[known, column] = np.unwrap(values[known, column])
+    kept = _kept(path, clock[:, 0], after, before)
     rows = Rows(
-        file=file, clock=clocks[0], headings=tuple(wanted.values()), time=clock[:, 0], lines=lines,
-        values=_unwrapped([*wanted.values()], [unit for _, unit in scales.values()], values),
+        file=file, clock=clocks[0], headings=tuple(wanted.values()), time=clock[kept, 0], lines=lines[kept],
+        values=values[kept],
     )  # fmt: skip
-    kept = _kept(rows, after, before)
-    rows, others = rows.part(kept), clock[kept, 1:]
-    require_increasing(rows)
-    warn_of_drift(rows, clocks[1:], others, rate_hz)
+    _require_increasing(rows)
+    _warn_of_drift(rows, clocks[1:], clock[kept, 1:], rate_hz)
     longest = not_negative_of("maximum_gap", maximum_gap, "s")
-    values, done = mended(rows, longest, flag_of("drop_outliers", drop_outliers))
-    require_possible(rows, values, list(wanted))
+    values, done = _mended(rows, longest, flag_of("drop_outliers", drop_outliers))
+    _require_possible(rows, values, list(wanted))
     return {
         "time": rows.time, "columns": dict(zip(wanted, values.T, strict=True)),
         "units": {name: unit for name, (_, unit) in scales.items()},
@@ -130,15 +122,6 @@ def _wanted(
     return {name: one for name, one in found.items() if one is not None}
 
 
-def _unwrapped(headings: Sequence[Heading], units: Sequence[str], values: Array) -> Array:
-    """Angles about the vertical go on beyond a turn, where a logger jumps from 360 deg to 0."""
-    for column, (one, unit) in enumerate(zip(headings, units, strict=True)):
-        if unit == "rad" and TURNING & set(one.name.split()):
-            known = ~np.isnan(values[:, column])
-            values[known, column] = np.unwrap(values[known, column])
-    return values
-
-
 def _unit(file: SeriesFile, heading: Heading, given: str | None) -> tuple[float, str]:
     """Factor to SI and the SI unit."""
     words = heading.unit if given is None else given
@@ -152,25 +135,21 @@ def _unit(file: SeriesFile, heading: Heading, given: str | None) -> tuple[float,
     return found
 
 
-def _time_unit(file: SeriesFile, heading: Heading, given: str | None) -> float:
-    """s of a unit of time; a clock without a unit has seconds, or time stamps."""
-    words = given or heading.unit or "s"
-    found = (1.0, "s") if words.lower() in ("utc", "iso", "gmt") else unit_of_words(words)
-    if found is None or found[1] != "s":
-        raise file.refused(
-            file.header,
-            heading,
-            f"has the unit {shown(words)}; a time is in s, ms, min or h, or a time stamp",
-        )
-    return found[0]
+def _seconds(file: SeriesFile, heading: Heading, given: str | None, times: Array | None) -> float:
+    """s of a clock's unit; without one it has seconds, or time stamps (``times`` is None).
 
-
-def _counted(file: SeriesFile, heading: Heading, given: str | None, factor: float, times: Array) -> float:
-    """s of a clock's unit, which numbers since 1970 tell, and whole numbers far apart leave in doubt."""
+    Numbers since 1970 tell it, and whole numbers far apart leave it in doubt.
+    """
     named = given or heading.unit
+    found = (1.0, "s") if (named or "s").lower() in ("utc", "iso", "gmt") else unit_of_words(named or "s")
+    if found is None or found[1] != "s":
+        words = f"has the unit {shown(named)}; a time is in s, ms, min or h, or a time stamp"
+        raise file.refused(file.header, heading, words)
+    if times is None:
+        return found[0]
     since = unit_since_1970(times)
     step = float(np.nanmedian(np.abs(np.diff(times)))) if times.size > 1 else 0.0
-    if since is not None and (named is None or np.isclose(POSIX[since], factor)):
+    if since is not None and (named is None or np.isclose(POSIX[since], found[0])):
         return POSIX[since]
     fix = "name its unit by units={'time': 'ms'} or 's'"
     if since is not None:
@@ -182,18 +161,18 @@ def _counted(file: SeriesFile, heading: Heading, given: str | None, factor: floa
         raise file.refused(
             file.header, heading, f"has no unit, and its whole numbers are {step:g} apart: s, or ms; {fix}",
         )  # fmt: skip
-    return factor
+    return found[0]
 
 
-def _kept(rows: Rows, after: float | None, before: float | None) -> Bools:
-    kept = np.ones(rows.time.size, dtype=bool)
+def _kept(path: Path, time: Array, after: float | None, before: float | None) -> Bools:
+    kept = np.ones(time.size, dtype=bool)
     for limit, name, sign in ((after, "after", 1.0), (before, "before", -1.0)):
         if limit is not None:
-            kept &= ~(sign * rows.time < sign * finite_of(name, limit, "s"))
+            kept &= ~(sign * time < sign * finite_of(name, limit, "s"))
     if kept.sum() < FEWEST:
         raise SceneError(
-            f"after={after}, before={before}: {kept.sum()} rows of {rows.file.path} are left, of times from "
-            f"{np.nanmin(rows.time):.6g} to {np.nanmax(rows.time):.6g} s; leave at least {FEWEST}"
+            f"after={after}, before={before}: {kept.sum()} rows of {path} are left, of times from "
+            f"{np.nanmin(time):.6g} to {np.nanmax(time):.6g} s; leave at least {FEWEST}"
         )
     return kept
 
@@ -212,11 +191,20 @@ class Rows:
     def refused(self, row: int, heading: Heading, words: str) -> FileFormatError:
         return self.file.refused(int(self.lines[row]), heading, words)
 
-    def part(self, kept: Bools) -> Rows:
-        return replace(self, time=self.time[kept], values=self.values[kept], lines=self.lines[kept])
+    def without(self, missing: Bools) -> Array:
+        """The values, with the missing ones from splines. Raises where a column has hardly any left."""
+        few = np.flatnonzero((~missing).sum(axis=0) < FEWEST)
+        if few.size:
+            at = int(few[0])
+            raise self.refused(
+                int(np.argmax(missing[:, at])), self.headings[at],
+                f"the column has {(~missing[:, at]).sum()} values; leave it out by columns=",
+            )  # fmt: skip
+        columns = zip(self.values.T, missing.T, strict=True)
+        return np.stack([filled(self.time, values, gaps) for values, gaps in columns], axis=1)
 
 
-def require_increasing(rows: Rows) -> None:
+def _require_increasing(rows: Rows) -> None:
     time = rows.time
     missing = np.flatnonzero(np.isnan(time))
     if missing.size:
@@ -233,23 +221,26 @@ def require_increasing(rows: Rows) -> None:
         )  # fmt: skip
 
 
-def warn_of_drift(rows: Rows, headings: Sequence[Heading], others: Array, rate_hz: float | None) -> None:
+def _warn_of_drift(rows: Rows, headings: Sequence[Heading], others: Array, rate_hz: float | None) -> None:
     """Against other clocks in the file, and against the number of samples at the nominal rate."""
+    time, step = rows.time, step_of(rows.time)
     clocks = {f"column {shown(one.text)}": times for one, times in zip(headings, others.T, strict=True)}
     if rate_hz is not None:
         nominal = 1.0 / positive_of("rate_hz", rate_hz, "Hz")
-        if abs(step_of(rows.time) / nominal - 1.0) > RATE:
+        if abs(step / nominal - 1.0) > RATE:
             raise SceneError(
-                f"rate_hz is {1.0 / nominal:g}, and the samples of {rows.file.path} are "
-                f"{step_of(rows.time):.4g} s apart; correct one of them"
+                f"rate_hz is {1.0 / nominal:g}, and the samples of {rows.file.path} are {step:.4g} s apart; "
+                "correct one of them"
             )
-        clocks[f"samples at {rate_hz:g} Hz"] = counted(rows.time, nominal)
-    duration = float(rows.time[-1] - rows.time[0])
+        steps = np.maximum(1.0, np.round(np.diff(time) / step))  # with those that are missing
+        clocks[f"samples at {rate_hz:g} Hz"] = np.concatenate([[0.0], np.cumsum(steps)]) * nominal
+    duration = float(time[-1] - time[0])
     for name, times in clocks.items():
         if not np.isfinite(times).all() or np.any(np.diff(times) <= 0.0):
             continue  # no clock that could tell anything
-        drift = drift_of(rows.time, times)
-        if abs(drift) * duration > step_of(rows.time):
+        other = times - times.mean()  # the slope of a line, less 1
+        drift = float(other @ (time - time.mean() - other) / (other @ other))
+        if abs(drift) * duration > step:
             warn_caller(
                 f"{rows.file.path}: its clock, column {shown(rows.clock.text)}, gains {drift * 1e6:+.0f} us "
                 f"in a second on {name}, {drift * duration:+.3g} s over the record; take the clock that is "
@@ -258,17 +249,15 @@ def warn_of_drift(rows: Rows, headings: Sequence[Heading], others: Array, rate_h
             )
 
 
-def mended(rows: Rows, longest: float, drop: bool) -> tuple[Array, tuple[str, ...]]:
+def _mended(rows: Rows, longest: float, drop: bool) -> tuple[Array, tuple[str, ...]]:
     """Values (n, columns) with gaps filled, and what was done."""
     missing = np.isnan(rows.values)
-    _require_some(rows, missing)
-    guess = _filled(rows, missing)
-    missing |= _outlying(rows, guess, missing, drop)
-    _require_some(rows, missing)
-    gaps = [*_missing_values(rows, missing, longest), *_missing_rows(rows, guess, longest)]
+    found = _outlying(rows, rows.without(missing), missing, drop)
+    missing |= found & drop
+    values = rows.without(missing)
+    gaps = _gaps(rows, missing, longest)
     if not gaps:
         return rows.values, ()
-    values = _filled(rows, missing)
     row, length = max(gaps, key=lambda gap: gap[1])
     told = f"{len(gaps)} gaps filled by cubic splines, the longest {length:.4g} s"
     warn_caller(
@@ -279,23 +268,8 @@ def mended(rows: Rows, longest: float, drop: bool) -> tuple[Array, tuple[str, ..
     return values, (told,)
 
 
-def _filled(rows: Rows, missing: Bools) -> Array:
-    columns = zip(rows.values.T, missing.T, strict=True)
-    return np.stack([filled(rows.time, values, gaps) for values, gaps in columns], axis=1)
-
-
-def _require_some(rows: Rows, missing: Bools) -> None:
-    few = np.flatnonzero((~missing).sum(axis=0) < FEWEST)
-    if few.size:
-        at = int(few[0])
-        raise rows.refused(
-            int(np.argmax(missing[:, at])), rows.headings[at],
-            f"the column has {(~missing[:, at]).sum()} values; leave it out by columns=",
-        )  # fmt: skip
-
-
 def _outlying(rows: Rows, values: Array, missing: Bools, drop: bool) -> Bools:
-    """Which values are outliers that are dropped; they are told in any case."""
+    """Which values are outliers; they are told, whether they are dropped or not."""
     found = np.zeros_like(missing)
     for column in range(values.shape[1]):
         found[outliers(rows.time, values[:, column]), column] = True
@@ -307,61 +281,49 @@ def _outlying(rows: Rows, values: Array, missing: Bools, drop: bool) -> Bools:
             for row, at in places[:MOST_NAMED]
         ]
         more = f", and {len(places) - MOST_NAMED} more" if len(places) > MOST_NAMED else ""
-        then = (
-            "they are dropped" if drop else "drop_outliers=True drops them; maximum_gap= fills what is left"
-        )
+        then = "drop_outliers=True drops them; maximum_gap= fills what is left"
         warn_caller(
-            f"{rows.file.path}: {len(places)} outliers in SI units, {'; '.join(named)}{more}: {then}",
+            f"{rows.file.path}: {len(places)} outliers in SI units, {'; '.join(named)}{more}: "
+            f"{'they are dropped' if drop else then}",
             OutlierWarning,
         )
-    return found if drop else np.zeros_like(found)
+    return found
 
 
-def _missing_values(rows: Rows, missing: Bools, longest: float) -> list[tuple[int, float]]:
-    """Row and length, s, of each gap in a column."""
-    found = []
+def _gaps(rows: Rows, missing: Bools, longest: float) -> list[tuple[int, float]]:
+    """Row behind its start and length, s, of each gap in a column, and of the clock."""
+    found, time, last = [], rows.time, rows.time.size - 1
     for column, heading in enumerate(rows.headings):
         ends = np.flatnonzero(np.diff(np.concatenate([[0], missing[:, column].astype(int), [0]])))
         for first, end in ends.reshape(-1, 2).tolist():
-            outer = first == 0 or end == rows.time.size
-            length = float(rows.time[min(end, rows.time.size - 1)] - rows.time[max(first - 1, 0)])
-            if outer or length > longest * (1.0 + ROUNDING):
-                raise rows.refused(first, heading, _way_out(rows, first, end, length, outer))
+            what = f"{end - first} values are missing, or dropped as outliers, from here on"
+            start, stop = time[max(first - 1, 0)], time[min(end, last)]
+            length = float(stop - start)
+            if first == 0 or end > last:
+                side = f"after={stop:.10g}" if first == 0 else f"before={start:.10g}"
+                raise rows.refused(
+                    first, heading, f"{what}, at an end of the record; leave them out by {side}"
+                )
+            if length > longest * (1.0 + ROUNDING):
+                raise rows.refused(
+                    first, heading,
+                    f"{what}: a gap of {length:.4g} s; maximum_gap={length * (1.0 + 1e-3):.4g} fills it",
+                )  # fmt: skip
             found.append((first, length))
-    return found
-
-
-def _way_out(rows: Rows, first: int, end: int, length: float, outer: bool) -> str:
-    """What to do about missing values in the rows `first` to `end`."""
-    what = f"{end - first} values are missing, or dropped as outliers, from here on"
-    if not outer:
-        return f"{what}: a gap of {length:.4g} s; maximum_gap={length * (1.0 + 1e-3):.4g} fills it"
-    side = f"after={rows.time[min(end, rows.time.size - 1)]:.10g}" if first == 0 else (
-        f"before={rows.time[first - 1]:.10g}"
-    )  # fmt: skip
-    return f"{what}, at an end of the record; leave them out by {side}"
-
-
-def _missing_rows(rows: Rows, values: Array, longest: float) -> list[tuple[int, float]]:
-    """Row after it and length, s, of each gap of the clock."""
-    found = []
-    for gap in breaks_of(rows.time, values):
-        what = (
-            "the clock jumps: the values go on as if one sample had passed; correct the times from here on"
-            if gap.jump
-            else "samples are missing"
-        )
-        if gap.length > longest * (1.0 + ROUNDING):
+    step = step_of(time)
+    for at in np.flatnonzero(np.diff(time) > BROKEN * step).tolist():
+        length = float(time[at + 1] - time[at])
+        if length > longest * (1.0 + ROUNDING):
             raise rows.refused(
-                gap.at + 1, rows.clock, f"{gap.length:.4g} s after the line above it, with samples of "
-                f"{step_of(rows.time):.4g} s: {what}; maximum_gap={gap.length * (1.0 + 1e-3):.4g} fills it, "
-                "after= and before= leave it out",
+                at + 1, rows.clock, f"{length:.4g} s after the line above it, with samples of {step:.4g} s: "
+                "samples are missing, or the clock jumps and the times from here on are to be corrected; "
+                f"maximum_gap={length * (1.0 + 1e-3):.4g} fills it, after= and before= leave it out",
             )  # fmt: skip
-        found.append((gap.at + 1, gap.length))
+        found.append((at + 1, length))
     return found
 
 
-def require_possible(rows: Rows, values: Array, names: Sequence[str]) -> None:
+def _require_possible(rows: Rows, values: Array, names: Sequence[str]) -> None:
     """Refuse motions that no ship has, which are most often in another unit."""
     for column, name in enumerate(names):
         most, unit = POSSIBLE.get(name, (np.inf, ""))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from array import array
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import datetime
 from math import pi
@@ -64,44 +65,39 @@ class SeriesFile:
 
     def __init__(self, path: Path, *, time: str | None = None) -> None:
         self.path = path
-        self._lines = _lines_of(path)
+        data = read_whole(path, fix="cut the record into several files")
+        text = decoded(data)
+        if "\0" in text or not text.strip():
+            what = looks_like(path, data)
+            raise FileFormatError(f"{path}: is {what}; give a text file of columns (CSV, TSV)")
+        self._lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
         self._time = None if time is None else plain_words(time)
-        at = next((i for i in range(min(MOST_ABOVE, len(self._lines))) if self._is_header(i)), None)
-        if at is None:
+        for at, line in enumerate(self._lines[:MOST_ABOVE], start=1):
+            self.header = self._first = at
+            self.delimiter, cells = _cells_of_header(line)
+            self.headings = tuple(heading_of(i, cell[: LONGEST + 1]) for i, cell in enumerate(cells))
+            if any(map(self.is_named_clock, self.headings)):
+                break
+            if time is None and len(cells) > 1 and any(one.is_time for one in self.headings):
+                break
+        else:
             first = next((line for line in self._lines if line.strip()), "")
             raise FileFormatError(
                 f"{path}: no line names columns, with one of time, as in 'time [s];roll [deg]'; it begins "
                 f"with {shown(first)}: write such a line above the numbers, or give columns={{'time': ...}}"
             )
-        self.delimiter = _delimiter_of(self._lines[at])
-        self.headings = self._headings(at)
-        self.header = at + 1
-        self._first = at + 1
+        if any(len(cell) > LONGEST for cell in cells):
+            raise FileFormatError(f"{path}, line {self.header}: a name has more than {LONGEST} characters")
         self._take_units()
 
-    def _headings(self, at: int) -> tuple[Heading, ...]:
-        cells = _cells_of_header(self._lines[at], self.delimiter)
-        if any(len(cell) > LONGEST for cell in cells):
-            raise FileFormatError(f"{self.path}, line {at + 1}: a name has more than {LONGEST} characters")
-        return tuple(heading_of(place, cell) for place, cell in enumerate(cells))
-
-    def _is_header(self, at: int) -> bool:
-        cells = _cells_of_header(self._lines[at], _delimiter_of(self._lines[at]))
-        found = [heading_of(0, cell) for cell in cells if len(cell) <= LONGEST]
-        if self._time is not None:
-            return any(self.is_named_clock(one) for one in found)
-        return len(cells) > 1 and any(one.is_time for one in found)
-
     def _take_units(self) -> None:
+        """Units in a line below the header, which holds no numbers, are those of the columns without one."""
         at = next((i for i in range(self._first, len(self._lines)) if self._lines[i].strip()), None)
-        if at is None:
-            return
-        cells = self._lines[at].split(self.delimiter)
-        if len(cells) == len(self.headings) and is_line_of_units(cells):
-            self.headings = tuple(
-                replace(one, unit=one.unit or cell.strip().strip("\"'") or None)
-                for one, cell in zip(self.headings, cells, strict=True)
-            )
+        texts = [] if at is None else [c.strip().strip("\"'") for c in self._lines[at].split(self.delimiter)]
+        known = any(set(texts) - {"", "1"}) and all(not text or unit_of_words(text) for text in texts)
+        if at is not None and known and len(texts) == len(self.headings):
+            pairs = zip(self.headings, texts, strict=True)
+            self.headings = tuple(replace(one, unit=one.unit or text or None) for one, text in pairs)
             self._first = at + 1
 
     def refused(self, line: int, heading: Heading, words: str) -> FileFormatError:
@@ -122,28 +118,21 @@ class SeriesFile:
         words = plain_words(asked)
         exact = [one for one in self.headings if plain_words(one.text) == words]
         named = [one for one in self.headings if one.name == words]
-        near = [one for one in self.headings if _is_about(one, set(words.split()))]
+        has = [(one, set(one.name.split())) for one in self.headings]
+        about = set(words.split())
+        near = [one for one, each in has if about <= each and not (each - about) & OTHERS]
         return next((group[0] for group in (exact, named, near) if len(group) == 1), None)
 
     def columns(self, wanted: Sequence[Heading], clocks: int) -> tuple[Array, NDArray[np.intp], str]:
         """Numbers of columns, as they are written; missing ones are NaN.
 
-        Parameters
-        ----------
-        wanted : sequence of Heading
-            Columns of time first.
-        clocks : int
-            How many of them may hold time stamps.
+        ``wanted`` begins with so many ``clocks``, which may hold time stamps: they are in s from the first.
 
-        Returns
-        -------
-        ndarray (n, columns), ndarray (n,), str
-            Time stamps are in s from the first; the line of each row; and that first stamp, or "".
+        Returns the numbers (n, columns), the line of each row (n,), and that first stamp, or "".
         """
         numbers, lines = array("d"), array("q")
         stamps: dict[int, datetime] = {}
-        for line in range(self._first, len(self._lines)):
-            text = self._lines[line]
+        for line, text in enumerate(self._lines[self._first :], start=self._first + 1):
             if not text.strip() or text.lstrip().startswith(COMMENTS):
                 continue
             cells = text.split(self.delimiter)
@@ -151,92 +140,57 @@ class SeriesFile:
                 cells.pop()
             if len(cells) != len(self.headings):
                 raise FileFormatError(
-                    f"{self.path}, line {line + 1}: has {len(cells)} cells, and the header "
+                    f"{self.path}, line {line}: has {len(cells)} cells, and the header "
                     f"{len(self.headings)} ({listed([one.text for one in self.headings])}); complete the "
                     "line or delete it"
                 )
-            row = _plain_row([cells[one.place] for one in wanted])
-            numbers.extend(row or self._row(line + 1, cells, wanted, clocks, stamps))
-            lines.append(line + 1)
+            numbers.extend(self._number(line, cells, one, wanted[:clocks], stamps) for one in wanted)
+            lines.append(line)
         rows = np.array(numbers, dtype=float).reshape(-1, len(wanted))
         first = next((one.isoformat(sep=" ") for one in stamps.values()), "")
         return rows, np.array(lines, dtype=np.intp), first
 
-    def _row(
+    def _number(
         self,
         line: int,
         cells: Sequence[str],
-        wanted: Sequence[Heading],
-        clocks: int,
+        one: Heading,
+        clocks: Sequence[Heading],
         stamps: dict[int, datetime],
-    ) -> list[float]:
-        found = []
-        for i, one in enumerate(wanted):
-            value = plain_number(cells[one.place], comma=self.delimiter != ",")
-            if value is None and i < clocks:
-                value = _stamp(cells[one.place], one, stamps)
-            if value is None and 0 < i < clocks:
-                value = float("nan")  # a second clock need not be one
-            if value is None or abs(value) > (LONGEST_CLOCK if i < clocks else LARGEST):
-                kind = f"number of up to {LARGEST:g}" + (STAMP if i == 0 else "")
-                raise self.refused(
-                    line, one, f"{shown(cells[one.place])} is no {kind}; correct it, or leave the cell empty "
-                    "where the value is missing",
-                )  # fmt: skip
-            found.append(value)
-        return found
+    ) -> float:
+        """A cell's number; a time stamp in s from the first of its column. A second clock need not be one."""
+        cell = cells[one.place]
+        value, largest, kind = plain_number(cell, comma=self.delimiter != ","), LARGEST, ""
+        if one in clocks:
+            largest = LONGEST_CLOCK
+            if value is None:
+                with suppress(ValueError, TypeError, OverflowError):  # no stamp, or one of both has no zone
+                    stamp = datetime.fromisoformat(cell.strip().strip("\"'"))
+                    return (stamp - stamps.setdefault(one.place, stamp)).total_seconds()
+                value, kind = (None, STAMP) if one is clocks[0] else (float("nan"), "")
+        if value is None or abs(value) > largest:
+            raise self.refused(
+                line, one, f"{shown(cell)} is no number of up to {LARGEST:g}{kind}; correct it, or leave the "
+                "cell empty where the value is missing",
+            )  # fmt: skip
+        return value
 
 
-def _lines_of(path: Path) -> list[str]:
-    data = read_whole(path, fix="cut the record into several files")
-    text = decoded(data)
-    if "\0" in text or not text.strip():
-        raise FileFormatError(f"{path}: is {looks_like(path, data)}; give a text file of columns (CSV, TSV)")
-    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-
-
-def _delimiter_of(line: str) -> str | None:
-    """None stands for blanks."""
-    return next((one for one in DELIMITERS if one in line), None)
-
-
-def _cells_of_header(line: str, delimiter: str | None) -> list[str]:
+def _cells_of_header(line: str) -> tuple[str | None, list[str]]:
+    """The delimiter of a line, None standing for blanks, and its cells; a unit apart belongs to its name."""
     text = line.strip()
     for sign in COMMENTS:
         text = text.removeprefix(sign)
+    delimiter = next((one for one in DELIMITERS if one in line), None)
     if delimiter is not None:
-        return text.split(delimiter)
+        return delimiter, text.split(delimiter)
     cells: list[str] = []
     for word in text.split():
-        if cells and word[0] in "[(":  # its unit, apart
+        if cells and word[0] in "[(":
             cells[-1] += f" {word}"
         else:
             cells.append(word)
-    return cells
-
-
-def _plain_row(cells: Sequence[str]) -> list[float]:
-    """Numbers without anything to look at twice, or an empty list: the quick way for nearly all rows."""
-    try:
-        row = [float(cell) for cell in cells]
-    except ValueError:
-        return []
-    plain = all(-LARGEST <= value <= LARGEST for value in row) and not any("_" in cell for cell in cells)
-    return row if plain else []
-
-
-def _stamp(cell: str, one: Heading, stamps: dict[int, datetime]) -> float | None:
-    """s since the first stamp of a column; None for another text, or where one of both has no time zone."""
-    try:
-        stamp = datetime.fromisoformat(cell.strip().strip("\"'"))
-        return (stamp - stamps.setdefault(one.place, stamp)).total_seconds()
-    except (ValueError, TypeError, OverflowError):
-        return None
-
-
-def _is_about(heading: Heading, words: set[str]) -> bool:
-    has = set(heading.name.split())
-    return words <= has and not (has - words) & OTHERS
+    return delimiter, cells
 
 
 def plain_number(cell: str, *, comma: bool) -> float | None:
@@ -301,19 +255,3 @@ def heading_of(place: int, cell: str) -> Heading:
 def plain_words(name: str) -> str:
     """A name in small letters, with one space between its words."""
     return " ".join(re.split(r"[\s_]+", name.strip(" _\t\"'").lower()))
-
-
-def is_line_of_units(cells: Sequence[str]) -> bool:
-    """Whether a line below a header holds the units of the columns, and no numbers."""
-    texts = [cell.strip().strip("\"'") for cell in cells]
-    return any(not _is_number(text) and text for text in texts) and all(
-        not text or unit_of_words(text) for text in texts
-    )
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, both_sides, largest_gap
+from seacrane.hydro.data.arrays import FloatArray
+from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, both_sides
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import in_trusted_band
 from seacrane.hydro.data.motion import natural_frequency
@@ -19,8 +20,6 @@ from seacrane.warnings import (
     HeadingGapWarning,
     WaterMismatchWarning,
 )
-
-FloatArray = NDArray[np.float64]
 
 DAMPING_LIMIT = -0.01  # of the largest diagonals, as in the self-check
 SYMMETRY_LIMIT, ONE_SIDED = 0.1, 0.45  # of the diagonals, and of the larger entry; coarse meshes leave less
@@ -42,15 +41,23 @@ def warn_of_data(database: HydroData) -> None:
 def warn_of_matrices(database: HydroData) -> None:
     """Symmetry of added mass and damping within the trusted band, and damping that adds energy."""
     inside = np.flatnonzero(in_trusted_band(database))
+    tables = {"linear_damping": database.linear_damping[None]}
     if database.speed == 0.0 and inside.size:
         _warn_of_asymmetry(database, inside)
-        lowest = smallest_eigenvalues(database.damping[inside], database.mass_matrix)
+        tables = {"radiation damping": database.damping[inside]} | tables
+    for what, table in tables.items():
+        lowest = smallest_eigenvalues(table, database.mass_matrix)
         if lowest.min() < DAMPING_LIMIT:
-            at = database.omega[inside[int(lowest.argmin())]]
-            _warn_negative(database, f"radiation damping at {at:.4g} rad/s", float(lowest.min()))
-    constant = smallest_eigenvalues(database.linear_damping[None], database.mass_matrix)
-    if constant.min() < DAMPING_LIMIT:
-        _warn_negative(database, "linear_damping", float(constant.min()))
+            at = ""
+            if what != "linear_damping":
+                at = f" at {database.omega[inside[int(lowest.argmin())]]:.4g} rad/s"
+            warn_caller(
+                f"database {database.name!r}: {what}{at} has a negative eigenvalue, "
+                f"{100.0 * lowest.min():.3g} % of its largest diagonals: a motion in that combination gains "
+                "energy from still water. Correct the matrices, or narrow trusted_band to frequencies that "
+                "are sound",
+                DampingWarning,
+            )
     tabulated = database.roll_damping
     worst = float(database.quadratic_damping.min())
     if tabulated is not None:
@@ -143,21 +150,12 @@ def _warn_of_asymmetry(database: HydroData, inside: NDArray[np.intp]) -> None:
             )
 
 
-def _warn_negative(database: HydroData, what: str, value: float) -> None:
-    warn_caller(
-        f"database {database.name!r}: {what} has a negative eigenvalue, {100.0 * value:.3g} % of its largest "
-        "diagonals: a motion in that combination gains energy from still water. Correct the matrices, or "
-        "narrow trusted_band to frequencies that are sound",
-        DampingWarning,
-    )
-
-
 def _warn_of_headings(database: HydroData) -> None:
     circle = both_sides(database.heading)[0] if database.port_starboard_symmetric else database.heading
-    gap = largest_gap(circle)
+    steps = np.diff(np.append(circle, circle[0] + 2.0 * np.pi))
+    gap = float(steps.max())
     if gap <= LARGEST_HEADING_GAP + 1e-9:
         return
-    steps = np.diff(np.append(circle, circle[0] + 2.0 * np.pi))
     start = float(np.degrees(circle[int(steps.argmax())]))
     one_side = "" if database.port_starboard_symmetric else " The vessel is not symmetric, so no side mirrors"
     warn_caller(

@@ -5,19 +5,17 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.errors import SceneError
-from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, centred, heading_weights, travel
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.data.heading_circle import centred, heading_weights, travel, with_mirror_images
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.one_thread import one_thread
 from seacrane.sea.dispersion import wavenumber
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 @one_thread
@@ -104,10 +102,7 @@ def full_circle(database: Hydrodynamics) -> tuple[FloatArray, ComplexArray]:
     """
     if not database.port_starboard_symmetric:
         return database.heading.copy(), database.force.copy()
-    heading, source, mirrored = both_sides(database.heading)
-    sides = np.tile(PORT_STARBOARD, database.force.shape[-1] // 6)
-    parity = np.where(mirrored[:, None], sides, 1.0)
-    return heading, database.force[source] * parity[:, None, :]
+    return with_mirror_images(database.heading, database.force)
 
 
 def with_limits(database: HydroData, omega: FloatArray, force: ComplexArray) -> ComplexArray:

@@ -1,24 +1,29 @@
-"""Checks that databases, groups and what they consist of share: arrays of a shape, sizes, bands."""
+"""Checks that databases, groups and what they consist of share: arrays of a shape, sizes, bands.
+
+Where a file is read, what they refuse is an error of that file (`reading`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.inputs.checked import require_unmasked
 
-FloatArray = NDArray[np.float64]
-
-KINDS: dict[str, type] = {"force": complex, "motion_rao": complex, "outputs": np.int64, "inputs": np.int64}
+KINDS: dict[str, type] = dict.fromkeys(("force", "motion_rao", "values"), complex)
+KINDS |= dict.fromkeys(("outputs", "inputs"), np.int64)
 
 
 def freeze(part: Any, what: str, shapes: Mapping[str, tuple[int, ...]]) -> None:
     """Replace arrays of ``part`` by finite, read-only copies of the right shape and type; None stays.
 
-    Raises ValueError: names ``what`` it is of and the entry.
+    Raises SceneError: names ``what`` it is of and the entry.
     """
     for name, shape in shapes.items():
         value = getattr(part, name)
@@ -27,10 +32,10 @@ def freeze(part: Any, what: str, shapes: Mapping[str, tuple[int, ...]]) -> None:
         require_unmasked(f"{what}: {name}", value)
         array: NDArray[Any] = np.array(value, dtype=KINDS.get(name, float))
         if array.shape != shape:
-            raise ValueError(f"{what}: {name} has shape {array.shape}; {shape} is needed")
+            raise SceneError(f"{what}: {name} has shape {array.shape}; {shape} is needed")
         if not np.all(np.isfinite(array)):
             where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-            raise ValueError(f"{what}: {name}{list(where)} is {array[where]}; give finite numbers")
+            raise SceneError(f"{what}: {name}{list(where)} is {array[where]}; give finite numbers")
         array.setflags(write=False)
         object.__setattr__(part, name, array)
 
@@ -39,16 +44,16 @@ def require_grid(what: str, omega: FloatArray, heading: FloatArray) -> None:
     """Raise unless frequencies are positive and headings within [0, 2 pi), both strictly increasing."""
     for name, values, low, high in (("omega", omega, 0.0, np.inf), ("heading", heading, -1e-12, 2.0 * np.pi)):
         if values.size == 0:
-            raise ValueError(f"{what}: {name} is empty; give at least one value")
+            raise SceneError(f"{what}: {name} is empty; give at least one value")
         steps = np.flatnonzero(np.diff(values) <= 0.0)
         if steps.size:
             i = int(steps[0])
-            raise ValueError(
+            raise SceneError(
                 f"{what}: {name} is not strictly increasing: {values[i]:.6g} then {values[i + 1]:.6g} at "
                 f"index {i + 1}; sort it and drop duplicates"
             )
         if not (values[0] > low and values[-1] < high):
-            raise ValueError(
+            raise SceneError(
                 f"{what}: {name} spans {values[0]:.6g} to {values[-1]:.6g}, outside ({low}, {high})"
             )
 
@@ -58,16 +63,36 @@ def require_positive(part: Any, what: str, *names: str) -> None:
     for name in names:
         value = float(getattr(part, name))
         if not (0.0 < value < np.inf or (name == "depth" and value > 0.0)):
-            raise ValueError(f"{what}: {name} is {value}; give a positive number")
+            raise SceneError(f"{what}: {name} is {value}; give a positive number")
 
 
 def require_band(what: str, band: tuple[float, float] | None) -> None:
     """Raise unless a trusted band is none, or rises from zero or more."""
     if band is not None and not 0.0 <= band[0] < band[1]:
-        raise ValueError(f"{what}: trusted_band {band} is not (low, high) in rad/s")
+        raise SceneError(f"{what}: trusted_band {band} is not (low, high) in rad/s")
 
 
 def require_definite(what: str, mass_matrix: FloatArray) -> None:
     """Raise unless a mass matrix (6, 6) is positive definite."""
     if np.any(np.linalg.eigvalsh(0.5 * (mass_matrix + mass_matrix.T)) <= 0.0):
-        raise ValueError(f"{what}: the mass matrix is not positive definite; check mass and inertia")
+        raise SceneError(f"{what}: the mass matrix is not positive definite; check mass and inertia")
+
+
+@contextmanager
+def reading(
+    where: object, kind: str = "", errors: tuple[type[Exception], ...] = (ValueError,)
+) -> Iterator[None]:
+    """Raise what goes wrong within as a FileFormatError that names the file; one that does so stays.
+
+    Parameters
+    ----------
+    where : file or files.
+    kind : what the file should be, where ``errors`` are those of a library that cannot read it.
+    """
+    try:
+        yield
+    except FileFormatError:
+        raise
+    except errors as error:
+        told = f"cannot be read as {kind} ({str(error)[:200]}); write it again" if kind else error
+        raise FileFormatError(f"{where}: {told}") from error

@@ -11,17 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.sea.dispersion import wavenumber
-
-FloatArray = NDArray[np.float64]
 
 PORT_STARBOARD = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 SAME_HEADING = 1e-6  # rad
 SYMMETRY_TOLERANCE = 0.02
 LARGEST_HEADING_GAP = np.radians(45.0)  # above it nothing is interpolated
-ComplexArray = NDArray[np.complex128]
-
 FEWEST = 3  # headings
 FOLLOWED = 0.02  # changes from heading to heading, squared, of the squares themselves: a spline follows them
 BETTER = 0.5  # of the changes from heading to heading that are left; a shielded hull has 0.67 aside
@@ -48,6 +45,13 @@ def both_sides(heading: FloatArray) -> tuple[FloatArray, NDArray[np.intp], NDArr
     mirrored = np.arange(len(every)) >= len(heading)
     order = np.argsort(every)
     return every[order], source[order], mirrored[order]
+
+
+def with_mirror_images(heading: FloatArray, table: ComplexArray) -> tuple[FloatArray, ComplexArray]:
+    """`both_sides`, and the forces or motions (m, n, 6 k) there, of k hulls."""
+    circle, source, mirrored = both_sides(heading)
+    sides = np.tile(PORT_STARBOARD, table.shape[-1] // 6)
+    return circle, table[source] * np.where(mirrored[:, None], sides, 1.0)[:, None, :]
 
 
 def largest_gap(circle: FloatArray) -> float:

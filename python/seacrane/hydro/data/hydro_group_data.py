@@ -9,13 +9,12 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.frozen import freeze, require_band, require_definite, require_grid, require_positive
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.inputs.brief import brief
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 SHAPES = {
     "position": (3,),
     "mass_matrix": (6, 6),
@@ -64,6 +63,22 @@ class GroupBody:
         require_definite(what, self.mass_matrix)
 
 
+def _of_bodies(name: str) -> cached_property[FloatArray]:
+    """What `GroupBody` holds, of all bodies."""
+
+    def whole(group: HydroGroupData) -> FloatArray:
+        """Of all bodies, (6 k,) or (6 k, 6 k) block by block: water at rest couples no hulls."""
+        parts = [getattr(body, name) for body in group.bodies]
+        out = np.concatenate(parts) if parts[0].ndim == 1 else np.zeros((6 * len(parts),) * 2)
+        for i, part in enumerate(parts):
+            if part.ndim == 2:
+                out[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = part
+        out.setflags(write=False)
+        return out
+
+    return cached_property(whole)
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class HydroGroupData:
     """Linear hydrodynamics of k hulls that feel each other's waves; immutable, every array read-only.
@@ -76,18 +91,14 @@ class HydroGroupData:
     Attributes
     ----------
     bodies : of each hull, what is its own (`GroupBody`).
-    omega : (n,) frequencies in rad/s, increasing and positive.
-    heading : (m,) in rad, increasing, within [0, 2 pi).
+    omega, heading, rho, g, depth, trusted_band, origin, source, name : as of `HydroDatabase`, one for all.
     added_mass, damping : (n, 6 k, 6 k) radiation: block (i, j) is the load on body i for motions of body j.
     infinite_frequency_added_mass, zero_frequency_added_mass : (6 k, 6 k), or None when not known.
     force : (m, n, 6 k) complex wave excitation per metre of amplitude, with the shielding of all hulls.
-    rho, g, depth : kg/m3, m/s2, m (inf: deep), one for all.
-    trusted_band : (low, high) in rad/s between which the source vouches for its numbers.
     port_starboard_symmetric : whether headings may be mirrored: every hull lies on the group's x axis.
     lid_damping : share of omega / g of a damping lid in the gap that the source computed with; None when it
         does not say.
     memory : fitted radiation memory of all motions, or None.
-    name, origin, source : text.
     """
 
     name: str
@@ -139,31 +150,10 @@ class HydroGroupData:
         """Names of the bodies, in the order of the motions."""
         return tuple(body.name for body in self.bodies)
 
-    @cached_property
-    def mass_matrix(self) -> FloatArray:
-        """(6 k, 6 k), block by block."""
-        return self._blocks("mass_matrix")
-
-    @cached_property
-    def restoring(self) -> FloatArray:
-        """(6 k, 6 k), block by block: water at rest couples no hulls."""
-        return self._blocks("restoring")
-
-    @cached_property
-    def linear_damping(self) -> FloatArray:
-        """(6 k, 6 k) beside radiation, block by block."""
-        return self._blocks("linear_damping")
-
-    @cached_property
-    def quadratic_damping(self) -> FloatArray:
-        """(6 k,) coefficients of v |v| beside radiation."""
-        return _frozen(np.concatenate([body.quadratic_damping for body in self.bodies]))
-
-    def _blocks(self, name: str) -> FloatArray:
-        out = np.zeros((6 * len(self.bodies),) * 2)
-        for i, body in enumerate(self.bodies):
-            out[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = getattr(body, name)
-        return _frozen(out)
+    mass_matrix = _of_bodies("mass_matrix")
+    restoring = _of_bodies("restoring")
+    linear_damping = _of_bodies("linear_damping")
+    quadratic_damping = _of_bodies("quadratic_damping")
 
     def place(self, name: str) -> slice:
         """Where the six motions of a body stand among all.
@@ -179,11 +169,6 @@ class HydroGroupData:
 
 
 Hydrodynamics = HydroData | HydroGroupData  # of one hull, or of several: the same equations, of other size
-
-
-def _frozen(array: FloatArray) -> FloatArray:
-    array.setflags(write=False)
-    return array
 
 
 def in_trusted_band(database: Hydrodynamics, omega: FloatArray | None = None) -> NDArray[np.bool_]:

@@ -5,11 +5,9 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.one_thread import one_thread
-
-FloatArray = NDArray[np.float64]
 
 
 def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None = None) -> FloatArray:
@@ -81,17 +79,11 @@ def _not_a_knot_curvature(x: FloatArray) -> FloatArray:
 
 def _periodic_curvature(x: FloatArray, period: float) -> FloatArray:
     """Matrix (n, n) from values to second derivatives of the periodic spline."""
-    n = len(x)
-    h = np.diff(np.append(x, x[0] + period))
-    left, right = np.zeros((n, n)), np.zeros((n, n))
-    for i in range(n):
-        before, after = (i - 1) % n, (i + 1) % n
-        left[i, i] += 2.0 * (h[before] + h[i])
-        left[i, before] += h[before]
-        left[i, after] += h[i]
-        right[i, i] -= 6.0 / h[before] + 6.0 / h[i]
-        right[i, before] += 6.0 / h[before]
-        right[i, after] += 6.0 / h[i]
+    h = np.diff(np.append(x, x[0] + period))[:, None]
+    before, own = np.roll(h, 1, axis=0), np.eye(len(x))
+    last, following = np.roll(own, -1, axis=1), np.roll(own, 1, axis=1)
+    left = 2.0 * (before + h) * own + before * last + h * following
+    right = 6.0 / before * last + 6.0 / h * following - (6.0 / before + 6.0 / h) * own
     return np.asarray(np.linalg.solve(left, right))
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import motion_response
 from seacrane.inputs.caller import warn_caller
@@ -14,22 +14,10 @@ from seacrane.inputs.frames import MOTIONS
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import RaoPhaseWarning
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-
 FOLLOWS = (0.5, 1.6)  # of the limit's amplitude: a hull that follows the wave
 LARGEST_PHASE = np.radians(60.0)  # from the limit's
 ALONG = 0.5  # least cosine of a heading in which pitch is judged
 _SLIPS: WeakKeyDictionary[HydroData, list[str]] = WeakKeyDictionary()  # each database is judged once
-
-
-def warn_of_phases(
-    what: str, omega: float, heading: FloatArray, motions: ComplexArray, *, depth: float, g: float
-) -> None:
-    """Warn where motions (m, 6) in a wave that the hull follows lead or lag it."""
-    said = phase_slip(omega, heading, motions, depth=depth, g=g)
-    if said:
-        warn_caller(f"{what}: {said}", RaoPhaseWarning)
 
 
 def phase_slip(omega: float, heading: FloatArray, motions: ComplexArray, *, depth: float, g: float) -> str:
@@ -74,10 +62,9 @@ def _slips(database: HydroData) -> list[str]:
     if database.speed != 0.0:
         return []
     given = {"": database.motion_rao, "by its wave loads, ": motion_response(database)}
+    lowest, water = float(database.omega[0]), {"depth": database.depth, "g": database.g}
     slips = {
-        source: phase_slip(
-            float(database.omega[0]), database.heading, motions[:, 0], depth=database.depth, g=database.g
-        )
+        source: phase_slip(lowest, database.heading, motions[:, 0], **water)
         for source, motions in given.items()
         if motions is not None
     }

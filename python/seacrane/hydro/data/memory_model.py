@@ -8,12 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.frozen import freeze
 from seacrane.inputs.brief import brief
 from seacrane.one_thread import one_thread
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 RADIATION = "radiation"
 MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
@@ -59,10 +57,8 @@ class MemoryBlock:
     def transfer(self, omega: FloatArray) -> ComplexArray:
         """``C (i omega - A)^-1 B + D`` at ``omega`` (n,), as (n, outputs, inputs)."""
         resolvent = 1j * omega[:, None, None] * np.eye(len(self.A)) - self.A
-        states = np.linalg.solve(
-            resolvent, np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape))
-        )
-        return np.asarray(self.C @ states + self.D)
+        inputs = np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape))
+        return np.asarray(self.C @ np.linalg.solve(resolvent, inputs) + self.D)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,12 +98,11 @@ class MotionError:
 
     Attributes
     ----------
-    seas : ndarray, shape (6,), or (6 k,) of a group of k hulls
-        Standard deviation of the difference of each motion over that of the motion, at the heading where this
-        is largest; the worst heading and the worst sea of Tp 5 to 18 s (`peak_periods` of hulls below 60 m).
-    peaks : ndarray, of the same shape
-        Complex difference of heave, roll and pitch over their value, at the largest of the band; zero for the
-        others.
+    seas : (6,), or (6 k,) of a group of k hulls: standard deviation of the difference of each motion over
+        that of the motion, in the worst heading and the worst sea of Tp 5 to 18 s (`peak_periods` of hulls
+        below 60 m).
+    peaks : of the same shape: complex difference of heave, roll and pitch over their value, at the largest of
+        the band; zero for the others.
     """
 
     seas: FloatArray
@@ -139,8 +134,7 @@ class MotionFit:
     Attributes
     ----------
     limit : asked of `MotionError.worst`.
-    error : MotionError
-        Reached.
+    error : reached.
     floor : `MotionError.worst` of the database's own convolution, into which nothing is fitted.
     left_out : pairs (j, k), counted from 0, whose memory no motion feels, symmetry forbids, or of a motion
         without damping.

@@ -2,33 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import by_straight_lines, spline_weights
 from seacrane.sea.dispersion import wavenumber
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 SLACK = 1e-9  # of the highest frequency: the rounding of sums that meet an end of the table
 BEAM = 1e-6  # |cos(heading)| below which speed leaves the frequency as it is
-
-
-@dataclass(frozen=True, eq=False)
-class OneFunction:
-    """Tables (n, k) by encounter frequency, and how well the headings agree on them.
-
-    ``difference`` (k,) is the largest difference between a heading's table and the function, in the tables'
-    units; ``known`` is the range of encounter frequencies that some heading covers.
-    """
-
-    values: FloatArray
-    difference: FloatArray
-    known: tuple[float, float]
 
 
 def encounter_frequency(database: HydroData) -> FloatArray:
@@ -70,12 +54,14 @@ def at_encounter(omega: FloatArray, encounter: FloatArray, table: FloatArray) ->
 
 def one_function(
     tables: FloatArray, *, omega: FloatArray, encounter: FloatArray, band: tuple[float, float]
-) -> OneFunction:
+) -> tuple[FloatArray, FloatArray, tuple[float, float]]:
     """Tables (m, n, k) per heading and wave frequency as one function of encounter frequency at ``omega``.
 
     Where a heading has encounter frequencies equal to ``omega`` (a beam sea), its table is taken; elsewhere
     all headings are joined by linear interpolation in the encounter frequency, and held beyond their ends.
-    Agreement is judged where encounter frequencies lie within ``band`` (rad/s).
+
+    Returns the function (n, k); by how much a heading's table differs from it at most (k,), within ``band``
+    (rad/s); and the range of encounter frequencies that some heading covers.
     """
     size = np.abs(encounter)
     beam = np.flatnonzero(np.all(np.abs(encounter - omega) <= BEAM * omega, axis=1))
@@ -85,7 +71,7 @@ def one_function(
     judged = (size >= low) & (size <= high)
     found = at_encounter(omega, encounter, values)
     difference = np.where(judged[:, :, None], np.abs(found - tables), 0.0).max(axis=(0, 1))
-    return OneFunction(values, difference, known)
+    return values, difference, known
 
 
 def _joined(tables: FloatArray, size: FloatArray, omega: FloatArray) -> FloatArray:

@@ -7,18 +7,19 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
-from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, centred, heading_weights, travel
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.data.frozen import freeze, require_grid, require_positive
+from seacrane.hydro.data.heading_circle import centred, heading_weights, travel, with_mirror_images
 from seacrane.hydro.data.interpolation import spline_weights
-from seacrane.hydro.data.long_waves import warn_of_phases
-from seacrane.inputs.checked import flag_of, number_of, numbers_of, require_unmasked, text_of, vector_of
+from seacrane.hydro.data.long_waves import phase_slip
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import flag_of, number_of, numbers_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import RaoPhaseWarning
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 TURN = 2.0 * np.pi
 STEEPEST_PITCH = 6.0  # of the wave's slope, at the longest wave of a table: hulls follow it, 57 is degrees
 
@@ -34,31 +35,23 @@ class MotionRaos:
 
     Parameters
     ----------
-    omega : array_like, shape (n,)
-        rad/s, increasing.
-    heading : array_like, shape (m,)
-        rad, where the waves go to: 0 following, from +x towards +y (port); increasing within [0, 2 pi).
-    values : array_like of complex, shape (m, n, 6)
-        Surge, sway, heave (m/m) and roll, pitch, yaw (rad/m).
-    depth : float
-        Of the water, m; default: deep.
-    symmetric : bool
-        Whether port and starboard are alike (default), so that headings may be mirrored.
-    name : str
-        For messages.
-    g : float
-        m/s2, for wavenumbers; default 9.81.
+    omega : (n,) rad/s, increasing.
+    heading : (m,) rad, where the waves go to: 0 following, from +x towards +y (port); increasing within
+        [0, 2 pi).
+    values : complex (m, n, 6): surge, sway, heave (m/m) and roll, pitch, yaw (rad/m).
+    depth : of the water, m; default: deep.
+    symmetric : whether port and starboard are alike (default), so that headings may be mirrored.
+    name : for messages.
+    g : m/s2, for wavenumbers; default 9.81.
 
     Raises
     ------
-    SceneError
-        For another shape, a value that is not finite, frequencies or headings out of order, headings in
+    SceneError : another shape, a value that is not finite, frequencies or headings out of order, headings in
         degrees, or rotations in degrees: a pitch in the longest wave of more than six times its slope.
 
     Warns
     -----
-    RaoPhaseWarning
-        A hull that follows the longest wave by its amplitudes, and is out of phase with it.
+    RaoPhaseWarning : a hull that follows the longest wave by its amplitudes is out of phase with it.
     """
 
     omega: Any
@@ -78,22 +71,25 @@ class MotionRaos:
 
     def __post_init__(self) -> None:
         what = f"RAOs {text_of('RAOs: name', self.name)!r}"
-        omega = _increasing(f"{what}: omega", self.omega, "rad/s")
-        heading = _headings(f"{what}: heading", self.heading)
-        values = _motions(what, self.values, (heading.size, omega.size, 6))
-        for key, unit in (("depth", "m"), ("g", "m/s2")):
-            number = number_of(f"{what}: {key}", getattr(self, key))
-            if not number > 0.0:
-                raise SceneError(f"{what}: {key} is {number} {unit}; give a positive number")
-            object.__setattr__(self, key, number)
+        for key in ("omega", "heading", "values"):
+            if key != "values" or not np.iscomplexobj(self.values):
+                object.__setattr__(self, key, numbers_of(f"{what}: {key}", getattr(self, key)))
+        if (reach := np.abs(self.heading).max(initial=0.0)) > TURN:
+            raise SceneError(
+                f"{what}: heading reaches {reach:.6g} rad, more than a turn; headings are radians: if these "
+                "are degrees, give numpy.radians of them"
+            )
+        n, m = self.omega.size, self.heading.size
+        freeze(self, what, {"omega": (n,), "heading": (m,), "values": (m, n, 6)})
+        require_grid(what, self.omega, self.heading)
+        for key in ("depth", "g"):
+            object.__setattr__(self, key, number_of(f"{what}: {key}", getattr(self, key)))
+        require_positive(self, what, "depth", "g")
         flag_of(f"{what}: symmetric", self.symmetric)
-        for key, array in (("omega", omega), ("heading", heading), ("values", values)):
-            array.setflags(write=False)
-            object.__setattr__(self, key, array)
         self._refuse_degrees(what)
-        warn_of_phases(
-            what, float(self.omega[0]), self.heading, self.values[:, 0], depth=self.depth, g=self.g
-        )
+        lowest, motions = float(self.omega[0]), self.values[:, 0]
+        if said := phase_slip(lowest, self.heading, motions, depth=self.depth, g=self.g):
+            warn_caller(f"{what}: {said}", RaoPhaseWarning)
 
     def _refuse_degrees(self, what: str) -> None:
         slope = float(wavenumber(self.omega[:1], g=self.g, depth=self.depth)[0])
@@ -105,15 +101,14 @@ class MotionRaos:
                 "deg/m, multiply roll, pitch and yaw by pi / 180"
             )
 
-    def at(self, omega: Any, heading: Any) -> Complex:
+    def at(self, omega: Any, heading: Any) -> ComplexArray:
         """Motions (k, 6) at frequencies (k,) and headings (k,): cubic splines over both.
 
         Below the table's frequencies those of the lowest; above them none.
 
         Raises
         ------
-        SceneError
-            For a heading in a gap of more than 45 deg.
+        SceneError : a heading in a gap of more than 45 deg.
         """
         w, b = np.asarray(omega, dtype=float), np.asarray(heading, dtype=float)
         circle, table, centre = self._circle
@@ -128,46 +123,10 @@ class MotionRaos:
         return np.asarray(found)
 
     @cached_property
-    def _circle(self) -> tuple[Array, Complex, Array]:
+    def _circle(self) -> tuple[FloatArray, ComplexArray, FloatArray]:
         """All headings with their motions, mirrored ones added and phases as at the phase centre, and it."""
         heading, values = self.heading, self.values
         if self.symmetric:
-            heading, source, mirrored = both_sides(self.heading)
-            parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)
-            values = self.values[source] * parity[:, None, :]
+            heading, values = with_mirror_images(heading, values)
         k = wavenumber(self.omega, g=self.g, depth=self.depth)
         return heading, *centred(k, heading, values)
-
-
-def _increasing(what: str, given: Any, unit: str) -> Array:
-    values = np.array(vector_of(what, given))
-    if not values.size or not np.isfinite(values).all() or values[0] <= 0.0 or np.any(np.diff(values) <= 0.0):
-        raise SceneError(f"{what} must be positive, finite and increasing, {unit}; sort the table by it")
-    return values
-
-
-def _headings(what: str, given: Any) -> Array:
-    values = np.array(vector_of(what, given))
-    if values.size and np.isfinite(values).all() and np.abs(values).max() > TURN:
-        raise SceneError(
-            f"{what} reaches {np.abs(values).max():.6g} rad, more than a turn; headings are radians: if "
-            "these are degrees, give numpy.radians of them"
-        )
-    inside = values.size and np.isfinite(values).all() and values[0] > -1e-12 and values[-1] < TURN
-    if not inside or np.any(np.diff(values) <= 0.0):
-        raise SceneError(f"{what} must increase within 0 and 2 pi rad; sort the table by it")
-    return values
-
-
-def _motions(what: str, given: Any, shape: tuple[int, int, int]) -> Complex:
-    require_unmasked(f"{what}: values", given)
-    values = np.array(given)
-    if not np.iscomplexobj(values):
-        values = numbers_of(f"{what}: values", values)
-    if values.shape != shape:
-        raise SceneError(
-            f"{what}: values has shape {values.shape}; give {shape}: headings, frequencies, six motions"
-        )
-    if not np.isfinite(values).all():
-        raise SceneError(f"{what}: values holds a value that is not finite; leave its row out of the table")
-    return values.astype(complex)

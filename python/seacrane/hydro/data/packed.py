@@ -71,42 +71,38 @@ def unpacked(data: bytes, roots: tuple[type, ...]) -> Any:
     Raises One of NOT_PACKED for anything else.
     """
     told, _, rest = data.partition(b"\n")
-    made = _made(json.loads(told), _Numbers(rest), {kind.__name__: kind for kind in (*roots, *PARTS)})
-    if not isinstance(made, roots):
-        raise ValueError(f"it holds a {type(made).__name__}")
-    return made
+    kinds = {kind.__name__: kind for kind in (*roots, *PARTS)}
+    at = 0
 
-
-class _Numbers:
-    """The arrays one after another."""
-
-    def __init__(self, data: bytes) -> None:
-        self._data, self._at = data, 0
-
-    def array(self, kind: str, shape: list[int]) -> np.ndarray[Any, Any]:
+    def array(kind: str, shape: list[int]) -> np.ndarray[Any, Any]:
+        """The next of the arrays, which stand one after another."""
+        nonlocal at
         if kind not in STORED.values() or not all(type(size) is int and size >= 0 for size in shape):
             raise ValueError(f"it holds an array of {kind!r} and shape {shape}")
-        count, first = math.prod(shape), self._at
-        self._at += count * np.dtype(kind).itemsize
-        if self._at > len(self._data):
+        count, first = math.prod(shape), at
+        at += count * np.dtype(kind).itemsize
+        if at > len(rest):
             raise ValueError("it ends within an array")
-        return np.frombuffer(self._data, kind, count, first).reshape(shape)
+        return np.frombuffer(rest, kind, count, first).reshape(shape)
 
+    def made(told: Any) -> Any:
+        if isinstance(told, list):
+            return tuple(map(made, told))
+        if not isinstance(told, dict):
+            return told
+        if ARRAY in told:
+            return array(told[ARRAY], told["shape"])
+        kind = kinds[told[KIND]]
+        parts = {name: made(part) for name, part in told.items() if name != KIND}
+        for name, part in parts.items():
+            if not _fits(part, _hints(kind)[name]):
+                raise ValueError(f"its {name} is a {type(part).__name__}")
+        return kind(**parts)
 
-def _made(told: Any, numbers: _Numbers, kinds: dict[str, type]) -> Any:
-    if isinstance(told, list):
-        return tuple(_made(part, numbers, kinds) for part in told)
-    if not isinstance(told, dict):
-        return told
-    if ARRAY in told:
-        return numbers.array(told[ARRAY], told["shape"])
-    kind = kinds[told[KIND]]
-    parts = {name: _made(part, numbers, kinds) for name, part in told.items() if name != KIND}
-    hints = _hints(kind)
-    for name, part in parts.items():
-        if not _fits(part, hints[name]):
-            raise ValueError(f"its {name} is a {type(part).__name__}")
-    return kind(**parts)
+    found = made(json.loads(told))
+    if not isinstance(found, roots):
+        raise ValueError(f"it holds a {type(found).__name__}")
+    return found
 
 
 def _fits(value: Any, hint: Any) -> bool:

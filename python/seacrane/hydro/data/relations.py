@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.excitation import full_circle
 from seacrane.hydro.data.heading_circle import largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import by_straight_lines, spline_weights
-
-FloatArray = NDArray[np.float64]
 
 HEADINGS = 720
 FINE_POINTS = 6001
@@ -44,19 +43,14 @@ def resolved_by_headings(database: Hydrodynamics) -> NDArray[np.bool_]:
 
     The force from an end of the ship turns by up to ``k L / 2`` radians of phase per radian of heading.
     """
-    circle, _ = full_circle(database)
-    phase = largest_gap(circle) * database.omega**2 / database.g * _span(database) / 2.0
-    return np.asarray(phase <= LARGEST_PHASE_STEP)
-
-
-def _span(database: Hydrodynamics) -> float:
-    """Length over all of what the waves meet, m."""
     if isinstance(database, HydroData):
-        return database.length
-    ends = [
-        np.hypot(*body.position[:2]) + 0.5 * np.hypot(body.length, body.breadth) for body in database.bodies
-    ]
-    return float(2.0 * max(ends))
+        length = database.length
+    else:  # over all
+        boxes = [(np.hypot(*body.position[:2]), body.length, body.breadth) for body in database.bodies]
+        length = float(2.0 * max(away + 0.5 * np.hypot(length, breadth) for away, length, breadth in boxes))
+    circle, _ = full_circle(database)
+    phase = largest_gap(circle) * database.omega**2 / database.g * length / 2.0
+    return np.asarray(phase <= LARGEST_PHASE_STEP)
 
 
 def infinite_added_mass_from_damping(database: Hydrodynamics) -> FloatArray:

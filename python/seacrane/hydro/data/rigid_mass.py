@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from seacrane.hydro.data.arrays import FloatArray
 
 
 def rigid_mass_matrix(mass: float, center: FloatArray, inertia: FloatArray) -> FloatArray:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_data import (
     ARRAYS,
     AdditionalMatrices,
@@ -29,7 +30,6 @@ from seacrane.hydro.data.memory_model import (
     MotionFit,
     Passivity,
 )
-from seacrane.hydro.data.reading import reading
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError, SceneError
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import HydroGroupData
 from seacrane.hydro.data.motion import motion_response
 from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
-from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.check import CheckRow
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.check import check_group

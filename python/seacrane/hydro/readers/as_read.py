@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.gap import long_wave_lift
 from seacrane.hydro.group.group import HydroGroup
@@ -19,11 +21,9 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.warnings import FloatingPositionWarning, RoughDataWarning
 
-FloatArray = NDArray[np.float64]
-Data = TypeVar("Data", bound=Hydrodynamics)
 Found = TypeVar("Found", bound=HydroDatabase | HydroGroup)
+Given = ArrayLike | Mapping[str, ArrayLike]  # of one body, or by name
 
-SYMMETRIC = ("added_mass", "damping", "infinite_frequency_added_mass", "zero_frequency_added_mass")
 SAME_FREQUENCY = 1e-3  # of one that is to be left out, as messages round it
 LIGHTEST, HEAVIEST = 0.5, 2.0  # mass over displaced mass of a vessel that floats
 SHALLOWEST = 1e-3  # draught over breadth
@@ -38,65 +38,54 @@ COARSEST = 0.15  # step by frequency, beyond which a table does not tell noise f
 NEIGHBOURS = 4
 
 
-def as_read(where: object, reader: str, found: Data, motions: Sequence[str] | None) -> Data:
-    """The database or group, halves of its matrices completed.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Asked:
+    """Who reads which file (for messages), and what the caller gives that it does not hold.
 
-    Parameters
-    ----------
-    where : file, for messages.
-    reader : name of the function that takes ``motions``.
-    motions : names of those that were solved, as the caller says; None: all.
-
-    Raises FileFormatError: a motion has neither added mass nor damping, and ``motions`` does not say so.
-
-    Warns
-    -----
-    FloatingPositionWarning : it turns over by itself.
+    ``motions`` names those that were solved (None: all), ``leave_out`` frequencies in rad/s to do without;
+    the matrices are (6, 6) in SI, of several bodies by name.
     """
-    require_solved(where, reader, found, motions)
-    halves: dict[str, Any] = {
-        name: mirrored(getattr(found, name)) for name in SYMMETRIC if getattr(found, name) is not None
-    }
-    if isinstance(found, HydroGroupData):
-        bodies = tuple(replace(body, restoring=whole_stiffness(body.restoring)) for body in found.bodies)
-        return replace(found, **halves, bodies=bodies)
-    whole = replace(found, **halves, restoring=whole_stiffness(found.restoring))
-    warn_of_turning_over(where, whole)
-    return whole
+
+    where: Path
+    reader: str
+    mass_matrix: Given | None = None
+    restoring: Given | None = None
+    motions: Sequence[str] | None = None
+    leave_out: ArrayLike | None = None
 
 
-def require_solved(where: object, reader: str, found: Hydrodynamics, motions: Sequence[str] | None) -> None:
-    """Raise where a motion was not solved, and the caller does not say so."""
-    known = set(MOTIONS) if motions is None else {str(motion).lower() for motion in motions}
+def require_solved(asked: Asked, found: HydroDatabase | HydroGroup) -> None:
+    """Raise where a motion has no added mass and damping, or no load, and the caller does not say so.
+
+    Yaw of a round body, in which water takes no part, may have none.
+    """
+    known = set(MOTIONS) if asked.motions is None else {str(motion).lower() for motion in asked.motions}
     if not known <= set(MOTIONS):
         raise FileFormatError(
-            f"{where}: motions names {', '.join(sorted(known - set(MOTIONS)))}; give some of "
+            f"{asked.where}: motions names {', '.join(sorted(known - set(MOTIONS)))}; give some of "
             f"{', '.join(MOTIONS)}"
         )
     moved = np.any(found.added_mass, axis=(0, 2)) | np.any(found.damping, axis=(0, 2))
     forced = np.any(found.force, axis=(0, 1)) | (np.abs(np.sin(2.0 * found.heading)).max() < OBLIQUE)
-    _ask_for(where, reader, found, known, ~moved, "no added mass and no damping at any frequency")
-    _ask_for(where, reader, found, known, ~forced, "no wave force at any frequency and heading")
-
-
-def _ask_for(
-    where: object, reader: str, found: Hydrodynamics, known: set[str], without: NDArray[np.bool_], what: str
-) -> None:
-    """Raise where motions that should be known are without something, but for yaw of a round body."""
-    empty = [i for i in np.flatnonzero(without).tolist() if MOTIONS[i % 6] in known]
-    lacking = [i for i in empty if i % 6 != 5 or not _is_round(found, i - 5)]
-    if lacking:
-        names = [*getattr(found, "names", [""])]
-        told = ", ".join(f"{names[i // 6]} {MOTIONS[i % 6]}".strip() for i in lacking)
-        solved = tuple(name for i, name in enumerate(MOTIONS) if i not in {one % 6 for one in lacking})
-        raise FileFormatError(
-            f"{where}: {told} {'has' if len(lacking) == 1 else 'have'} {what}: not solved for. Solve for it, "
-            f"or say which were by {reader}(motions={solved}), and keep the vessel from the others"
-        )
+    names = found.names if isinstance(found, HydroGroup) else ("",)
+    for there, what in (
+        (moved, "no added mass and no damping at any frequency"),
+        (forced, "no wave force at any frequency and heading"),
+    ):
+        empty = [i for i in np.flatnonzero(~there).tolist() if MOTIONS[i % 6] in known]
+        lacking = [i for i in empty if i % 6 != 5 or not _is_round(found, i - 5)]
+        if lacking:
+            told = ", ".join(f"{names[i // 6]} {MOTIONS[i % 6]}".strip() for i in lacking)
+            solved = tuple(name for i, name in enumerate(MOTIONS) if i not in {one % 6 for one in lacking})
+            raise FileFormatError(
+                f"{asked.where}: {told} {'has' if len(lacking) == 1 else 'have'} {what}: not solved for. "
+                f"Solve for it, or say which were by {asked.reader}(motions={solved}), and keep the vessel "
+                "from the others"
+            )
 
 
 def _is_round(found: Hydrodynamics, first: int) -> bool:
-    """Whether a body is round about its vertical axis, so that water takes no part in its yaw."""
+    """Whether a body is round about its vertical axis."""
     a = np.diagonal(found.added_mass, axis1=1, axis2=2)[:, first : first + 5]
     return bool(np.all(np.abs(a[:, 0] - a[:, 1]) <= ROUND * np.abs(a[:, 0])) and np.any(a[:, 0]))
 
@@ -137,10 +126,10 @@ def warn_of_turning_over(where: object, hull: HydroData) -> None:
 
 
 def mass_of_file(
-    where: object,
-    argument: str,
+    asked: Asked,
     mass_matrix: ArrayLike,
     *,
+    where: Path | None = None,
     displaced: float | None = None,
     box: tuple[float, float, float] | None = None,
 ) -> FloatArray:
@@ -148,7 +137,7 @@ def mass_of_file(
 
     Parameters
     ----------
-    argument : what the caller gives in its place, such as "read_wamit(mass_matrix=...)".
+    where : the file that holds it, where that is another one.
     displaced : kg, where the file tells it.
     box : length, breadth and draught of the equivalent box, m, where the mass is all that tells the last.
 
@@ -169,54 +158,60 @@ def mass_of_file(
     elif np.linalg.eigvalsh(0.5 * (matrix + matrix.T))[0] <= 0.0:
         wrong = "its mass matrix is not positive definite: no mass or no inertia in some motion"
     if wrong:
-        raise FileFormatError(f"{where}: {wrong}; give {argument}, (6, 6) in SI")
+        raise FileFormatError(
+            f"{where or asked.where}: {wrong}; give {asked.reader}(mass_matrix=...), (6, 6) in SI"
+        )
     return matrix
 
 
-def frequencies_kept(
-    where: object,
-    reader: str,
-    omega: FloatArray,
-    tables: Mapping[str, NDArray[Any]],
-    leave_out: ArrayLike | None,
-) -> NDArray[np.intp]:
-    """Places of the frequencies that are taken.
+def frequencies_kept(asked: Asked, omega: FloatArray, tables: Mapping[str, Any]) -> NDArray[np.intp]:
+    """Places of the positive, finite frequencies that are taken, rising.
 
     Parameters
     ----------
     omega : (n,) rad/s.
-    tables : by name, added mass and damping (n, ...) and force (m, n, ...), which have to be finite.
-    leave_out : rad/s of those that the caller does without.
+    tables : added_mass, damping (n, ...) and force (m, n, ...), which have to be finite.
 
     Raises FileFormatError: values are not finite, or a frequency to leave out is none of the file's.
     """
-    kept = np.ones(len(omega), dtype=bool)
-    for one in np.ravel(np.asarray([] if leave_out is None else leave_out, dtype=float)):
+    rows = np.argsort(omega)
+    rows = rows[(omega[rows] > 0.0) & np.isfinite(omega[rows])]
+    kept, omega = np.ones(len(rows), dtype=bool), omega[rows]
+    for one in np.ravel(np.asarray([] if asked.leave_out is None else asked.leave_out, dtype=float)):
         same = np.isclose(omega, one, rtol=SAME_FREQUENCY, atol=0.0)
         if not same.any():
             raise FileFormatError(
-                f"{where}: leave_out holds {one:g} rad/s, none of its frequencies, {omega.min():.4g} to "
-                f"{omega.max():.4g} rad/s"
+                f"{asked.where}: leave_out holds {one:g} rad/s, none of its frequencies, "
+                f"{omega.min(initial=np.inf):.4g} to {omega.max(initial=0.0):.4g} rad/s"
             )
         kept &= ~same
-    bad = np.zeros(len(omega), dtype=bool)
-    first = ""
-    for name, table in tables.items():
+    bad, first = np.zeros(len(omega), dtype=bool), ""
+    for name, axis in (("added_mass", 0), ("damping", 0), ("force", 1)):
+        table = np.take(tables[name], rows, axis=axis)
         places = np.argwhere(~np.isfinite(table))
-        at = places[:, 1 if name == "force" else 0]
-        places, at = places[kept[at]], at[kept[at]]
-        bad[at] = True
+        places = places[kept[places[:, axis]]]
+        bad[places[:, axis]] = True
         if len(places) and not first:
             first = f"{name}{places[0].tolist()} is {table[tuple(places[0])]}"
     if bad.any():
         listed = ", ".join(f"{value:.5g}" for value in omega[bad][:8])
         raise FileFormatError(
-            f"{where}: {first}: values at {listed} rad/s are not finite, as of a solution that failed; solve "
-            f"again, or do without these frequencies by {reader}(leave_out=[{listed}])"
+            f"{asked.where}: {first}: values at {listed} rad/s are not finite, as of a solution that failed; "
+            f"solve again, or do without these frequencies by {asked.reader}(leave_out=[{listed}])"
         )
     if not kept.any():
-        raise FileFormatError(f"{where}: leave_out leaves no frequency; leave out fewer")
-    return np.flatnonzero(kept)
+        raise FileFormatError(
+            f"{asked.where}: no finite positive frequency is left; solve for some, or leave out fewer"
+        )
+    return rows[kept]
+
+
+def omega_of(values: FloatArray, unit: str) -> FloatArray:
+    """Frequencies in rad/s of those in "rad/s", "Hz" or "s"; a period of 0 is infinity."""
+    if np.any(values < 0.0):
+        raise ValueError(f"period or frequency {values.min():g}; give positive ones")
+    with np.errstate(divide="ignore"):
+        return 2.0 * np.pi / values if unit == "s" else values * (2.0 * np.pi if unit == "Hz" else 1.0)
 
 
 def rising_directions(raw: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
@@ -228,23 +223,10 @@ def rising_directions(raw: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     return wrapped[order][new], order[new]
 
 
-def finished(where: object, found: Found, fix: str) -> Found:
-    """The database or group, whose hydrostatics have to be its own, with a trusted band.
-
-    Parameters
-    ----------
-    where : file, for messages.
-    fix : what the caller gives in place of hydrostatics that are another's.
-
-    Raises FileFormatError: as `require_own_hydrostatics`.
-
-    Warns
-    -----
-    RoughDataWarning : as `with_band_of_data`.
-    """
-    if isinstance(found, HydroGroup):
-        require_own_hydrostatics(where, found, fix)
-    return with_band_of_data(found)
+def rising_degrees(degrees: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+    """The same of degrees, in [0, 360) to 1e-6."""
+    wrapped = np.round(np.mod(degrees, 360.0), 6) % 360.0
+    return np.unique(wrapped, return_index=True)
 
 
 def require_own_hydrostatics(where: object, found: HydroGroup, fix: str) -> None:
@@ -290,19 +272,18 @@ def with_band_of_data(found: Found) -> Found:
         return found
     at, name, entry = min(rough, key=lambda each: each[0])
     low, high = float(found.omega[0]), float(found.omega[at - 1])
-    kind, causes, more = "database", "for the panels or of an irregular frequency", ""
+    kind, where, cause = "database", entry, ""
     if isinstance(found, HydroGroup):
-        kind, entry = "group", f"{entry} of {name}"
-        causes = (
-            "for the panels, of an irregular frequency, or of a resonance of the water between the hulls "
-            "that the frequencies do not resolve"
+        kind, where = "group", f"{entry} of {name}"
+        cause = (
+            ", or of a resonance of the water between the hulls that the frequencies do not resolve "
+            "(group.check() tells the causes apart)"
         )
-        more = "; group.check() tells the causes apart"
     warn_caller(
-        f"{kind} {found.name!r}: its files do not say how far their panels can be trusted, and {entry} "
-        f"jumps at {found.omega[at]:.4g} rad/s, as of waves too short {causes}. The trusted band ends at "
-        f"{high:.4g} rad/s; nothing above it is fitted. For another one give load_database(path, "
-        f"trusted_band=(low, high)) in rad/s{more}",
+        f"{kind} {found.name!r}: its files do not say how far their panels can be trusted, and {where} jumps "
+        f"at {found.omega[at]:.4g} rad/s, as of waves too short for the panels or of an irregular frequency"
+        f"{cause}. The trusted band ends at {high:.4g} rad/s; nothing above it is fitted. For another one "
+        "give load_database(path, trusted_band=(low, high)) in rad/s",
         RoughDataWarning,
     )
     return replace(found, trusted_band=(low, high))
@@ -313,14 +294,12 @@ def first_rough_value(database: HydroData) -> tuple[int, str] | None:
 
     Each value is left out, and compared with the cubic through its two neighbours on either side. It is rough
     where the misfit, by what noise of that size would give, exceeds 1 % of the range of A or of the peak of B
-    (geometric mean of two motions), and is not that of a curve too coarse for the cubic. Such a misfit grows
-    sixteenfold with twice the step, noise does not; and it is larger at lower frequencies, where a ship's
-    matrices turn most.
+    (geometric mean of two motions), and is not that of a curve too coarse for the cubic, which grows
+    sixteenfold with twice the step.
 
-    Looked at are frequencies whose deep-water wave is shorter than two breadths. Below, resonances of the
-    fluid are as narrow as errors; above, the matrices of a ship are smooth, the lowest irregular frequency of
-    a box as deep as it is broad is about there, and no mesh is as coarse as to fail sooner. Steps above 15 %
-    of the frequency are not judged.
+    Looked at are steps of up to 15 % of the frequency, whose deep-water wave is shorter than two breadths.
+    Below, resonances of the fluid are as narrow as errors; above, the matrices of a ship are smooth, and the
+    lowest irregular frequency of a box as deep as it is broad is about there.
     """
     omega = database.omega
     start = np.sqrt(np.pi * database.g / database.breadth)
@@ -347,25 +326,31 @@ def _by_scale(database: HydroData, start: float) -> FloatArray:
     kept = np.ones((6, 6))
     if database.port_starboard_symmetric:
         kept = 1.0 - np.add.outer(np.arange(6), np.arange(6)) % 2
+    diagonals = [np.diagonal(table, axis1=1, axis2=2) for table in (database.added_mass, database.damping)]
+    scales = (
+        np.maximum(np.ptp(diagonals[0], axis=0), LEAST_INERTIA * mass),
+        np.maximum(diagonals[1].max(axis=0), LEAST_DAMPING * start * mass),
+    )
     parts = []
-    for table in (database.added_mass, database.damping):
-        diagonal = np.diagonal(table, axis1=1, axis2=2)
-        if table is database.added_mass:
-            scale = np.maximum(np.ptp(diagonal, axis=0), LEAST_INERTIA * mass)
-        else:
-            scale = np.maximum(diagonal.max(axis=0), LEAST_DAMPING * start * mass)
+    for table, scale in zip((database.added_mass, database.damping), scales, strict=True):
         symmetric = 0.5 * (table + table.swapaxes(1, 2))
         parts.append((kept * symmetric / np.sqrt(np.outer(scale, scale))).reshape(len(table), 36))
     return np.concatenate(parts, axis=1)
 
 
 def _misfit(omega: FloatArray, values: FloatArray, step: int) -> FloatArray:
-    """Size of values (n, p) less the cubic through four others, every ``step``, in deviations of noise."""
+    """Size of values (n, p) less the cubic through four others, every ``step``, in deviations of noise.
+
+    They are two on either side, moved inwards at an end; zero where there are not so many.
+    """
     n = len(omega)
     out = np.zeros_like(values)
     for i in range(n):
-        near = _neighbours(i, n, step)
-        if near is None:
+        reach = NEIGHBOURS * step
+        others = [k for k in range(i - reach, i + reach + 1, step) if 0 <= k < n and k != i]
+        first = min(max(sum(k < i for k in others) - 2, 0), max(len(others) - NEIGHBOURS, 0))
+        near = others[first : first + NEIGHBOURS]
+        if len(near) < NEIGHBOURS:
             continue
         x = omega[near]
         away = x[:, None] - x[None, :] + np.eye(NEIGHBOURS)
@@ -373,12 +358,3 @@ def _misfit(omega: FloatArray, values: FloatArray, step: int) -> FloatArray:
         weights = np.prod(toward / away, axis=1)
         out[i] = np.abs(values[i] - weights @ values[near]) / np.sqrt(1.0 + weights @ weights)
     return out
-
-
-def _neighbours(i: int, n: int, step: int) -> NDArray[np.intp] | None:
-    """Two on either side of i, moved inwards at an end; None where there are not so many."""
-    offsets = [k for k in range(-NEIGHBOURS, NEIGHBOURS + 1) if k and 0 <= i + k * step < n]
-    below = [k for k in offsets if k < 0]
-    first = min(max(len(below) - 2, 0), max(len(offsets) - NEIGHBOURS, 0))
-    chosen = offsets[first : first + NEIGHBOURS]
-    return i + step * np.array(chosen) if len(chosen) == NEIGHBOURS else None

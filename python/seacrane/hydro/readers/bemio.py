@@ -10,27 +10,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.hydro_group_data import GroupBody
-from seacrane.hydro.data.reading import reading
-from seacrane.hydro.group.group import HydroGroup
-from seacrane.hydro.readers.as_read import as_read, finished, frequencies_kept, rising_directions
-from seacrane.hydro.readers.format import Format, Loaded, is_file_of
-from seacrane.hydro.readers.of_bodies import Given, floating_body, hull_or_group, of_each_or_none
+from seacrane.hydro.data.arrays import FloatArray
+from seacrane.hydro.data.frozen import reading
+from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
+from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
+from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_hdf5
-
-FloatArray = NDArray[np.float64]
 
 HDF5 = (".h5", ".hdf5")
 PARAMETERS = "simulation_parameters"
+STIFFNESS = "hydro_coeffs/linear_restoring_stiffness"
 DEEP = (b"infinite", b"inf", b"infinity")
 
 
@@ -48,9 +45,7 @@ def read_bemio(
     path : file.
     mass_matrix : (6, 6) in SI about the centre of gravity; of several bodies by name. The file holds none; by
         default the displaced mass with usual radii of gyration.
-    motions : names of those that were solved for, where some were not: a motion without added mass and
-        damping is refused unless it is left out here.
-    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
+    motions, leave_out : as `read_capytaine` takes them.
 
     Returns
     -------
@@ -68,41 +63,31 @@ def read_bemio(
     FileFormatError : the file is missing, damaged, or no BEMIO file; the message names the entry.
     """
     source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a BEMIO file")
+    asked = Asked(
+        where=source, reader="read_bemio", mass_matrix=mass_matrix, motions=motions, leave_out=leave_out
+    )
     with reading(source, "a BEMIO file", NETCDF_ERRORS), open_hdf5(source) as file:
-        found = _convert(source, file, mass_matrix, motions, leave_out)
-    return finished(source, found, "a file that was written anew")
+        return _convert(asked, file)
 
 
 def is_bemio(path: Path) -> bool:
     """Whether an HDF5 file holds results by BEMIO's names."""
-    try:
-        with open_hdf5(path) as file:
-            return PARAMETERS in file and "body1" in file
-    except FileFormatError:
-        raise
-    except NETCDF_ERRORS:
-        return False
+    return is_kind(open_hdf5(path), lambda file: PARAMETERS in file and "body1" in file)
 
 
-def _convert(
-    path: Path,
-    file: Any,
-    mass_matrix: Given | None,
-    motions: Sequence[str] | None,
-    leave_out: ArrayLike | None,
-) -> Loaded:
+def _convert(asked: Asked, file: Any) -> Loaded:
+    path = asked.where
     entries = sorted(
         (name for name in file if re.fullmatch(r"body\d{1,3}", name)), key=lambda one: int(one[4:])
     )
     if not entries:
         raise FileFormatError(f"{path}: holds no body; write the whole BEMIO file")
-    rho, g, depth = _water(path, file)
+    if f"{PARAMETERS}/scaled" in file and _number(path, file, f"{PARAMETERS}/scaled") != 0.0:
+        raise FileFormatError(f"{path}: scaled is set, values have density and gravity in; write it unscaled")
+    rho, g, depth = (_number(path, file, f"{PARAMETERS}/{name}") for name in ("rho", "g", "water_depth"))
     names = _names(file, entries)
-    masses = of_each_or_none(path, "mass_matrix", names, mass_matrix)
+    masses = of_each(asked, "mass_matrix", names, asked.mass_matrix)
     omega = np.ravel(_values(path, file, f"{PARAMETERS}/w"))
-    rising = np.argsort(omega)
     raw = np.radians(np.ravel(_values(path, file, f"{PARAMETERS}/wave_dir")))
     direction, places = rising_directions(raw)
     n, m, size = len(omega), len(raw), 6 * len(entries)
@@ -112,42 +97,29 @@ def _convert(
         every = [f"{entry}/hydro_coeffs/{name}" for entry in entries]
         return np.concatenate([_values(path, file, one, (6, *shape)) for one in every])
 
-    added_mass = rho * of_all("added_mass/all", size, n).transpose(2, 0, 1)
-    damping = rho * (of_all("radiation_damping/all", size, n) * omega).transpose(2, 0, 1)
-    waves = of_all("excitation/re", m, n) + 1j * of_all("excitation/im", m, n)
-    force = np.asarray(rho * g * waves.transpose(1, 2, 0)[places], dtype=complex)
-    tables = {"added_mass": added_mass[rising], "damping": damping[rising], "force": force[:, rising]}
-    order = rising[frequencies_kept(path, "read_bemio", omega[rising], tables, leave_out)]
-    several = len(entries) > 1
     bodies = [
-        _body(path, file, entry, name, (rho, g), mass, several=several)
+        floating_body(
+            asked, name, several=len(entries) > 1, water=(rho, g), mass=mass,
+            restoring=rho * g * _values(path, file, f"{entry}/{STIFFNESS}", (6, 6)),
+            volume=_number(path, file, f"{entry}/properties/disp_vol"),
+            position=_values(path, file, f"{entry}/properties/cg").reshape(3),
+        )
         for entry, name, mass in zip(entries, names, masses, strict=True)
-    ]
-    made = hull_or_group(
-        bodies,
-        name=path.stem,
-        omega=omega[order],
-        heading=direction,
-        added_mass=added_mass[order],
-        damping=damping[order],
-        infinite_frequency_added_mass=rho * of_all("added_mass/inf_freq", size),
-        force=force[:, order],
-        rho=rho,
-        g=g,
-        depth=depth,
-        origin="origin of BEMIO's axes, on the still waterline",
-        source=f"BEMIO file {path.name}{'' if several else f', {entries[0]}'}",
-    )
-    found = as_read(path, "read_bemio", made, motions)
-    if isinstance(found, HydroGroup):
-        return found
+    ]  # fmt: skip
+    waves = of_all("excitation/re", m, n) + 1j * of_all("excitation/im", m, n)
     x, y, z = bodies[0].position
-    return replace(
-        found.at((0.0, 0.0, -z)),
-        origin=(
-            f"on the still waterline, above the centre of gravity, which BEMIO has at ({x:g}, {y:g}, {z:g}) m"
-        ),
-    )
+    above = f"above the centre of gravity, which BEMIO has at ({x:g}, {y:g}, {z:g}) m"
+    return hull_or_group(
+        asked, bodies, fix="a file that was written anew", at=(0.0, 0.0, -z), name=path.stem,
+        alone={"origin": f"on the still waterline, {above}"},
+        origin="origin of BEMIO's axes, on the still waterline",
+        source=f"BEMIO file {path.name}{'' if len(entries) > 1 else f', {entries[0]}'}",
+        rho=rho, g=g, depth=depth, omega=omega, heading=direction,
+        force=np.asarray(rho * g * waves.transpose(1, 2, 0)[places], dtype=complex),
+        added_mass=rho * of_all("added_mass/all", size, n).transpose(2, 0, 1),
+        infinite_frequency_added_mass=rho * of_all("added_mass/inf_freq", size),
+        damping=rho * (of_all("radiation_damping/all", size, n) * omega).transpose(2, 0, 1),
+    )  # fmt: skip
 
 
 def _names(file: Any, entries: list[str]) -> list[str]:
@@ -158,47 +130,6 @@ def _names(file: Any, entries: list[str]) -> list[str]:
         value = file[place][()] if place in file else b""
         names.append(value.decode("utf-8", "replace").strip() if isinstance(value, bytes) else "")
     return names if all(names) and len(set(names)) == len(names) else entries
-
-
-def _body(
-    path: Path,
-    file: Any,
-    entry: str,
-    name: str,
-    water: tuple[float, float],
-    mass: FloatArray | None,
-    *,
-    several: bool,
-) -> GroupBody:
-    stiffness = _values(path, file, f"{entry}/hydro_coeffs/linear_restoring_stiffness", (6, 6))
-    centre = np.ravel(_values(path, file, f"{entry}/properties/cg"))
-    if len(centre) != 3:
-        raise FileFormatError(f"{path}: {entry}/properties/cg has {len(centre)} values; three are needed")
-    whose = f" of {name}" if several else ""
-    return floating_body(
-        path,
-        name,
-        several=several,
-        position=centre,
-        restoring=water[0] * water[1] * stiffness,
-        volume=_number(path, file, f"{entry}/properties/disp_vol"),
-        water=water,
-        mass=mass,
-        centre=np.zeros(3),
-        lacks=f"a BEMIO file holds no mass matrix{whose}, pass mass_matrix to read_bemio",
-    )
-
-
-def _water(path: Path, file: Any) -> tuple[float, float, float]:
-    """Density, gravity and depth of an unscaled file."""
-    if f"{PARAMETERS}/scaled" in file and _number(path, file, f"{PARAMETERS}/scaled") != 0.0:
-        raise FileFormatError(f"{path}: scaled is set, values have density and gravity in; write it unscaled")
-    rho, g, depth = (_number(path, file, f"{PARAMETERS}/{name}") for name in ("rho", "g", "water_depth"))
-    if not (rho > 0.0 and g > 0.0 and depth > 0.0):
-        raise FileFormatError(
-            f"{path}: rho is {rho:g} kg/m3, g {g:g} m/s2, water_depth {depth:g} m; all must be positive"
-        )
-    return rho, g, depth
 
 
 def _values(path: Path, file: Any, name: str, shape: tuple[int, ...] | None = None) -> FloatArray:
@@ -214,19 +145,15 @@ def _values(path: Path, file: Any, name: str, shape: tuple[int, ...] | None = No
 
 
 def _number(path: Path, file: Any, name: str) -> float:
-    values = np.ravel(_infinite(path, file, name))
+    """An entry of one number, or of the word with which BEMIO says that water is deep."""
+    if name in file and isinstance(word := file[name][()], bytes):
+        if word.strip().lower() in DEEP:
+            return np.inf
+        raise FileFormatError(f"{path}: {name} is {word[:40]!r}; a number is needed")
+    values = np.ravel(_values(path, file, name))
     if values.size != 1:
         raise FileFormatError(f"{path}: {name} has {values.size} values; one is needed")
     return float(values[0])
-
-
-def _infinite(path: Path, file: Any, name: str) -> FloatArray:
-    """Numbers, or the word with which BEMIO says that water is deep."""
-    if name in file and isinstance(file[name][()], bytes):
-        if file[name][()].strip().lower() in DEEP:
-            return np.array(np.inf)
-        raise FileFormatError(f"{path}: {name} is {file[name][()][:40]!r}; a number is needed")
-    return _values(path, file, name)
 
 
 FORMAT = Format(

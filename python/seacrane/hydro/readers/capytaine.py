@@ -9,26 +9,20 @@ the former.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.hydro_group_data import GroupBody
-from seacrane.hydro.data.reading import reading
-from seacrane.hydro.readers.as_read import (
-    as_read,
-    finished,
-    frequencies_kept,
-    mass_of_file,
-    rising_directions,
-)
-from seacrane.hydro.readers.format import Format, Loaded, is_file_of
-from seacrane.hydro.readers.of_bodies import Given, box_of, hull_or_group, of_each
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.data.frozen import reading
+from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
+from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
+from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
@@ -36,9 +30,6 @@ from seacrane.warnings import AssumedReferenceWarning, MissingMotionsWarning
 
 if TYPE_CHECKING:
     import xarray
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 MOTION_NAMES = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 NETCDF = (".nc", ".nc4")
@@ -76,17 +67,17 @@ def read_capytaine(
     ----------
     path : file with ``added_mass``, ``radiation_damping`` and either ``excitation_force`` or
         ``Froude_Krylov_force`` and ``diffraction_force``, for rigid motions of one body or of several, heave
-        among them, at zero speed and one water depth, over omega, freq, period, wavenumber or wavelength.
-        Frequencies 0 and infinity become the limits of the added mass. Motions are found by name, of several
-        bodies "<body>__Surge" and so on, in any order.
+        among them, at zero speed, over omega, freq, period, wavenumber or wavelength. Frequencies 0 and
+        infinity become limits of the added mass. Motions are found by name, of several bodies
+        "<body>__Surge" and so on.
     depth : m, which of the file's water depths; needed where it has several (inf: deep water).
     mass_matrix, restoring : (6, 6) in SI about the rotation centre, of several bodies by name; they take the
         place of ``inertia_matrix`` and ``hydrostatic_stiffness``, and are needed where the file lacks these,
         or has not all six motions.
     rotation_centre : (3,) m from the origin of the mesh, of several bodies by name; of files that do not tell
         it (before Capytaine 3).
-    motions : names of those that were solved for, where some that the file names were not: a motion without
-        added mass and damping is refused unless it is left out here.
+    motions : names of those that were solved for, where some were not: a motion without added mass and
+        damping is refused unless it is left out here.
     leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
 
     Returns
@@ -105,28 +96,17 @@ def read_capytaine(
     ------
     FileFormatError : the file is missing, damaged or no Capytaine dataset; the message names the variable.
     """
-    source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a Capytaine NetCDF file")
     import xarray
 
-    given = _Given(mass_matrix, restoring, rotation_centre, motions, leave_out)
+    source = Path(path)
+    asked = Asked(
+        where=source, reader="read_capytaine", mass_matrix=mass_matrix, restoring=restoring, motions=motions,
+        leave_out=leave_out,
+    )  # fmt: skip
     with reading(source, "a Capytaine dataset", NETCDF_ERRORS):
         with open_netcdf(source), xarray.open_dataset(source) as opened:
             dataset = opened.load()
-        found = _convert(source, _of_depth(source, dataset, depth), given)
-    return finished(source, found, "restoring={name: (6, 6)}")
-
-
-@dataclass(frozen=True, eq=False)
-class _Given:
-    """What the caller says."""
-
-    mass: Given | None
-    restoring: Given | None
-    centre: Given | None
-    motions: Sequence[str] | None
-    leave_out: ArrayLike | None
+        return _convert(asked, _of_depth(source, dataset, depth), rotation_centre)
 
 
 def _bodies(dataset: xarray.Dataset, dimension: str) -> list[str]:
@@ -139,70 +119,59 @@ def _bodies(dataset: xarray.Dataset, dimension: str) -> list[str]:
 
 def _of_depth(path: Path, dataset: xarray.Dataset, depth: float | None) -> xarray.Dataset:
     """The results in one water depth: the one there is, or the one asked for."""
-    if "water_depth" not in dataset.coords:
-        there = np.array([np.inf])
-    else:
+    there = np.array([np.inf])
+    if "water_depth" in dataset.coords:
         there = np.ravel(np.asarray(dataset["water_depth"].values, dtype=float))
-    listed = ", ".join(f"{value:g}" for value in there[:NAMED])
-    if depth is None:
-        if len(there) > 1:
-            raise FileFormatError(
-                f"{path}: holds water depths {listed} m; choose one by load_database(path, depth=...)"
-            )
+    if depth is None and len(there) == 1:
         return dataset
-    found = np.flatnonzero(np.isclose(there, depth, rtol=SAME_DEPTH, atol=0.0))
+    found = np.flatnonzero(np.isclose(there, np.nan if depth is None else depth, rtol=SAME_DEPTH, atol=0.0))
     if found.size == 0:
-        raise FileFormatError(f"{path}: holds water depths {listed} m, not {depth:g} m; choose one of them")
+        listed = ", ".join(f"{value:g}" for value in there[:NAMED])
+        other = "" if depth is None else f", not {depth:g} m"
+        raise FileFormatError(
+            f"{path}: holds water depths {listed} m{other}; choose one by load_database(path, depth=...)"
+        )
     return dataset.isel(water_depth=int(found[0])) if "water_depth" in dataset.dims else dataset
 
 
 def is_capytaine(path: Path) -> bool:
     """Whether a NetCDF file holds radiation results by Capytaine's names."""
-    try:
-        with open_netcdf(path) as file:
-            return "added_mass" in file.variables and "radiating_dof" in file.dimensions
-    except FileFormatError:
-        raise
-    except NETCDF_ERRORS:
-        return False
+    return is_kind(
+        open_netcdf(path), lambda file: "added_mass" in file.variables and "radiating_dof" in file.dimensions
+    )
 
 
-def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> Loaded:
+def _convert(asked: Asked, dataset: xarray.Dataset, rotation_centre: Given | None) -> Loaded:
+    path = asked.where
     rho, g, depth = _water(path, dataset)
     names = _bodies(dataset, MATRIX[0])
     several = len(names) > 1
-    complete = given.mass is not None and given.restoring is not None
+    complete = asked.mass_matrix is not None and asked.restoring is not None
     dataset, solved = _by_motion(path, _over_omega(path, dataset, g, depth), names, given=complete)
     dataset = _single(path, dataset)
-    omega, rows = _frequencies(path, dataset)
-    added_mass = _real(path, dataset, "added_mass", ("omega", *MATRIX))
-    damping = _real(path, dataset, "radiation_damping", ("omega", *MATRIX))
-    masses = _matrices(path, dataset, "inertia_matrix", "mass_matrix", names, given.mass)
-    stiffness = _matrices(path, dataset, "hydrostatic_stiffness", "restoring", names, given.restoring)
-    direction, order = _directions(path, dataset)
-    force = _wave_force(path, dataset)[order]
-    tables = {"added_mass": added_mass[rows], "damping": damping[rows], "force": force[:, rows]}
-    rows = rows[frequencies_kept(path, "read_capytaine", omega[rows], tables, given.leave_out)]
-    centres = _rotation_centres(path, dataset, names, given.centre)
+    omega = np.asarray(dataset["omega"].values, dtype=float)
+    if len(np.unique(omega)) < len(omega) or np.any(np.isnan(omega)) or np.any(omega < 0.0):
+        raise FileFormatError(
+            f"{path}: omega {shown(omega.tolist())} holds repeated, negative or undefined values"
+        )
+    masses = _matrices(asked, dataset, "inertia_matrix", "mass_matrix", names)
+    stiffness = _matrices(asked, dataset, "hydrostatic_stiffness", "restoring", names)
+    if "wave_direction" not in dataset.coords:
+        raise FileFormatError(f"{path}: wave_direction is missing; solve diffraction problems too")
+    raw = np.ravel(np.asarray(dataset["wave_direction"].values, dtype=float))
+    if np.any(np.abs(raw) > 2.0 * np.pi + 1e-6):
+        raise FileFormatError(f"{path}: wave_direction reaches {np.abs(raw).max():g}; radians are expected")
+    direction, order = rising_directions(raw)
+    centres = _rotation_centres(asked, dataset, names, rotation_centre)
     draughts = _by_body(dataset, "draught", names)
     bodies = []
     for i, (name, centre, mass, restoring) in enumerate(zip(names, centres, masses, stiffness, strict=True)):
-        told = name if several else ""
-        box = box_of(path, told, restoring, float(mass[0, 0]) / rho, rho * g)
-        if given.mass is None:
-            where = f"{path}: {name}" if several else path
-            mass = mass_of_file(where, "read_capytaine(mass_matrix=...)", mass, box=box)
         bodies.append(
-            GroupBody(
-                name=name or path.stem,
-                position=centre,
-                mass_matrix=mass,
-                restoring=restoring,
-                length=box[0],
-                breadth=box[1],
-                draught=box[2] if draughts is None else float(draughts[i]),
+            floating_body(
+                asked, name or path.stem, several=several, restoring=restoring, water=(rho, g), mass=mass,
+                position=centre, draught=None if draughts is None else float(draughts[i]),
             )
-        )
+        )  # fmt: skip
     version = str(dataset.attrs.get("capytaine_version", "of unknown version"))
     origin, body = "origin of the meshes of Capytaine, on the still waterline", ""
     if not several:
@@ -210,82 +179,64 @@ def _convert(path: Path, dataset: xarray.Dataset, given: _Given) -> Loaded:
         origin = f"rotation centre of the Capytaine body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
         named = [dataset[key].values for key in ("body", "body_name") if key in dataset.variables]
         body = f", body {np.ravel(named[0] if named else 'unnamed')[0]}"
-    found = hull_or_group(
-        bodies,
-        name=path.stem,
-        omega=omega[rows],
-        heading=direction,
-        added_mass=added_mass[rows],
-        damping=damping[rows],
-        infinite_frequency_added_mass=_limit(added_mass, np.isinf(omega)),
-        zero_frequency_added_mass=_limit(added_mass, omega == 0.0),
-        force=force[:, rows],
-        rho=rho,
-        g=g,
-        depth=depth,
-        origin=origin,
-        source=f"Capytaine {version}, file {path.name}{body}",
-    )
-    return as_read(path, "read_capytaine", found, solved if given.motions is None else given.motions)
+    return hull_or_group(
+        replace(asked, motions=solved if asked.motions is None else asked.motions),
+        bodies, fix="restoring={name: (6, 6)}", name=path.stem, origin=origin,
+        source=f"Capytaine {version}, file {path.name}{body}", rho=rho, g=g, depth=depth, omega=omega,
+        heading=direction, force=_wave_force(path, dataset)[order],
+        added_mass=_real(path, dataset, "added_mass", ("omega", *MATRIX)),
+        damping=_real(path, dataset, "radiation_damping", ("omega", *MATRIX)),
+    )  # fmt: skip
 
 
 def _water(path: Path, dataset: xarray.Dataset) -> tuple[float, float, float]:
     """Density, gravity and depth of results of zero speed."""
-    rho, g = _number(path, dataset, "rho"), _number(path, dataset, "g")
-    if not (rho > 0.0 and g > 0.0):
-        raise FileFormatError(f"{path}: rho is {rho:g} kg/m3 and g {g:g} m/s2; positive ones are needed")
-    depth = _number(path, dataset, "water_depth", default=np.inf)
-    speed = _number(path, dataset, "forward_speed", default=0.0)
+    found = {"rho": np.nan, "g": np.nan, "water_depth": np.inf, "forward_speed": 0.0}
+    for name in found:
+        if name in dataset.variables:
+            values = np.ravel(np.asarray(dataset[name].values, dtype=float))
+            if len(values) != 1:
+                raise FileFormatError(
+                    f"{path}: {name} has {len(values)} values; select one and write the file again"
+                )
+            found[name] = float(values[0])
+    rho, g, depth, speed = found.values()
     if speed != 0.0:
         raise FileFormatError(f"{path}: forward_speed is {speed:g} m/s; only results of zero speed are read")
     return rho, g, depth
 
 
-def _number(path: Path, dataset: xarray.Dataset, name: str, default: float | None = None) -> float:
-    """A scalar coordinate, or one of a single value."""
-    if name not in dataset.variables:
-        if default is not None:
-            return default
-        raise FileFormatError(f"{path}: {name} is missing; write the file with Capytaine's coordinates")
-    values = np.ravel(np.asarray(dataset[name].values, dtype=float))
-    if len(values) != 1:
-        raise FileFormatError(f"{path}: {name} has {len(values)} values; select one and write the file again")
-    return float(values[0])
-
-
 def _single(path: Path, dataset: xarray.Dataset) -> xarray.Dataset:
     """Without the dimensions of one value that a parametric study leaves."""
     known = ("omega", "wave_direction", *MATRIX, "complex", "space_coordinate", "xyz")
-    for name in [str(name) for name in dataset.dims if name not in known]:
+    others = [str(name) for name in dataset.dims if name not in known]
+    for name in others:
         used = any(name in dataset[key].dims for key in ("added_mass", "radiation_damping") if key in dataset)
         if used and dataset.sizes[name] > 1:
             raise FileFormatError(
                 f"{path}: added_mass depends on {name} ({dataset.sizes[name]} values); only omega is "
                 "read: select one and write the file again"
             )
-        if dataset.sizes[name] == 1:
-            dataset = dataset.isel({name: 0})
-    return dataset
+    return dataset.isel({name: 0 for name in others if dataset.sizes[name] == 1})
 
 
 def _by_motion(
     path: Path, dataset: xarray.Dataset, names: list[str], *, given: bool
 ) -> tuple[xarray.Dataset, list[str]]:
-    """The dataset with six motions of each body in our order, found by name; others than it has are zeros.
+    """The dataset with six motions of each body in our order, zeros where it has none; those of all bodies.
 
-    ``given``: mass matrices and restoring are, so that motions may be missing. Returned too are the motions
-    that it has of every body.
+    Motions are found by name, and may be missing where mass matrices and restoring are ``given``.
     """
     several = len(names) > 1
     wanted = [f"{name}__{motion}" if several else motion for name in names for motion in MOTION_NAMES]
-    held = []
+    heave = {label for label in wanted if label.endswith("Heave")}
+    held: list[set[str]] = []
     for dimension in MATRIX:
         if dimension not in dataset.coords:
             raise FileFormatError(f"{path}: coordinate {dimension} is missing; it is no Capytaine dataset")
         labels = [str(label) for label in dataset[dimension].values]
         if not several and len(_bodies(dataset, dimension)) == 1:
             labels = [label.rpartition("__")[2] for label in labels]
-        heave = {label for label in wanted if label.endswith("Heave")}
         if not heave <= set(labels) <= set(wanted) or len(set(labels)) < len(labels):
             raise FileFormatError(
                 f"{path}: {dimension} holds {', '.join(labels)[:200]}; rigid motions are needed, each once, "
@@ -332,20 +283,6 @@ def _over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> 
     return plain.rename({measure: "omega"}).assign_coords(omega=omega)
 
 
-def _frequencies(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Frequencies in rad/s as they are, and the places of those that are positive and finite, rising."""
-    omega = np.asarray(dataset["omega"].values, dtype=float)
-    if len(np.unique(omega)) < len(omega) or np.any(np.isnan(omega)) or np.any(omega < 0.0):
-        raise FileFormatError(
-            f"{path}: omega {shown(omega.tolist())} holds repeated, negative or undefined values"
-        )
-    finite = (omega > 0.0) & np.isfinite(omega)
-    rows = np.flatnonzero(finite)[np.argsort(omega[finite])]
-    if rows.size == 0:
-        raise FileFormatError(f"{path}: omega holds no finite positive frequency; solve for some")
-    return omega, rows
-
-
 def _real(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> FloatArray:
     """A variable's values with its dimensions in the given order."""
     return np.asarray(_variable(path, dataset, name, dimensions).values, dtype=float)
@@ -364,85 +301,66 @@ def _variable(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[
 
 
 def _matrices(
-    path: Path,
-    dataset: xarray.Dataset,
-    variable: str,
-    argument: str,
-    names: list[str],
-    given: Given | None,
+    asked: Asked, dataset: xarray.Dataset, variable: str, argument: str, names: list[str]
 ) -> list[FloatArray]:
     """A constant matrix (6, 6) of each body: the caller's, else the block of the file's."""
-    if given is not None:
-        return of_each(path, argument, names, given, (6, 6))
+    given = of_each(asked, argument, names, getattr(asked, argument))
+    if given[0] is not None:
+        return given
     if variable not in dataset:
         raise FileFormatError(
-            f"{path}: {variable} is missing; set body.{variable} before solving (compute_rigid_body_inertia, "
-            f"compute_hydrostatic_stiffness), or pass {argument} to read_capytaine"
+            f"{asked.where}: {variable} is missing; set body.{variable} before solving, or pass {argument} "
+            f"to {asked.reader}"
         )
-    whole = _real(path, dataset, variable, MATRIX)
+    whole = _real(asked.where, dataset, variable, MATRIX)
     return [whole[at : at + 6, at : at + 6] for at in range(0, 6 * len(names), 6)]
 
 
-def _directions(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
-    """As `rising_directions`, of the file."""
-    if "wave_direction" not in dataset.coords:
-        raise FileFormatError(f"{path}: wave_direction is missing; solve diffraction problems too")
-    raw = np.ravel(np.asarray(dataset["wave_direction"].values, dtype=float))
-    if np.any(np.abs(raw) > 2.0 * np.pi + 1e-6):
-        raise FileFormatError(f"{path}: wave_direction reaches {np.abs(raw).max():g}; radians are expected")
-    return rising_directions(raw)
-
-
 def _wave_force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
-    """Wave excitation (m, n, 6) with our time factor; NaN at the limits 0 and infinity."""
-    parts = ("Froude_Krylov_force", "diffraction_force")
-    names = parts if all(name in dataset for name in parts) else ("excitation_force",)
-    if names == ("excitation_force",) and "excitation_force" not in dataset:
-        raise FileFormatError(
-            f"{path}: neither excitation_force nor {' and '.join(parts)} are there; solve diffraction "
-            "problems too"
-        )
-    dimensions = ("wave_direction", "omega", "influenced_dof")
-    total = np.sum([_complex(path, dataset, name, dimensions) for name in names], axis=0)
-    return np.asarray(np.conj(total), dtype=complex)
-
-
-def _complex(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> ComplexArray:
-    """A complex variable from its parts re and im along the dimension ``complex``."""
-    if "wave_direction" not in dataset[name].dims:
-        dataset = dataset.assign({name: dataset[name].expand_dims("wave_direction")})
-    values = _variable(path, dataset, name, (*dimensions, "complex"))
-    labels = [str(label) for label in values["complex"].values] if "complex" in values.coords else []
-    if sorted(labels) != ["im", "re"]:
-        raise FileFormatError(f"{path}: {name} has parts {shown(labels)}; re and im along complex are needed")
-    real, imaginary = (np.asarray(values.sel(complex=part).values, dtype=float) for part in ("re", "im"))
-    return np.asarray(real + 1j * imaginary)
+    """Wave excitation (m, n, 6 k) with our time factor; NaN at the limits 0 and infinity."""
+    parts: tuple[str, ...] = ("Froude_Krylov_force", "diffraction_force")
+    if not all(name in dataset for name in parts):
+        parts = ("excitation_force",)
+    if not all(name in dataset for name in parts):
+        raise FileFormatError(f"{path}: excitation_force is missing; solve diffraction problems too")
+    dimensions = ("wave_direction", "omega", "influenced_dof", "complex")
+    every = []
+    for name in parts:
+        if "wave_direction" not in dataset[name].dims:
+            dataset = dataset.assign({name: dataset[name].expand_dims("wave_direction")})
+        values = _variable(path, dataset, name, dimensions)
+        labels = [str(label) for label in values["complex"].values] if "complex" in values.coords else []
+        if sorted(labels) != ["im", "re"]:
+            raise FileFormatError(
+                f"{path}: {name} has parts {shown(labels)}; re and im along complex are needed"
+            )
+        real, imaginary = (np.asarray(values.sel(complex=part).values, dtype=float) for part in ("re", "im"))
+        every.append(real + 1j * imaginary)
+    return np.asarray(np.conj(np.sum(every, axis=0)), dtype=complex)
 
 
 def _rotation_centres(
-    path: Path, dataset: xarray.Dataset, names: list[str], given: Given | None
+    asked: Asked, dataset: xarray.Dataset, names: list[str], given: Given | None
 ) -> FloatArray:
     """Where the rotations of each body turn about (k, 3), from the origin of the mesh."""
     if given is not None:
-        return np.array(of_each(path, "rotation_centre", names, given, (3,)))
+        return np.array(of_each(asked, "rotation_centre", names, given, (3,)))
     there = _by_body(dataset, "rotation_center", names)
     if there is None and len(names) == 1 and "rotation_center" in dataset.variables:
         there = np.ravel(np.asarray(dataset["rotation_center"].values, dtype=float))[None]
     if there is None:
-        whose, how = (
-            ("the body turns", "(x, y, z)")
-            if len(names) == 1
-            else (f"{', '.join(names)[:200]} turn", "{name: (x, y, z)}")
-        )
+        point = "{name: (x, y, z)}" if len(names) > 1 else "(x, y, z)"
         warn_caller(
-            f"{path}: does not tell about which point {whose}, as Capytaine tells from version 3 on; the "
-            "origin of its mesh is taken, and matrices of another point would be misread. Give "
-            f"read_capytaine(rotation_centre={how}) in m",
+            f"{asked.where}: does not tell the rotation centre of {', '.join(names)[:200] or 'the body'}, as "
+            "Capytaine does from version 3 on; the origin of its mesh is taken, and matrices of another "
+            f"point would be misread. Give read_capytaine(rotation_centre={point}) in m",
             AssumedReferenceWarning,
         )
         return np.zeros((len(names), 3))
     if there.shape != (len(names), 3) or not np.all(np.isfinite(there)):
-        raise FileFormatError(f"{path}: the rotation centre is {shown(there.tolist())}; give (x, y, z) in m")
+        raise FileFormatError(
+            f"{asked.where}: the rotation centre is {shown(there.tolist())}; give (x, y, z) in m"
+        )
     return there
 
 
@@ -456,12 +374,6 @@ def _by_body(dataset: xarray.Dataset, variable: str, names: list[str]) -> FloatA
     return values[[there.index(name) for name in names]]
 
 
-def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
-    """The matrix at a limiting frequency, if it is there."""
-    found = matrices[where]
-    return found[0] if len(found) and np.all(np.isfinite(found)) else None
-
-
 def is_netcdf(path: Path) -> bool:
     """Whether a path is a file that says by its name to be NetCDF."""
     return is_file_of(path, NETCDF)
@@ -472,5 +384,5 @@ FORMAT = Format(
     files="a NetCDF file (.nc) of Capytaine",
     can_open=lambda path: is_netcdf(path) and is_capytaine(path),
     read=read_capytaine,
-    at_depth=lambda path, depth: read_capytaine(path, depth=depth),
+    takes=("depth",),
 )

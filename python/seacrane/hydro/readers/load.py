@@ -106,13 +106,9 @@ def load_hull(
 
 def _read(found: Format, path: Path, speed: float | None, depth: float | None) -> Loaded:
     """What is of a speed and a depth, where they are asked for."""
-    if speed is not None and found.at_speed is not None:
-        database = found.at_speed(path, speed)
-    elif depth is not None and found.at_depth is not None:
-        database = found.at_depth(path, depth)
-    else:
-        database = found.read(path)
-    if speed is not None and found.at_speed is None and abs(database.speed - speed) > SAME_SPEED:
+    asked = {"speed": speed, "depth": depth}
+    database = found.read(path, **{name: asked[name] for name in found.takes if asked[name] is not None})
+    if speed is not None and "speed" not in found.takes and abs(database.speed - speed) > SAME_SPEED:
         raise FileFormatError(f"{path}: of {database.speed:g} m/s, not of speed {speed:g} m/s")
     if depth is not None and not np.isclose(database.depth, depth, rtol=SAME_DEPTH, atol=0.0):
         raise FileFormatError(
@@ -145,32 +141,22 @@ def available_speeds(path: str | PathLike[str]) -> tuple[float, ...]:
 
 
 def _format_of(path: Path) -> tuple[Format, Path]:
-    """The first format that can open a path, and what it shall open: of a folder perhaps the one file."""
-    if path.is_dir():
-        return _format_of_folder(path)
-    for one in FORMATS:
-        if one.can_open(path):
-            return one, path
-    problem = "not of a known kind" if path.exists() else "no such file"
-    raise FileFormatError(f"{path}: {problem}; {_supported()}")
-
-
-def _format_of_folder(folder: Path) -> tuple[Format, Path]:
-    """The format of a folder that is a set of files, or that holds one file of a known kind."""
-    sets = [one for one in FORMATS if one.can_open(folder)]
-    if len({one.name for one in sets}) > 1:
-        names = " and ".join(dict.fromkeys(one.name for one in sets))
-        raise FileFormatError(f"{folder}: the folder holds {names} files; name one of them")
-    if sets:
-        return sets[0], folder
-    files = [file for file in sorted(folder.iterdir()) if any(one.can_open(file) for one in FORMATS)]
-    if not files:
-        raise FileFormatError(f"{folder}: the folder holds nothing of a known kind; {_supported()}")
-    if len(files) > 1:
-        names = ", ".join(file.name for file in files[:NAMED])
-        raise FileFormatError(f"{folder}: the folder holds several files ({names}), name one of them")
-    return _format_of(files[0])
-
-
-def _supported() -> str:
-    return "supported: " + ", ".join(one.files for one in FORMATS)
+    """The first format that can open a path, and what it shall open: of a folder perhaps its one file."""
+    kinds = [one for one in FORMATS if one.can_open(path)]
+    names = list(dict.fromkeys(one.name for one in kinds))
+    if path.is_dir() and len(names) > 1:
+        raise FileFormatError(f"{path}: the folder holds {' and '.join(names)} files; name one of them")
+    if kinds:
+        return kinds[0], path
+    inside = sorted(path.iterdir()) if path.is_dir() else []
+    files = [file for file in inside if any(one.can_open(file) for one in FORMATS)]
+    if len(files) == 1:
+        return _format_of(files[0])
+    if files:
+        listed = ", ".join(file.name for file in files[:NAMED])
+        raise FileFormatError(f"{path}: the folder holds several files ({listed}), name one of them")
+    problem = "the folder holds nothing of a known kind" if path.is_dir() else "not of a known kind"
+    raise FileFormatError(
+        f"{path}: {problem if path.exists() else 'no such file'}; supported: "
+        + ", ".join(one.files for one in FORMATS)
+    )

@@ -7,24 +7,24 @@ and that of Capytaine's exports about the rotation centre.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_group_data import GroupBody
-from seacrane.hydro.data.reading import reading
 from seacrane.hydro.database.transform import motion_transform
-from seacrane.hydro.readers.as_read import as_read, finished
+from seacrane.hydro.readers.as_read import Asked, Given
 from seacrane.hydro.readers.format import Format, Loaded
 from seacrane.hydro.readers.nemoh_files import (
     CONTROL,
     EXCITATION,
     RADIATION,
     Water,
-    found_file,
     needed,
     project_of,
     read_control,
@@ -33,12 +33,10 @@ from seacrane.hydro.readers.nemoh_files import (
     read_stiffness,
     sought,
 )
-from seacrane.hydro.readers.of_bodies import Given, floating_body, hull_or_group, of_each_or_none
+from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import AssumedDensityWarning
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 SAME_POINT = 1e-6  # m
 NEAR = 0.1  # of the distance of both points: the waves have told which
 
@@ -65,9 +63,7 @@ def read_nemoh(
     mass_matrix : (6, 6) in SI about the rotation centre, of several bodies by name; by default the displaced
         mass at the centre of gravity with usual radii of gyration.
     restoring : (6, 6) in SI about the rotation centre, of several bodies by name, in the place of ``KH.dat``.
-    motions : names of those that were solved for, where some were not: a motion without added mass and
-        damping is refused unless it is left out here.
-    leave_out : rad/s of frequencies to do without, such as those at which a solution failed (NaN).
+    motions, leave_out : as `read_capytaine` takes them.
 
     Returns
     -------
@@ -86,131 +82,84 @@ def read_nemoh(
         the message names it and the line or the body.
     """
     folder = project_of(Path(path))
-    results = found_file(folder, RADIATION), found_file(folder, EXCITATION)
+    matrices, forces = (needed(sought(folder, name), folder / name) for name in (RADIATION, EXCITATION))
     control = sought(folder, CONTROL)
     if control is not None:
-        water = read_control(control)
+        water, usual = read_control(control), "centre of gravity"
     else:
-        centre = np.asarray(rotation_centre, dtype=float)
+        centre, usual = np.asarray(rotation_centre, dtype=float), "rotation centre"
         water = Water(float(rho), float(g), float(depth), centre[None], (0.0, 0.0), ["body"])
         warn_caller(
             f"{folder}: has no {CONTROL}; {rho:g} kg/m3, {g:g} m/s2, depth {depth:g} m and rotations about "
             f"{tuple(centre.tolist())} m are taken",
             AssumedDensityWarning,
         )
-    masses = of_each_or_none(folder, "mass_matrix", water.names, mass_matrix)
-    restorings = of_each_or_none(folder, "restoring", water.names, restoring)
-    hulls = [
-        _Hull(name, at, *_hydrostatics(folder, water, i), mass, own)
-        for i, (name, at, mass, own) in enumerate(
-            zip(water.names, water.centres, masses, restorings, strict=True)
-        )
-    ]
-    files = [*results, control, *(file for hull in hulls for file in (hull.stiffness, hull.hydrostatics))]
-    told = folder / ", ".join(file.name for file in files if file is not None)
-    with reading(told):
-        made = _convert(folder, results, control, water, hulls, leave_out)
-        found = as_read(told, "read_nemoh", made, motions)
-    return finished(told, found, "restoring={name: (6, 6)} and mass_matrix")
+    asked = Asked(
+        where=folder, reader="read_nemoh", mass_matrix=mass_matrix, restoring=restoring, motions=motions,
+        leave_out=leave_out,
+    )  # fmt: skip
+    masses = of_each(asked, "mass_matrix", water.names, mass_matrix)
+    restorings = of_each(asked, "restoring", water.names, restoring)
+    numbers = [f"_{i}" for i in range(len(water.names))] if len(water.names) > 1 else [""]
+    hydrostatics = [[sought(folder, f"{kind}{n}.dat") for kind in ("KH", "Hydrostatics")] for n in numbers]
+    files = [matrices, forces, control, *(file for pair in hydrostatics for file in pair)]
+    told = replace(asked, where=folder / ", ".join(file.name for file in files if file is not None))
+    with reading(told.where):
+        solved = read_solution(matrices, forces, control, water.names)
+        finite = np.isfinite(solved["force"]).all(axis=(0, 2))
+        lifts = solved["force"][:, np.argmin(np.where(finite, solved["omega"], np.inf))]
+        bodies = [
+            _body(asked, water, i, hydrostatics[i], masses[i], restorings[i], lifts[:, 6 * i :], usual)
+            for i in range(len(water.names))
+        ]
+        x, y, z = water.centres[0]
+        origin = f"rotation centre of the NEMOH body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
+        if len(bodies) > 1:
+            origin = "origin of the meshes of NEMOH, on the still waterline"
+        return hull_or_group(
+            told, bodies, fix="restoring={name: (6, 6)} and mass_matrix", waves_from=water.phase_origin,
+            name=folder.resolve().name, source=f"NEMOH results in folder {folder.resolve().name}",
+            origin=origin, rho=water.rho, g=water.g, depth=water.depth, **solved,
+        )  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class _Hull:
-    """One body: the point that it turns about, its files, and what the caller gives."""
-
-    name: str
-    centre: FloatArray
-    stiffness: Path | None
-    hydrostatics: Path | None
-    mass: FloatArray | None
-    restoring: FloatArray | None
-
-
-def _hydrostatics(folder: Path, water: Water, index: int) -> tuple[Path | None, Path | None]:
-    """``KH.dat`` and ``Hydrostatics.dat`` of one body, or of one among several."""
-    number = f"_{index}" if len(water.names) > 1 else ""
-    return sought(folder, f"KH{number}.dat"), sought(folder, f"Hydrostatics{number}.dat")
-
-
-def _convert(
-    folder: Path,
-    results: tuple[Path, Path],
-    control: Path | None,
+def _body(
+    asked: Asked,
     water: Water,
-    hulls: list[_Hull],
-    leave_out: ArrayLike | None,
-) -> Loaded:
-    solved = read_solution(*results, control, water.names, leave_out)
-    usual = "centre of gravity" if control is not None else "rotation centre"
-    bodies = []
-    for i, hull in enumerate(hulls):
-        lift = solved.force[:, 0, 6 * i : 6 * i + 6]
-        bodies.append(_body(folder, water, hull, lift, usual))
-    x, y, z = water.centres[0]
-    return hull_or_group(
-        bodies,
-        name=folder.resolve().name,
-        omega=solved.omega,
-        heading=solved.direction,
-        added_mass=solved.added_mass,
-        damping=solved.damping,
-        force=solved.force,
-        waves_from=water.phase_origin,
-        rho=water.rho,
-        g=water.g,
-        depth=water.depth,
-        origin=(
-            f"rotation centre of the NEMOH body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
-            if len(bodies) == 1
-            else "origin of the meshes of NEMOH, on the still waterline"
-        ),
-        source=f"NEMOH results in folder {folder.resolve().name}",
-    )
-
-
-def _body(folder: Path, water: Water, hull: _Hull, lift: ComplexArray, usual: str) -> GroupBody:
-    """One body; ``lift`` (m, 6) are its wave forces of the lowest frequency."""
-    several = len(water.names) > 1
-    number = f"_{water.names.index(hull.name)}" if several else ""
-    told, restoring = folder, hull.restoring
+    index: int,
+    files: list[Path | None],
+    mass: FloatArray | None,
+    restoring: FloatArray | None,
+    lift: ComplexArray,
+    usual: str,
+) -> GroupBody:
+    """One body, of its stiffness and its hydrostatics; ``lift`` and ``usual`` as in `_stiffness_about`."""
+    name, centre, several = water.names[index], water.centres[index], len(water.names) > 1
+    number, told = f"_{index}" if several else "", asked.where
     if restoring is None:
-        told = needed(hull.stiffness, folder / f"KH{number}.dat")
+        told = needed(files[0], asked.where / f"KH{number}.dat")
         restoring = read_stiffness(told)
-        if hull.hydrostatics is not None:
-            gravity = read_hydrostatics(hull.hydrostatics)[0]
-            restoring = _stiffness_about(hull.centre, restoring, gravity=gravity, lift=lift, usual=usual)
-    if hull.mass is not None and several:  # hydrostatics of several may be those of all together
-        gravity, volume = hull.centre, float(hull.mass[0, 0]) / water.rho
+        if files[1] is not None:
+            gravity = read_hydrostatics(files[1])[0]
+            restoring = _stiffness_about(centre, restoring, gravity=gravity, lift=lift, usual=usual)
+    if mass is not None and several:  # hydrostatics of several may be those of all together
+        gravity, volume = centre, None
     else:
-        gravity, volume = read_hydrostatics(needed(hull.hydrostatics, folder / f"Hydrostatics{number}.dat"))
-    whose = f" of {hull.name}" if several else ""
+        gravity, volume = read_hydrostatics(needed(files[1], asked.where / f"Hydrostatics{number}.dat"))
     return floating_body(
-        told,
-        hull.name,
-        several=several,
-        position=hull.centre,
-        restoring=restoring,
-        volume=volume,
-        water=(water.rho, water.g),
-        mass=hull.mass,
-        centre=gravity - hull.centre,
-        lacks=f"NEMOH's results hold no mass matrix{whose}, pass mass_matrix to read_nemoh",
-    )
+        asked, name, where=told, several=several, position=centre, restoring=restoring, volume=volume,
+        water=(water.rho, water.g), mass=mass, centre=gravity - centre,
+    )  # fmt: skip
 
 
 def _stiffness_about(
     centre: FloatArray, stiffness: FloatArray, *, gravity: FloatArray, lift: ComplexArray, usual: str
 ) -> FloatArray:
-    """A floating body's stiffness (6, 6) about ``centre``.
+    """A floating body's stiffness (6, 6) about ``centre``; points are (3,) m in one frame.
 
     The file gives it about its centre of gravity or about ``centre``, without saying so; heights make no
-    difference. A long wave lifts the body at its centre of flotation, which tells which of both.
-
-    Parameters
-    ----------
-    centre, gravity : (3,) m, in one frame.
-    lift : (m, 6) wave forces of the lowest frequency, about ``centre``.
-    usual : "centre of gravity" or "rotation centre", what is taken where the waves do not tell.
+    difference. A long wave lifts the body at its centre of flotation, which tells which of both. ``lift``
+    (m, 6) are the wave forces of the lowest frequency; where they do not tell, it is the ``usual`` one.
     """
     away = np.array([centre[0] - gravity[0], centre[1] - gravity[1], 0.0])
     if np.abs(away).max() <= SAME_POINT or stiffness[2, 2] == 0.0:
@@ -226,15 +175,12 @@ def _stiffness_about(
     return moved if (apart[0] < apart[1] if told else usual == "centre of gravity") else stiffness
 
 
-def _can_open(path: Path) -> bool:
-    return path.name in (RADIATION, EXCITATION, CONTROL) or (
-        path.is_dir() and sought(project_of(path), RADIATION) is not None
-    )
-
-
 FORMAT = Format(
     name="NEMOH",
     files="a NEMOH folder (RadiationCoefficients.tec, ExcitationForce.tec, KH.dat, Hydrostatics.dat)",
-    can_open=_can_open,
+    can_open=lambda path: (
+        path.name in (RADIATION, EXCITATION, CONTROL)
+        or (path.is_dir() and sought(project_of(path), RADIATION) is not None)
+    ),
     read=read_nemoh,
 )

@@ -13,15 +13,14 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.as_read import frequencies_kept, rising_directions, whole_stiffness
+from seacrane.hydro.data.arrays import FloatArray
+from seacrane.hydro.readers.as_read import omega_of, rising_directions, whole_stiffness
 from seacrane.hydro.readers.text_records import NUMBER, is_number, number_at, text_of
-
-FloatArray = NDArray[np.float64]
 
 RADIATION, EXCITATION = "RadiationCoefficients.tec", "ExcitationForce.tec"
 STIFFNESS, HYDROSTATICS, CONTROL = "KH.dat", "Hydrostatics.dat", "Nemoh.cal"
@@ -34,7 +33,7 @@ MOTIONS = 6
 class Water:
     """``Nemoh.cal``: kg/m3, m/s2, m, and m from the origin of the mesh; ``centres`` (k, 3) of rotation.
 
-    ``names`` of the bodies are those of their mesh files.
+    ``names`` of the bodies are those of their mesh files, or numbers where these are not one each.
     """
 
     rho: float
@@ -58,10 +57,6 @@ def sought(folder: Path, name: str) -> Path | None:
     return next((file for file in every if file.name.lower() == name.lower() and file.is_file()), None)
 
 
-def found_file(folder: Path, name: str) -> Path:
-    return needed(sought(folder, name), folder / name)
-
-
 def needed(file: Path | None, place: Path) -> Path:
     """A file that was found; raises where it was not."""
     if file is None:
@@ -73,21 +68,8 @@ def needed(file: Path | None, place: Path) -> Path:
     return file
 
 
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """Matrices (n, 6 k, 6 k) of k bodies, forces (m, n, 6 k) with the phases of the file, rad/s, rad."""
-
-    omega: FloatArray
-    direction: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
-    force: NDArray[np.complex128]
-
-
-def read_solution(
-    matrices: Path, forces: Path, control: Path | None, names: list[str], leave_out: ArrayLike | None
-) -> Solution:
-    """What both files hold, frequencies and directions rising, without those that the caller leaves out."""
+def read_solution(matrices: Path, forces: Path, control: Path | None, names: list[str]) -> dict[str, Any]:
+    """What both files hold, directions (rad) rising; phases of the loads are those of the file."""
     radiation = _blocks(matrices, len(names))
     if len(radiation) != MOTIONS * len(names):
         raise FileFormatError(
@@ -95,23 +77,17 @@ def read_solution(
             "needed"
         )
     waves = _blocks(forces, len(names))
-    omega, order = _frequencies(matrices, radiation, control)
-    values = np.array([block.rows[order] for block in radiation])  # moving, omega, columns
-    if not np.array_equal(_frequencies(forces, waves, control)[0], omega):
+    omega = _frequencies(matrices, radiation, control)
+    if not np.array_equal(_frequencies(forces, waves, control), omega):
         raise FileFormatError(f"{forces}: other frequencies than {RADIATION}; use files of one run")
+    values = np.array([block.rows for block in radiation])  # moving, omega, columns
     direction, places = rising_directions(np.array([_direction(forces, each) for each in waves]))
-    wave = np.array([block.rows[order] for block in waves])[places]
+    wave = np.array([block.rows for block in waves])[places]
     added_mass, damping = (values[:, :, at::2].transpose(1, 2, 0) for at in (1, 2))
     force = wave[:, :, 1::2] * np.exp(-1j * wave[:, :, 2::2])
-    tables = {"added_mass": added_mass, "damping": damping, "force": force}
-    rows = frequencies_kept(f"{matrices}, {forces.name}", "read_nemoh", omega, tables, leave_out)
-    return Solution(
-        omega=omega[rows],
-        direction=direction,
-        added_mass=added_mass[rows],
-        damping=damping[rows],
-        force=force[:, rows],
-    )
+    return {
+        "omega": omega, "heading": direction, "added_mass": added_mass, "damping": damping, "force": force,
+    }  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,36 +101,28 @@ class _Block:
 
 def _blocks(path: Path, bodies: int) -> list[_Block]:
     """The blocks of a Tecplot file; lines of text without rows below them are its head."""
-    found: list[_Block] = []
+    found: list[tuple[str, int, list[list[float]]]] = [("", 0, [])]
     motions = MOTIONS * bodies
-    title, start, rows = "", 0, list[list[float]]()
-
-    def close() -> None:
-        if rows:
-            found.append(_Block(title, start, np.array(rows)))
-
     for number, line in enumerate(_text_lines(path), start=1):
         words = line.split()
         if words and is_number(words[0]):
-            rows.append(_numbers_in(path, number, words, failed=True))
-            if len(rows[-1]) != 1 + 2 * motions:
+            row = _numbers_in(path, number, words, failed=True)
+            if len(row) != 1 + 2 * motions:
                 raise FileFormatError(
-                    f"{path}, line {number}: {len(rows[-1])} numbers; omega and two for each of {motions} "
-                    "motions are needed: the file is truncated, or of another body"
+                    f"{path}, line {number}: {len(row)} numbers; omega and two for each of {motions} motions "
+                    "are needed: the file is truncated, or of another body"
                 )
+            found[-1][2].append(row)
         elif words:
-            close()
-            title, start, rows = line.strip(), number, []
-    close()
-    if not found:
+            found.append((line.strip(), number, []))
+    blocks = [_Block(title, line, np.array(rows)) for title, line, rows in found if rows]
+    if not blocks:
         raise FileFormatError(f"{path}: no numbers; the file is empty or truncated")
-    return found
+    return blocks
 
 
-def _frequencies(
-    path: Path, blocks: list[_Block], control: Path | None
-) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Frequencies (rad/s), rising, the same in every block, and their places in it."""
+def _frequencies(path: Path, blocks: list[_Block], control: Path | None) -> FloatArray:
+    """Frequencies (rad/s), the same in every block."""
     first = blocks[0].rows[:, 0]
     for block in blocks[1:]:
         if not np.array_equal(block.rows[:, 0], first):
@@ -162,12 +130,7 @@ def _frequencies(
                 f"{path}, line {block.line}: {block.title[:60]!r} has other frequencies than the first; the "
                 "file is truncated"
             )
-    unit = _unit(path, control)
-    if unit == "s" and np.any(first <= 0.0):
-        raise FileFormatError(f"{path}: a period is {first.min():g} s; give positive ones")
-    omega = 2.0 * np.pi / first if unit == "s" else first * (2.0 * np.pi if unit == "Hz" else 1.0)
-    order = np.argsort(omega)
-    return omega[order], order
+    return omega_of(first, _unit(path, control))
 
 
 def _unit(path: Path, control: Path | None) -> str:
@@ -178,27 +141,21 @@ def _unit(path: Path, control: Path | None) -> str:
     known = {unit.lower(): unit for unit in UNITS}
     if headed is not None and headed not in known:
         raise FileFormatError(f"{path}, line 1: frequencies in {headed[:20]!r}; {', '.join(UNITS)} are read")
-    asked = None if control is None else _unit_of_control(control)
+    asked = None
+    for number, line in enumerate([] if control is None else _text_lines(control), start=1):
+        if asked is None and re.search(r"output\s+freq\w*\s+type", line, re.IGNORECASE):  # of NEMOH 3
+            asked = dict(zip("123", UNITS, strict=True)).get(line.split()[0])
+            if asked is None:
+                raise FileFormatError(
+                    f"{control}, line {number}: type {line.split()[0][:20]!r} of output frequencies; give 1, "
+                    f"2 or 3 for {', '.join(UNITS)}"
+                )
     if headed is not None and asked is not None and known[headed] != asked:
         raise FileFormatError(
             f"{path}, line 1: headed by {known[headed]}, and {control} asks for {asked}; give the files of "
             "one run"
         )
     return known[headed] if headed is not None else asked or UNITS[0]
-
-
-def _unit_of_control(path: Path) -> str | None:
-    """The unit that ``Nemoh.cal`` (NEMOH 3) asks tables to be written over."""
-    for number, line in enumerate(_text_lines(path), start=1):
-        if re.search(r"output\s+freq\w*\s+type", line, re.IGNORECASE):
-            word = line.split()[0]
-            if word not in ("1", "2", "3"):
-                raise FileFormatError(
-                    f"{path}, line {number}: type {word[:20]!r} of output frequencies; give 1, 2 or 3 for "
-                    f"{', '.join(UNITS)}"
-                )
-            return UNITS[int(word) - 1]
-    return None
 
 
 def _direction(path: Path, block: _Block) -> float:
@@ -248,11 +205,8 @@ def read_control(path: Path) -> Water:
             "bodies; give the file that NEMOH was run with"
         )
     (rho,), (g,), (depth,), origin, (bodies,) = numbers[:5]
-    if not (rho > 0.0 and g > 0.0 and depth >= 0.0):
-        raise FileFormatError(
-            f"{path}: density {rho:g} kg/m3, gravity {g:g} m/s2, depth {depth:g} m; give positive ones (a "
-            "depth of 0 is deep water)"
-        )
+    if not (rho > 0.0 and g > 0.0):
+        raise FileFormatError(f"{path}: density {rho:g} kg/m3, gravity {g:g} m/s2; give positive ones")
     turns = [row for row in numbers[5:] if len(row) == 7 and row[0] == 2.0]
     if bodies == 1.0:
         turns = turns[:3]
@@ -270,14 +224,10 @@ def read_control(path: Path) -> Water:
             )
         centres.append(points.pop())
     meshes = [row[0] for _, row in rows if len(row) == 1 and row[0].lower().endswith(".dat")]
-    return Water(rho, g, depth or np.inf, np.array(centres), (origin[0], origin[1]), _names(centres, meshes))
-
-
-def _names(centres: list[tuple[float, ...]], meshes: list[str]) -> list[str]:
-    """Names of the mesh files, each once; numbers where that is not so."""
-    stems = [PureWindowsPath(mesh).stem for mesh in meshes]
-    alone = len(stems) == len(centres) and len(set(stems)) == len(centres)
-    return stems if alone else [f"body{i}" for i in range(1, len(centres) + 1)]
+    names = [PureWindowsPath(mesh).stem for mesh in meshes]
+    if not len(names) == len(set(names)) == len(centres):
+        names = [f"body{i}" for i in range(1, len(centres) + 1)]
+    return Water(rho, g, depth or np.inf, np.array(centres), (origin[0], origin[1]), names)
 
 
 def _numbers_in(path: Path, line: int, words: list[str], *, failed: bool = False) -> list[float]:

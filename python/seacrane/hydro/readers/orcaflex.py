@@ -8,32 +8,39 @@ phase: a wave of zero phase at r from there is ahead by ``k . r``.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.reading import reading
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.data.frozen import reading
+from seacrane.hydro.data.heading_circle import phase_at
 from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.as_read import as_read, finished, frequencies_kept, mass_of_file
+from seacrane.hydro.readers.as_read import Asked, rising_degrees
 from seacrane.hydro.readers.format import Format, is_file_of
-from seacrane.hydro.readers.mafredo_file import read_mafredo
-from seacrane.hydro.readers.of_bodies import equivalent_box
+from seacrane.hydro.readers.of_bodies import (
+    LIMITS,
+    density_of,
+    floating_body,
+    hull_or_group,
+    matrix_at,
+    of_each,
+)
 from seacrane.hydro.readers.orcaflex_model import KILO, Raos, VesselType, read_vessel_type
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import MOTIONS
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
-from seacrane.sea.dispersion import wavenumber
-from seacrane.warnings import AssumedDensityWarning, PartialSetWarning
+from seacrane.warnings import AssumedSymmetryWarning, PartialSetWarning
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+Places = NDArray[np.intp]
 
 GRAVITY = 9.80665  # m/s2, OrcaFlex's
-USUAL_DENSITY = 1025.0
 SUFFIXES = (".yml", ".yaml", ".dhyd")
 FORE_AFT = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
 MIRRORS = {
@@ -44,31 +51,9 @@ MIRRORS = {
 }  # port against starboard, bow against stern
 SAME_FREQUENCY = 1e-6
 MOTION_LIMIT = np.full(6, 1e-3)
-
-
-@dataclass(frozen=True, eq=False)
-class _Source:
-    """What both kinds of file give, SI, about one reference origin, loads by (heading, frequency, motion)."""
-
-    name: str
-    source: str
-    origin: str
-    symmetry: str
-    omega: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
-    heading_deg: FloatArray
-    load_omega: FloatArray
-    force: ComplexArray
-    rho: float
-    motion: ComplexArray | None = None
-    mass_matrix: FloatArray | None = None
-    restoring: FloatArray | None = None
-    linear_damping: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
-    quadratic_damping: FloatArray = field(default_factory=lambda: np.zeros(6))
-    depth: float = np.inf
-    length: float | None = None
-    displaced: float | None = None
+MATRIX, LOADS = ("omega", "influenced_dof", "radiating_dof"), ("wave_direction", "omega")  # of MaFreDo
+SYMMETRIES = (*MIRRORS, "Circular")
+WHOLE = 1e-6  # deg beyond 180 from where headings are of both sides
 
 
 def read_orcaflex(
@@ -91,9 +76,7 @@ def read_orcaflex(
         hydrostatic stiffness of a ``.yml`` file, and are needed for ``.dhyd``, which holds neither.
     vessel_type, draught : names, needed where a model holds several.
     rho : water density in kg/m3 in place of the model's, which is 1025 where it gives none.
-    motions : names of those that were solved for, where some were not: a motion without added mass and
-        damping is refused unless it is left out here.
-    leave_out : rad/s of frequencies to do without, such as those at which a solution failed.
+    motions, leave_out : as `read_capytaine` takes them.
 
     Returns
     -------
@@ -113,88 +96,89 @@ def read_orcaflex(
         message names the file and the place.
     """
     source = Path(path)
-    if not source.is_file():
-        raise FileFormatError(f"{source}: no such file; give the path of a .yml or .dhyd file")
+    asked = Asked(
+        where=source, reader="read_orcaflex", mass_matrix=mass_matrix, restoring=restoring, motions=motions,
+        leave_out=leave_out,
+    )  # fmt: skip
     with reading(source):
         if source.suffix.lower() == ".dhyd":
-            found = _mafredo(source, rho)
+            kind = _read_mafredo(source)
         else:
             kind = read_vessel_type(source, vessel_type=vessel_type, draught=draught)
-            found = _orcaflex(source, kind, rho)
-        made = _database(source, found, mass_matrix, restoring, leave_out)
-        database = as_read(source, "read_orcaflex", made, motions)
-    return finished(source, database, "restoring")
+        return _convert(asked, kind, kind.rho if rho is None else rho)
 
 
-def _density(path: Path, given: float | None) -> float:
-    if given is not None:
-        if not 0.0 < float(given) < np.inf:
-            raise FileFormatError(f"{path}: water density is {given:g} kg/m3; give a positive one")
-        return float(given)
-    warn_caller(
-        f"{path}: holds no water density; 1025 kg/m3 is taken for the size of the hull and the self-check. "
-        "Pass rho to read_orcaflex",
-        AssumedDensityWarning,
-    )
-    return USUAL_DENSITY
-
-
-def _orcaflex(path: Path, kind: VesselType, rho: float | None) -> _Source:
+def _convert(asked: Asked, kind: VesselType, rho: float | None) -> HydroDatabase:
     """A vessel type about the reference origin of its matrices."""
+    rho = density_of(asked, rho, "the size of the hull and the self-check follow from it")
+    mass, restoring = _constant_matrices(asked, kind)
+    lever = kind.other_origin - kind.origin
+    if np.any(kind.other_quadratic) and np.any(lever):
+        raise FileFormatError(
+            f"{asked.where}: quadratic other damping acts at {lever.tolist()} m from the reference origin; "
+            "only damping at that origin is read: move it there"
+        )
+    turned = _moved(lever)
+    body = floating_body(
+        asked, kind.name, several=False, restoring=restoring, water=(rho, GRAVITY), mass=mass,
+        displaced=kind.volume, position=np.zeros(3), length=kind.length,
+        linear_damping=turned @ np.diag(kind.other_linear) @ turned.T, quadratic_damping=kind.other_quadratic,
+    )  # fmt: skip
     loads, motions = kind.loads, kind.motions
     if motions is not None and not all(
         np.array_equal(getattr(loads, name), getattr(motions, name)) for name in ("heading_deg", "omega")
     ):
         warn_caller(
-            f"{path}: displacement RAOs are not at the directions and frequencies of the load RAOs; they are "
-            "left out, and nothing proves that loads and matrices belong together",
+            f"{asked.where}: displacement RAOs are not at the directions and frequencies of the load RAOs; "
+            "they are left out, and nothing proves that loads and matrices belong together",
             PartialSetWarning,
         )
         motions = None
-    rho = _density(path, kind.rho if rho is None else rho)
-    mass_matrix = None
-    if kind.mass is not None:
-        mass_matrix = rigid_mass_matrix(kind.mass, kind.centre - kind.origin, kind.inertia)
-    restoring = None
-    if kind.stiffness is not None:
-        restoring = np.zeros((6, 6))
-        restoring[2:5, 2:5] = kind.stiffness
-    lever = kind.other_origin - kind.origin
-    if np.any(kind.other_quadratic) and np.any(lever):
+    if kind.symmetry not in MIRRORS:
         raise FileFormatError(
-            f"{path}: quadratic other damping acts at {lever.tolist()} m from the reference origin; only "
-            "damping at that origin is read: move it there"
+            f"{asked.where}: symmetry {shown(kind.symmetry)}; {', '.join(MIRRORS)} are read: expand the "
+            "directions"
         )
+    port, bow = MIRRORS[kind.symmetry]
+    rows, columns = _common(asked.where, kind)
+    tables = {"force": _at_origin(kind, loads, _moved(loads.origin - kind.origin).T, columns)}
+    if motions is not None:
+        moved = _moved(kind.origin - motions.origin)
+        tables["motion_rao"] = _at_origin(kind, motions, moved, columns)
+    degrees = loads.heading_deg
+    if bow:
+        degrees = np.concatenate([degrees, 180.0 - degrees])
+        tables = {name: np.concatenate([table, table * FORE_AFT]) for name, table in tables.items()}
+    degrees, order = rising_degrees(degrees)
+    found = hull_or_group(
+        asked, [body], fix="restoring", alone={
+            **{name: table[order] for name, table in tables.items()},
+            **{name: matrix_at(kind.added_mass, kind.omega == limit) for name, limit in LIMITS.items()},
+            "motion_rao_limit": MOTION_LIMIT,
+            "port_starboard_symmetric": port,
+        },
+        name=asked.where.stem, origin=kind.place, source=kind.source,
+        rho=rho, g=GRAVITY, depth=kind.depth, omega=kind.omega[rows], heading=np.radians(degrees),
+        added_mass=kind.added_mass[rows], damping=kind.damping[rows],
+    )  # fmt: skip
+    assert isinstance(found, HydroDatabase)
+    return found
 
-    def phase(raos: Raos) -> ComplexArray:
-        """From zero phase at the RAOs' phase origin to zero phase at the reference origin."""
-        return _shift(raos.phase_origin - kind.origin, raos.omega, raos.heading_deg, kind.depth)
 
-    turned = _moved(lever)
-    x, y, z = kind.origin
-    return _Source(
-        name=path.stem,
-        source=f"OrcaFlex model {path.name}, {kind.name}",
-        origin=f"reference origin of the OrcaFlex vessel type, ({x:g}, {y:g}, {z:g}) m in its axes",
-        symmetry=kind.symmetry,
-        omega=kind.omega,
-        added_mass=kind.added_mass,
-        damping=kind.damping,
-        heading_deg=loads.heading_deg,
-        load_omega=loads.omega,
-        force=loads.values @ _moved(loads.origin - kind.origin).T * phase(loads),
-        motion=None
-        if motions is None
-        else motions.values @ _moved(kind.origin - motions.origin) * phase(motions),
-        mass_matrix=mass_matrix,
-        restoring=restoring,
-        linear_damping=turned @ np.diag(kind.other_linear) @ turned.T,
-        quadratic_damping=kind.other_quadratic,
-        rho=rho,
-        depth=kind.depth,
-        length=kind.length,
-        displaced=None if kind.volume is None else rho * kind.volume,
-    )
+def _constant_matrices(asked: Asked, kind: VesselType) -> tuple[FloatArray, FloatArray]:
+    """Mass matrix and restoring (6, 6): the caller's, else the file's."""
+    told: dict[str, FloatArray | None] = {"mass_matrix": None, "restoring": None}
+    if kind.mass is not None:
+        told["mass_matrix"] = rigid_mass_matrix(kind.mass, kind.centre - kind.origin, kind.inertia)
+    if kind.stiffness is not None:
+        told["restoring"] = np.pad(kind.stiffness, (2, 1))
+    found: list[Any] = []
+    for name, in_file in told.items():
+        (given,) = of_each(asked, name, [kind.name], getattr(asked, name))
+        if given is None and in_file is None:
+            raise FileFormatError(f"{asked.where}: holds no {name}; pass it, (6, 6) in SI, to read_orcaflex")
+        found.append(in_file if given is None else given)
+    return found[0], found[1]
 
 
 def _moved(lever: FloatArray) -> FloatArray:
@@ -204,145 +188,103 @@ def _moved(lever: FloatArray) -> FloatArray:
     return matrix
 
 
-def _shift(r: FloatArray, omega: FloatArray, heading_deg: FloatArray, depth: float) -> ComplexArray:
-    """``exp(-i k . r)`` (m, n, 1) for a phase origin at ``r`` (x, y, ...) from the reference point."""
-    beta = np.radians(heading_deg)
-    along = r[0] * np.cos(beta) + r[1] * np.sin(beta)
-    k = np.zeros(len(omega))
-    usual = (omega > 0.0) & np.isfinite(omega)
-    k[usual] = wavenumber(omega[usual], g=GRAVITY, depth=depth)
-    return np.asarray(np.exp(-1j * np.outer(along, k))[:, :, None])
+def _at_origin(kind: VesselType, raos: Raos, moved: FloatArray, columns: Places) -> ComplexArray:
+    """Loads or motions (m, n, 6) about the reference origin, where waves get zero phase."""
+    away = kind.origin - raos.phase_origin
+    headings = np.radians(raos.heading_deg)
+    with np.errstate(invalid="ignore"):  # what is not finite is named later
+        turned = raos.values[:, columns] @ moved
+        return np.asarray(turned * phase_at(away, raos.omega[columns], headings, GRAVITY, kind.depth))
 
 
-def _mafredo(path: Path, rho: float | None) -> _Source:
-    """A ``.dhyd`` file about the point that all of it refers to."""
-    data = read_mafredo(path)
-    shift = _shift(data.phase_origin, data.load_omega, data.heading_deg, np.inf)
-    with np.errstate(invalid="ignore"):  # what is not finite is named later, if it is used at all
-        force = np.conj(data.force) * KILO * shift
-    return _Source(
-        name=path.stem,
-        source=f"MaFreDo file {path.name}",
-        origin="reference point of the MaFreDo database",
-        symmetry=data.symmetry,
-        omega=data.omega,
-        added_mass=data.added_mass * KILO,
-        damping=data.damping * KILO,
-        heading_deg=data.heading_deg,
-        load_omega=data.load_omega,
-        force=force,
-        rho=_density(path, rho),
-    )
-
-
-def _database(
-    path: Path,
-    found: _Source,
-    mass_matrix: ArrayLike | None,
-    restoring: ArrayLike | None,
-    leave_out: ArrayLike | None,
-) -> HydroDatabase:
-    mass = _given(path, "mass_matrix", mass_matrix, found.mass_matrix)
-    stiffness = _given(path, "restoring", restoring, found.restoring)
-    if mass_matrix is None:
-        asked = "read_orcaflex(mass_matrix=...)"
-        box = equivalent_box(stiffness, float(mass[0, 0]) / found.rho, found.rho * GRAVITY)
-        mass = mass_of_file(path, asked, mass, displaced=found.displaced, box=box)
-    rows, columns = _common(path, found)
-    tables = {
-        "added_mass": found.added_mass[rows],
-        "damping": found.damping[rows],
-        "force": found.force[:, columns],
-    }
-    kept = frequencies_kept(path, "read_orcaflex", found.omega[rows], tables, leave_out)
-    rows, columns = rows[kept], columns[kept]
-    omega = found.omega[rows]
-    heading, force, motion, symmetric = _circle(path, found, columns)
-    box = equivalent_box(stiffness, float(mass[0, 0]) / found.rho, found.rho * GRAVITY)
-    return HydroDatabase(
-        name=found.name,
-        omega=omega,
-        heading=heading,
-        added_mass=found.added_mass[rows],
-        damping=found.damping[rows],
-        infinite_frequency_added_mass=_limit(found.added_mass, np.isinf(found.omega)),
-        zero_frequency_added_mass=_limit(found.added_mass, found.omega == 0.0),
-        restoring=stiffness,
-        mass_matrix=mass,
-        force=force,
-        motion_rao=motion,
-        motion_rao_limit=MOTION_LIMIT,
-        linear_damping=found.linear_damping,
-        quadratic_damping=found.quadratic_damping,
-        rho=found.rho,
-        g=GRAVITY,
-        depth=found.depth,
-        length=box[0] if found.length is None else found.length,
-        breadth=box[1],
-        draught=box[2],
-        origin=found.origin,
-        source=found.source,
-        port_starboard_symmetric=symmetric,
-    )
-
-
-def _given(path: Path, name: str, given: ArrayLike | None, in_file: FloatArray | None) -> FloatArray:
-    """A constant matrix (6, 6): the caller's, else the file's."""
-    if given is None and in_file is None:
-        raise FileFormatError(f"{path}: holds no {name}; pass {name} (6, 6) in SI to read_orcaflex")
-    matrix = np.asarray(in_file if given is None else given, dtype=float)
-    if matrix.shape != (6, 6):
-        raise ValueError(f"{name} has shape {matrix.shape}; (6, 6) is needed")
-    return matrix
-
-
-def _common(path: Path, found: _Source) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _common(path: Path, kind: VesselType) -> tuple[Places, Places]:
     """Places of the finite positive frequencies that matrices and loads share, rising."""
-    rows, columns = [], []
-    usual = [(w > 0.0) & np.isfinite(w) for w in (found.omega, found.load_omega)]
-    for row in np.flatnonzero(usual[0])[np.argsort(found.omega[usual[0]])]:
-        near = np.flatnonzero(
-            np.abs(found.load_omega - found.omega[row]) <= SAME_FREQUENCY * found.omega[row]
-        )
-        if near.size:
-            rows.append(row)
-            columns.append(near[0])
-    if not rows:
+    usual = [np.flatnonzero((w > 0.0) & np.isfinite(w)) for w in (kind.omega, kind.loads.omega)]
+    rows = usual[0][np.argsort(kind.omega[usual[0]])]
+    omega = kind.omega[rows, None]
+    near = np.abs(kind.loads.omega[usual[1]] - omega) <= SAME_FREQUENCY * omega
+    common = near.any(axis=1)
+    if not common.any():
         raise FileFormatError(f"{path}: matrices and load RAOs have no frequency in common; check the source")
-    left_out = int(usual[0].sum() + usual[1].sum()) - 2 * len(rows)
+    left_out = len(rows) + len(usual[1]) - 2 * int(common.sum())
     if left_out:
         warn_caller(
             f"{path}: {left_out} frequencies are given for either the matrices or the load RAOs only; the "
-            f"{len(rows)} common ones are read, and nothing is known beyond them",
+            f"{common.sum()} common ones are read, and nothing is known beyond them",
             PartialSetWarning,
         )
-    return np.array(rows), np.array(columns)
+    return rows[common], usual[1][near[common].argmax(axis=1)]
 
 
-def _circle(
-    path: Path, found: _Source, columns: NDArray[np.intp]
-) -> tuple[FloatArray, ComplexArray, ComplexArray | None, bool]:
-    """Directions in [0, 2 pi), rising, with loads and motions; mirrored where bow and stern are alike."""
-    if found.symmetry not in MIRRORS:
-        raise FileFormatError(
-            f"{path}: symmetry {shown(found.symmetry)}; {', '.join(MIRRORS)} are read: expand the directions"
-        )
-    port, bow = MIRRORS[found.symmetry]
-    degrees, force, motion = found.heading_deg, found.force[:, columns], found.motion
-    motion = None if motion is None else motion[:, columns]
-    if bow:
-        degrees = np.concatenate([degrees, 180.0 - degrees])
-        force = np.concatenate([force, force * FORE_AFT])
-        motion = None if motion is None else np.concatenate([motion, motion * FORE_AFT])
-    wrapped = np.round(np.mod(degrees, 360.0), 6) % 360.0
-    wrapped, order = np.unique(wrapped, return_index=True)
-    return np.radians(wrapped), force[order], None if motion is None else motion[order], port
+def _read_mafredo(path: Path) -> VesselType:
+    """A ``.dhyd`` file: NetCDF in te and kN, phases that lag, without mass and stiffness.
+
+    Groups ``mass`` and ``damping`` hold one array each, ``Surge`` to ``Yaw`` real and imaginary part of the
+    loads, ``info`` symmetry and phase origin, forward and to port of what loads and matrices refer to.
+    """
+    with reading(path, "a MaFreDo database", NETCDF_ERRORS), open_netcdf(path) as file:
+        matrices = [_mafredo_matrices(file[name]) for name in ("mass", "damping")]
+        groups = [file[motion.capitalize()] for motion in MOTIONS]
+        grids = [[_coordinate(group[name]) for name in LOADS] for group in groups]
+        omega, (degrees, load_omega) = _coordinate(file["mass"]["omega"]), grids[0]
+        if not np.array_equal(omega, _coordinate(file["damping"]["omega"])):
+            raise ValueError("added mass and damping have different frequencies")
+        for motion, grid in zip(MOTIONS, grids, strict=True):
+            if not all(map(np.array_equal, grid, grids[0])):
+                raise ValueError(f"loads in {motion} and surge have different frequencies or directions")
+        parts = [[_by_names(group[part], LOADS) for group in groups] for part in ("real", "imag")]
+        real, imaginary = (np.stack(part, axis=-1) for part in parts)
+        force = np.asarray(np.conj(real + 1j * imaginary) * KILO, dtype=complex)
+        info = file.groups["info"].variables if "info" in file.groups else {}
+        places = ("phase_origin_0", "phase_origin_1")
+        origin = [float(info[name][...]) if name in info else 0.0 for name in places]
+        if not np.isfinite(origin).all():
+            raise ValueError(f"phase_origin is {origin}")
+        if "symmetry" in info:
+            symmetry = SYMMETRIES[int(np.asarray(info["symmetry"][...]))]
+        else:  # of old versions
+            one_side = bool(np.all(np.mod(degrees, 360.0) <= 180.0 + WHOLE))
+            symmetry = "xz plane" if one_side else "None"
+            warn_caller(
+                f"{path}: does not say which symmetry the vessel has; with directions up to "
+                f"{degrees.max():g} deg {symmetry!r} is taken, and loads from the other side follow from "
+                "that guess",
+                AssumedSymmetryWarning,
+            )
+    return VesselType(
+        name=path.stem, source=f"MaFreDo file {path.name}", place="reference point of the MaFreDo database",
+        symmetry=symmetry, omega=omega, added_mass=matrices[0] * KILO, damping=matrices[1] * KILO,
+        loads=Raos(degrees, load_omega, force, np.zeros(3), np.array([*origin, 0.0])),
+    )  # fmt: skip
 
 
-def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
-    """The matrix at a limiting frequency, if there is one; MaFreDo's empty databases start with zeros."""
-    found = matrices[where]
-    return found[0] if len(found) and np.any(found[0]) else None
+def _mafredo_matrices(group: Any) -> FloatArray:
+    """The group's array (n, 6, 6) with the influenced motion first, in the order of our motions."""
+    found = [variable for variable in group.variables.values() if set(variable.dimensions) == set(MATRIX)]
+    if len(found) != 1:
+        raise ValueError(f"group {group.name} holds {len(found)} arrays by {', '.join(MATRIX)}")
+    array = _by_names(found[0], MATRIX)
+    for axis, name in enumerate(MATRIX[1:], start=1):
+        labels = [str(label).lower() for label in np.asarray(group[name][...]).tolist()]
+        words = MOTIONS if labels[0] in MOTIONS else tuple(str(i) for i in range(6))
+        if sorted(labels) != sorted(words):
+            raise ValueError(f"{name} holds {', '.join(labels)[:200]}; six motions are needed")
+        array = np.take(array, [labels.index(word) for word in words], axis=axis)
+    return array
+
+
+def _by_names(variable: Any, order: tuple[str, ...]) -> FloatArray:
+    """A variable's numbers with its dimensions in that order."""
+    axes = [variable.dimensions.index(name) for name in order]
+    return np.asarray(variable[...], dtype=float).transpose(axes)
+
+
+def _coordinate(variable: Any) -> FloatArray:
+    """A list of finite numbers (infinity excepted for frequencies)."""
+    values = np.ravel(np.asarray(variable[...], dtype=float))
+    if values.size == 0 or np.any(np.isnan(values)) or np.any(np.isneginf(values)):
+        raise ValueError(f"{variable.name} is empty or holds undefined values")
+    return values
 
 
 FORMAT = Format(

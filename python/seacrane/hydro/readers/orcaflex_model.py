@@ -9,19 +9,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.readers.as_read import omega_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import decoded, read_whole
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 KILO = 1000.0  # te to kg, kN to N
 LARGEST_FILE = 64 * 2**20  # bytes; YAML is read at about 1 MiB/s
@@ -35,6 +33,7 @@ DEFAULTS = {
     "PitchPositiveBow": "down",
     "YawPositiveBow": "port",
 }
+UNITS = {"period (s)": "s", "frequency (rad/s)": "rad/s", "frequency (Hz)": "Hz"}
 LAG_OF_EVENT = {"crest": 0.0, "zero down-crossing": 0.5, "trough": 1.0, "zero up-crossing": 1.5}  # pi
 ADDED_MASS = ", ".join(f"AddedMassMatrix{axis}" for axis in ("X", "Y", "Z", "Rx", "Ry", "Rz"))
 DAMPING = ", ".join(f"Damping{axis}" for axis in ("X", "Y", "Z", "Rx", "Ry", "Rz"))
@@ -61,28 +60,31 @@ class VesselType:
     """One draught of a vessel type, SI; matrices about ``origin``; what is not in the file is None.
 
     ``omega`` (n,) of the matrices may hold 0 and infinity. ``mass``, ``centre`` and ``inertia`` (about the
-    centre) are of the structure; points are from the origin of the vessel's axes.
+    centre) are of the structure; points are from the origin of the vessel's axes. ``place`` says what the
+    origin is.
     """
 
     name: str
+    source: str
+    place: str
     symmetry: str
-    length: float | None
     omega: FloatArray
     added_mass: FloatArray
     damping: FloatArray
-    origin: FloatArray
     loads: Raos
-    motions: Raos | None
-    mass: float | None
-    centre: FloatArray
-    inertia: FloatArray
-    stiffness: FloatArray | None
-    volume: float | None
-    other_origin: FloatArray
-    other_linear: FloatArray
-    other_quadratic: FloatArray
-    rho: float | None
-    depth: float
+    origin: FloatArray = field(default_factory=lambda: np.zeros(3))
+    length: float | None = None
+    motions: Raos | None = None
+    mass: float | None = None
+    centre: FloatArray = field(default_factory=lambda: np.zeros(3))
+    inertia: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
+    stiffness: FloatArray | None = None
+    volume: float | None = None
+    other_origin: FloatArray = field(default_factory=lambda: np.zeros(3))
+    other_linear: FloatArray = field(default_factory=lambda: np.zeros(6))
+    other_quadratic: FloatArray = field(default_factory=lambda: np.zeros(6))
+    rho: float | None = None
+    depth: float = np.inf
 
 
 @dataclass(frozen=True)
@@ -135,10 +137,7 @@ class _Node:
         lines = self.items()
         if not lines or (rows is not None and len(lines) != rows):
             raise self.error(f"{rows or 'some'} rows are expected, found {len(lines)}")
-        for line in lines:
-            if len(line.items()) != columns:
-                raise line.error(f"{columns} numbers are expected, found {len(line.items())}")
-        return np.array([[entry.finite() for entry in line.items()] for line in lines])
+        return np.array([line.vector(columns) for line in lines])
 
     def vector(self, count: int) -> FloatArray:
         found = self.items()
@@ -166,31 +165,31 @@ def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None
                 f"{key} is {shown(kind.at(key).text())}; only {usual!r} is read: change the conventions"
             )
     state = _named(kind.at("Draughts"), draught, "draught")
-    origin = _point(state, "ReferenceOrigin")
+    origin = _vector(state, "ReferenceOrigin", np.zeros(3))
     omega, added_mass, damping = _matrices(kind, state)
     motions = state.has("DisplacementRAOs") and state.at("DisplacementRAOs").has("RAOs")
     sea = _Node(path, "Environment", model.value.get("Environment") or {})
+    name = f"{kind.at('Name').text()}, {state.at('Name').text()}"
+    x, y, z = origin
     return VesselType(
-        name=f"{kind.at('Name').text()}, {state.at('Name').text()}",
+        name=name, source=f"OrcaFlex model {path.name}, {name}", origin=origin,
+        place=f"reference origin of the OrcaFlex vessel type, ({x:g}, {y:g}, {z:g}) m in its axes",
         symmetry=kind.at("Symmetry").text() if kind.has("Symmetry") else "None",
         length=kind.at("Length").finite() if kind.has("Length") else None,
-        omega=omega,
-        added_mass=added_mass * KILO,
-        damping=damping * KILO,
-        origin=origin,
+        omega=omega, added_mass=added_mass * KILO, damping=damping * KILO,
         loads=_raos(kind, state.at("LoadRAOs"), np.full(6, KILO)),
         motions=_motion_raos(kind, state.at("DisplacementRAOs")) if motions else None,
         mass=state.at("Mass").finite() * KILO if state.has("Mass") else None,
-        centre=_point(state, "CentreOfMass" if state.has("CentreOfMass") else "CentreOfGravity"),
+        centre=_vector(state, f"CentreOf{'Mass' if state.has('CentreOfMass') else 'Gravity'}", np.zeros(3)),
         inertia=state.at(INERTIA).table(3, 3) * KILO if state.has(INERTIA) else np.zeros((3, 3)),
         stiffness=state.at(STIFFNESS).table(3, 3) * KILO if state.has(STIFFNESS) else None,
         volume=state.at("DisplacedVolume").finite() if state.has("DisplacedVolume") else None,
-        other_origin=_point(state, "OtherDampingOrigin"),
-        other_linear=_six(state, "OtherLinearDamping") * KILO,
-        other_quadratic=_six(state, "OtherQuadraticDamping") * KILO,
+        other_origin=_vector(state, "OtherDampingOrigin", np.zeros(3)),
+        other_linear=_vector(state, "OtherLinearDamping", np.zeros(6)) * KILO,
+        other_quadratic=_vector(state, "OtherQuadraticDamping", np.zeros(6)) * KILO,
         rho=sea.at("Density").finite() * KILO if sea.has("Density") else None,
         depth=sea.at("WaterDepth").number() if sea.has("WaterDepth") else math.inf,
-    )
+    )  # fmt: skip
 
 
 def _document(path: Path) -> dict[str, Any]:
@@ -241,15 +240,9 @@ def _named(nodes: _Node, name: str | None, argument: str) -> _Node:
 def _to_omega(kind: _Node, values: Sequence[float]) -> FloatArray:
     """Frequencies in rad/s of what the file refers to waves by; a period of 0 is infinity."""
     unit = kind.at("WavesReferredToBy").text()
-    array = np.array(values, dtype=float)
-    if np.any(array < 0.0):
-        raise kind.error(f"period or frequency {array.min():g}; give positive ones")
-    if unit == "period (s)":
-        with np.errstate(divide="ignore"):
-            return np.asarray(2.0 * np.pi / array)
-    if unit in ("frequency (rad/s)", "frequency (Hz)"):
-        return array * (2.0 * np.pi if unit.endswith("(Hz)") else 1.0)
-    raise kind.error(f"WavesReferredToBy is {shown(unit)}; period (s), frequency (rad/s) or (Hz) are known")
+    if unit not in UNITS:
+        raise kind.error(f"WavesReferredToBy is {shown(unit)}; {', '.join(UNITS)} are known")
+    return omega_of(np.array(values, dtype=float), UNITS[unit])
 
 
 def _matrices(kind: _Node, state: _Node) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -273,13 +266,13 @@ def _raos(kind: _Node, node: _Node, scale: FloatArray) -> Raos:
         if table.shape != tables[0].shape or np.any(table[:, 0] != tables[0][:, 0]):
             raise entry.error("periods or frequencies differ from those of the first direction")
     rows = np.array(tables)
-    origin = _point(node, "RAOOrigin")
+    origin = _vector(node, "RAOOrigin", np.zeros(3))
     return Raos(
         heading_deg=np.array([entry.at("RAODirection").finite() for entry in headings]),
         omega=_to_omega(kind, rows[0, :, 0].tolist()),
         values=rows[:, :, 1::2] * scale * np.exp(-1j * _lag(kind, rows[:, :, 2::2])),
         origin=origin,
-        phase_origin=_point(node, "PhaseOrigin", origin),
+        phase_origin=_vector(node, "PhaseOrigin", origin),
     )
 
 
@@ -305,13 +298,9 @@ def _motion_raos(kind: _Node, node: _Node) -> Raos:
     return _raos(kind, node, np.array([1.0, 1.0, 1.0, turn, turn, turn]))
 
 
-def _point(node: _Node, key: str, default: FloatArray | None = None) -> FloatArray:
-    """A point in vessel axes; where it is missing or ``~`` the default, which is the axes' origin."""
+def _vector(node: _Node, key: str, default: FloatArray) -> FloatArray:
+    """A point in vessel axes or six numbers; where it is missing or ``~``, the default."""
     given = node.at(key).value if node.has(key) else None
     if given is None or (isinstance(given, list) and all(value is None for value in given)):
-        return np.zeros(3) if default is None else default
-    return node.at(key).vector(3)
-
-
-def _six(node: _Node, key: str) -> FloatArray:
-    return node.at(key).vector(6) if node.has(key) else np.zeros(6)
+        return default
+    return node.at(key).vector(len(default))

@@ -8,12 +8,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.inputs.whole_file import read_whole
-
-FloatArray = NDArray[np.float64]
 
 NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[EeDd][-+]?\d+|[-+]\d{2,4})?"
 LETTERLESS = re.compile(r"([-+]?(?:\d+(?:\.\d*)?|\.\d+))([-+]\d{2,4})")  # 1.2-101: no room for the E

@@ -5,24 +5,23 @@ And those of one stem: which there are, whether they are of one run, which speed
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from math import nan
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.format import sibling
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.hydro.readers.format import sibling, stem_of
 from seacrane.hydro.readers.text_records import TextRecords
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
 from seacrane.warnings import PartialSetWarning, SeveralSpeedsWarning
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 HEADER_LINES = 6
 RADIATION = [0, 2, 4]  # places of A, B, C among A, A_add, B, B_add, C, C_add
@@ -33,12 +32,10 @@ LOST = {  # with a file that need not be there
     ".re2": "no drift",
     ".hyd": "hydrostatics are not compared",
 }
-SUFFIXES = (".re7", ".re8", ".re1", ".re2", ".hyd")
-MATRICES_AND_FORCE = SUFFIXES[:2]
+MATRICES_AND_FORCE = (".re7", ".re8")
 
 
-@dataclass(frozen=True)
-class VeresHeader:
+class VeresHeader(NamedTuple):
     """What the first lines of all files share; centre of gravity aft of midship and above the baseline."""
 
     rho: float
@@ -46,8 +43,8 @@ class VeresHeader:
     length: float
     breadth: float
     draught: float
-    lcg_aft: float | None = None
-    vcg: float | None = None
+    lcg_aft: float = nan
+    vcg: float = nan
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +91,17 @@ class VeresFile:
 def read_matrices(path: Path) -> VeresFile:
     """Read a ``.re7`` file of version 1 (no version line, no additional blocks) or 2."""
     records = TextRecords(path)
-    title, header = _header(records, with_gravity=True)
-    version = _version(records)
-    counts = _counts(records, with_motions=True)
-    kinds, what = ([*range(6)], "A, A_add, B, B_add, C, C_add") if version == 2 else (RADIATION, "A, B, C")
-    _expect(records, counts, before=6, each=6 * len(kinds) + 1)
+    title, header = _header(records)
+    kinds, what = RADIATION, "A, B, C"
+    if len(records.peek("the version line or counts")) != 4:  # of version 1, which has no such line
+        marker, version = records.integers(2, "version line or counts")
+        if marker != -1 or version != 2:
+            raise records.error(
+                f"version line '{marker} {version}': '-1 2' is version 2 of .re7, no such line version "
+                "1, and no other is known; export it again"
+            )
+        kinds, what = [*range(6)], "A, A_add, B, B_add, C, C_add"
+    counts = _counts(records, before=6, each=6 * len(kinds) + 1)
     mass = np.array([records.numbers(6, "mass matrix") for _ in range(6)])
 
     def row() -> FloatArray:
@@ -106,15 +109,14 @@ def read_matrices(path: Path) -> VeresFile:
         blocks[kinds] = records.table(6 * len(kinds), 6, what).reshape(-1, 6, 6)
         return np.append(blocks, records.numbers(3, "roll damping"))
 
-    return VeresFile(path, header, _cases(records, counts, row), title, mass)
+    return _file(records, header, _cases(records, counts, row), title=title, mass=mass)
 
 
 def read_transfer(path: Path) -> VeresFile:
     """Read a ``.re1`` or ``.re8`` file."""
     records = TextRecords(path)
-    _, header = _header(records, with_gravity=True)
-    counts = _counts(records, with_motions=True)
-    _expect(records, counts, before=0, each=6)
+    _, header = _header(records)
+    counts = _counts(records, before=0, each=6)
 
     def row() -> ComplexArray:
         rows = records.table(6, 3, "motion, real, imaginary part")
@@ -122,21 +124,14 @@ def read_transfer(path: Path) -> VeresFile:
             raise records.error(f"motions {rows[:, 0].tolist()} where 1 to 6 are expected")
         return np.asarray(rows[:, 1] + 1j * rows[:, 2])
 
-    return VeresFile(path, header, _cases(records, counts, row))
-
-
-def _expect(records: TextRecords, counts: tuple[int, int, int], *, before: int, each: int) -> None:
-    """Raise unless there are as many lines as follow from the counts, ``each`` of a frequency."""
-    speeds, m, n = counts
-    records.expect(before + speeds * (1 + m * (1 + n * (1 + each))), "the counts in its header")
+    return _file(records, header, _cases(records, counts, row))
 
 
 def _cases(
     records: TextRecords, counts: tuple[int, int, int], row: Callable[[], NDArray[Any]]
-) -> tuple[Case, ...]:
+) -> Iterator[Case]:
     """Every speed of a file, whose headings and frequencies have a ``row`` each."""
     speeds, m, n = counts
-    cases = []
     for _ in range(speeds):
         speed, _, _, x_aft, z = records.numbers(5, "speed, sinkage, trim, motion point")
         heading, omega, rows = np.empty(m), np.empty((m, n)), []
@@ -145,22 +140,17 @@ def _cases(
             for k in range(n):
                 (omega[h, k],) = records.numbers(1, "frequency")
                 rows.append(row())
-        values = np.array(rows).reshape(m, n, -1)
-        cases.append(Case(speed, heading, _one_omega(records, omega), values, (x_aft, z)))
-    records.finish()
-    return _distinct(records.path, cases)
+        yield Case(speed, heading, omega, np.array(rows).reshape(m, n, -1), (x_aft, z))
 
 
 def read_drift(path: Path) -> VeresFile:
     """Read a ``.re2`` file."""
     records = TextRecords(path)
     _, header = _header(records, with_gravity=False)
-    speeds, m, n = _counts(records, with_motions=False)
-    records.expect(speeds * m * (1 + n), "the counts in its header")
+    speeds, m, n = _counts(records)
     cases = []
     for _ in range(speeds):
-        speed, heading = np.empty(m), np.empty(m)
-        table = np.empty((m, n, 4))
+        speed, heading, table = np.empty(m), np.empty(m), np.empty((m, n, 4))
         for h in range(m):
             speed[h], heading[h] = records.numbers(2, "speed and heading")
             table[h] = records.table(n, 4, "frequency and three drift coefficients")
@@ -168,10 +158,31 @@ def read_drift(path: Path) -> VeresFile:
             raise records.error(
                 f"speeds {shown(np.unique(speed).tolist())} m/s where {m} headings of one are due"
             )
-        omega = _one_omega(records, table[:, :, 0])
-        cases.append(Case(float(speed[0]), heading, omega, table[:, :, 1:].copy()))
+        cases.append(Case(float(speed[0]), heading, table[:, :, 0], table[:, :, 1:].copy()))
+    return _file(records, header, cases)
+
+
+def _file(records: TextRecords, header: VeresHeader, given: Iterable[Case], **others: Any) -> VeresFile:
+    """The file, whose headings have to repeat their frequencies, and which gives each speed once."""
+    cases = []
+    for case in given:
+        other = np.flatnonzero(np.any(case.omega != case.omega[0], axis=1))
+        if other.size:
+            raise FileFormatError(
+                f"{records.path}: frequencies of heading number {other[0] + 1} differ from those of the first"
+            )
+        cases.append(replace(case, omega=np.array(case.omega[0])))
     records.finish()
-    return VeresFile(path, header, _distinct(path, cases))
+    for one, next_one in pairwise(sorted(case.speed for case in cases)):
+        if same_speed(one, next_one):
+            raise FileFormatError(
+                f"{records.path}: speed {next_one:g} m/s is given twice; export the file again"
+            )
+    return VeresFile(records.path, header, tuple(cases), **others)
+
+
+READERS = {".re7": read_matrices, ".re8": read_transfer, ".re1": read_transfer, ".re2": read_drift}
+SET = ("VERES", (".re7",), (*READERS, ".hyd"))  # as `stem_of` takes it
 
 
 def same_speed(a: float, b: float) -> bool:
@@ -179,142 +190,98 @@ def same_speed(a: float, b: float) -> bool:
     return abs(a - b) <= SPEED_DIGITS
 
 
-def _header(records: TextRecords, *, with_gravity: bool) -> tuple[str, VeresHeader]:
+def _header(records: TextRecords, *, with_gravity: bool = True) -> tuple[str, VeresHeader]:
     title = [records.text("the header") for _ in range(HEADER_LINES)]
-    rho, g = records.numbers(2, "density and gravity")
-    length, breadth, draught = records.numbers(3, "length, breadth, draught")
-    lcg, vcg = records.numbers(2, "LCG and VCG") if with_gravity else (None, None)
+    water = records.numbers(2, "density and gravity")
+    sizes = records.numbers(3, "length, breadth, draught")
+    gravity = records.numbers(2, "LCG and VCG") if with_gravity else []
     name = title[0].strip() + "; ship " + title[2].split(":", 1)[-1].strip()
-    return name, VeresHeader(rho, g, length, breadth, draught, lcg, vcg)
+    return name, VeresHeader(*water, *sizes, *gravity)
 
 
-def _version(records: TextRecords) -> int:
-    """Version 2 announces itself with a line ``-1 2``; version 1 has the counts in that place."""
-    if len(records.peek("the version line or counts")) == 4:
-        return 1
-    marker, version = records.integers(2, "version line or counts")
-    if marker != -1 or version != 2:
-        raise records.error(
-            f"version line '{marker} {version}': '-1 2' is version 2 of .re7, no such line version 1, and no "
-            "other is known; export it again"
-        )
-    return version
+def _counts(records: TextRecords, *, before: int = 0, each: int | None = None) -> tuple[int, int, int]:
+    """Numbers of speeds, headings and frequencies, for which there have to be lines: ``each`` of a frequency.
 
-
-def _counts(records: TextRecords, *, with_motions: bool) -> tuple[int, int, int]:
-    what = "numbers of speeds, headings, frequencies" + (", motions" if with_motions else "")
-    counts = records.integers(4 if with_motions else 3, what)
-    if min(counts) < 1 or (with_motions and counts[3] != 6):
+    None: of drift, where six motions are not counted, and each frequency is a line.
+    """
+    what = "numbers of speeds, headings, frequencies" + ("" if each is None else ", motions")
+    counts = records.integers(3 if each is None else 4, what)
+    if min(counts) < 1 or counts[3:] not in ([], [6]):
         raise records.error(
             f"counts {' '.join(map(str, counts))}: at least one speed, heading and frequency, and six "
             "motions are needed"
         )
-    return counts[0], counts[1], counts[2]
-
-
-def _one_omega(records: TextRecords, omega: FloatArray) -> FloatArray:
-    """The frequencies, which every heading has to repeat."""
-    if np.any(omega != omega[0]):
-        heading = int(np.argwhere(np.any(omega != omega[0], axis=1))[0, 0])
-        raise FileFormatError(
-            f"{records.path}: frequencies of heading number {heading + 1} differ from those of the first"
-        )
-    return np.array(omega[0])
-
-
-def _distinct(path: Path, cases: list[Case]) -> tuple[Case, ...]:
-    """The cases, none of whose speeds may occur twice."""
-    for case, other in pairwise(sorted(cases, key=lambda case: case.speed)):
-        if same_speed(case.speed, other.speed):
-            raise FileFormatError(f"{path}: speed {other.speed:g} m/s is given twice; export the file again")
-    return tuple(cases)
+    speeds, m, n = counts[:3]
+    lines = speeds * m * (1 + n) if each is None else before + speeds * (1 + m * (1 + n * (1 + each)))
+    records.expect(lines, "the counts in its header")
+    return speeds, m, n
 
 
 @dataclass(frozen=True, eq=False)
 class VeresSet:
-    """The files of one stem; what is not there is None."""
+    """The files of one stem that there are, by suffix."""
 
     stem: Path
-    matrices: VeresFile
-    force: VeresFile | None
-    motion: VeresFile | None
-    drift: VeresFile | None
+    files: dict[str, VeresFile]
 
-    def files(self) -> list[VeresFile]:
-        every = (self.matrices, self.force, self.motion, self.drift)
-        return [file for file in every if file is not None]
+    @property
+    def matrices(self) -> VeresFile:
+        return self.files[".re7"]
 
+    def case(self, suffix: str, speed: float) -> Case:
+        """What a file holds at a speed that all have."""
+        return next(case for case in self.files[suffix].cases if same_speed(case.speed, speed))
 
-def veres_speeds(path: Path) -> tuple[float, ...]:
-    """Forward speeds (m/s) that every file of the set at ``path`` holds."""
-    return common_speeds(read_set(find_stem(path)))
+    def other_run(self, suffix: str, what: str) -> FileFormatError:
+        """Error of a file that belongs to another calculation."""
+        return FileFormatError(
+            f"{self.files[suffix].path}: {what} differ from the .re7 file; use files of one VERES run"
+        )
+
+    def common_speeds(self) -> tuple[float, ...]:
+        """Forward speeds (m/s) that every file holds, rising."""
+        every = [file.speeds for file in self.files.values()]
+        common = [
+            speed
+            for speed in self.matrices.speeds
+            if all(any(same_speed(speed, other) for other in speeds) for speeds in every)
+        ]
+        if not common:
+            lists = "; ".join(f"{file.path.name}: {_listed(file.speeds)}" for file in self.files.values())
+            raise FileFormatError(
+                f"{self.stem}: no speed is in every file ({lists}); use files of one VERES run"
+            )
+        return tuple(sorted(common))
 
 
 def is_veres(path: Path) -> bool:
     """Whether ``path`` is a folder, stem or file of a VERES set."""
     if path.is_dir():
         return any(file.suffix.lower() in MATRICES_AND_FORCE for file in path.iterdir())
-    stem = find_stem(path)
+    stem = stem_of(path, *SET)
     return any(sibling(stem, suffix) is not None for suffix in MATRICES_AND_FORCE)
 
 
-def find_stem(path: Path) -> Path:
-    """Common stem (folder and name without suffix) of the set of files that ``path`` points to."""
-    if path.is_dir():
-        stems = sorted({file.with_suffix("") for file in path.iterdir() if file.suffix.lower() == ".re7"})
-        if len(stems) != 1:
-            found = ", ".join(stem.name for stem in stems) or "none"
-            raise FileFormatError(
-                f"{path}: one .re7 file is needed in a VERES folder, found: {found}; give the stem"
-            )
-        return stems[0]
-    return path.with_suffix("") if path.suffix.lower() in SUFFIXES else path
-
-
-def read_set(stem: Path) -> VeresSet:
-    """All files of the set, from one calculation."""
-    re7, re8, re1, re2 = (sibling(stem, suffix) for suffix in SUFFIXES[:4])
-    if re7 is None:
+def read_set(path: Path) -> VeresSet:
+    """All files of the set that ``path`` points to, from one calculation."""
+    stem = stem_of(path, *SET)
+    places = {suffix: place for suffix in READERS if (place := sibling(stem, suffix)) is not None}
+    if ".re7" not in places:
         raise FileFormatError(
             f"{stem}.re7: no such file; without it there is no mass, added mass, damping nor restoring. "
             "Motions alone (.re1) move a given ship: seacrane.MotionRaos"
         )
-    if re8 is None and re1 is None:
+    if not {".re8", ".re1"} & set(places):
         raise FileFormatError(
             f"{stem}.re8: no such file, nor .re1, from whose motions wave forces follow: without both "
             "there is no load of waves"
         )
-    matrices, force = read_matrices(re7), None if re8 is None else read_transfer(re8)
-    motion = None if re1 is None else read_transfer(re1)
-    drift = None if re2 is None else read_drift(re2)
-    found = VeresSet(stem, matrices, force, motion, drift)
-    for file in found.files():
-        header = file.header
-        if file is drift:
-            header = replace(header, lcg_aft=matrices.header.lcg_aft, vcg=matrices.header.vcg)
-        if header != matrices.header:
-            raise other_run(file.path, "header (density, gravity, dimensions)")
+    found = VeresSet(stem, {suffix: READERS[suffix](place) for suffix, place in places.items()})
+    for suffix, file in found.files.items():
+        shared = 5 if suffix == ".re2" else 7  # which has no centre of gravity
+        if file.header[:shared] != found.matrices.header[:shared]:
+            raise found.other_run(suffix, "header (density, gravity, dimensions)")
     return found
-
-
-def other_run(path: Path, what: str) -> FileFormatError:
-    """Error of a file that belongs to another calculation."""
-    return FileFormatError(f"{path}: {what} differ from the .re7 file; use files of one VERES run")
-
-
-def common_speeds(found: VeresSet) -> tuple[float, ...]:
-    """Speeds of ``.re7`` that all other files hold too."""
-    common = [
-        speed
-        for speed in found.matrices.speeds
-        if all(any(same_speed(speed, other) for other in file.speeds) for file in found.files())
-    ]
-    if not common:
-        lists = "; ".join(f"{file.path.name}: {_listed(file.speeds)}" for file in found.files())
-        raise FileFormatError(
-            f"{found.stem}: no speed is in every file ({lists}); use files of one VERES run"
-        )
-    return tuple(sorted(common))
 
 
 def _listed(values: Sequence[float]) -> str:
@@ -323,9 +290,9 @@ def _listed(values: Sequence[float]) -> str:
 
 def choose_speed(found: VeresSet, speed: float | None) -> float:
     """The speed to read, with warnings about the others."""
-    common = common_speeds(found)
+    common = found.common_speeds()
     partial: list[float] = []
-    for value in sorted(value for file in found.files() for value in file.speeds):
+    for value in sorted(value for file in found.files.values() for value in file.speeds):
         if not any(same_speed(value, other) for other in (*common, *partial)):
             partial.append(value)
     if partial:
@@ -347,8 +314,3 @@ def choose_speed(found: VeresSet, speed: float | None) -> float:
             SeveralSpeedsWarning,
         )
     return nearest
-
-
-def at_speed(cases: Sequence[Case], speed: float) -> Case:
-    """The one of a file's cases that has the speed."""
-    return next(case for case in cases if same_speed(case.speed, speed))

@@ -10,24 +10,25 @@ have zero phase at the origin of the global axes, which is the group's (chapter 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
+from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.hydro.data.hydro_group_data import GroupBody
-from seacrane.hydro.data.reading import reading
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-from seacrane.hydro.readers.as_read import as_read, finished, mass_of_file
-from seacrane.hydro.readers.format import Format, Loaded, sibling
-from seacrane.hydro.readers.of_bodies import Given, floating_body, hull_or_group, of_each_or_none
+from seacrane.hydro.readers.as_read import Asked, Given, mass_of_file, rising_degrees
+from seacrane.hydro.readers.format import Format, Loaded, sibling, stem_of
+from seacrane.hydro.readers.of_bodies import density_of, floating_body, hull_or_group, of_each
 from seacrane.hydro.readers.wamit_listing import (
     ROTATIONS,
     ForceControl,
@@ -41,25 +42,25 @@ from seacrane.hydro.readers.wamit_listing import (
 )
 from seacrane.hydro.readers.wamit_tables import (
     BY_PREFERENCE,
+    RADIATION,
+    WAVES,
     Radiation,
     WaveTable,
     radiation_of,
     read_mean_drift,
-    read_radiation,
     read_restoring,
-    read_waves,
+    read_table,
     waves_of,
 )
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
-from seacrane.warnings import AssumedDensityWarning, PartialSetWarning, RoundedPhaseWarning
+from seacrane.warnings import PartialSetWarning, RoundedPhaseWarning
 
-FloatArray = NDArray[np.float64]
 Files = dict[str, Path | None]  # by suffix
 
 SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
+SET = ("WAMIT", (".1", ".out"), SUFFIXES)  # as `stem_of` takes it
 NEEDED = (".1", ".3", ".hst")
-USUAL_DENSITY = 1025.0
 HASKIND_LIMIT = np.full(6, 0.01)  # two force methods differ by the mesh's error
 HASKIND_FLOOR = np.array([0.05, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4])  # surge in beam seas is a difference of errors
 DIFFRACTION_LIMIT = np.full(6, 1e-3)  # the forces of .3 themselves, in seven digits
@@ -76,6 +77,7 @@ def read_wamit(
     rho: float | None = None,
     mass_matrix: Given | None = None,
     motions: Sequence[str] | None = None,
+    leave_out: ArrayLike | None = None,
 ) -> Loaded:
     """Read the WAMIT results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
@@ -92,8 +94,7 @@ def read_wamit(
     rho : kg/m3, of a set that does not tell it.
     mass_matrix : (6, 6) in SI about the origin; it takes the place of mass and inertia of ``.frc``. Of
         several bodies by name; by default their displaced masses with usual radii of gyration.
-    motions : names of those that were solved for, where some were not: a motion without added mass and
-        damping is refused unless it is left out here.
+    motions, leave_out : as `read_capytaine` takes them.
 
     Returns
     -------
@@ -106,7 +107,7 @@ def read_wamit(
     Warns
     -----
     AssumedDensityWarning : neither ``.frc`` nor ``.out`` holds a density.
-    AssumedInertiaWarning : no ``.frc``, or one without mass matrix; or several bodies and no ``mass_matrix``.
+    AssumedInertiaWarning : no mass, in ``.frc`` or as ``mass_matrix``.
     PartialSetWarning : periods or headings are not the same in all files.
     RoundedPhaseWarning : the forces are those of the listing.
 
@@ -115,33 +116,22 @@ def read_wamit(
     FileFormatError : a file is missing, truncated, damaged or inconsistent with the others; the message names
         the file and, where there is one, the line.
     """
-    stem = find_wamit_stem(Path(path))
+    stem = stem_of(Path(path), *SET)
     files = {suffix: sibling(stem, suffix) for suffix in SUFFIXES}
-
-    def as_given() -> Listing:
-        return _listing_as_given(stem, volume, depth, g, length_scale)
-
+    asked = Asked(
+        where=stem, reader="read_wamit", mass_matrix=mass_matrix, motions=motions, leave_out=leave_out
+    )
     with reading(stem):
-        made = _convert(stem, files, as_given, rho, mass_matrix)
-        found = as_read(stem, "read_wamit", made, motions)
-    return finished(stem, found, "the .hst file of this run")
-
-
-def find_wamit_stem(path: Path) -> Path:
-    """Common stem (folder and name without suffix) of the set of files that ``path`` points to."""
-    if path.is_dir():
-        files = sorted(path.iterdir())
-        stems = list(dict.fromkeys(file.with_suffix("") for file in files if file.suffix == ".1"))
-        stems = stems or [file.with_suffix("") for file in files if file.suffix.lower() == ".out"]
-        if len(stems) != 1:
-            found = ", ".join(stem.name for stem in stems) or "none"
+        if files[".cfg"] is not None:
+            check_period_output(files[".cfg"])
+        listing = None if files[".out"] is None else read_listing(files[".out"])
+        lacking = next((suffix for suffix in NEEDED if files[suffix] is None), None)
+        if (listing is None or len(listing.bodies) == 1) and lacking is not None:
             raise FileFormatError(
-                f"{path}: one .1 file is needed in a WAMIT folder, found: {found}; give the stem"
+                f"{stem}{lacking}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
             )
-        return stems[0]
-    if sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
-        return path.with_suffix("")
-    return path
+        listing = listing or _listing_as_given(stem, volume, depth, g, length_scale)
+        return _convert(asked, files, listing, rho)
 
 
 def is_wamit(path: Path) -> bool:
@@ -149,7 +139,7 @@ def is_wamit(path: Path) -> bool:
     if path.is_dir() and any(file.suffix == ".1" for file in path.iterdir()):
         return True
     try:
-        stem = find_wamit_stem(path)
+        stem = stem_of(path, *SET)
     except FileFormatError:
         return False
     if not path.is_dir() and any(sibling(stem, suffix) is not None for suffix in NEEDED):
@@ -165,61 +155,56 @@ def _listing_as_given(stem: Path, volume: float | None, depth: float, g: float, 
             f"{stem}.out: no such file; WAMIT needs it, or read_wamit the displaced volume in m3 (and depth, "
             "g, length_scale where they are not inf, 9.80665, 1)"
         )
-    values = {"volume": float(volume), "depth": float(depth), "g": float(g), "length_scale": float(scale)}
-    for name, value in values.items():
+    given = {"volume": volume, "depth": depth, "g": g, "length_scale": scale}
+    for name, value in given.items():
         if not (value > 0.0 and (np.isfinite(value) or name == "depth")):
             raise FileFormatError(f"{stem}: {name} is {value!r}; give a positive number")
-    centre = np.zeros(3)
     return Listing(
-        path=stem,
-        version="without .out,",
-        title="volume, depth and gravity as given",
-        g=values["g"],
-        length_scale=values["length_scale"],
-        depth=values["depth"],
-        rho=None,
-        bodies=(ListedBody(stem.name, centre, 0.0, values["volume"], centre),),
-    )
+        path=stem, version="without .out,", title="volume, depth and gravity as given", g=float(g), rho=None,
+        length_scale=float(scale), depth=float(depth),
+        bodies=(ListedBody(stem.name, np.zeros(3), 0.0, float(volume), np.zeros(3)),),
+    )  # fmt: skip
 
 
 def _numbers(files: Files, listing: Listing) -> tuple[Radiation, WaveTable, str]:
     """Matrices and forces, non-dimensional, and which files hold them."""
     count = len(listing.bodies)
     if files[".1"] is not None and files[".3"] is not None:
-        found = read_radiation(files[".1"], bodies=count), read_waves(files[".3"], bodies=count)
-        return *found, ".1, .3, .out"
-    rows, forces = listed_tables(listing)
-    warn_caller(
-        f"{listing.path}: wave forces are read from the listing, whose phases are rounded to degrees: each "
-        "is off by up to 0.9 % of its size. Give the .1 and .3 files beside it",
-        RoundedPhaseWarning,
-    )
-    return radiation_of(rows, bodies=count), waves_of(forces, bodies=count), ".out alone"
-
-
-def _convert(
-    stem: Path, files: Files, as_given: Callable[[], Listing], given_rho: float | None, mass: Given | None
-) -> Loaded:
-    """The database or the group in SI."""
-    if files[".cfg"] is not None:
-        check_period_output(files[".cfg"])
-    listing = None if files[".out"] is None else read_listing(files[".out"])
-    alone = listing is None or len(listing.bodies) == 1
-    lacking = next((suffix for suffix in NEEDED if files[suffix] is None), None)
-    if alone and lacking is not None:
-        raise FileFormatError(
-            f"{stem}{lacking}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
+        rows, forces = read_table(files[".1"], RADIATION), read_table(files[".3"], WAVES)
+        told = ".1, .3, .out"
+    else:
+        rows, forces = listed_tables(listing)
+        told = ".out alone"
+        warn_caller(
+            f"{listing.path}: wave forces are read from the listing, whose phases are rounded to degrees: "
+            "each is off by up to 0.9 % of its size. Give the .1 and .3 files beside it",
+            RoundedPhaseWarning,
         )
-    listing = listing or as_given()
-    count = len(listing.bodies)
-    whole = None if files[".hst"] is None else read_restoring(files[".hst"], bodies=count)
+    return radiation_of(rows, bodies=count), waves_of(forces, bodies=count), told
+
+
+def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) -> Loaded:
+    """The database or the group in SI."""
+    stem, count = asked.where, len(listing.bodies)
     radiation, waves, told = _numbers(files, listing)
-    motion = None if files[".4"] is None or not alone else read_waves(files[".4"])
-    control = None if files[".frc"] is None or not alone else read_force_control(files[".frc"])
-    if files[".out"] is not None and files[".1"] is not None:
-        _check_periods(listing, radiation.period, files[".1"])
+    motion = None
+    if files[".4"] is not None and count == 1:
+        motion = waves_of(read_table(files[".4"], WAVES), bodies=1)
+    control = None if files[".frc"] is None or count > 1 else read_force_control(files[".frc"])
+    for value in [] if files[".out"] is None or files[".1"] is None else radiation.period:
+        if not np.any(np.abs(np.array(listing.period) - value) <= 1e-5 * value):
+            raise FileFormatError(
+                f"{listing.path}, line {len(listing.lines)}: the file ends without period {value:g} s of the "
+                ".1 file; it is truncated, or the files are not of one run"
+            )
     period, heading_deg = _common_periods(stem, radiation, waves, motion)
-    rho = _density(stem, listing.rho, given_rho if control is None or control.rho is None else control.rho)
+    rho = rho if control is None or control.rho is None else control.rho
+    if rho is not None and listing.rho is not None and abs(rho - listing.rho) > 1e-4 * rho:
+        raise FileFormatError(
+            f"{stem}: density {rho:g} kg/m3 in .frc but {listing.rho:g} in .out; use files of one run"
+        )
+    consequence = "every mass, stiffness and force is proportional to it"
+    rho = density_of(asked, listing.rho if rho is None else rho, consequence)
     g, scale = listing.g, listing.length_scale
     turns = np.tile(ROTATIONS, count)
     mass_scale = rho * scale ** (3 + np.add.outer(turns, turns))
@@ -232,103 +217,68 @@ def _convert(
         at = np.searchsorted(table.heading_deg, heading_deg)[order]
         return np.asarray(table.values[np.ix_(at, np.searchsorted(table.period, period)[::-1])])
 
-    limits = (radiation.infinite_frequency_added_mass, radiation.zero_frequency_added_mass)
-    infinite, zero = (None if limit is None else limit * mass_scale for limit in limits)
-    bodies = _bodies(stem, listing, whole, rho, mass, control)
+    bodies = _bodies(asked, files, listing, rho, control)
     own: dict[str, Any] = {}
     origin = "origin of WAMIT's global axes, on the still waterline"
     lids = ", ".join(f"{body.name} {body.lid_panels}" for body in listing.bodies)
     source = f"WAMIT {listing.version} files {stem.name} ({told}); interior lid panels: {lids}"
-    if alone:
+    if count == 1:
         haskind = control is None or control.motions_option != 2
+        symmetric = listing.symmetric
+        if symmetric is None:
+            symmetric = keeps_sides_apart(radiation.added_mass)
         own = {
-            **_of_one(listing, bodies[0], radiation, omega, haskind=haskind),
+            "port_starboard_symmetric": symmetric,
+            "trusted_band": _trusted(listing, bodies[0], symmetric, omega),
             "motion_rao": None if motion is None else picked(motion) / scale**ROTATIONS,
+            "motion_rao_limit": HASKIND_LIMIT if haskind else DIFFRACTION_LIMIT,
+            "motion_rao_floor": HASKIND_FLOOR if haskind else np.full(6, 1e-4),
             "drift": _drift(files, listing, rho),
         }
         height = listing.bodies[0].position[2]
         place = "on the still waterline" if height == 0.0 else f"{height:g} m above the still waterline"
         origin = f"origin of the WAMIT body axes, {place}"
-        source = _source(stem, files, listing, haskind=haskind)
+        read = ", ".join(suffix for suffix in SUFFIXES if files[suffix] is not None and suffix != ".pot")
+        source = f"WAMIT {listing.version} files {stem.name} ({read}): {listing.title}"
+        if motion is not None:
+            source += f"; motions by WAMIT from {'Haskind' if haskind else 'diffraction'} forces"
     return hull_or_group(
-        bodies,
-        alone=own,
-        name=stem.name,
-        omega=omega,
-        heading=direction,
-        added_mass=radiation.added_mass[rows] * mass_scale,
-        damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
-        infinite_frequency_added_mass=infinite,
-        zero_frequency_added_mass=zero,
+        asked, bodies, fix="the .hst file of this run", alone=own,
+        name=stem.name, origin=origin, source=source, rho=rho, g=g, depth=listing.depth,
+        omega=omega, heading=direction,
         force=picked(waves) * rho * g * scale ** (2 + turns),
-        rho=rho,
-        g=g,
-        depth=listing.depth,
-        origin=origin,
-        source=source,
-    )
+        added_mass=radiation.added_mass[rows] * mass_scale,
+        **{name: limit * mass_scale for name, limit in radiation.limits.items()},
+        damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
+    )  # fmt: skip
 
 
 def _bodies(
-    stem: Path,
-    listing: Listing,
-    whole: FloatArray | None,
-    rho: float,
-    given: Given | None,
-    control: ForceControl | None,
+    asked: Asked, files: Files, listing: Listing, rho: float, control: ForceControl | None
 ) -> list[GroupBody]:
     g, scale, several = listing.g, listing.length_scale, len(listing.bodies) > 1
+    whole = None if files[".hst"] is None else read_restoring(files[".hst"], bodies=len(listing.bodies))
     names = [body.name for body in listing.bodies]
-    masses = of_each_or_none(listing.path, "mass_matrix", names, given)
+    masses = of_each(replace(asked, where=listing.path), "mass_matrix", names, asked.mass_matrix)
     power = scale ** (2 + np.add.outer(ROTATIONS, ROTATIONS))
     bodies = []
     for i, (body, mass) in enumerate(zip(listing.bodies, masses, strict=True)):
         at = slice(6 * i, 6 * i + 6)
         restoring = body.restoring(scale) * rho * g if whole is None else whole[at, at] * rho * g * power
-        centre = body.gravity
-        if control is not None and control.center_of_gravity is not None:
-            centre = control.center_of_gravity
-        if mass is None and control is not None:
-            mass = _mass_of_control(control, body, rho)
-        bodies.append(
-            floating_body(
-                listing.path if several else stem,
-                body.name,
-                several=several,
-                position=body.position,
-                heading=body.heading,
-                restoring=restoring,
-                volume=body.volume,
-                water=(rho, g),
-                mass=mass,
-                centre=centre,
-                lacks=(
-                    f"no mass matrix of {body.name}, pass mass_matrix to read_wamit"
-                    if several
-                    else "no mass matrix in .frc"
-                ),
-            )
-        )
-    if control is not None and control.damping is not None:
-        bodies[0] = replace(bodies[0], linear_damping=control.damping)
-    if control is not None and control.stiffness is not None:
-        bodies[0] = replace(bodies[0], restoring=bodies[0].restoring + control.stiffness)
+        centre, damping = body.gravity, None
+        if control is not None:
+            centre = centre if control.center_of_gravity is None else control.center_of_gravity
+            mass = _mass_of_control(asked, control, body, rho) if mass is None else mass
+            damping = control.damping
+        made = floating_body(
+            asked, body.name, where=listing.path if several else None, several=several,
+            position=body.position, heading=body.heading, restoring=restoring, volume=body.volume,
+            water=(rho, g), mass=mass, centre=centre, linear_damping=damping,
+        )  # fmt: skip
+        if control is not None and control.stiffness is not None:
+            made = replace(made, restoring=restoring + control.stiffness)
+        bodies.append(made)
     return bodies
-
-
-def _of_one(
-    listing: Listing, body: GroupBody, radiation: Radiation, omega: FloatArray, *, haskind: bool
-) -> dict[str, Any]:
-    """Symmetry and trusted band of a body alone, and how far its motions may be off."""
-    symmetric = listing.symmetric
-    if symmetric is None:
-        symmetric = keeps_sides_apart(radiation.added_mass)
-    return {
-        "port_starboard_symmetric": symmetric,
-        "trusted_band": _trusted(listing, body, symmetric, omega),
-        "motion_rao_limit": HASKIND_LIMIT if haskind else DIFFRACTION_LIMIT,
-        "motion_rao_floor": HASKIND_FLOOR if haskind else np.full(6, 1e-4),
-    }
 
 
 def _drift(files: Files, listing: Listing, rho: float) -> DriftCoefficients | None:
@@ -339,31 +289,20 @@ def _drift(files: Files, listing: Listing, rho: float) -> DriftCoefficients | No
     found = read_mean_drift(path)
     direction, order = _directions(path, found.heading_deg)
     scale = rho * listing.g * listing.length_scale ** (1 + ROTATIONS)
-    return DriftCoefficients(
-        heading=direction,
-        omega=(2.0 * np.pi / found.period)[::-1],
-        coefficient=found.values[order][:, ::-1] * scale,
-    )
-
-
-def _check_periods(listing: Listing, period: FloatArray, path: Path) -> None:
-    """Raise unless the listing goes through every period of the matrices."""
-    for value in period:
-        if not np.any(np.abs(np.array(listing.period) - value) <= 1e-5 * value):
-            raise FileFormatError(
-                f"{listing.path}, line {len(listing.lines)}: the file ends without period {value:g} s of "
-                f"{path.name}; it is truncated, or the files are not of one run"
-            )
+    omega, load = (2.0 * np.pi / found.period)[::-1], found.values[order][:, ::-1] * scale
+    return DriftCoefficients(heading=direction, omega=omega, coefficient=load)
 
 
 def _common_periods(
     stem: Path, radiation: Radiation, force: WaveTable, motion: WaveTable | None
 ) -> tuple[FloatArray, FloatArray]:
     """Periods and headings that all files hold, with a warning where one holds more."""
-    periods = [radiation.period, force.period] + ([] if motion is None else [motion.period])
-    headings = [force.heading_deg] + ([] if motion is None else [motion.heading_deg])
+    waves = [force] if motion is None else [force, motion]
     shared = []
-    for what, unit, lists in (("periods", "s", periods), ("headings", "deg", headings)):
+    for what, unit, lists in (
+        ("periods", "s", [radiation.period, *(table.period for table in waves)]),
+        ("headings", "deg", [table.heading_deg for table in waves]),
+    ):
         common = lists[0][np.all([np.isin(lists[0], other) for other in lists], axis=0)]
         if len(common) == 0:
             raise FileFormatError(f"{stem}: .1, .3 and .4 have no {what} in common; use files of one run")
@@ -381,48 +320,24 @@ def _common_periods(
 
 def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     """Directions in [0, 2 pi), rising, and their places in ``heading_deg``; 360 deg beside 0 is dropped."""
-    wrapped = np.round(np.mod(heading_deg, 360.0), 6) % 360.0
-    degrees, order = np.unique(wrapped, return_index=True)
-    repeated = len(wrapped) - len(degrees)
+    degrees, order = rising_degrees(heading_deg)
+    repeated = len(heading_deg) - len(degrees)
     if repeated and not (repeated == 1 and np.ptp(heading_deg) == 360.0):
         raise FileFormatError(f"{path}: headings {shown(heading_deg.tolist())} deg name one direction twice")
     return np.radians(degrees), order
 
 
-def _density(stem: Path, listed: float | None, given: float | None) -> float:
-    """kg/m3 of the listing or as given; where both tell it, they have to agree."""
-    if given is None and listed is None:
-        warn_caller(
-            f"{stem}: neither .frc nor .out holds the water density; 1025 kg/m3 is taken, and every mass, "
-            "stiffness and force is proportional to it",
-            AssumedDensityWarning,
-        )
-        return USUAL_DENSITY
-    if given is not None and listed is not None and abs(given - listed) > 1e-4 * given:
-        raise FileFormatError(
-            f"{stem}: density {given:g} kg/m3 in .frc but {listed:g} in .out; use files of one run"
-        )
-    return float(given if given is not None else listed or USUAL_DENSITY)
-
-
-def _mass_of_control(control: ForceControl, body: ListedBody, rho: float) -> FloatArray | None:
+def _mass_of_control(asked: Asked, control: ForceControl, body: ListedBody, rho: float) -> FloatArray | None:
     """Mass matrix (6, 6) of ``.frc``, or the displaced mass with its radii; None where it has neither."""
-    mass, asked = rho * body.volume, "read_wamit(mass_matrix=...)"
+    mass = rho * body.volume
     if control.mass is not None:
-        return mass_of_file(control.path, asked, control.mass, displaced=mass)
+        return mass_of_file(asked, control.mass, where=control.path, displaced=mass)
     if control.radii is None or control.height_of_gravity is None:
         return None
     centre = np.array([*body.gravity[:2], control.height_of_gravity])
     matrix = rigid_mass_matrix(mass, centre, np.zeros((3, 3)))
     matrix[3:, 3:] = mass * control.radii * np.abs(control.radii)
-    return mass_of_file(control.path, asked, matrix)
-
-
-def _source(stem: Path, files: Files, listing: Listing, *, haskind: bool) -> str:
-    read = ", ".join(suffix for suffix in SUFFIXES if files[suffix] is not None and suffix != ".pot")
-    method = "Haskind" if haskind else "diffraction"
-    motions = "" if files[".4"] is None else f"; motions by WAMIT from {method} forces"
-    return f"WAMIT {listing.version} files {stem.name} ({read}): {listing.title}{motions}"
+    return mass_of_file(asked, matrix, where=control.path)
 
 
 def _trusted(

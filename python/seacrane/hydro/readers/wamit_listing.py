@@ -5,19 +5,17 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from itertools import pairwise, takewhile
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.readers.text_records import NUMBER as WORD
 from seacrane.hydro.readers.text_records import TextRecords, is_number, number_at, text_of
 from seacrane.hydro.readers.wamit_tables import INFINITE_FREQUENCY_PERIOD, ZERO_FREQUENCY_PERIOD, Table
-
-FloatArray = NDArray[np.float64]
 
 NUMBER = rf"({WORD}|\*+)"
 TRIPLE = rf"\s*:?\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}"
@@ -131,33 +129,32 @@ def read_listing(path: Path) -> Listing:
     Raises FileFormatError: something needed is missing, or the one body is placed away from the origin.
     """
     text = text_of(path).rstrip("\n")
-    lines = text.split("\n")
     whole = _Part(path, text, 0, len(text))
     g, scale = whole.find(rf"Gravity:\s+{NUMBER}\s+Length scale:\s+{NUMBER}", "gravity and length scale")
     if min(g, scale) <= 0.0:
         raise FileFormatError(f"{path}: gravity {g:g} and length scale {scale:g} must be positive")
     density = whole.maybe(rf"Water density:\s+{NUMBER}")
     version = re.search(r"WAMIT\s+Version\s+(\S+)", text)
+    title = re.search(r"Geometric Data File[^\n]*\n([^\n]*)", text)  # the line under its name
     symmetry = re.search(r"Symmetry:[^\n]*", text)
+    depth = re.search(r"Water depth:\s+(\S+)", text)
+    if depth is None:
+        raise whole.error("the water depth")
+    deep = depth.group(1).lower().startswith("inf")
     panels = whole.maybe(r"Total panels:\s+(\d+)")
     periods = [
         number_at(path, whole.line(found.start()), found[1])
         for found in re.finditer(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)
     ]
     return Listing(
-        path=path,
-        version=version.group(1) if version else "of unknown version",
-        title=_title(lines),
-        g=g,
-        length_scale=scale,
-        depth=_depth(whole),
-        rho=density[0] if density and density[0] > 1.0 else None,
-        bodies=tuple(_bodies(whole)),
+        path=path, version=version.group(1) if version else "of unknown version",
+        title=title.group(1).strip() if title else "", g=g, length_scale=scale,
+        depth=math.inf if deep else number_at(path, whole.line(depth.start()), depth.group(1)),
+        rho=density[0] if density and density[0] > 1.0 else None, bodies=tuple(_bodies(whole)),
         symmetric=None if symmetry is None else "Y=0" in symmetry.group(0).replace(" ", ""),
         panels=int(panels[0]) if panels and panels[0] >= 1.0 else None,
-        period=tuple(periods),
-        lines=tuple(lines),
-    )
+        period=tuple(periods), lines=tuple(text.split("\n")),
+    )  # fmt: skip
 
 
 def _bodies(whole: _Part) -> list[ListedBody]:
@@ -190,32 +187,11 @@ def _body(part: _Part, name: str, *, alone: bool) -> ListedBody:
     if np.mean(volumes) <= 0.0:
         raise FileFormatError(f"{part.path}: volumes {volumes}{part.whose} must be positive")
     free = part.maybe(r"Free surface panels:\s*(\d+)")
+    gravity = part.maybe(r"Center of Gravity\s+\(Xg,Yg,Zg\)" + TRIPLE) or buoyancy
     return ListedBody(
-        name=name,
-        position=np.array([x, y, z]),
-        heading=float(np.radians(angle)),
-        volume=float(np.mean(volumes)),
-        gravity=np.array(part.maybe(r"Center of Gravity\s+\(Xg,Yg,Zg\)" + TRIPLE) or buoyancy),
-        lid_panels=int(free[0]) if free else 0,
-        part=part,
-    )
-
-
-def _depth(whole: _Part) -> float:
-    match = re.search(r"Water depth:\s+(\S+)", whole.text)
-    if match is None:
-        raise whole.error("the water depth")
-    if match.group(1).lower().startswith("inf"):
-        return math.inf
-    return number_at(whole.path, whole.line(match.start()), match.group(1))
-
-
-def _title(lines: list[str]) -> str:
-    """The line under the name of the geometry file."""
-    for line, following in pairwise(lines):
-        if "Geometric Data File" in line:
-            return following.strip()
-    return ""
+        name=name, position=np.array([x, y, z]), heading=float(np.radians(angle)), part=part,
+        volume=float(np.mean(volumes)), gravity=np.array(gravity), lid_panels=int(free[0]) if free else 0,
+    )  # fmt: skip
 
 
 def listed_tables(listing: Listing) -> tuple[Table, Table]:
@@ -225,8 +201,7 @@ def listed_tables(listing: Listing) -> tuple[Table, Table]:
     others.
     """
     path, lines = listing.path, listing.lines
-    matrices: list[tuple[int, list[float]]] = []
-    waves: dict[str, list[tuple[int, list[float]]]] = {"DIFFRACTION": [], "HASKIND": []}
+    rows: dict[str, list[tuple[int, list[float]]]] = {"ADDED": [], "DIFFRACTION": [], "HASKIND": []}
     period = heading = np.nan
     table = ""
     for number, line in enumerate(lines, start=1):
@@ -238,28 +213,30 @@ def listed_tables(listing: Listing) -> tuple[Table, Table]:
             if np.isnan(period) or (table != "ADDED" and np.isnan(heading)):
                 raise FileFormatError(f"{path}, line {number}: a row before any wave period or heading")
             if table == "ADDED" and len(values) in (3, 4):
-                matrices.append((number, [period, *values, *[np.nan] * (4 - len(values))]))
-            elif table in waves and len(values) == 3:
+                rows[table].append((number, [period, *values, *[np.nan] * (4 - len(values))]))
+            elif table != "ADDED" and len(values) == 3:
                 i, modulus, phase = values
                 turned = modulus * np.exp(1j * np.radians(phase))
                 row = [period, heading, abs(i), modulus, phase, turned.real, turned.imag]
-                waves[table].append((number, row))
+                rows[table].append((number, row))
         elif found := PERIOD.search(line):
             word, table = found.group(1), ""
             period = NAMED_PERIODS[word] if word in NAMED_PERIODS else number_at(path, number, word)
         elif found := HEADING.search(line):
             heading = number_at(path, number, found.group(1))
         elif words[0][0].isalpha() and words[0] != "I":
-            table = next((kind for kind in ("ADDED", *waves) if kind in line), "")
-    forces = waves["DIFFRACTION"] or waves["HASKIND"]
-    if not matrices or not forces:
-        what = "added mass" if not matrices else "exciting forces"
-        raise FileFormatError(f"{path}, line {len(lines)}: the listing ends without {what}; it is truncated")
-    return _table(path, matrices), _table(path, forces)
-
-
-def _table(path: Path, rows: list[tuple[int, list[float]]]) -> Table:
-    return Table(path, np.array([values for _, values in rows]), np.array([number for number, _ in rows]))
+            table = next((kind for kind in rows if kind in line), "")
+    found_rows = {"added mass": rows["ADDED"], "exciting forces": rows["DIFFRACTION"] or rows["HASKIND"]}
+    for what, each in found_rows.items():
+        if not each:
+            raise FileFormatError(
+                f"{path}, line {len(lines)}: the listing ends without {what}; it is truncated"
+            )
+    matrices, forces = (
+        Table(path, np.array([values for _, values in each]), np.array([number for number, _ in each]))
+        for each in found_rows.values()
+    )
+    return matrices, forces
 
 
 @dataclass(frozen=True, eq=False)

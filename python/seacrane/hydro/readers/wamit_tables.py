@@ -15,22 +15,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.readers.text_records import is_number, number_at, text_of
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import PartialSetWarning
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 IntArray = NDArray[np.int64]
 
 ZERO_FREQUENCY_PERIOD = -1.0
 INFINITE_FREQUENCY_PERIOD = 0.0
 PHASE_TOLERANCE = 1e-4  # files hold seven digits of modulus, phase, real and imaginary part
 ROUND_OFF = 1e-6  # of the largest force or moment: beyond single precision
+LIMITS = {
+    "zero_frequency_added_mass": ZERO_FREQUENCY_PERIOD,
+    "infinite_frequency_added_mass": INFINITE_FREQUENCY_PERIOD,
+}
 BODY_AXES = (-6.0, -5.0, -4.0)  # rows of mean moments in the axes of the body, beside those of space
 
 MOMENTUM, PRESSURES, SECOND_ORDER = ".8", ".9", ".12d"
 BY_PREFERENCE = (PRESSURES, MOMENTUM, SECOND_ORDER)  # all six loads first
+RADIATION, WAVES = (4, 5), (7,)  # numbers in a line of .1, and of .3 and .4
 NO_PERIOD = "ends without a positive period; the file is truncated, or of limits alone"
 REAL_TOLERANCE = 1e-3  # of the largest of its motion: a mean load has no imaginary part
 
@@ -53,13 +57,13 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Radiation:
-    """Contents of a ``.1`` file: periods (n,) in s, rising; A and B (n, 6 k, 6 k) of k bodies."""
+    """Contents of a ``.1`` file: periods (n,) in s, rising; A and B (n, 6 k, 6 k) of k bodies, and those
+    limits of A, by name, that it holds."""
 
     period: FloatArray
     added_mass: FloatArray
     damping: FloatArray
-    zero_frequency_added_mass: FloatArray | None
-    infinite_frequency_added_mass: FloatArray | None
+    limits: dict[str, FloatArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,13 +77,8 @@ class WaveTable:
     values: NDArray[Any]
 
 
-def read_radiation(path: Path, *, bodies: int = 1) -> Radiation:
-    """Read added mass and damping: rows of period, i, j, A, and B where the period is positive."""
-    return radiation_of(_read_table(path, (4, 5)), bodies=bodies)
-
-
 def radiation_of(table: Table, *, bodies: int) -> Radiation:
-    """Added mass and damping of such rows."""
+    """Added mass and damping of rows of period, i, j, A, and B where the period is positive."""
     size = 6 * bodies
     period = table.values[:, 0]
     unknown = np.flatnonzero((period < 0.0) & (period != ZERO_FREQUENCY_PERIOD))
@@ -97,22 +96,15 @@ def radiation_of(table: Table, *, bodies: int) -> Radiation:
     both = np.zeros((2, len(periods), size**2))
     both[:, place, motions] = np.nan_to_num(table.values[:, 3:5].T)
     added_mass, damping = both.reshape(2, len(periods), size, size)
-    special = (ZERO_FREQUENCY_PERIOD, INFINITE_FREQUENCY_PERIOD)
-    limits = [added_mass[np.flatnonzero(periods == limit)] for limit in special]
+    limits = {name: added_mass[periods == limit][0] for name, limit in LIMITS.items() if limit in periods}
     finite = periods > 0.0
     if not np.any(finite):
         raise table.error(-1, NO_PERIOD)
-    zero, infinite = (limit[0] if len(limit) else None for limit in limits)
-    return Radiation(periods[finite], added_mass[finite], damping[finite], zero, infinite)
-
-
-def read_waves(path: Path, *, bodies: int = 1) -> WaveTable:
-    """Read exciting forces or motions: rows of period, heading, i, modulus, phase (deg), real, imaginary."""
-    return waves_of(_read_table(path, (7,)), bodies=bodies)
+    return Radiation(periods[finite], added_mass[finite], damping[finite], limits)
 
 
 def waves_of(table: Table, *, bodies: int) -> WaveTable:
-    """Forces or motions of such rows."""
+    """Forces or motions of rows of period, heading, i, modulus, phase (deg), real and imaginary part."""
     rows = np.flatnonzero(table.values[:, 0] > 0.0)
     if rows.size == 0:
         raise table.error(-1, NO_PERIOD)
@@ -140,7 +132,7 @@ def _by_wave(table: Table, column: int, motion: IntArray, value: NDArray[Any], b
 def read_restoring(path: Path, *, bodies: int = 1) -> FloatArray:
     """Read the restoring matrix (6 k, 6 k): rows of i, j, C; of several bodies entries may be left out."""
     size = 6 * bodies
-    table = _read_table(path, (3,))
+    table = read_table(path, (3,))
     first, second = _motion_of(table, 0, bodies), _motion_of(table, 1, bodies)
     motions = size * first + second
     half = bodies == 1 and len(motions) == 21 and (np.all(first <= second) or np.all(first >= second))
@@ -158,7 +150,7 @@ def read_mean_drift(path: Path) -> WaveTable:
     Raises FileFormatError: truncated or damaged, with the line; or no row of one wave alone.
     """
     first = 2 if path.suffix.lower() == SECOND_ORDER else 1  # columns of periods
-    table = _read_table(path, (first + 7,))
+    table = read_table(path, (first + 7,))
     one_wave = (table.values[:, 0] == table.values[:, first - 1]) & (
         table.values[:, first] == table.values[:, first + 1]
     )
@@ -195,7 +187,7 @@ def _of_space_axes(table: Table, column: int) -> Table:
     return table.only(np.flatnonzero(~aside))
 
 
-def _read_table(path: Path, widths: tuple[int, ...]) -> Table:
+def read_table(path: Path, widths: tuple[int, ...]) -> Table:
     """All rows of a file; a first line of text (option NUMHDR) is passed over."""
     text = text_of(path)
     every = [(number, line) for number, line in enumerate(text.split("\n"), start=1) if line.strip()]
@@ -203,7 +195,12 @@ def _read_table(path: Path, widths: tuple[int, ...]) -> Table:
         del every[0]
     if not every:
         raise FileFormatError(f"{path}, line 1: no numbers; the file is empty or truncated")
-    _check_last_line(path, text, every)
+    if not text.endswith("\n") and len(every) > 1:  # lines are of one length, and WAMIT ends each
+        (_, before), (number, last) = every[-2:]
+        if len(last.rstrip()) < len(before.rstrip()):
+            raise FileFormatError(
+                f"{path}, line {number}: shorter than the line before; the file is truncated"
+            )
     values = np.full((len(every), widths[-1]), np.nan)
     for row, (number, line) in enumerate(every):
         words = line.split()
@@ -212,13 +209,6 @@ def _read_table(path: Path, widths: tuple[int, ...]) -> Table:
             raise FileFormatError(f"{path}, line {number}: {wanted} numbers are expected, found {len(words)}")
         values[row, : len(words)] = [number_at(path, number, word) for word in words]
     return Table(path, values, np.array([number for number, _ in every]))
-
-
-def _check_last_line(path: Path, text: str, every: list[tuple[int, str]]) -> None:
-    """Raise if the last number was cut: lines are of one length, and WAMIT ends each with a line feed."""
-    number, last = every[-1]
-    if not text.endswith("\n") and len(every) > 1 and len(last.rstrip()) < len(every[-2][1].rstrip()):
-        raise FileFormatError(f"{path}, line {number}: shorter than the line before; the file is truncated")
 
 
 def _motion_of(table: Table, column: int, bodies: int = 1) -> IntArray:
