@@ -14,7 +14,7 @@ from seacrane.description.channels import unit_of
 from seacrane.description.given import given_vessels
 from seacrane.description.suspension import hung_loads
 from seacrane.ensembles.kept import Kept
-from seacrane.errors import SceneError, SeacraneError
+from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
@@ -46,29 +46,20 @@ def _lower_end(result: Any, load: str) -> float:
     return _single(text, Kept.of_text(text))(result)
 
 
-def asked(scene: Scene, keep: Mapping[str, Any] | None) -> Mapping[str, Any]:
-    """What is asked, or the usual; SceneError where there is none."""
+def asked(scene: Scene, keep: Mapping[str, Any] | None) -> tuple[dict[str, Ask], dict[str, str]]:
+    """The functions that give the numbers that are asked, or the usual ones, and their units, by name."""
     found = usual(scene) if keep is None else keep
     if keep is None and not found:
         raise SceneError(
             f'required: nothing hangs or floats in scene {scene.name!r}; give keep={{"z": '
             '"position[<body>, z].max"}'
         )
-    return found
-
-
-def asked_of(keep: Mapping[str, Any]) -> tuple[dict[str, Ask], dict[str, str]]:
-    """The functions that give the numbers, and their units, by name."""
-    if not isinstance(keep, Mapping) or not keep:
-        raise SceneError(f'required: keep is {shown(keep)}; give {{"peak": "hook_load.max"}}')
+    if not isinstance(found, Mapping) or not found:
+        raise SceneError(f'required: keep is {shown(found)}; give {{"peak": "hook_load.max"}}')
     asks, units = {}, {}
-    for name, what in keep.items():
+    for name, what in found.items():
         kept = Kept.of_text(what) if isinstance(what, str) else what
         if isinstance(kept, Kept):
-            if kept.what == "series":
-                raise SceneError(
-                    f"required: {name!r} is a series; ask for one number of it, such as its .max"
-                )
             asks[name], units[name] = _single(name, kept), unit_of(kept.channel, kept.names.values())
         elif callable(kept):
             asks[name], units[name] = kept, ""
@@ -78,6 +69,9 @@ def asked_of(keep: Mapping[str, Any]) -> tuple[dict[str, Ask], dict[str, str]]:
 
 
 def _single(name: str, kept: Kept) -> Ask:
+    if kept.what == "series":
+        raise SceneError(f"required: {name!r} is a series; ask for one number of it, such as its .max")
+
     def ask(result: Any) -> float:
         found = kept.of(result)
         values = found.values
@@ -159,9 +153,3 @@ class Bench:
             shares.append(two.cpu_s / max(one.cpu_s, 1e-9))
             counted = two.evaluations / one.evaluations if one.evaluations else np.nan
         return first, shares, counted
-
-
-def reason(error: BaseException) -> str:
-    """Why something did not run, on one line."""
-    text = " ".join(str(error).split())
-    return text if isinstance(error, SeacraneError) else f"{type(error).__name__}: {text}"

@@ -1,4 +1,4 @@
-"""required(): each choice of modelling left out or made simpler, one at a time; a new one is in its lists."""
+"""required(): each choice of modelling left out or made simpler, one at a time."""
 
 from __future__ import annotations
 
@@ -7,18 +7,17 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import replace
+from functools import partial, reduce
 from typing import Any
 
 from seacrane._core import State
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
-from seacrane.needs import in_air, in_water
-from seacrane.needs.answer import FAILED, Loss, Requirements
-from seacrane.needs.bench import Bench, Told, asked, asked_of, reason
-from seacrane.needs.choice import Choice
+from seacrane.needs.answer import Loss, Requirements
+from seacrane.needs.bench import Bench, Told, asked
+from seacrane.needs.choices import Choice, choices_of, missing_from
 from seacrane.run.method import Method, Start, settled
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
@@ -29,46 +28,6 @@ TIGHTER = 1e-2  # times the tolerance, of the run that tells how well the number
 SHORTER = 0.5  # times the step, likewise
 TWICE = 2.0  # both of two runs err
 SAVES = 0.03  # share of the cost that is worth a choice
-
-Tried = Callable[[Scene], Iterator[Choice]]
-SIMPLER: tuple[Tried, ...] = (
-    in_air.stiff_slings,
-    in_air.quasi_static,
-    in_air.rigid,
-    in_air.fewer_segments,
-    in_water.fewer_waves,
-    in_water.coarse_table,
-    in_water.less_memory,
-    in_water.no_coupling,
-    in_water.no_drift,
-    in_air.no_air_drag,
-    in_air.no_wind,
-    in_air.no_pendulum_damping,
-    in_water.no_strips,
-    in_water.no_waves_on_parts,
-    in_air.held_oil,
-    in_air.held_crane,
-    in_air.welded_contact,
-    in_air.no_contact,
-)
-MISSING: tuple[Tried, ...] = (
-    in_water.more_memory,
-    in_water.more_drift,
-    in_air.elastic,
-    in_air.more_pendulum_damping,
-    in_water.waves_on_parts,
-    in_water.scatter,
-)
-
-
-def choices_of(scene: Scene) -> list[Choice]:
-    """What may be made simpler in a scene."""
-    return [choice for tried in SIMPLER for choice in tried(scene)]
-
-
-def missing_from(scene: Scene) -> list[Choice]:
-    """What a scene leaves out, or knows badly."""
-    return [choice for tried in MISSING for choice in tried(scene)]
 
 
 @named
@@ -90,9 +49,9 @@ def required(
 ) -> Requirements:
     """What a scene requires: what each choice of modelling costs, and what leaving it out would change.
 
-    Each choice is made simpler by itself (slings and block as one with the load, the rungs and segments of
-    lines, wave components, fluid memory, coupling of vessels, damping, strips and waves of parts in water,
-    oil, controlled drives, contacts), run beside the scene as it stands by turns, and told with its share of
+    Each choice is made simpler by itself (slings and block as one with the load, the rungs of lines, wave
+    components, fluid memory, coupling of vessels, damping, waves of parts in water, oil, controlled drives,
+    contacts), run beside the scene as it stands by turns, and told with its share of
     the processor time and the change of the numbers that are asked. The cheapest set whose changes together
     stay within what is asked is then run once. What the scene leaves out, and would matter, is run likewise.
 
@@ -127,19 +86,23 @@ def required(
     SceneError
         For what is asked and is no single number, limits that are none, and a scene that does not run.
     """
-    asks, units = asked_of(asked(scene, keep))
+    asks, units = asked(scene, keep)
     method, outputs = settled(method, outputs, shorthand)
     begun = time.process_time()
-    runs = _Runs(t_end=t_end, stages=tuple(stages), start=start, outputs=outputs)
-    bench = Bench(run=partial(runs, method=method) if run is None else run, asked=asks)
+
+    def simulated(other: Scene, by: Method = method) -> Any:
+        own = start(other) if callable(start) else start
+        return simulate(other, stages or t_end, start=own, method=by, outputs=outputs)
+
+    bench = Bench(run=run or simulated, asked=asks)
     cold, full = bench.told(scene), bench.told(scene)  # what is found of a scene once belongs to no choice
-    tight = None if run is not None else bench.told(scene, partial(runs, method=tighter(method)))
+    tight = None if run is not None else bench.told(scene, partial(simulated, by=tighter(method)))
     limits = _limits(within, full.values)
     tried = choices_of(scene) if choices is None else list(choices)
     missing = missing_from(scene)
-    choices_tried = len(tried) + len(missing)
-    price = choices_tried * cold.cpu_s + (2 * repeats * (len(tried) + 1) + len(missing) + 4) * full.cpu_s
-    with _bar(progress, price, choices_tried) as tick:
+    count = len(tried) + len(missing)
+    price = count * cold.cpu_s + (2 * repeats * (len(tried) + 1) + len(missing) + 4) * full.cpu_s
+    with _bar(progress, price, count) as tick:
         rows = [_row(bench, scene, full, choice, repeats, tick) for choice in tried]
         lacks = [_row(bench, scene, full, choice, 0, tick) for choice in missing]
         noise = {
@@ -160,20 +123,6 @@ def tighter(method: Method) -> Method:
     if method.dt is not None:
         return replace(method, dt=SHORTER * method.dt)
     return replace(method, rtol=TIGHTER * (1e-6 if method.rtol is None else method.rtol))
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Runs:
-    """A run or a lift in stages, of any scene."""
-
-    t_end: float
-    stages: tuple[Stage, ...]
-    start: Start | Callable[[Scene], State]
-    outputs: Outputs
-
-    def __call__(self, scene: Scene, *, method: Method) -> Any:
-        start = self.start(scene) if callable(self.start) else self.start
-        return simulate(scene, self.stages or self.t_end, start=start, method=method, outputs=self.outputs)
 
 
 def _limits(within: float | Mapping[str, float], values: Mapping[str, float]) -> dict[str, float]:
@@ -201,7 +150,9 @@ def _row(
             told = bench.told(made)
             row = replace(row, shares=(bench.told(made).cpu_s / max(full.cpu_s, 1e-9),))
     except (SeacraneError, ValueError) as error:
-        return replace(row, verdict=FAILED, message=reason(error))
+        text = " ".join(str(error).split())
+        kind = "" if isinstance(error, SeacraneError) else f"{type(error).__name__}: "
+        return replace(row, message=f"{kind}{text}")
     finally:
         tick()
     return replace(row, changes={name: told.values[name] - value for name, value in full.values.items()})
@@ -215,19 +166,13 @@ def _run_together(
     while taken:
         both = Choice(
             name="all of these", script="\n".join(one.script for one in taken), of="",
-            made=partial(_all_of, choices=[one.choice for one in taken]),
+            made=partial(reduce, lambda made, one: one.choice.made(made), tuple(taken)),
         )  # fmt: skip
         row = _row(bench, scene, full, both, repeats, lambda: None)
         if row.stable and all(abs(row.changes[name]) <= limit for name, limit in limits.items()):
             return (row, taken) if row.share < 1.0 - SAVES else (None, ())
-        taken.remove(max(taken, key=lambda one: one.uses(limits)))
+        taken.remove(max(taken, key=lambda one: max(one.used(*limit) for limit in limits.items())))
     return None, ()
-
-
-def _all_of(scene: Scene, *, choices: Sequence[Choice]) -> Scene:
-    for choice in choices:
-        scene = choice.made(scene)
-    return scene
 
 
 @contextmanager
@@ -245,39 +190,27 @@ def _bar(progress: bool, price: float, rows: int) -> Iterator[Callable[[], None]
 
 def least_of(rows: Sequence[Loss], limits: Mapping[str, float], noise: Mapping[str, float]) -> list[Loss]:
     """Of the choices about one thing at most one; changes add by their sizes, costs multiply."""
-    about: dict[str, list[Loss]] = {}
+    about: dict[str, list[tuple[float, dict[str, float], Loss]]] = {}
     for row in rows:
         if row.stable and row.share < 1.0 - max(SAVES, row.spread):
-            about.setdefault(row.of, []).append(row)
-    groups = [[_Item(row, limits, noise) for row in group] for group in about.values()]
-    groups.sort(key=lambda group: -max(item.saved for item in group))
-    best: tuple[float, list[_Item]] = (0.0, [])
-    ahead = [sum(max(item.saved for item in group) for group in groups[i:]) for i in range(len(groups) + 1)]
+            used = {name: row.used(name, limit, noise.get(name, 0.0)) for name, limit in limits.items()}
+            about.setdefault(row.of, []).append((-math.log(row.share), used, row))
+    most = {of: max(saved for saved, _, _ in group) for of, group in about.items()}
+    groups = sorted(about, key=lambda of: -most[of])
+    ahead = [sum(most[of] for of in groups[i:]) for i in range(len(groups) + 1)]
+    best: tuple[float, list[Loss]] = (0.0, [])
 
-    def look(at: int, saved: float, taken: list[_Item], used: dict[str, float]) -> None:
+    def look(at: int, saved: float, taken: list[Loss], used: dict[str, float]) -> None:
         nonlocal best
         if saved > best[0]:
             best = (saved, taken)
         if at == len(groups) or saved + ahead[at] <= best[0]:
             return
-        for item in groups[at]:
-            more = {name: used[name] + item.used[name] for name in limits}
+        for own, takes, row in about[groups[at]]:
+            more = {name: used[name] + takes[name] for name in limits}
             if all(share <= 1.0 for share in more.values()):
-                look(at + 1, saved + item.saved, [*taken, item], more)
+                look(at + 1, saved + own, [*taken, row], more)
         look(at + 1, saved, taken, used)
 
     look(0, 0.0, [], dict.fromkeys(limits, 0.0))
-    return [item.row for item in best[1]]
-
-
-class _Item:
-    """A row, what it saves (logarithm of its share) and what it uses of each limit."""
-
-    def __init__(self, row: Loss, limits: Mapping[str, float], noise: Mapping[str, float]) -> None:
-        self.row, self.saved = row, -math.log(row.share)
-        self.used = {
-            name: (abs(row.changes[name]) / limit if limit > 0.0 else math.inf)
-            if abs(row.changes[name]) > noise.get(name, 0.0)
-            else 0.0
-            for name, limit in limits.items()
-        }
+    return best[1]
