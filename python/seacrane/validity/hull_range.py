@@ -15,8 +15,8 @@ from seacrane import _core
 from seacrane.description.given import given_vessels
 from seacrane.description.once import once
 from seacrane.hydro import HydroDatabase
-from seacrane.inputs.frames import heading_of, rotation_about_z
-from seacrane.validity.after_run import Finding
+from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix
+from seacrane.validity.after_run import Finding, peak
 from seacrane.warnings import (
     CurrentInWavesWarning,
     ForwardSpeedWarning,
@@ -46,7 +46,9 @@ WAY_OUT = (
     "take them where the vessel slowly goes by phase='slow' in add_sea, where it is on the average by "
     "position and heading_deg there, or moor it stiffer"
 )
-CORNERS = 0.5 * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])  # of a rectangle, over length and breadth
+CORNERS = 0.5 * np.array(
+    [[1, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]]
+)  # of a rectangle, over length and breadth
 
 
 def motions(
@@ -82,10 +84,10 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
                 f"scene.add_sea(vessel={name!r})",
             )
         elif waves is not None:
-            hull, peak = waves.hulls[body], peak_of(scene)
+            hull, sea = waves.hulls[body], peak_of(scene)
             if hull.force_by_heading is None:
-                yield from _posed(scene.bodies[body], name, hull, peak, time, motion)
-            yield from _under_way(peak, name, time, motion)
+                yield from _posed(scene.bodies[body], name, hull, sea, time, motion)
+            yield from _under_way(sea, name, time, motion)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,52 +152,47 @@ def slowly(time: Array, values: Array, period: float) -> Array:
 
 
 def _posed(
-    start: _core.Body, name: str, hull: HullLoads, peak: Peak, time: Array, motion: Array
+    start: _core.Body, name: str, hull: HullLoads, sea: Peak, time: Array, motion: Array
 ) -> Iterator[Finding]:
     """How far the hull is, slowly, from the place and heading of its loads."""
     heading = heading_of(start.quaternion)
     place = motion[:, :2] @ rotation_about_z(heading)[:2, :2].T + (start.position[:2] - hull.position)
     turn = math.remainder(heading - hull.heading, 2.0 * np.pi)
     # A mean is never farther than what it is taken of.
-    near = peak.phase(place).max() <= LARGEST_PHASE
+    near = sea.phase(place).max() <= LARGEST_PHASE
     if near and np.abs(motion[:, 5]).max() + abs(turn) <= LARGEST_TURN:
         return
-    slow = slowly(time, np.column_stack([place, np.unwrap(motion[:, 5]) + turn]), peak.period)
-    far, turned = peak.phase(slow[:, :2]), np.abs(slow[:, 2])
-    if far.max() > LARGEST_PHASE:
-        at = int(far.argmax())
+    slow = slowly(time, np.column_stack([place, np.unwrap(motion[:, 5]) + turn]), sea.period)
+    for phase, at in peak(sea.phase(slow[:, :2]), above=LARGEST_PHASE):
         yield (
             MeanPositionWarning,
             f"vessel {name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are taken at t = "
-            f"{time[at]:.6g} s, {far[at]:.2g} rad of the phase of waves at the peak (limit {LARGEST_PHASE}): "
+            f"{time[at]:.6g} s, {phase:.2g} rad of the phase of waves at the peak (limit {LARGEST_PHASE}): "
             f"{WAY_OUT}",
         )
-    if turned.max() > LARGEST_TURN:
-        at = int(turned.argmax())
+    for turned, at in peak(np.abs(slow[:, 2]), above=LARGEST_TURN):
         yield (
             MeanHeadingWarning,
-            f"vessel {name!r}: yaw reaches {np.degrees(turned[at]):.3g} deg from the heading at which its "
-            f"wave loads are taken, at t = {time[at]:.6g} s (limit {np.degrees(LARGEST_TURN):.0f}): the hull "
-            f"has left their direction; {WAY_OUT}",
+            f"vessel {name!r}: yaw reaches {np.degrees(turned):.3g} deg from the heading at which its wave "
+            f"loads are taken, at t = {time[at]:.6g} s (limit {np.degrees(LARGEST_TURN):.0f}): the hull has "
+            f"left their direction; {WAY_OUT}",
         )
 
 
-def _under_way(peak: Peak, name: str, time: Array, motion: Array) -> Iterator[Finding]:
+def _under_way(sea: Peak, name: str, time: Array, motion: Array) -> Iterator[Finding]:
     if time.size < 2:
         return
     rate = np.diff(motion[:, :2], axis=0) / np.diff(time)[:, None]
-    if peak.wavenumber * np.hypot(*rate.T).max() <= LARGEST_SHIFT * peak.omega:
+    fast = LARGEST_SHIFT * sea.omega / sea.wavenumber if sea.wavenumber else np.inf
+    if np.hypot(*rate.T).max() <= fast:
         return
-    speed = np.hypot(*slowly(time[1:], rate, peak.period).T)
-    at = int(speed.argmax())
-    shift = peak.wavenumber * speed[at] / peak.omega
-    if shift > LARGEST_SHIFT:
+    for speed, at in peak(np.hypot(*slowly(time[1:], rate, sea.period).T), above=fast):
         yield (
             ForwardSpeedWarning,
-            f"vessel {name!r}: makes {speed[at]:.3g} m/s at t = {time[at + 1]:.6g} s, and its hydrodynamics "
-            f"are those of zero speed: waves are met up to {shift:.0%} faster or slower, and added mass, "
-            "damping and wave loads change with it, which the time domain does not know. Slow it down, or "
-            "moor it",
+            f"vessel {name!r}: makes {speed:.3g} m/s at t = {time[at + 1]:.6g} s, and its hydrodynamics are "
+            f"those of zero speed: waves are met up to {sea.wavenumber * speed / sea.omega:.0%} faster or "
+            "slower, and added mass, damping and wave loads change with it, which the time domain does not "
+            "know. Slow it down, or moor it",
         )
 
 
@@ -296,30 +293,20 @@ def gap_between(scene: Description, one: str, other: str) -> float:
 
     Of hulls whose rectangles overlap, as a float about a spar, the smaller breadth.
     """
-    corners, breadths = [], []
-    for name in (one, other):
-        vessel = scene.vessels[name]
-        hull, body = vessel.database, scene.bodies[vessel.body]
-        if not isinstance(hull, HydroDatabase):
+    sizes = []
+    for vessel in (scene.vessels[one], scene.vessels[other]):
+        if not isinstance(vessel.database, HydroDatabase):
             return float("inf")
-        half = CORNERS * [hull.length, hull.breadth]
-        turn = rotation_about_z(heading_of(body.quaternion))[:2, :2]
-        corners.append(half @ turn.T + np.asarray(body.position)[:2])
-        breadths.append(hull.breadth)
-    gap = max(_apart(*corners), _apart(*reversed(corners)))
-    return min(_distance(*corners), _distance(*reversed(corners))) if gap > 0.0 else float(min(breadths))
+        sizes.append((scene.bodies[vessel.body], vessel.database.length, vessel.database.breadth))
+    apart = [
+        beside(own[0], hull.position + rotation_about_z(heading_of(hull.quaternion)) @ corner, *own[1:])
+        for own, (hull, length, breadth) in (sizes, sizes[::-1])
+        for corner in CORNERS * [length, breadth, 0.0]
+    ]
+    return min(apart) if min(apart) > 0.0 else float(min(breadth for _, _, breadth in sizes))
 
 
-def _apart(one: Array, other: Array) -> float:
-    """The largest distance that an edge of one keeps from all of the other; negative where they overlap."""
-    edges = np.roll(one, -1, axis=0) - one
-    outwards = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.hypot(*edges.T)[:, None]
-    return float(max(np.min((other - corner) @ out) for corner, out in zip(one, outwards, strict=True)))
-
-
-def _distance(one: Array, other: Array) -> float:
-    """Of the corners of one from the edges of the other, at least."""
-    edges = np.roll(other, -1, axis=0) - other
-    from_start = one[:, None] - other
-    share = np.clip(np.sum(from_start * edges, axis=2) / np.sum(edges**2, axis=1), 0.0, 1.0)
-    return float(np.linalg.norm(from_start - share[..., None] * edges, axis=2).min())
+def beside(hull: _core.Body, place: Array, length: float, breadth: float) -> float:
+    """Horizontal distance of a place from the box of a hull, m; 0 within it."""
+    x, y, _ = rotation_matrix(hull.quaternion).T @ (place - np.asarray(hull.position))
+    return float(np.hypot(max(abs(x) - 0.5 * length, 0.0), max(abs(y) - 0.5 * breadth, 0.0)))

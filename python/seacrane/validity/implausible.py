@@ -3,37 +3,47 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.given import floating_bodies
+from seacrane.description.given import (
+    beside_surface,
+    borne_mass,
+    elastic_force,
+    floating_bodies,
+    welded_mass,
+    with_mass,
+)
 from seacrane.description.holding import free_drives
-from seacrane.description.loads import bodies_of, kind_of
+from seacrane.description.line_path import described_poses
+from seacrane.description.loads import bodies_of, kind_of, named
 from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.outline import size_of_ship
 from seacrane.description.places import ANGLES, placed
 from seacrane.description.references import references
 from seacrane.description.suspension import bodies_below
 from seacrane.description.wet_parts import immersed_parts
+from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import angle_of
-from seacrane.validity.contact_starts import warn_of_contact_starts
-from seacrane.validity.hull_range import peak_of
+from seacrane.validity.hull_range import beside, peak_of
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 from seacrane.validity.line_checks import warn_of_line_starts
 from seacrane.validity.magnitudes import warn_of_units
-from seacrane.validity.unstable import carried_by, warn_of_capsize
 from seacrane.warnings import (
     BallastWarning,
     CompassDirectionWarning,
+    ContactStartWarning,
     DragAxesWarning,
     FreeCraneWarning,
     MassUnitWarning,
     ScatteredWavesWarning,
+    UnstableRestWarning,
 )
 
 if TYPE_CHECKING:
@@ -51,6 +61,9 @@ LARGEST_SINKAGE = 2.0  # m
 DEEP = np.pi  # of wavenumber times depth: 4 % of the wave are left
 STEEP = np.radians(45.0)  # of a part's z axis from the vertical
 UNLIKE = 1.5  # drag along z over that across it, or the other way round
+SUNK = 0.1  # m of a contact's point, as the core has it of what is described
+CRUSHED = 10.0  # times the weight on a point, likewise
+SHOT = 1.0  # m/s2, away from a surface: a tenth of the weight
 WITHOUT_WEIGHT = ("flow force", "span drag")  # nothing of them acts at rest, or the next wave turns it
 
 
@@ -208,7 +221,7 @@ def warn_of_parts_near_hulls(scene: Description) -> None:
     places = {name: place for name, place in places.items() if place[2] > deepest}
     for ship in sorted(ships) if places else ():
         length, breadth = size_of_ship(scene, ship)
-        away = {name: _beside(scene.bodies[ship], place, length, breadth) for name, place in places.items()}
+        away = {name: beside(scene.bodies[ship], place, length, breadth) for name, place in places.items()}
         nearest = min(away, key=lambda name: away[name])
         if away[nearest] < breadth:
             warn_caller(
@@ -218,12 +231,6 @@ def warn_of_parts_near_hulls(scene: Description) -> None:
                 "lee lower. Give wave_factor what this hull makes of them",
                 ScatteredWavesWarning,
             )
-
-
-def _beside(hull: _core.Body, place: Array, length: float, breadth: float) -> float:
-    """Horizontal distance of a place from the box of a hull, m; 0 within it."""
-    x, y, _ = rotation_matrix(hull.quaternion).T @ (place - np.asarray(hull.position))
-    return float(np.hypot(max(abs(x) - 0.5 * length, 0.0), max(abs(y) - 0.5 * breadth, 0.0)))
 
 
 @once_in_any_sea
@@ -244,3 +251,115 @@ def warn_of_drag_axes(scene: Description) -> None:
                 "part by axes, if it enters the water as described",
                 DragAxesWarning,
             )
+
+
+@once_in_any_sea
+def warn_of_capsize(scene: Description) -> None:
+    """Warn of vessels whose roll restoring the weights on them outweigh, as they are described.
+
+    Weights that hang count at the upper end of what they hang on.
+    """
+    for vessel in (one for one in scene.vessels.values() if one.floats):
+        restoring = float(np.asarray(vessel.restoring)[3, 3])
+        carried = carried_by(scene, vessel.body)
+        if restoring == 0.0 or vessel.body not in scene.bodies:
+            continue
+        hull = scene.bodies[vessel.body]
+        weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
+        hung = [one for one in reversed(bodies_below(scene)) if one[0].held_at[0] in scene.bodies]
+        held = {body: one.held_at for one, below in hung for body in below}
+        lowered = 0.0
+        for body in weights:
+            at, point = held.get(body.name, (body.name, body.center_of_mass))
+            lowered += body.mass * scene.gravity * _above(scene.bodies[at], point, hull)
+        raised = sum(
+            float(force.force[2]) * _above(scene.bodies[force.body], force.point, hull)
+            for force in scene.point_forces.values()
+            if force.body in carried
+        )
+        left = restoring - lowered + raised
+        if left < 0.0:
+            warn_caller(
+                f"vessel {vessel.name!r}: has a GM of about {left / (hull.mass * scene.gravity):.3g} m with "
+                "the weights on it as described, and capsizes: its C44 holds its own weight alone. Lower the "
+                "weights, put less of them on it, or look at seacrane.statics",
+                UnstableRestWarning,
+            )
+
+
+@once_in_any_sea
+def carried_by(scene: Description, vessel: str) -> frozenset[str]:
+    """Bodies whose weight comes to a vessel; none where another support shares it."""
+    stopped = {joint for load in scene.loads.values() for joint in named(load, "joint")}
+    driven = {driver.joint for driver in scene.drivers.values()}
+    neighbours: dict[str, list[str]] = {}
+    for name, joint in scene.joints.items():
+        if joint.kind != "free" or name in stopped | driven:
+            neighbours.setdefault(joint.first, []).append(joint.second)
+            neighbours.setdefault(joint.second, []).append(joint.first)
+    for one, below in bodies_below(scene):
+        neighbours.setdefault(one.held_at[0], []).extend(below)
+    found, open_ = {vessel}, [vessel]
+    while open_:
+        new = set(neighbours.get(open_.pop(), ())) - found
+        found |= new
+        open_ += new
+    floating = floating_bodies(scene)
+    alone = found <= set(scene.bodies) and found & floating == {vessel}
+    return frozenset(found if alone else ())
+
+
+def _above(body: _core.Body, point: object, hull: _core.Body) -> float:
+    turned = rotation_matrix(body.quaternion) @ np.asarray(point, dtype=float)
+    return float(body.position[2] + turned[2] - hull.position[2])
+
+
+def warn_of_contact_starts(scene: Description) -> None:
+    """Warn of bodies that surfaces press away at once, as a scene is described."""
+    contacts = [one for one in scene.loads.values() if isinstance(one, _core.Contact)]
+    if not contacts:
+        return
+    pose = described_poses(scene)
+    places = {one.name: [beside_surface(one, i, pose) for i in range(len(one.points))] for one in contacts}
+    for body in with_mass(scene, *dict.fromkeys(one.body for one in contacts)):
+        mass = welded_mass(scene, body)
+        of_body = [one for one in contacts if one.body == body]
+        total = np.array([0.0, 0.0, -mass * scene.gravity if scene.bodies[body].gravity else 0.0])
+        for one in of_body:
+            total += sum((elastic_force(one, -gap) * way for gap, way in places[one.name]), np.zeros(3))
+        for one in of_body:
+            _warn_of_shot(one, places[one.name], total / mass)
+
+
+def _warn_of_shot(contact: _core.Contact, places: list[tuple[float, Array]], acceleration: Array) -> None:
+    """Warn of the deepest point, where the body is pressed away from the surface there."""
+    depth, way, point = max((-gap, tuple(way), i) for i, (gap, way) in enumerate(places))
+    away = float(acceleration @ way)
+    if depth <= 0.0 or away <= SHOT:
+        return
+    warn_caller(
+        f"contact {contact.name!r}: point {point + 1} of {contact.body!r} starts {depth:.4g} m inside the "
+        f"surface of {contact.on!r}, which presses the body away with {away:.3g} m/s2 at once: move the body "
+        "out, or correct the place of the surface",
+        ContactStartWarning,
+    )
+
+
+def check_contact_connected(
+    title: str, scene: Description, name: str, measured: Mapping[str, Array], time: float
+) -> None:
+    """Refuse a contact that a stage connects at `time` (s) with a point deep inside."""
+    contacts = {key: one for key, one in scene.loads.items() if isinstance(one, _core.Contact)}
+    contact, count = contacts[name], len(contacts[name].points)
+    before = sum(len(contacts[key].points) for key in list(contacts)[: list(contacts).index(name)])
+    gaps = np.ravel(measured["contact_gap"])[before : before + count]
+    worst = int(np.argmin(gaps))
+    force = elastic_force(contact, -float(gaps[worst]))
+    share = borne_mass(scene, contact.body, contact.on) * scene.gravity / count
+    if -gaps[worst] <= SUNK or force <= CRUSHED * share:
+        return
+    raise SceneError(
+        f"{title}: contact {name!r} connects with point {worst + 1} of {contact.body!r} "
+        f"{-gaps[worst]:.4g} m inside {contact.on!r} at t = {time:.6g} s, where it is pressed out with "
+        f"{force:.4g} N; connect it before the point is inside, or correct the place of the surface"
+    )

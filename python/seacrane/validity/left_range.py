@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.places import ANGLES, Pose, coordinate_at, wrapped
 from seacrane.inputs.frames import MOTIONS, rotation_matrix
-from seacrane.validity.after_run import Finding, tried
+from seacrane.validity.after_run import Finding, peak, tried
 from seacrane.validity.hull_range import current_findings, hull_findings, motions, relative_findings
 from seacrane.validity.lifting import lifting
 from seacrane.validity.line_checks import line_findings
@@ -86,23 +86,17 @@ def _listed(look: Look, scene: Description, time: Array, channels: Channels) -> 
     return list(look(scene, time, channels))
 
 
-def _worst(time: Array, values: Array) -> tuple[float, float]:
-    """Largest magnitude and its time."""
-    at = int(np.argmax(np.abs(values)))
-    return float(np.abs(values[at])), float(time[at])
-
-
 def _heel(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
     for vessel, motion in motions(scene, channels):
         for name in ("roll", "pitch") if vessel.floats else ():
-            angle, at = _worst(time, motion[:, MOTIONS.index(name)])
-            if angle > LARGEST_HEEL:
+            for angle, at in peak(np.abs(motion[:, MOTIONS.index(name)]), above=LARGEST_HEEL):
                 yield (
                     LargeHeelWarning,
-                    f"vessel {vessel.name!r}: {name} reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, "
-                    f"beyond {np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear and wave loads are "
-                    "those of the upright hull, so that righting moments and capsize are not told. Lower the "
-                    "sea or the load, add roll damping, or take motions beyond as an alarm only",
+                    f"vessel {vessel.name!r}: {name} reaches {np.degrees(angle):.3g} deg at t = "
+                    f"{time[at]:.6g} s, beyond {np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear and "
+                    "wave loads are those of the upright hull, so that righting moments and capsize are not "
+                    "told. Lower the sea or the load, add roll damping, or take motions beyond as an alarm "
+                    "only",
                 )
 
 
@@ -151,12 +145,12 @@ def _links(scene: Description, time: Array, channels: Channels) -> Iterator[Find
     links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
     for i, name in enumerate(links if "tension" in channels else []):
         tension = channels["tension"][:, i]
-        if _hangs(scene, name) and tension.min() < -1e-9 * np.abs(tension).max():
-            at = int(tension.argmin())
+        push = peak(-tension, above=1e-9 * np.abs(tension).max()) if _hangs(scene, name) else ()
+        for force, at in push:
             yield (
                 PushingLinkWarning,
-                f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
-                "cannot: it would be slack, and its load when it tightens again is not in this result. "
+                f"link {name!r}: pushes with {force:.4g} N at t = {time[at]:.6g} s, which a wire cannot: it "
+                "would be slack, and its load when it tightens again is not in this result. "
                 f"scene.add_line(joint={name!r}, rung='rigid') makes it a wire",
             )
 
@@ -238,8 +232,7 @@ def _ranges(scene: Description, time: Array, channels: Channels) -> Iterator[Fin
             continue
         angular = limit.coordinate in ANGLES
         beyond = np.maximum(limit.minimum - values, values - limit.maximum)
-        at = int(beyond.argmax())
-        if beyond[at] > BEYOND * (1.0 if angular else scene.length_scale):
+        for _, at in peak(beyond, above=BEYOND * (1.0 if angular else scene.length_scale)):
             yield (
                 OutsideRangeWarning,
                 f"range {name!r}: {limit.joint}.{limit.coordinate} reaches {values[at]:.4g} "
