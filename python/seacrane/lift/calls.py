@@ -10,7 +10,7 @@ import numpy as np
 from seacrane import _core
 from seacrane._core import Curve
 from seacrane.analysis.tanks import Tank
-from seacrane.crane import Crane, Payload, load_crane
+from seacrane.crane import Payload, load_crane
 from seacrane.description import hydraulic_cylinders
 from seacrane.description.channels import CHANNELS, OWN, unit_of
 from seacrane.description.curves import spline_curve
@@ -20,8 +20,9 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
+from seacrane.lift.inner_keys import COORDINATE, CURVES
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
-from seacrane.lift.tables import CURVES, LEFT, Table
+from seacrane.lift.tables import LEFT, Table
 from seacrane.lift.vessel_keys import SHIPPED
 from seacrane.scene import heave
 from seacrane.scene.mooring import MooringSpring
@@ -70,7 +71,7 @@ def keywords(keys: Iterable[Key], values: Mapping[str, Any], scene: Scene | None
             if spelling not in values:
                 continue
             if scene is not None and EITHER in key.unit:
-                _require_unit(scene, key, spelling, values)
+                _require_unit_of_joint(scene, key, values)
             found[key.name] = _converted(key, values[spelling], unit)
     return found
 
@@ -91,37 +92,38 @@ def _converted(key: Key, value: Any, unit: str) -> Any:
     return value
 
 
-def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, Any]) -> None:
+def _require_unit_of_joint(scene: Scene, key: Key, values: Mapping[str, Any]) -> None:
     """Refuse N/m of an angle, and the like."""
     joint = values.get("joint")
-    if joint not in scene.joints:
-        return  # the call says so
-    coordinate = coordinate_of(scene, key.name, joint, values.get("coordinate"))
-    straight = key.unit.split(EITHER)[0]
-    angular = key.spellings[spelling] != straight
-    if angular != (coordinate in ANGLES):
-        right = [one for one, unit in key.spellings.items() if (unit != straight) != angular]
-        kinds = ("an angle", "a displacement")
-        raise SceneError.of(
-            spelling,
-            f"is of {kinds[not angular]}, and {coordinate!r} of joint {joint!r} is "
-            f"{kinds[angular]}; give {' or '.join(right)}",
-        )
+    if joint in scene.joints:  # else the call says so
+        coordinate = coordinate_of(scene, key.name, joint, values.get("coordinate"))
+        own = key.unit.split(EITHER)[coordinate in ANGLES]
+        require_unit([key], values, own, f"{key.name} along {coordinate!r} of joint {joint!r}")
+
+
+def require_unit(
+    keys: Iterable[Key], values: Mapping[str, Any], own: str, what: str, otherwise: str = ""
+) -> None:
+    """Refuse values in another unit than its own, or one of several.
+
+    `what` is meant; `otherwise`: the fix where no key is in it.
+    """
+    units = {*own.split(EITHER)}
+    for key in keys:
+        right = [one for one, unit in key.spellings.items() if {unit, RADIANS.get(unit)} & units]
+        for spelling, unit in key.spellings.items():
+            if spelling in values and unit and spelling not in right:
+                fix = f"give {' or '.join(right)}" if right else otherwise
+                raise SceneError.of(spelling, f"is given, and {what} is in {own}; {fix}")
 
 
 def require_unit_of_channel(
     keys: Iterable[Key], values: Mapping[str, Any], channel: str, names: Mapping[str, str], unit: str = ""
 ) -> None:
     """Refuse a limit in another unit than that of the channel, as far as that is known here."""
-    if channel not in CHANNELS and not unit:
-        return  # the run says so
-    own = (unit or unit_of(channel, list(names.values()))).split(EITHER)
-    for key in keys:
-        for spelling, unit in key.spellings.items():
-            if spelling in values and unit and not {unit, RADIANS.get(unit)} & set(own):
-                right = [one for one, u in key.spellings.items() if {u, RADIANS.get(u)} & set(own)]
-                fix = f"give {' or '.join(right)}" if right else "name one of its curves in channel"
-                raise SceneError(f"{spelling}: channel {channel!r} is in {EITHER.join(own)}; {fix}")
+    if channel in CHANNELS or unit:  # else the run says so
+        own = unit or unit_of(channel, list(names.values()))
+        require_unit(keys, values, own, f"channel {channel!r}", "name one of its curves in channel")
 
 
 def _unit_of_own(scene: Scene, channel: str, names: Mapping[str, str]) -> str:
@@ -172,7 +174,9 @@ class Caller:
         file = given.pop("crane", None)
         crane = load_crane() if file is None else load_crane(file)
         if "coordinates" in given:
-            _require_units(crane, values.get("coordinates", ()))
+            for row in values["coordinates"]:
+                unit = "m" if crane.data.led_by(str(row["name"])).kind == "prismatic" else "rad"
+                require_unit(COORDINATE, row, unit, f"coordinate {row['name']!r}")
             given["coordinates"] = {row["name"]: row["value"] for row in given["coordinates"]}
         scene.add_crane(crane, **given)
 
@@ -267,15 +271,6 @@ def _system(given: Keywords) -> WaveSystem:
     if "spreading" in given:
         given["spreading"] = cos_2s(given["spreading"])
     return WaveSystem(spectrum=spectrum, **given)
-
-
-def _require_units(crane: Crane, rows: Iterable[Mapping[str, Any]]) -> None:
-    """Refuse metres of an angle, and degrees of a stroke."""
-    for row in rows:
-        kind = crane.data.led_by(str(row["name"])).kind
-        if ("value_m" in row) != (kind == "prismatic"):
-            right = "value_m" if kind == "prismatic" else "value_deg or value_rad"
-            raise SceneError(f"crane: coordinate {row['name']!r} is of a {kind} joint; give {right}")
 
 
 def curve_from(given: Any, unit: str) -> float | Curve:

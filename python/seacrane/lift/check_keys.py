@@ -18,13 +18,12 @@ from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import plain_notes
 from seacrane.inputs.shown import shown
 from seacrane.lift.document import Document, read_document
+from seacrane.lift.inner_keys import CURVES, FROM, LIFTS, RANGE
 from seacrane.lift.keys import Key
-from seacrane.lift.study_keys import LIFTS, RANGE
-from seacrane.lift.tables import CURVES, FROM, TABLES, Table
+from seacrane.lift.tables import TABLES, Table
 from seacrane.lift.text_lines import Place
 
 LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
-AS_NEAR = 0.1  # "see" is as near to "scene" as to "sea"
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
 Number = TypeVar("Number", int, float)
 BOUNDS: Mapping[str, tuple[Callable[[float, float], bool], str]] = {
@@ -238,7 +237,7 @@ class Checker:
         kind = value.get("kind") if isinstance(value, Mapping) else None
         if kind not in kinds:
             self.document.fail(path, f"{titled(path)} has kind {shown(kind)}; give one of {', '.join(kinds)}")
-        word = Key(name="kind", type="text", choices=kinds, required=True)
+        word = Key("kind", "text", choices=kinds, required=True)
         return self.table(path, (word, *(() if first else (FROM,)), *CURVES[kind]), value)
 
     def _notes(self, path: Place, given: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -324,10 +323,7 @@ def _file(node: Node, key: Key, folder: Path) -> str:
 
 def nearest(name: str, known: tuple[str, ...]) -> str:
     """What a message adds to an unknown name."""
-    asked = name[:LONGEST_NAME]
-    ratio = {one: difflib.SequenceMatcher(None, one, asked).ratio() for one in known}
-    near = [one for one in known if ratio[one] >= max([*ratio.values(), LEAST + AS_NEAR]) - AS_NEAR]
-    near = sorted(near, key=lambda one: (-ratio[one], abs(len(one) - len(asked))))[:MOST_NEAR]
+    near = difflib.get_close_matches(name[:LONGEST_NAME], known, MOST_NEAR, LEAST)
     return f"nearest: {' or '.join(near)}" if near else f"known are {', '.join(known)}"
 
 

@@ -26,7 +26,7 @@ DEGREES = {"rad": "deg", "rad/s": "deg/s"}
 SECTIONS = ("Parameters", "Attributes")
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Key:
     """A keyword of the API as a key of a file.
 
@@ -48,13 +48,13 @@ class Key:
     name: str
     type: str
     unit: str = ""
-    shapes: tuple[tuple[int, ...], ...] = ()
-    required: bool = False
     text: str = ""
-    choices: tuple[str, ...] = ()
-    bounds: Mapping[str, float] = field(default_factory=dict)
-    keys: tuple[Key, ...] = ()
-    entry: str = ""
+    required: bool = field(default=False, kw_only=True)
+    shapes: tuple[tuple[int, ...], ...] = field(default=(), kw_only=True)
+    choices: tuple[str, ...] = field(default=(), kw_only=True)
+    bounds: Mapping[str, float] = field(default_factory=dict, kw_only=True)
+    keys: tuple[Key, ...] = field(default=(), kw_only=True)
+    entry: str = field(default="", kw_only=True)
 
     @property
     def units(self) -> tuple[str, ...]:

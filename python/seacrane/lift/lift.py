@@ -20,10 +20,10 @@ from seacrane.inputs.keywords import named
 from seacrane.lift.build import SceneBuild, made, refused_at
 from seacrane.lift.check_keys import Entry, entries_of, only, plain, shipped_lift
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
+from seacrane.lift.inner_keys import LIFTS
 from seacrane.lift.keys import Key
 from seacrane.lift.stages import check_stages, stages_of
 from seacrane.lift.study import Study, study_of
-from seacrane.lift.study_keys import LIFTS
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs

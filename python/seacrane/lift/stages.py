@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from seacrane.description.description import coordinate_of
@@ -10,10 +10,9 @@ from seacrane.description.holding import with_holds
 from seacrane.description.places import ANGLES
 from seacrane.errors import SceneError
 from seacrane.lift.build import refused_at
-from seacrane.lift.calls import Keywords, keywords, require_unit_of_channel
+from seacrane.lift.calls import Keywords, keywords, require_unit, require_unit_of_channel
 from seacrane.lift.check_keys import Entry
-from seacrane.lift.keys import DEGREES, EITHER
-from seacrane.lift.stage_keys import COMMANDS, STAGE, UNTIL, WAITS
+from seacrane.lift.inner_keys import COMMANDS, STAGE, UNTIL, WAITS
 from seacrane.run.commands import HOLE, Command, Move, targets
 from seacrane.run.plan import checked_stages
 from seacrane.run.stage import Condition, Stage, Until
@@ -78,23 +77,15 @@ def _condition(table: Mapping[str, Any], values: Keywords) -> Condition:
     if kind != "channel" and "names" in values:
         raise SceneError(f"until: names goes with channel; leave it out beside {kind}")
     bounds = {key: values[key] for key in ("minimum", "maximum") if key in values}
+    made: Callable[..., Condition] = getattr(Until, kind)
     if kind in ("contact", "release"):
         if bounds:
             raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")
-        return Until.contact(values[kind]) if kind == "contact" else Until.release(values[kind])
+        return made(values[kind])
     require_unit_of_channel(UNTIL, table, LIMITED.get(kind, str(values[kind])), names)
-    if kind == "channel":
-        return Until.channel(values[kind], **bounds, **names)
-    if kind == "clear":
-        return Until.clear(values[kind], minimum=_minimum(bounds))
-    by_name = {"tension": Until.tension, "length": Until.length, "depth": Until.depth}
-    return by_name[kind](values[kind], **bounds)
-
-
-def _minimum(bounds: Mapping[Any, float]) -> float:
-    if set(bounds) != {"minimum"}:
+    if kind == "clear" and bounds.keys() != {"minimum"}:
         raise SceneError("until: clear needs a minimum, in m, and no maximum; give minimum_m")
-    return bounds["minimum"]
+    return made(values[kind], **bounds, **names)
 
 
 def _commands(tables: Iterable[Keywords]) -> dict[str, Command]:
@@ -126,16 +117,10 @@ def _command(name: str, values: Mapping[str, Any]) -> Command:
 def _require_unit_of_target(scene: Scene, table: Mapping[str, Any]) -> None:
     """Refuse metres of an angle, and the like."""
     name = table["name"]
-    known = targets(scene)
-    if name not in known:
+    if name not in targets(scene):
         return  # the check of all stages says so, with what there is
-    unit = _unit(scene, name)
-    fits = {unit, DEGREES.get(unit)}
-    for key in (key for key in COMMANDS if key.name in WAYS):
-        for spelling, given in key.spellings.items():
-            if spelling in table and given not in fits:
-                right = EITHER.join(one for one, own in key.spellings.items() if own in fits)
-                raise SceneError(f"{spelling} is given of {name!r}, which is in {unit}; give {right}")
+    ways = [key for key in COMMANDS if key.name in WAYS]
+    require_unit(ways, table, _unit(scene, name), f"command {name!r}")
 
 
 def _unit(scene: Scene, name: str) -> str:

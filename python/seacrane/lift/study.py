@@ -17,7 +17,7 @@ from seacrane.errors import SceneError
 from seacrane.lift.build import refused_at
 from seacrane.lift.calls import Keywords, keywords
 from seacrane.lift.check_keys import Entry, plain
-from seacrane.lift.study_keys import STUDY
+from seacrane.lift.inner_keys import STUDY
 
 
 @dataclass(frozen=True, kw_only=True)

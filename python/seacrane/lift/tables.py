@@ -8,17 +8,29 @@ from types import MappingProxyType
 from typing import Any
 
 from seacrane import _core
-from seacrane.analysis.tanks import Tank
 from seacrane.crane.knuckle_boom import CYLINDERS
 from seacrane.crane.parts import Payload
 from seacrane.description import elements
-from seacrane.description.curves import spline_curve
 from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.inputs.values import entries_of
-from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
+from seacrane.lift.inner_keys import (
+    CHANNEL_UNITS,
+    CHOSEN,
+    COORDINATE,
+    DIRECTION,
+    EACH,
+    LENGTH,
+    NUMBER,
+    PISTON,
+    POINT,
+    ROW,
+    STAGE,
+    STUDY,
+    TANK,
+    TIME,
+    control_keys,
+)
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
-from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
-from seacrane.lift.study_keys import STUDY
 from seacrane.lift.vessel_keys import part_keys, sea_keys, vessel_keys
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -44,7 +56,6 @@ from seacrane.scene.add_crane import add_crane
 from seacrane.scene.ballast import add_ballast
 from seacrane.scene.line_fluid import Seabed
 from seacrane.scene.scene import Scene
-from seacrane.scene.wind_current import gust_curve
 from seacrane.simulation import simulate
 from seacrane.water import Opening
 
@@ -118,15 +129,6 @@ def _flow(name: str, add: Callable[..., Any]) -> Table:
     return replace(table, keys=tuple(replace(key, text=texts.get(key.name, key.text)) for key in table.keys))
 
 
-TANK = (
-    Key(name="name", type="text", required=True, text="Differs from those of the other tanks."),
-    *keys_of(Tank, more={"point": POINT, "capacity": {"unit": "kg"}, "content": {"unit": "kg"}}),
-)
-PISTON = (
-    Key(name="cylinder", type="text", required=True, text="Its label."),
-    Key(name="full", type="number", unit="m2", required=True, text="Area of the full side."),
-    Key(name="rod_side", type="number", unit="m2", required=True, text="Area of the rod side."),
-)
 SLINGS = keys_of(
     hoist.Slings,
     more={
@@ -156,10 +158,6 @@ FEET = tuple(
     replace(key, required=False)
     for key in keys_of(limits.add_contact, _core.Contact, more=CONTACT, only=hoist.FEET_KEYS)
 )
-COORDINATE = (
-    Key(name="name", type="text", required=True, text="Its label, such as boom."),
-    Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
-)
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
 POSE: dict[str, dict[str, Any]] = {
     "slew": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH,
@@ -171,7 +169,7 @@ RAM = _call(
 )  # fmt: skip
 PLACED = ("name", "first", "second", "first_point", "second_point", "retracted_length", "stroke")
 OIL = tuple(replace(key, required=False) for key in RAM.keys if key.name not in PLACED)
-HYDRAULICS = tuple(Key(name=label, type="table", keys=OIL) for label in CYLINDERS)
+HYDRAULICS = tuple(Key(label, "table", keys=OIL) for label in CYLINDERS)
 CRANE = keys_of(
     add_crane,
     more=POSE
@@ -184,71 +182,8 @@ CRANE = keys_of(
         "hydraulics": {"type": "table", "keys": HYDRAULICS},
     },
 )
-TUNED_AT = tuple(key for key in CRANE if key.name in (*POSE, "payload"))
-TIMES = (
-    Key(name="until", type="number", unit="s", required=True, text="End of this part."),
-    Key(name="every", type="number", unit="s", required=True, text="Interval within it."),
-)
-CONTROL = (
-    Key(
-        name="natural_frequency", type="number", unit="Hz", required=True,
-        text="Of every commanded coordinate, with the inertia that its drive feels.",
-    ),
-    Key(name="damping_ratio", type="number", required=True, text="Of critical damping."),
-    Key(
-        name="tuned_at", type="table", keys=TUNED_AT,
-        text="Pose of the cranes, on a fixed base, at which that inertia is taken; default: the start.",
-    ),
-    Key(
-        name="feed_forward", type="text", choices=("references", "start", "none"),
-        text="Loads that hold them at rest: along their references (default), those of the start, or none.",
-    ),
-    Key(
-        name="times", type="tables", keys=TIMES,
-        text="At which the loads along the references are computed, from 0 s on, part after part.",
-    ),
-    Key(name="period", type="number", unit="s", text="Of references that swing for ever; as `feed_forward`."),
-)  # fmt: skip
+CONTROL = control_keys(tuple(key for key in CRANE if key.name in (*POSE, "payload")))
 COMMAND = keys_of(elements.add_actuator, _core.Actuator, only=("joint", "name", "coordinate", "reference"))
-FROM = Key(
-    name="from", type="number", unit="s", required=True, text="When it takes over from the piece before."
-)
-
-
-def _number(name: str, unit: str = "", *, required: bool = True, text: str = "") -> Key:
-    return Key(name=name, type="number", unit=unit, required=required, text=text)
-
-
-CURVES: Mapping[str, tuple[Key, ...]] = {
-    "constant": (_number("value"),),
-    "quintic": (
-        _number("start_time", "s"), _number("end_time", "s"),
-        _number("start", text="Value until start_time."), _number("end", text="Value from end_time on."),
-    ),
-    "harmonic": (
-        _number("amplitude"), _number("offset", required=False), _number("period", "s"),
-        _number("start_time", "s", required=False), _number("phase", "rad", required=False),
-    ),
-    "spline": keys_of(
-        spline_curve,
-        more={
-            "times": {"type": "array", "unit": "s", "shapes": ((-1,),)},
-            "values": {"type": "array", "shapes": ((-1,),)},
-        },
-    ),
-    "table": (
-        Key(name="times", type="array", unit="s", shapes=((-1,),), required=True, text="That increase."),
-        Key(name="values", type="array", shapes=((-1,),), required=True, text="At these times."),
-        Key(
-            name="between", type="text", choices=("linear", "cubic"),
-            text="Straight (default), or with continuous rate and acceleration, at rest at both ends.",
-        ),
-    ),
-    "gust": keys_of(
-        gust_curve, more={"mean_speed": {"unit": "m/s"}, "duration": TIME, "height": LENGTH}
-    ),
-}  # fmt: skip
-
 _ALL = (
     Table(
         name="scene", several=False, text="Name and settings of the scene.",
@@ -304,7 +239,7 @@ _ALL = (
                 "cylinders": {"type": "names"},
                 "luffs": {"type": "names"},
                 "tip": {"type": "table", "keys": (
-                    Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
+                    Key("body", "text", required=True), Key("point", required=True, **POINT)
                 )},
                 "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
                 "areas": {"type": "tables", "keys": PISTON},
@@ -386,7 +321,7 @@ _ALL = (
     Table(
         name="balance", several=False,
         text="A constant force on a vessel that carries the weight of all else at the start: its ballast.",
-        keys=(Key(name="vessel", type="text", required=True, text="Its body."),),
+        keys=(Key("vessel", "text", required=True, text="Its body."),),
     ),
     Table(
         name="ballast", text=_summary(add_ballast), add=add_ballast,
@@ -426,7 +361,7 @@ _ALL = (
     ),
     Table(
         name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",
-        keys=(Key(name="*", type="notes"),),
+        keys=(Key("*", "notes"),),
     ),
 )  # fmt: skip
 TABLES: Mapping[str, Table] = MappingProxyType({table.name: table for table in _ALL})

@@ -8,7 +8,7 @@ from typing import Any
 from seacrane.description.waves import STRETCHING
 from seacrane.hydro import load_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.lift.key_shapes import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
+from seacrane.lift.inner_keys import CHOSEN, DIRECTION, EACH, LENGTH, NUMBER, POINT, ROW, TIME
 from seacrane.lift.keys import Key, keys_of
 from seacrane.scene import afloat, given_vessel, sea, vessel
 from seacrane.scene.mooring import MooringSpring
@@ -44,19 +44,17 @@ def vessel_keys() -> tuple[Key, ...]:
         "position": POINT, "ramp": TIME, "duration": TIME, "size": POINT,
     }  # fmt: skip
     return (
-        Key(
-            name="database", type="file", choices=SHIPPED,
+        Key("database", "file", choices=SHIPPED,
             text="Path of a database, or hull_115, which comes with seacrane.",
         ),
-        Key(
-            name="motion", type="text", choices=("raos", "rest"),
+        Key("motion", "text", choices=("raos", "rest"),
             text='"raos": led by the displacement RAOs of the database; "rest": without one, never moves.',
         ),
-        Key(name="raos", type="table", keys=_rao_keys(), text="Led by a table of RAOs, without a database."),
-        Key(name="history", type="table", keys=history, text="Led by a history, without a database."),
+        Key("raos", "table", keys=_rao_keys(), text="Led by a table of RAOs, without a database."),
+        Key("history", "table", keys=history, text="Led by a history, without a database."),
         *keys_of(afloat.add_hull, described=vessel.add_vessel, more=more, without=("database",)),
         *keys_of(given_vessel.add_given, described=vessel.add_vessel, more=more, only=OF_MOTION),
-        Key(name="mooring_springs", type="tables", keys=spring, text="Mooring by horizontal springs."),
+        Key("mooring_springs", "tables", keys=spring, text="Mooring by horizontal springs."),
         *keys_of(load_database, more=READING, only=tuple(READING)),
     )  # fmt: skip
 
@@ -65,7 +63,7 @@ def _rao_keys() -> tuple[Key, ...]:
     """The keys of `MotionRaos`, whose values are written heading by heading."""
     columns: dict[str, Any] = {"type": "array", "shapes": ((-1, 6),), "required": True}
     at_heading = (
-        Key(name="heading", type="number", unit="rad", required=True, text="Where the waves go."),
+        Key("heading", "number", unit="rad", required=True, text="Where the waves go."),
         Key(
             name="amplitude", unit="m/m, rad/m", text="Six motions at each frequency, zero or more.",
             **columns,
@@ -76,7 +74,7 @@ def _rao_keys() -> tuple[Key, ...]:
     )  # fmt: skip
     omega = {"type": "array", "unit": "rad/s", "shapes": ((-1,),)}
     table = keys_of(MotionRaos, more={"omega": omega, "depth": LENGTH}, without=("heading", "values", "g"))
-    headings = Key(name="headings", type="tables", keys=at_heading, required=True, text="Of the table.")
+    headings = Key("headings", "tables", keys=at_heading, required=True, text="Of the table.")
     return (*table, headings)
 
 
@@ -97,7 +95,7 @@ def part_keys() -> tuple[Key, ...]:
     of_mesh = keys_of(from_mesh, more=more, without=("density",))
     found = {key.name: key for key in of_mesh}
     found |= {key.name: key for kind in PARTS.values() for key in keys_of(kind, more=more)}
-    kind = Key(name="kind", type="text", required=True, choices=(*PARTS, "mesh"), text="What it is.")
+    kind = Key("kind", "text", required=True, choices=(*PARTS, "mesh"), text="What it is.")
     return (kind, *(replace(key, required=False) for key in found.values()))
 
 

@@ -207,7 +207,7 @@ def _span(around: Around, span: _core.SpanDrag) -> Iterator[Made]:
         yield "flow", "water at {} m/s", float(np.linalg.norm(span.flow)), 1.0, 0.0, FAST_WATER
 
 
-def _wet_span(around: Around, span: _core.ImmersedSpan | _core.WoundSpan) -> Iterator[Made]:
+def _wet_span(around: Around, span: Any) -> Iterator[Made]:
     """Beside the segment of a line with mass that it is the water of: what its section is made of."""
     start = around.at_start(span.length)
     yield "length", "{} times the span", start, around.distance(span), 0.05, 20.0

@@ -1,0 +1,173 @@
+"""Keys of what stands inside tables of a lift file: stages, studies, curves; and what several share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from seacrane import _core
+from seacrane.analysis.tanks import Tank
+from seacrane.description.channels import CHANNELS, units_of
+from seacrane.description.curves import spline_curve
+from seacrane.ensembles.kept import Kept
+from seacrane.ensembles.members import LatinHypercube
+from seacrane.lift.keys import EITHER, Key, keys_of
+from seacrane.run.method import FORMULATIONS
+from seacrane.run.stage import Stage
+from seacrane.scene.afloat import MEMORY
+from seacrane.scene.realised_sea import SPECTRA
+from seacrane.scene.wind_current import gust_curve
+
+CHOSEN: dict[str, dict[str, Any]] = {
+    "spectrum": {"type": "text", "choices": SPECTRA},
+    "evaluation": {"choices": ("table", "fft", "exact")},
+    "placement": {"choices": ("jittered", "uniform")},
+    "memory": {"choices": MEMORY},
+    "kinematics": {"choices": ("yaw_following", "paper")},
+    "orientation": {"choices": ("quaternion", "euler_xyz")},
+    "formulation": {"choices": FORMULATIONS},
+    "integrator": {"choices": tuple(_core.integrator_names())},
+    "kind": {"choices": tuple(_core.joint_kinds())},
+}
+POINT: dict[str, Any] = {"type": "array", "unit": "m", "shapes": ((3,),)}
+DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
+EACH: dict[str, Any] = {"type": "array", "shapes": ((-1,), ())}  # or one number for all
+LENGTH: dict[str, Any] = {"unit": "m"}
+ROW: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
+TIME: dict[str, Any] = {"unit": "s"}
+NUMBER = {"type": "number"}
+
+# Stages
+CHANNEL_UNITS = EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))
+COMMAND_UNITS = EITHER.join(("m", "rad", "m/s", "N", "N m", "1", "m2"))
+WAITS = {
+    "tension": "Line whose tension ends the stage.",
+    "length": "Line whose unstretched length ends it.",
+    "depth": "Body with parts in water, or part, the depth of whose lowest point ends it.",
+    "channel": "Channel that ends it.",
+    "clear": "Contact whose points are all at least so far from the surface.",
+    "contact": "Limit that takes hold, or contact that is touched.",
+    "release": "Limit that lets go, or contact that is left.",
+}
+UNTIL = (
+    *(Key(name, "text", text=text) for name, text in WAITS.items()),
+    Key("minimum", "number", CHANNEL_UNITS, "Met at this value and above."),
+    Key("maximum", "number", CHANNEL_UNITS, "Met at this value and below."),
+    Key("names", "names", text="One name for each dimension of the channel."),
+)
+COMMANDS = (
+    Key("name", "text", text='Such as "hoist.rate".', required=True),
+    Key("to", "number", COMMAND_UNITS, "Where a move ends."),
+    Key("by", "number", COMMAND_UNITS, "How far it goes."),
+    Key("over", "number", "s", "How long it takes."),
+    Key("value", "number", COMMAND_UNITS, "A rate, force or share, reached within 1 s; the area of a hole."),
+    Key("curve", "curve", COMMAND_UNITS, "On the stage's clock, 0 where it begins."),
+)
+STAGE = keys_of(
+    Stage,
+    more={
+        "duration": TIME, "maximum_duration": TIME,
+        "connect": {"type": "texts"}, "release": {"type": "texts"},
+        "until": {"type": "tables", "keys": UNTIL, "text": "The first that is met ends the stage."},
+        "commands": {"type": "tables", "keys": COMMANDS, "text": "What moves during it."},
+    },
+)  # fmt: skip
+
+# Studies
+LIFTS = ("case1", "case2", "case3", "vessel")  # lifts that come with the package, by their names
+KEEP = (
+    Key("name", "text", text="What it is called in tables, and in until.", required=True),
+    *keys_of(Kept, more={"names": {"type": "names"}, "after": TIME, "interval": TIME}),
+)
+RANGE = (
+    Key("first", "number", text="The first value.", required=True),
+    Key("last", "number", text="The last one; by default values go on by ones."),
+    Key("count", "whole", text="How many, evenly spaced.", required=True, bounds={"minimum": 1}),
+)
+DESIGN = keys_of(LatinHypercube, more={"ranges": {"type": "ranges"}})
+STUDY = (
+    Key(
+        "lift", "file", choices=LIFTS,
+        text="Path of a lift file, or a lift that comes with seacrane, whose tables stand where this file "
+        "has none of the name; of [run] its keys.",
+    ),
+    Key(
+        "over", "values",
+        text="Values by parameter, of which all combinations are run: lists, or first, last and count.",
+    ),
+    Key(
+        "design", "table", keys=DESIGN,
+        text="So many members spread evenly over the ranges of all parameters, in place of over.",
+    ),
+    Key("keep", "tables", text="What each run leaves.", required=True, keys=KEEP),
+    Key(
+        "until", "limits",
+        text="Half widths of 95 % intervals as shares of the dynamic part; seeds are added until then.",
+    ),
+    Key(
+        "exposure", "number", "s", "Of the largest values; default: that of a run.",
+        bounds={"exclusiveMinimum": 0},
+    ),
+)  # fmt: skip
+
+# Tanks, pistons, coordinates, control and curves
+TANK = (
+    Key("name", "text", text="Differs from those of the other tanks.", required=True),
+    *keys_of(Tank, more={"point": POINT, "capacity": {"unit": "kg"}, "content": {"unit": "kg"}}),
+)
+PISTON = (
+    Key("cylinder", "text", text="Its label.", required=True),
+    Key("full", "number", "m2", "Area of the full side.", required=True),
+    Key("rod_side", "number", "m2", "Area of the rod side.", required=True),
+)
+COORDINATE = (
+    Key("name", "text", text="Its label, such as boom.", required=True),
+    Key("value", "number", "m or rad", "From the pose as drawn.", required=True),
+)
+TIMES = (
+    Key("until", "number", "s", "End of this part.", required=True),
+    Key("every", "number", "s", "Interval within it.", required=True),
+)
+
+
+def control_keys(tuned_at: tuple[Key, ...]) -> tuple[Key, ...]:
+    """The keys of [control]; `tuned_at` are those of a crane's pose."""
+    inertia = "Of every commanded coordinate, with the inertia that its drive feels."
+    pose = "Pose of the cranes, on a fixed base, at which that inertia is taken; default: the start."
+    loads = "Loads that hold them at rest: along their references (default), those of the start, or none."
+    times = "At which the loads along the references are computed, from 0 s on, part after part."
+    return (
+        Key("natural_frequency", "number", "Hz", inertia, required=True),
+        Key("damping_ratio", "number", text="Of critical damping.", required=True),
+        Key("tuned_at", "table", text=pose, keys=tuned_at),
+        Key("feed_forward", "text", text=loads, choices=("references", "start", "none")),
+        Key("times", "tables", text=times, keys=TIMES),
+        Key("period", "number", "s", "Of references that swing for ever; as `feed_forward`."),
+    )
+
+
+FROM = Key("from", "number", "s", "When it takes over from the piece before.", required=True)
+SAMPLES: dict[str, dict[str, Any]] = {"times": ROW | TIME, "values": ROW}
+CURVES: Mapping[str, tuple[Key, ...]] = {
+    "constant": (Key("value", "number", required=True),),
+    "quintic": (
+        Key("start_time", "number", "s", required=True), Key("end_time", "number", "s", required=True),
+        Key("start", "number", text="Value until start_time.", required=True),
+        Key("end", "number", text="Value from end_time on.", required=True),
+    ),
+    "harmonic": (
+        Key("amplitude", "number", required=True), Key("offset", "number"),
+        Key("period", "number", "s", required=True), Key("start_time", "number", "s"),
+        Key("phase", "number", "rad"),
+    ),
+    "spline": keys_of(spline_curve, more=SAMPLES),
+    "table": (
+        Key("times", **SAMPLES["times"], text="That increase.", required=True),
+        Key("values", **SAMPLES["values"], text="At these times.", required=True),
+        Key(
+            "between", "text", choices=("linear", "cubic"),
+            text="Straight (default), or with continuous rate and acceleration, at rest at both ends.",
+        ),
+    ),
+    "gust": keys_of(gust_curve, more={"mean_speed": {"unit": "m/s"}, "duration": TIME, "height": LENGTH}),
+}  # fmt: skip
