@@ -112,7 +112,7 @@ def pendulum() -> Scene:
     return scene
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.validity.left_range.FullTurnWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.FullTurnWarning")
 def test_energy_limit_stops_by_name_and_keeps_the_outputs() -> None:
     settings = {"t_end": 20.0, "integrator": "semi-implicit-euler", "dt": 0.02}
     free = simulate(pendulum(), **settings)

@@ -36,10 +36,9 @@ def name_of(kind: str, value: Any, usual: str = "") -> str:
 
 def texts_of(what: str, value: Any) -> list[str]:
     """A list of printable texts."""
-    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
-        raise SceneError.of(what, f"is {shown(value)}; give a list of texts")
-    texts = list(value)
-    if not all(isinstance(text, str) for text in texts):
+    no_list = isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable)
+    texts = [] if no_list else list(value)
+    if no_list or not all(isinstance(text, str) for text in texts):
         raise SceneError.of(what, f"is {shown(value)}; give a list of texts")
     return [text_of(f"{what}[{i}]", text) for i, text in enumerate(texts)]
 
@@ -90,10 +89,7 @@ def _within(what: str, value: Any, unit: str, least: float, fix: str) -> float:
 
 def vector_of(what: str, value: Any) -> list[float]:
     """A list of floats from a one-dimensional array_like."""
-    array = numbers_of(what, value)
-    if array.ndim != 1:
-        raise SceneError.of(what, f"has shape {array.shape}; give one row of numbers")
-    return [float(v) for v in array]
+    return [float(v) for v in shaped_of(what, value, (-1,), "one row of numbers")]
 
 
 def numbers_of(what: str, value: Any) -> Array:
@@ -101,7 +97,8 @@ def numbers_of(what: str, value: Any) -> Array:
     require_unmasked(what, value)
     try:
         array = np.asarray(value)
-        if array.dtype.kind not in "biufO" or any(isinstance(item, (str, bytes)) for item in _objects(array)):
+        objects = array.flat if array.dtype.kind == "O" else ()
+        if array.dtype.kind not in "biufO" or any(isinstance(item, (str, bytes)) for item in objects):
             raise TypeError
         return np.asarray(array, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
@@ -120,34 +117,28 @@ def require_unmasked(what: str, value: Any) -> None:
         )
 
 
-def _objects(array: NDArray[Any]) -> Iterable[Any]:
-    return array.flat if array.dtype.kind == "O" else ()
+def shaped_of(what: str, value: Any, shape: tuple[int, ...], told: str = "") -> Array:
+    """An array of floats of one shape, of which -1 is any length; `told`: how the error says it.
 
-
-def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:
-    """An array of floats of one shape."""
+    An empty list is no rows.
+    """
     array = numbers_of(what, value)
-    if array.shape != shape:
-        raise SceneError.of(what, f"has shape {array.shape}; give {shape}")
+    if array.shape == (0,) and shape[:1] == (-1,):
+        array = array.reshape(0, *(max(length, 0) for length in shape[1:]))
+    fits = zip(array.shape, shape, strict=False)
+    if array.ndim != len(shape) or any(length not in (-1, own) for own, length in fits):
+        raise SceneError.of(what, f"has shape {array.shape}; give {told or shape}")
     return array
 
 
 def rows_of(what: str, value: Any, width: int) -> Array:
     """Rows of so many numbers; an empty list is no rows."""
-    array = numbers_of(what, value)
-    array = array.reshape(0, width) if array.shape == (0,) else array
-    if array.ndim != 2 or array.shape[1] != width:
-        raise SceneError.of(what, f"has shape {array.shape}; give (n, {width})")
-    return array
+    return shaped_of(what, value, (-1, width), f"(n, {width})")
 
 
 def matrix_of(what: str, value: Any) -> Array:
     """Rows of numbers, of any length; an empty list is none."""
-    array = numbers_of(what, value)
-    array = array.reshape(0, 0) if array.shape == (0,) else array
-    if array.ndim != 2:
-        raise SceneError.of(what, f"has shape {array.shape}; give rows of numbers")
-    return array
+    return shaped_of(what, value, (-1, -1), "rows of numbers")
 
 
 def address_of(what: str, value: Any) -> int:
@@ -161,10 +152,7 @@ def curve_of(what: str, value: Any) -> _core.Curve:
     """A curve, or a number as a constant one."""
     if isinstance(value, _core.Curve):
         return value
-    number = number_of(what, value)
-    if not np.isfinite(number):
-        raise SceneError.of(what, f"is {number}; give a finite number or a curve")
-    return _core.Curve.constant(value=number)
+    return _core.Curve.constant(value=_within(what, value, "", -math.inf, "give a finite number or a curve"))
 
 
 def is_finite(array: NDArray[Any]) -> bool:

@@ -23,12 +23,9 @@ def check_replaceable(path: Path, overwrite: bool | None, *, mark: str) -> None:
     if overwrite or not path.exists():
         return
     if overwrite is None:
-        if path.is_file() and mark.encode() in _head(path):
-            return
+        if path.is_file():
+            with path.open("rb") as file:
+                if mark.encode() in file.read(HEAD):
+                    return
         raise FileExistsError(f"{path} is there and not of seacrane; give another name, or overwrite=True")
     raise FileExistsError(f"{path} is there already; give another name, or overwrite=True")
-
-
-def _head(path: Path) -> bytes:
-    with path.open("rb") as file:
-        return file.read(HEAD)

@@ -20,11 +20,8 @@ from seacrane.lift.keys import Key
 from seacrane.lift.text_lines import Place
 from seacrane.scene.scene import Scene
 
-LAST = ("heave_compensation",)  # what refers to commands
-NO_CALLS = (
-    "scene", "run", "method", "outputs", "ballast", "balance", "control", "command", "stage", "study",
-    "notes", *LAST,
-)  # fmt: skip
+NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "stage", "study")
+LATER = ("command", "heave_compensation", "ballast", "notes")  # in this order, after what they act on
 GAINS = ("stiffness", "damping")
 Made = TypeVar("Made")
 MOST_TIMES = 10_000  # each takes a rest state
@@ -61,42 +58,26 @@ class SceneBuild:
             self._control(scene, control, commands, start)
         return scene
 
-    @untold()
     def _started(self, *, at_rest: bool = False) -> tuple[Scene, Balance | None]:
         """The scene with its commands not yet controlled, and what balances it where [balance] says so."""
         scene = made(self.entries, "scene", Scene)
         for entry in _in_order(self.entries):
-            if entry.table.name not in NO_CALLS:
-                with refused_at(entry):
-                    self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
-        for entry in self.entries:
-            if entry.table.name == "command":
-                with refused_at(entry):
-                    given = keywords(entry.table.keys, entry.values, scene)
-                    scene.add_actuator(**{key: value for key, value in given.items() if key != "reference"})
-        for entry in self.entries:
-            if entry.table.name in LAST:
-                with refused_at(entry):
-                    self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
-        for entry in self.entries:
-            if entry.table.name == "notes":
-                scene.notes.update(plain(entry.values))
-        return scene, self._ballasted(scene, at_rest=at_rest)
-
-    def _ballasted(self, scene: Scene, *, at_rest: bool) -> Balance | None:
-        """Add ballast, once drives hold the scene; what [balance] balances."""
+            with untold(), refused_at(entry):
+                match entry.table.name:
+                    case "command":
+                        given = keywords(entry.table.keys, entry.values, scene)
+                        scene.add_actuator(**{key: one for key, one in given.items() if key != "reference"})
+                    case "notes":
+                        scene.notes.update(plain(entry.values))
+                    case _:
+                        self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
         balanced = only(self.entries, "balance")
-        for entry in self.entries:
-            if entry.table.name != "ballast":
-                continue
-            if balanced is not None:
-                balanced.fail("[balance] stands beside [ballast]; leave one out")
-            with refused_at(entry):
-                self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
         if balanced is None:
-            return None
+            return scene, None
+        if only(self.entries, "ballast"):
+            balanced.fail("[balance] stands beside [ballast]; leave one out")
         with refused_at(balanced):
-            return balance_by_force(scene, body=balanced.values["vessel"])
+            return scene, balance_by_force(scene, body=balanced.values["vessel"])
 
     def _control(
         self, scene: Scene, control: Entry, commands: Sequence[Entry], start: Balance | None
@@ -110,7 +91,11 @@ class SceneBuild:
             settings = keywords(control.table.keys, control.values)
             tuned_at = settings.pop("tuned_at", None)
             tuning = scene if tuned_at is None else self._tuning(tuned_at, given)
-            gains = gains_of(tuning, settings)
+            for key in ("natural_frequency", "damping_ratio"):
+                if not settings[key] > 0.0:
+                    raise SceneError.of(key, f"is {settings[key]:g}; give a number above zero")
+            inertia, omega = reflected_inertia(tuning), 2.0 * np.pi * settings["natural_frequency"]
+            gains = tuned_gains(inertia, natural_frequency=omega, damping_ratio=settings["damping_ratio"])
             loads = feed_forward_of(
                 scene, start, references, settings, at_rest=lambda: self._started(at_rest=True)[0]
             )
@@ -133,11 +118,16 @@ class SceneBuild:
 
 
 def _in_order(entries: Sequence[Entry]) -> list[Entry]:
-    """Bodies that are placed below a crane's tip follow the cranes; all else is as the tables are."""
-    later = [entry for entry in entries if entry.table.name == "body" and "below" in entry.values]
-    rest = [entry for entry in entries if entry not in later]
+    """Those that make calls; bodies that are placed below a crane's tip follow the cranes."""
+    calls = [entry for entry in entries if entry.table.name not in NO_CALLS]
+    below = [entry for entry in calls if entry.table.name == "body" and "below" in entry.values]
+    later = sorted(
+        (entry for entry in calls if entry.table.name in LATER),
+        key=lambda entry: LATER.index(entry.table.name),
+    )
+    rest = [entry for entry in calls if entry not in [*below, *later]]
     last = max((i for i, entry in enumerate(rest) if entry.table.name == "crane"), default=-1) + 1
-    return [*rest[:last], *later, *rest[last:]]
+    return [*rest[:last], *below, *rest[last:], *later]
 
 
 @contextlib.contextmanager
@@ -178,18 +168,6 @@ def _curve(value: float | Curve) -> Curve:
     return value if isinstance(value, Curve) else Curve.constant(value=value)
 
 
-def gains_of(tuning: Scene, settings: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
-    """Stiffness and damping of every actuator of a scene, by [control]."""
-    for key in ("natural_frequency", "damping_ratio"):
-        if not settings[key] > 0.0:
-            raise SceneError.of(key, f"is {settings[key]:g}; give a number above zero")
-    return tuned_gains(
-        reflected_inertia(tuning),
-        natural_frequency=2.0 * np.pi * settings["natural_frequency"],
-        damping_ratio=settings["damping_ratio"],
-    )
-
-
 def feed_forward_of(
     scene: Scene,
     start: Balance | None,
@@ -198,15 +176,9 @@ def feed_forward_of(
     *,
     at_rest: Callable[[], Scene],
 ) -> dict[str, Curve]:
-    """Loads that hold the coordinates at rest, by [control].
+    """Loads that hold the coordinates at rest, by the settings of [control]; `references` are by command.
 
-    Parameters
-    ----------
-    start : Of the scene, where it is known.
-    references : mapping of str to Curve
-        By command.
-    settings : Keywords of [control].
-    at_rest : Makes the scene without waves and fluid memory.
+    `start` balances the scene, where it is known; `at_rest` makes it without waves and fluid memory.
     """
     kind = settings.get("feed_forward", "references")
     if kind != "references":

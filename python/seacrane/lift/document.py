@@ -23,6 +23,7 @@ _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_KEY = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}")
 _AT_LINE = re.compile(r"^(.*) \(at line (\d+), column (\d+)\)$", re.DOTALL)
 _AT_END = " (at end of document)"
+_BEGIN = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:#|\[\[?\s*[\w\"']|[\w\"'-][^\n=]{0,200}=)")
 _NO_LIFT = f'no lift file, which is TOML with format = "{FORMAT}" at its top (docs/lift-files.md)'
 _TOO_DEEP = "is nested too deeply to be a lift file"
 
@@ -82,7 +83,7 @@ def read_document(path: Path) -> Document:
         text = _decoded(name, content)
         data = _parsed(name, text)
     except FileFormatError:
-        if _is_no_toml(content):
+        if not _BEGIN.match(content):
             raise FileFormatError(f"{name}: is {looks_like(path, content)}, {_NO_LIFT}") from None
         raise
     if data.get("format") != FORMAT:
@@ -92,11 +93,6 @@ def read_document(path: Path) -> Document:
         return Document(name, data, lines_of(text))
     except RecursionError as error:
         raise FileFormatError(f"{name}: {_TOO_DEEP}") from error
-
-
-def _is_no_toml(content: bytes) -> bool:
-    """Whether it does not even begin like TOML: with a comment, a table or a key."""
-    return not re.match(rb"(?:\xef\xbb\xbf)?\s*(?:#|\[\[?\s*[\w\"']|[\w\"'-][^\n=]{0,200}=)", content)
 
 
 def _decoded(name: str, content: bytes) -> str:

@@ -24,6 +24,7 @@ MIXED = ", "  # between the units of an array of several: no suffix says them
 EITHER = " or "  # between the units of a displacement and an angle
 DEGREES = {"rad": "deg", "rad/s": "deg/s"}
 SECTIONS = ("Parameters", "Attributes")
+TYPES = {str: "text", float: "number", int: "whole", bool: "flag", Literal: "text"}
 
 
 @dataclass(frozen=True)
@@ -85,11 +86,7 @@ def suffix(unit: str) -> str:
 
 def into_si(unit: str) -> Callable[[Any], Any]:
     """From a file's unit to that of the API."""
-    return np.radians if unit.startswith("deg") else _as_it_is
-
-
-def _as_it_is(value: Any) -> Any:
-    return value
+    return np.radians if unit.startswith("deg") else lambda value: value
 
 
 def keys_of(
@@ -148,9 +145,6 @@ def _of_field(field: Any) -> dict[str, Any]:
     shapes = (tuple(field.shape),) if field.type == "array" else ()
     told = {name: getattr(field, name) for name in ("type", "unit", "text", "bounds")}
     return told | {"shapes": shapes}
-
-
-TYPES = {str: "text", float: "number", int: "whole", bool: "flag", Literal: "text"}
 
 
 def _annotated(call: Any, annotation: Any) -> dict[str, Any]:

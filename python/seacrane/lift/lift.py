@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import json
 import os
@@ -177,8 +178,11 @@ class Lift:
         OSError
             If the file cannot be written.
         """
-        target = Path(path)
-        tables = _listed(_relative(entry, target.absolute().parent) for entry in self._entries)
+        target, folder = Path(path), Path(path).absolute().parent
+        tables = _listed(
+            (entry.table.name, _from_folder(entry.table.keys, plain(entry.values), folder))
+            for entry in self._entries
+        )
         try:
             data = toml_text(tables).encode("utf-8")
         except UnicodeEncodeError as error:
@@ -215,28 +219,18 @@ def _listed(tables: Iterable[tuple[str, dict[str, Any]]]) -> dict[str, Any]:
     return {name: one[0] if len(one) == 1 else one for name, one in found.items()}
 
 
-def _relative(entry: Entry, folder: Path) -> tuple[str, dict[str, Any]]:
-    """An entry's name and values, paths of files from a folder."""
-    return entry.table.name, _from_folder(entry.table.keys, plain(entry.values), folder)
-
-
 def _from_folder(keys: Iterable[Key], values: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """A table with its paths of files from a folder."""
     for key in keys:
         value = values.get(key.name)
         if key.type == "file" and value is not None and value not in key.choices:
-            values[key.name] = _path_from(folder, value)
+            with contextlib.suppress(ValueError):  # on another drive
+                values[key.name] = Path(os.path.relpath(value, folder)).as_posix()
         elif key.type in ("table", "tables"):
             for one in value if isinstance(value, list) else [value]:
                 if isinstance(one, dict):
                     _from_folder(key.keys, one, folder)
     return values
-
-
-def _path_from(folder: Path, path: str) -> str:
-    try:
-        return Path(os.path.relpath(path, folder)).as_posix()
-    except ValueError:  # on another drive
-        return path
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:
@@ -264,19 +258,13 @@ def _section(title: str, heading: str, table: Mapping[str, Any]) -> Iterator[str
     below = {}
     for key, value in table.items():
         line = f"{_key(key)} = {toml_value(value)}"
-        rows = [f"    {toml_value(one)}," for one in value] if _is_tables(value) else []
-        if len(line) <= WIDTH or not (rows or isinstance(value, Mapping)):
-            yield line
-        elif rows and max(map(len, rows)) <= WIDTH:
-            yield from (f"{_key(key)} = [", *rows, "]")
-        else:
+        inside = isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
+        if len(line) > WIDTH and (inside or isinstance(value, Mapping)):
             below[key] = value
+        else:
+            yield line
     for key, value in below.items():
         yield from _sections(f"{heading}.{_key(key)}", value)
-
-
-def _is_tables(value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
 
 
 def _key(name: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
@@ -30,7 +30,7 @@ from seacrane.lift.inner_keys import (
     TIME,
     control_keys,
 )
-from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
+from seacrane.lift.keys import Key, field_keys, fields_of, keys_of, parameter_texts
 from seacrane.lift.vessel_keys import part_keys, sea_keys, vessel_keys
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -87,10 +87,13 @@ class Table:
     add: Callable[..., Any] | None = None
 
 
-def _call(name: str, add: Callable[..., Any], *classes: type, **more: Mapping[str, Any]) -> Table:
-    """A table that is one call of a method of `Scene`."""
-    keys = keys_of(add, *classes, more=CHOSEN | more)
-    return Table(name=name, text=_summary(add), keys=keys, add=add)
+def _call(
+    name: str, add: Callable[..., Any], *classes: type, several: bool = True, without: Collection[str] = (),
+    only: Collection[str] | None = None, described: Any = None, **more: Mapping[str, Any],
+) -> Table:  # fmt: skip
+    """A table that is one call, as of a method of `Scene`."""
+    keys = keys_of(add, *classes, more=CHOSEN | more, without=without, only=only, described=described)
+    return Table(name=name, text=_summary(add), keys=keys, add=add, several=several)
 
 
 def _values(element: type, kinds: Mapping[str, type], **more: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -119,14 +122,10 @@ def _joint_keys() -> tuple[Key, ...]:
 def _flow(name: str, add: Callable[..., Any]) -> Table:
     """Wind or current."""
     more = {"angle": ROW | {"unit": "rad"}, "x": ROW, "y": ROW, "yaw": ROW}
-    coefficients = keys_of(wind_current.FlowCoefficients, more=more)
-    table = _call(
-        name, add, _core.FlowForce, coefficients={"type": "table", "keys": coefficients}, draught=LENGTH
-    )
-    if add is wind_current.add_wind:
-        return table
-    texts = {key.name: key.text for key in keys_of(wind_current.add_wind, _core.FlowForce)}
-    return replace(table, keys=tuple(replace(key, text=texts.get(key.name, key.text)) for key in table.keys))
+    inside = {"type": "table", "keys": keys_of(wind_current.FlowCoefficients, more=more)}
+    draught = LENGTH | {"text": parameter_texts(add).get("draught", "")}
+    wind = wind_current.add_wind
+    return _call(name, add, _core.FlowForce, described=wind, coefficients=inside, draught=draught)
 
 
 SLINGS = keys_of(
@@ -185,13 +184,12 @@ CRANE = keys_of(
 CONTROL = control_keys(tuple(key for key in CRANE if key.name in (*POSE, "payload")))
 COMMAND = keys_of(elements.add_actuator, _core.Actuator, only=("joint", "name", "coordinate", "reference"))
 _ALL = (
-    Table(
-        name="scene", several=False, text="Name and settings of the scene.",
-        keys=keys_of(
-            Scene,
-            more=CHOSEN | {"gravity": {"unit": "m/s2"}, "baumgarte": {"unit": "1/s"}},
+    replace(
+        _call(
+            "scene", Scene, several=False, gravity={"unit": "m/s2"}, baumgarte={"unit": "1/s"},
             only=("name", "gravity", "orientation", "baumgarte", "length_scale"),
         ),
+        text="Name and settings of the scene.",
     ),
     Table(
         name="vessel", keys=vessel_keys(),
@@ -215,12 +213,9 @@ _ALL = (
     Table(name="joint", text=_summary(elements.add_joint), keys=_joint_keys()),
     _call("driver", elements.add_driver, _core.Driver),
     _call("actuator", elements.add_actuator, _core.Actuator),
-    Table(
-        name="force", text=_summary(elements.add_force), add=elements.add_force,
-        keys=keys_of(
-            elements.add_force, _core.ForceTable, _core.PointForce,
-            more={"force": {"shapes": ((3,), (-1, 6))}}, without=("parameters",),
-        ),
+    _call(
+        "force", elements.add_force, _core.ForceTable, _core.PointForce, without=("parameters",),
+        force={"shapes": ((3,), (-1, 6))},
     ),
     _call("spring", elements.add_spring, _core.Spring),
     _call(
@@ -231,21 +226,13 @@ _ALL = (
         seabed={"type": "table", "keys": SEABED},
     ),
     _call("winch", rigging.add_winch, _core.Line),
-    Table(
-        name="roles", text=_summary(roles.add_roles),
-        keys=keys_of(
-            roles.add_roles,
-            more={
-                "cylinders": {"type": "names"},
-                "luffs": {"type": "names"},
-                "tip": {"type": "table", "keys": (
-                    Key("body", "text", required=True), Key("point", required=True, **POINT)
-                )},
-                "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
-                "areas": {"type": "tables", "keys": PISTON},
-            },
-            without=("ropes",),
-        ),
+    _call(
+        "roles", roles.add_roles, without=("ropes",),
+        cylinders={"type": "names"}, luffs={"type": "names"},
+        tip={"type": "table", "keys": (Key("body", "text", required=True),
+                                       Key("point", required=True, **POINT))},
+        capacity={"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
+        areas={"type": "tables", "keys": PISTON},
     ),
     _call(
         "hoist", hoist.add_hoist,
@@ -266,10 +253,7 @@ _ALL = (
         **_values(_core.GasSpring, heave.VALUES, force={"unit": "N"}, stiffness={"unit": "N/m"}),
     ),
     RAM,
-    Table(
-        name="hold_pressures", several=False, text=_summary(hydraulics.hold_pressures), keys=(),
-        add=hydraulics.hold_pressures,
-    ),
+    _call("hold_pressures", hydraulics.hold_pressures, several=False),
     _call(
         "bridle", rigging.add_bridle, _core.Line,
         hook_point=POINT, EA=EACH | {"unit": "N"}, lengths=ROW | {"unit": "m"},
@@ -323,12 +307,10 @@ _ALL = (
         text="A constant force on a vessel that carries the weight of all else at the start: its ballast.",
         keys=(Key("vessel", "text", required=True, text="Its body."),),
     ),
-    Table(
-        name="ballast", text=_summary(add_ballast), add=add_ballast,
-        keys=keys_of(add_ballast, more={
-            "heel_deg": {"unit": "deg", "choices": LEFT}, "trim_deg": {"unit": "deg", "choices": LEFT},
-            "tanks": {"type": "tables", "keys": TANK, "text": "Without them one force."},
-        }),
+    _call(
+        "ballast", add_ballast,
+        heel_deg={"unit": "deg", "choices": LEFT}, trim_deg={"unit": "deg", "choices": LEFT},
+        tanks={"type": "tables", "keys": TANK, "text": "Without them one force."},
     ),
     Table(name="control", several=False, text="How commanded coordinates are controlled.", keys=CONTROL),
     Table(
@@ -347,14 +329,8 @@ _ALL = (
             only=("t_end", "start", "accuracy"),
         ),
     ),
-    Table(
-        name="method", several=False, text=_summary(Method),
-        keys=keys_of(Method, more=CHOSEN | {"dt": TIME, "maximum_step": TIME}),
-    ),
-    Table(
-        name="outputs", several=False, text=_summary(Outputs),
-        keys=keys_of(Outputs, more={"dt_out": TIME, "channels": {"type": "texts"}}),
-    ),
+    _call("method", Method, several=False, dt=TIME, maximum_step=TIME),
+    _call("outputs", Outputs, several=False, dt_out=TIME, channels={"type": "texts"}),
     Table(
         name="study", several=False, keys=STUDY,
         text="Many runs of the lift: what varies, what each leaves, and when it is enough.",

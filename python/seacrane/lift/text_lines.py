@@ -42,7 +42,7 @@ def lines_of(text: str) -> dict[Place, int]:
         Line, counted from 1, by the path of keys and places in lists, such as ("sea", "hs_m") or
         ("wire", 1, "joint"). Of what stands in several places the first.
     """
-    return _Scanner(text).scanned()
+    return _Scanner(text).lines
 
 
 class _Scanner:
@@ -53,8 +53,6 @@ class _Scanner:
         self.now = next(self.tokens, _END)
         self.lines: dict[Place, int] = {}
         self.counts: dict[Place, int] = {}
-
-    def scanned(self) -> dict[Place, int]:
         table: Place = ()
         while self.now is not _END:
             if self.now.kind == "line":
@@ -63,7 +61,6 @@ class _Scanner:
                 table = self._header()
             else:
                 self._pair(table)
-        return self.lines
 
     def _pass(self) -> _Token:
         """The token at hand; the next one takes its place."""
@@ -79,18 +76,17 @@ class _Scanner:
         several = self._is("[")
         if several:
             self._pass()
-        *around, last = self._key("]")
-        if several:
-            self._pass()
         path: Place = ()
+        *around, last = self._key("]")
         for part in around:
             path = self._latest((*path, part))
         path = (*path, last)
         if several:
-            self._note(path, line)
+            self._pass()
+            self.lines.setdefault(path, line)
             self.counts[path] = self.counts.get(path, 0) + 1
         path = self._latest(path)
-        self._note(path, line)
+        self.lines.setdefault(path, line)
         return path
 
     def _latest(self, path: Place) -> Place:
@@ -111,43 +107,29 @@ class _Scanner:
         line, path = self.now.line, table
         for part in self._key("="):
             path = (*path, part)
-            self._note(path, line)
+            self.lines.setdefault(path, line)
         self._value(path)
 
     def _value(self, path: Place) -> None:
-        if self._is("["):
-            self._list(path)
-        elif self._is("{"):
-            self._note(path, self.now.line)
-            self._inline(path)
-        else:  # one value, perhaps of several tokens: 1.5
-            while self.now is not _END and self.now.kind != "line" and not self._is(",]}"):
-                self._pass()
+        if self._is("[{"):
+            self._several(path)
+            return
+        while self.now is not _END and self.now.kind != "line" and not self._is(",]}"):
+            self._pass()  # one value, perhaps of several tokens: 1.5
 
-    def _list(self, path: Place) -> None:
-        self._pass()
-        index = 0
-        while not self._is("]"):
-            if self.now.kind == "line":
-                self._pass()
-            elif self._is(","):
-                self._pass()
-                index += 1
+    def _several(self, path: Place) -> None:
+        """A list, or a table on its line."""
+        opened, index = self._pass(), 0
+        if opened.text == "{":
+            self.lines.setdefault(path, opened.line)
+        while not self._is("]}"):
+            if self.now.kind == "line" or self._is(","):
+                index += self._pass().text == ","
+            elif opened.text == "{":
+                self._pair(path)
             else:
                 self._value((*path, index))
         self._pass()
-
-    def _inline(self, path: Place) -> None:
-        self._pass()
-        while not self._is("}"):
-            if self._is(","):
-                self._pass()
-            else:
-                self._pair(path)
-        self._pass()
-
-    def _note(self, path: Place, line: int) -> None:
-        self.lines.setdefault(path, line)
 
 
 def _tokens(text: str) -> Iterator[_Token]:

@@ -11,21 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
+from seacrane import _core, warnings
 from seacrane.description.given import given_vessels
 from seacrane.description.once import once
 from seacrane.hydro import HydroDatabase
 from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix
 from seacrane.validity.after_run import Finding, peak
-from seacrane.warnings import (
-    CurrentInWavesWarning,
-    ForwardSpeedWarning,
-    MeanHeadingWarning,
-    MeanPositionWarning,
-    MooringTurnWarning,
-    NoWaveLoadsWarning,
-    RelativePlaceWarning,
-)
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -66,24 +57,17 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
     waves, given = scene.waves, given_vessels(scene)
     for vessel, motion in motions(scene, channels):
         name, body = vessel.name, vessel.body
-        unloaded = waves is not None and body not in waves.hulls
-        others = ", ".join(map(repr, waves.hulls)) if waves is not None else ""
+        if waves is not None and body not in waves.hulls and given.get(body, "raos") == "raos":
+            others = ", ".join(map(repr, waves.hulls))
+            does = f"rests in the sea that {others} meets, and would follow its RAOs there"
+            if body not in given:
+                does = f"floats in the sea that loads {others}, and has no wave loads itself"
+            call = f"scene.add_sea(vessel={name!r})"
+            yield warnings.NoWaveLoadsWarning, f"vessel {name!r}: {does}; call {call}"
         if body in given:
-            if unloaded and given[body] == "raos":
-                yield (
-                    NoWaveLoadsWarning,
-                    f"vessel {name!r}: rests in the sea that {others} meets, and would follow its RAOs "
-                    f"there; call scene.add_sea(vessel={body!r})",
-                )
             continue
         yield from _moored(vessel, time, motion)
-        if unloaded:
-            yield (
-                NoWaveLoadsWarning,
-                f"vessel {name!r}: floats in the sea that loads {others}, and has no wave loads itself; call "
-                f"scene.add_sea(vessel={name!r})",
-            )
-        elif waves is not None:
+        if waves is not None and body in waves.hulls:
             hull, sea = waves.hulls[body], peak_of(scene)
             if hull.force_by_heading is None:
                 yield from _posed(scene.bodies[body], name, hull, sea, time, motion)
@@ -92,28 +76,13 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
 
 @dataclass(frozen=True, kw_only=True)
 class Peak:
-    """Peak of a sea: frequency (rad/s) and wavenumber (1/m) of its densest energy, and the mean of e e^T
-    over the directions of travel e."""
+    """Peak of a sea: frequency (rad/s), period (s) and wavenumber (1/m) of its densest energy, and the mean
+    of e e^T over the directions of travel e."""
 
     omega: float
+    period: float
     wavenumber: float
     spread: Array
-
-    @classmethod
-    def of(cls, waves: Waves) -> Peak:
-        """By the components."""
-        components = waves.components()
-        omega = peak_frequency(waves)
-        nearest = int(np.argmin(np.abs(np.asarray(waves.omega) - omega)))
-        travel = np.stack([np.cos(components.direction), np.sin(components.direction)])
-        energy = np.asarray(components.amplitude) ** 2
-        spread = (travel * energy) @ travel.T / max(energy.sum(), TINY)
-        return cls(omega=omega, wavenumber=float(components.wavenumber[nearest]), spread=spread)
-
-    @property
-    def period(self) -> float:
-        """s."""
-        return 2.0 * np.pi / self.omega
 
     def phase(self, place: Array) -> Array:
         """Phase of waves at the peak, over displacements (n, 2), m: root mean square over directions, rad."""
@@ -124,7 +93,12 @@ class Peak:
 def peak_of(scene: Description) -> Peak:
     """The peak of the sea of a scene that has one."""
     assert scene.waves is not None
-    return Peak.of(scene.waves)
+    components, omega = scene.waves.components(), peak_frequency(scene.waves)
+    wavenumber = components.wavenumber[int(np.argmin(np.abs(np.asarray(scene.waves.omega) - omega)))]
+    travel = np.stack([np.cos(components.direction), np.sin(components.direction)])
+    energy = np.asarray(components.amplitude) ** 2
+    spread = (travel * energy) @ travel.T / max(energy.sum(), TINY)
+    return Peak(omega=omega, period=2.0 * np.pi / omega, wavenumber=float(wavenumber), spread=spread)
 
 
 def peak_frequency(waves: Waves) -> float:
@@ -165,14 +139,14 @@ def _posed(
     slow = slowly(time, np.column_stack([place, np.unwrap(motion[:, 5]) + turn]), sea.period)
     for phase, at in peak(sea.phase(slow[:, :2]), above=LARGEST_PHASE):
         yield (
-            MeanPositionWarning,
+            warnings.MeanPositionWarning,
             f"vessel {name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are taken at t = "
             f"{time[at]:.6g} s, {phase:.2g} rad of the phase of waves at the peak (limit {LARGEST_PHASE}): "
             f"{WAY_OUT}",
         )
     for turned, at in peak(np.abs(slow[:, 2]), above=LARGEST_TURN):
         yield (
-            MeanHeadingWarning,
+            warnings.MeanHeadingWarning,
             f"vessel {name!r}: yaw reaches {np.degrees(turned):.3g} deg from the heading at which its wave "
             f"loads are taken, at t = {time[at]:.6g} s (limit {np.degrees(LARGEST_TURN):.0f}): the hull has "
             f"left their direction; {WAY_OUT}",
@@ -188,11 +162,10 @@ def _under_way(sea: Peak, name: str, time: Array, motion: Array) -> Iterator[Fin
         return
     for speed, at in peak(np.hypot(*slowly(time[1:], rate, sea.period).T), above=fast):
         yield (
-            ForwardSpeedWarning,
-            f"vessel {name!r}: makes {speed:.3g} m/s at t = {time[at + 1]:.6g} s, and its hydrodynamics are "
-            f"those of zero speed: waves are met up to {sea.wavenumber * speed / sea.omega:.0%} faster or "
-            "slower, and added mass, damping and wave loads change with it, which the time domain does not "
-            "know. Slow it down, or moor it",
+            warnings.ForwardSpeedWarning,
+            f"vessel {name!r}: makes {speed:.3g} m/s at t = {time[at + 1]:.6g} s, and meets waves up to "
+            f"{sea.wavenumber * speed / sea.omega:.0%} faster or slower, with hydrodynamics of zero speed. "
+            "Slow it down, or moor it",
         )
 
 
@@ -200,11 +173,10 @@ def _moored(vessel: _core.VesselHydrodynamics, time: Array, motion: Array) -> It
     passed = np.abs(np.diff(motion[:, 5])) > np.pi
     if vessel.mooring_stiffness[2] != 0.0 and passed.any():
         yield (
-            MooringTurnWarning,
+            warnings.MooringTurnWarning,
             f"vessel {vessel.name!r}: passes half a turn from its rest at t = "
-            f"{time[int(np.argmax(passed)) + 1]:.6g} s, where its mooring in yaw, a spring of the angle to "
-            "the nearest whole turn, pulls the other way: it does not stop a turning vessel. Give it a "
-            "stiffer mooring, or look for what turns it",
+            f"{time[int(np.argmax(passed)) + 1]:.6g} s, from where its mooring in yaw pulls the other way. "
+            "Give it a stiffer mooring, or look for what turns it",
         )
 
 
@@ -213,11 +185,7 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
     waves = scene.waves
     if waves is None or not time.size:
         return
-    lengths = (
-        "with the wave lengths of still water, which are off by about twice that share; wave loads"
-        if waves.current is None
-        else "with its wave lengths on the current; wave loads"
-    )
+    lengths = "of still water" if waves.current is None else "on the current"
     for name, load in scene.loads.items():
         in_water = isinstance(load, _core.FlowForce) and load.density > LIGHTEST_WATER
         if not in_water or load.body not in waves.hulls:
@@ -227,11 +195,11 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
         shift = float(peak_of(scene).phase(flow)[0]) / peak_of(scene).omega
         if shift > LARGEST_SHIFT:
             yield (
-                CurrentInWavesWarning,
+                warnings.CurrentInWavesWarning,
                 f"current {name!r}: {speed:.3g} m/s on vessel {load.body!r} shift the frequency of waves at "
-                f"the peak by {shift:.0%} between the water and a fixed place. The sea is taken as a fixed "
-                f"observer sees it, {lengths}, added mass and damping are those without flow. Give the "
-                "spectrum as measured at a fixed place, and take motions in this current as an estimate",
+                f"the peak by {shift:.0%} between the water and a fixed place; wave lengths are those "
+                f"{lengths}, loads those without flow. Give the spectrum as measured at a fixed place, and "
+                "take motions in this current as an estimate",
             )
 
 
@@ -259,15 +227,13 @@ def _of_pair(
     if far.max() <= LARGEST_GAP_SHARE * gap and turned.max() <= LARGEST_RELATIVE_TURN:
         return
     at, turn = int(far.argmax()), int(turned.argmax())
-    place, swing = np.hypot(*(fast - slow)[:, :2].T).max(), np.degrees(np.abs(fast - slow)[:, 2].max())
     yield (
-        RelativePlaceWarning,
+        warnings.RelativePlaceWarning,
         f"group {group!r}: {pair[1]!r} leaves its place beside {pair[0]!r} by {far[at]:.3g} m on the average "
         f"at t = {time[at]:.6g} s and its heading by {np.degrees(turned[turn]):.3g} deg (limits: "
         f"{LARGEST_GAP_SHARE * gap:.3g} m, a tenth of the gap of {gap:.3g} m, and "
-        f"{np.degrees(LARGEST_RELATIVE_TURN):.0f} deg), about which they move by {place:.3g} m and "
-        f"{swing:.3g} deg with the waves: what they do to each other is that of the places in the group's "
-        "data. Moor them closer to these, or compute the group where they go",
+        f"{np.degrees(LARGEST_RELATIVE_TURN):.0f} deg). Moor them closer to the places of the group's data, "
+        "or compute the group where they go",
     )
 
 
@@ -280,10 +246,8 @@ def _relative(scene: Description, pair: tuple[str, str], moved: tuple[Array, Arr
         for start, body, motion in zip(starts, bodies, moved, strict=True)
     ]
     apart, yaw = places[1] - places[0], moved[0][:, 5]
-    cosine, sine = np.cos(yaw), np.sin(yaw)
-    followed = np.column_stack(
-        [cosine * apart[:, 0] + sine * apart[:, 1], cosine * apart[:, 1] - sine * apart[:, 0]]
-    )
+    followed = (apart[:, 0] + 1j * apart[:, 1]) * np.exp(-1j * yaw)
+    followed = np.column_stack([followed.real, followed.imag])
     turn = np.unwrap(moved[1][:, 5]) - np.unwrap(yaw)
     return np.column_stack([followed - (starts[1] - starts[0]), turn])
 

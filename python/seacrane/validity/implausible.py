@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
+from seacrane import _core, warnings
 from seacrane.description.given import (
     beside_surface,
     borne_mass,
@@ -35,16 +35,6 @@ from seacrane.validity.hull_range import beside, peak_of
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 from seacrane.validity.line_checks import warn_of_line_starts
 from seacrane.validity.magnitudes import warn_of_units
-from seacrane.warnings import (
-    BallastWarning,
-    CompassDirectionWarning,
-    ContactStartWarning,
-    DragAxesWarning,
-    FreeCraneWarning,
-    MassUnitWarning,
-    ScatteredWavesWarning,
-    UnstableRestWarning,
-)
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -109,21 +99,19 @@ def _warn_of_winds(scene: Description) -> None:
     energy = np.square(np.asarray(scene.waves.amplitude, dtype=float)) * np.ones(len(scene.waves.omega))
     direction = np.asarray(scene.waves.direction, dtype=float)
     for name, load in scene.loads.items():
-        if not (isinstance(load, _core.FlowForce) and load.density < HEAVIEST_AIR) or _still(load):
+        if not (isinstance(load, _core.FlowForce) and load.density < HEAVIEST_AIR):
+            continue
+        if not np.any(load.speed.to_pieces()["coefficients"]):
             continue
         along = np.cos(direction - load.direction) >= np.cos(AGAINST)
         if np.sum(energy * along) < LEAST_ENERGY * np.sum(energy):
             main = float(np.angle(np.sum(energy * np.exp(1j * direction))))
             warn_caller(
                 f"flow force {name!r}: the wind blows to {np.degrees(load.direction):.4g} deg, the waves run "
-                f"to {np.degrees(main):.4g} deg, against it. Both are where they go to; weather forecasts "
-                "and compasses tell where wind comes from: turn it by 180 deg?",
-                CompassDirectionWarning,
+                f"to {np.degrees(main):.4g} deg, against it; forecasts say where wind comes from: turn it by "
+                "180 deg?",
+                warnings.CompassDirectionWarning,
             )
-
-
-def _still(wind: _core.FlowForce) -> bool:
-    return not np.any(np.asarray(wind.speed.to_pieces()["coefficients"]))
 
 
 @once_in_any_sea
@@ -134,7 +122,7 @@ def _warn_of_masses(scene: Description) -> None:
             warn_caller(
                 f"body {name!r}: mass {body.mass:.6g} kg and inertia make a radius of gyration of "
                 f"{radius:.4g} m; give both in kg and kg m2: tonnes for kg?",
-                MassUnitWarning,
+                warnings.MassUnitWarning,
             )
     floating = floating_bodies(scene)
     hulls = [body.mass for name, body in scene.bodies.items() if name in floating]
@@ -144,7 +132,7 @@ def _warn_of_masses(scene: Description) -> None:
             warn_caller(
                 f"body {below[0]!r}: {mass:.6g} kg hang on {one.name!r}, in a scene with a vessel of "
                 f"{max(hulls):.4g} kg, which does not feel them; masses are kilograms: tonnes for kg?",
-                MassUnitWarning,
+                warnings.MassUnitWarning,
             )
 
 
@@ -170,7 +158,15 @@ def _warn_of_ballast(scene: Description) -> None:
         forward, port = arms[:, :2] @ bow, arms[:, :2] @ [-bow[1], bow[0]]
         lift = np.array([*(-body.mass * scene.gravity for body in weights), *(f.force[2] for f in held)])
         load = [lift.sum(), lift @ port, -lift @ forward]
-        _warn_of_balance(vessel, np.linalg.lstsq(restoring, load)[0], float(hull.position[2]))
+        heave, roll, pitch = np.linalg.lstsq(restoring, load)[0] - [hull.position[2], 0.0, 0.0]
+        if max(abs(roll), abs(pitch)) <= LARGEST_HEEL and abs(heave) <= LARGEST_SINKAGE:
+            continue
+        warn_caller(
+            f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by "
+            f"{np.degrees(roll):.3g} deg, trim it by {np.degrees(pitch):.3g} deg and lift it by "
+            f"{heave:.3g} m. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
+            warnings.BallastWarning,
+        )
 
 
 def _holds(scene: Description, load: Any, carried: frozenset[str]) -> bool:
@@ -178,19 +174,6 @@ def _holds(scene: Description, load: Any, carried: frozenset[str]) -> bool:
     ends = set(bodies_of(load, scene.joints))
     known = kind_of(load) == "point force" or kind_of(load) in WITHOUT_WEIGHT
     return bool(ends & carried) and not known and (len(ends) == 1 or not ends <= carried)
-
-
-def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: float) -> None:
-    """`rest`: heave, roll and pitch at which the weights balance, from the described pose at `start`."""
-    heave, roll, pitch = rest[0] - start, rest[1], rest[2]
-    if max(abs(roll), abs(pitch)) <= LARGEST_HEEL and abs(heave) <= LARGEST_SINKAGE:
-        return
-    warn_caller(
-        f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by {np.degrees(roll):.3g} "
-        f"deg, trim it by {np.degrees(pitch):.3g} deg and lift it by {heave:.3g} m, so that it swings from "
-        "the start. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
-        BallastWarning,
-    )
 
 
 def warn_of_free_cranes(scene: Description) -> None:
@@ -203,7 +186,7 @@ def warn_of_free_cranes(scene: Description) -> None:
                 f"{which}: nothing holds {', '.join(free)}: it falls, or turns as the ship rolls. Leave out "
                 "held=False of add_crane, or give each joint a driver (Scene.add_driver) or an actuator "
                 "(Scene.add_actuator)",
-                FreeCraneWarning,
+                warnings.FreeCraneWarning,
             )
 
 
@@ -226,10 +209,9 @@ def warn_of_parts_near_hulls(scene: Description) -> None:
         if away[nearest] < breadth:
             warn_caller(
                 f"immersed part {nearest!r}: starts {away[nearest]:.3g} m from the side of {ship!r}, within "
-                f"its breadth of {breadth:.3g} m, in a sea. The water that it feels has neither the waves "
-                "that the hull scatters nor those that it makes: before a wall waves are twice as high, in a "
-                "lee lower. Give wave_factor what this hull makes of them",
-                ScatteredWavesWarning,
+                f"its breadth of {breadth:.3g} m, in a sea without the waves that the hull scatters and "
+                "makes. Give wave_factor what this hull makes of them",
+                warnings.ScatteredWavesWarning,
             )
 
 
@@ -246,10 +228,9 @@ def warn_of_drag_axes(scene: Description) -> None:
         if tilt > STEEP and not 1.0 / UNLIKE <= ratio <= UNLIKE:
             warn_caller(
                 f"immersed part {part.name!r}: its z axis is {np.degrees(tilt):.3g} deg from the vertical as "
-                f"described, and its drag_area of {areas[2]:.4g} m2 acts along it, not upwards. drag_area is "
-                "along the axes of the part, which turn with the body: give it in their order, or turn the "
-                "part by axes, if it enters the water as described",
-                DragAxesWarning,
+                f"described, and its drag_area of {areas[2]:.4g} m2 acts along it, not upwards. Give it in "
+                "the order of the part's axes, or turn these by axes, if it enters the water as described",
+                warnings.DragAxesWarning,
             )
 
 
@@ -283,7 +264,7 @@ def warn_of_capsize(scene: Description) -> None:
                 f"vessel {vessel.name!r}: has a GM of about {left / (hull.mass * scene.gravity):.3g} m with "
                 "the weights on it as described, and capsizes: its C44 holds its own weight alone. Lower the "
                 "weights, put less of them on it, or look at seacrane.statics",
-                UnstableRestWarning,
+                warnings.UnstableRestWarning,
             )
 
 
@@ -341,7 +322,7 @@ def _warn_of_shot(contact: _core.Contact, places: list[tuple[float, Array]], acc
         f"contact {contact.name!r}: point {point + 1} of {contact.body!r} starts {depth:.4g} m inside the "
         f"surface of {contact.on!r}, which presses the body away with {away:.3g} m/s2 at once: move the body "
         "out, or correct the place of the surface",
-        ContactStartWarning,
+        warnings.ContactStartWarning,
     )
 
 

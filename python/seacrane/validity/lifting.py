@@ -131,9 +131,8 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
                 warn_caller(
                     f"body {one.load!r}: starts inside vessel {vessel.name!r}: its lower edge is at "
                     f"{centre[2] - half:.4g} m, {centre[0]:.4g} m forward and {centre[1]:.4g} m to port of "
-                    f"its origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is. "
-                    "Nothing keeps bodies apart: shorten what it hangs on, or turn the crane out before the "
-                    "load is lowered",
+                    f"its origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is: "
+                    "shorten what it hangs on, or turn the crane out before the load is lowered",
                     LoadInHullWarning,
                 )
 

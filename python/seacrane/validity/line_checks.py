@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
+from seacrane import _core, warnings
 from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.loads import lines_of, whole_of, winch_of, winches_of
 from seacrane.description.once import once_in_any_sea
@@ -18,14 +18,6 @@ from seacrane.description.wet_parts import carried_by_water, immersed_parts
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.validity.after_run import Finding, peak
-from seacrane.warnings import (
-    FleetAngleWarning,
-    LiftedStartWarning,
-    LineLengthWarning,
-    LineTableWarning,
-    PushingLineWarning,
-    WinchLimitWarning,
-)
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -50,7 +42,7 @@ def bound_findings(scene: Description, reached: Iterable[tuple[float, str]]) -> 
     lines, first = winches_of(scene.loads), {name: time for time, name in sorted(reached, reverse=True)}
     return [
         (
-            WinchLimitWarning,
+            warnings.WinchLimitWarning,
             f"line {name!r}: its winch reached its {bound}, {getattr(line, bound):.4g} {unit}, at t = "
             f"{first[f'{name}.{bound}']:.6g} s, {then}. {fix}, or give it more",
         )
@@ -76,7 +68,7 @@ def warn_of_connected(
             f"{title}: line {name!r} connects stretched by {stretch:.4g} m, {stretch / length:.3g} of its "
             f"unstretched {length:.6g} m, at t = {time:.6g} s: it pulls with {tension:.4g} N at once. Give "
             f"it {length + stretch:.6g} m, pay out before, or connect it nearer",
-            LineLengthWarning,
+            warnings.LineLengthWarning,
         )
 
 
@@ -95,7 +87,7 @@ def line_findings(
         for name, angle in zip(sheaves, angles.T, strict=True):
             for worst, at in peak(angle, above=LARGEST_FLEET_ANGLE):
                 yield (
-                    FleetAngleWarning,
+                    warnings.FleetAngleWarning,
                     f"line at sheave {name!r}: leaves the plane of its rim by {worst:.3g} degrees at t = "
                     f"{time[at]:.6g} s, beyond {LARGEST_FLEET_ANGLE:g} degrees; the rope would climb out of "
                     "its groove. Turn the sheave's axis, or put it on a body that swivels",
@@ -109,7 +101,7 @@ def line_findings(
     for (name, line), tension in zip(lines.items(), given.get("line_tension", ()), strict=False):
         for push, at in peak(-tension, above=0.0) if line.rung == QUASI_STATIC else ():
             yield (
-                PushingLineWarning,
+                warnings.PushingLineWarning,
                 f"line {name!r}: pushes with {push:.4g} N at t = {time[at]:.6g} s: its stretch is "
                 "quasi-static, and follows the tension too late to go slack. Give it rung 'elastic'",
             )
@@ -121,7 +113,7 @@ def line_findings(
     for (name, line), strain in zip(lines.items(), stretches / lengths, strict=True):
         for worst, at in peak(strain, above=line.strains[-1]) if len(line.strains) else ():
             yield (
-                LineTableWarning,
+                warnings.LineTableWarning,
                 f"line {name!r}: is strained by {worst:.4g} at t = {time[at]:.6g} s, and its table ends at "
                 f"{line.strains[-1]:.4g}; it went on along its last tangent. Extend the table",
             )
@@ -166,7 +158,7 @@ def _contradicted(
             continue
         state = "stretched" if stretch > 0.0 else "slack"
         yield (
-            LineLengthWarning,
+            warnings.LineLengthWarning,
             f"line {name!r}: starts {state} by {abs(stretch):.4g} m, {abs(stretch) / length:.3g} of its "
             f"unstretched {length:.6g} m: its path is {length + stretch:.6g} m long. Correct its length or "
             "its points, or take this as meant where the line starts slack",
@@ -177,13 +169,13 @@ def _met(name: str, line: _core.Line, time: Array, length: Array) -> Iterator[Fi
     ended = np.flatnonzero(length <= line.minimum_length + AT_END)
     if ended.size:
         yield (
-            WinchLimitWarning,
+            warnings.WinchLimitWarning,
             f"line {name!r}: its winch has hauled in to minimum_length, {line.minimum_length:.6g} m, at t = "
             f"{time[ended[0]]:.6g} s, and stops there. Haul in less, or give a smaller minimum_length",
         )
     for rate, at in peak(np.abs(line.rate.evaluate(time)[:, 0]), above=line.maximum_rate):
         yield (
-            WinchLimitWarning,
+            warnings.WinchLimitWarning,
             f"line {name!r}: its winch is commanded {rate:.4g} m/s at t = {time[at]:.6g} s, beyond its "
             f"maximum_rate of {line.maximum_rate:.4g} m/s, which it keeps. Command less, or give it more",
         )
@@ -248,7 +240,7 @@ def _warn_of_lift(
             f"{paths[worst].length:.6g} m long, and its length "
             f"{float(lines[worst].length.evaluate([0.0])[0, 0]):.6g} m: the load jumps. Correct its length, "
             "or give tension_at_start",
-            LiftedStartWarning,
+            warnings.LiftedStartWarning,
         )
 
 
@@ -269,7 +261,7 @@ def _warn_of_dry_weights(scene: Description, tensions: Mapping[str, float]) -> N
                 f"water carries {carried:.4g} N of the weight of {weight:.4g} N, so that the load leaps and "
                 'the line may go slack. Give start="rest", or a length or tension_at_start for the '
                 f"{weight - carried:.4g} N that are left",
-                LiftedStartWarning,
+                warnings.LiftedStartWarning,
             )
 
 
@@ -303,6 +295,6 @@ def _warn_of_weak_winch(line: _core.Line, tension: float) -> None:
             warn_caller(
                 f"line {line.name!r}: its {what.format(f'{force:.4g} N')}, less than the {tension:.4g} N "
                 f"that hang on the rope: {then}. Give {give} in N, enough for it",
-                WinchLimitWarning,
+                warnings.WinchLimitWarning,
             )
             return
