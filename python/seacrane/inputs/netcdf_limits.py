@@ -29,19 +29,8 @@ Arrays = Iterator[tuple[str, tuple[int, ...], int]]  # name, shape, and bytes in
 def open_netcdf(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARGE) -> Iterator[Any]:
     """A `netCDF4.Dataset` open for reading, whose arrays come as they are (not masked).
 
-    Parameters
-    ----------
-    largest : int
-        Bytes that all arrays together may take in memory: a compressed or unwritten array takes a few bytes
-        in the file, whatever size it is of.
-    fix : What the message asks for where they take more.
-
-    Raises
-    ------
-    FileFormatError
-        Before any array is read: for larger arrays, and damaged heaps.
-    OSError, RuntimeError, ...
-        What the libraries raise for a damaged file, one of `NETCDF_ERRORS`; for a device or a pipe.
+    Raises FileFormatError, which asks for `fix`, before any array is read, where all together would take
+    more than `largest` bytes in memory, and for damaged heaps; one of `NETCDF_ERRORS` for other damage.
     """
     import netCDF4
 

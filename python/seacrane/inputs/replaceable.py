@@ -9,16 +9,9 @@ HEAD = 1024  # bytes within which a file says who made it
 
 
 def check_replaceable(path: Path, overwrite: bool | None, *, mark: str) -> None:
-    """Refuse to replace what is not ours, or anything where `overwrite` says so.
+    """FileExistsError where a file is to stay: every one without `overwrite`, none with it.
 
-    Parameters
-    ----------
-    path : Target; nothing need be there.
-    overwrite : bool or None
-        None: only a file in whose first kB the mark stands is replaced. True: any. False: none.
-    mark : What files of this kind begin with.
-
-    Raises FileExistsError if there is a file that is to stay.
+    `overwrite` None: only a file in whose first kB the mark of our own stands may be replaced.
     """
     if overwrite or not path.exists():
         return

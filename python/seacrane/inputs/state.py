@@ -43,23 +43,16 @@ class Compilable(Protocol):
 def save_state(state: _core.State, path: str | os.PathLike[str]) -> None:
     """Write a state: complete under its name, or not at all.
 
-    Raises
-    ------
-    FileExistsError
-        If the name is that of another kind of file, such as a result.
-    OSError
-        If it cannot be written; an older file of that name stays.
+    Raises FileExistsError where another kind of file, such as a result, has the name, and OSError where it
+    cannot be written; an older file of that name stays.
     """
     path = Path(path)
-    if path.is_file() and path.stat().st_size and not _is_state(path):
-        raise FileExistsError(f"{path} is there and is not a state file; give another name")
+    if path.is_file() and path.stat().st_size:
+        with path.open("rb") as file:
+            if file.read(len(MAGIC)) != MAGIC:
+                raise FileExistsError(f"{path} is there and is not a state file; give another name")
     with atomic_write(path) as draft:
         draft.write_bytes(state_to_bytes(state))
-
-
-def _is_state(path: Path) -> bool:
-    with path.open("rb") as file:
-        return file.read(len(MAGIC)) == MAGIC
 
 
 def state_to_bytes(state: _core.State) -> bytes:
@@ -100,21 +93,10 @@ def state_to_bytes(state: _core.State) -> bytes:
 
 
 def load_state(path: str | os.PathLike[str], *, scene: Compilable | None = None) -> _core.State:
-    """Read what `save_state` wrote, bit for bit.
+    """Read what `save_state` wrote, bit for bit, for a scene that is to continue from it.
 
-    Parameters
-    ----------
-    path : path-like
-    scene : Scene, optional
-        The scene that is to continue from it.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there is no such file.
-    FileFormatError
-        If it is not a state file, is truncated or damaged, is of another version, or belongs to a scene of
-        other bodies, memory or inputs than `scene`.
+    Raises FileNotFoundError, and FileFormatError for what is not a state file, is truncated or damaged, is of
+    another version, or belongs to a scene of other bodies, memory or inputs.
     """
     path = Path(path)
     if not path.is_file():

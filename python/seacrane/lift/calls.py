@@ -20,10 +20,9 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.lift.inner_keys import COORDINATE, CURVES
+from seacrane.lift.inner_keys import COORDINATE, CURVES, SHIPPED
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import LEFT, Table
-from seacrane.lift.vessel_keys import SHIPPED
 from seacrane.scene import heave
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
@@ -49,21 +48,17 @@ _MADE: Mapping[str, Callable[..., Any]] = {
     "tip": lambda body, point: (body, point),
     "history": MotionHistory,
     "raos": lambda **table: _raos(**table),
+    "mooring_springs": MooringSpring,
+    "systems": lambda **table: _system(table),
     **hydraulic_cylinders.VALUES,
     **heave.VALUES,
 }
 
 
 def keywords(keys: Iterable[Key], values: Mapping[str, Any], scene: Scene | None = None) -> Keywords:
-    """A checked table as keywords of the API.
+    """A checked table, by spelling, as keywords of the API.
 
-    Parameters
-    ----------
-    keys : That the table may have.
-    values : By spelling.
-    scene : Whose joints decide between the units of a displacement and of an angle.
-
-    Raises SceneError for a unit that the joint's coordinate has not, or a value that makes no sense.
+    SceneError for a value that makes no sense, or a unit that the coordinate of a joint of `scene` has not.
     """
     found = {}
     for key in keys:
@@ -82,7 +77,7 @@ def _converted(key: Key, value: Any, unit: str) -> Any:
             inside = keywords(key.keys, value)
             return _MADE[key.name](**inside) if key.name in _MADE else inside
         case "tables":
-            return [keywords(key.keys, one) for one in value]
+            return [_MADE.get(key.name, dict)(**keywords(key.keys, one)) for one in value]
         case "curve":
             return curve_from(value, unit)
         case "number":
@@ -157,8 +152,6 @@ class Caller:
             case "ballast":
                 left = {key: None for key, value in given.items() if value in LEFT}
                 scene.add_ballast(**given | _tanks(given) | left)
-            case "joint":
-                scene.add_joint(**given)
             case "roles":
                 if "areas" in given:
                     rows = given["areas"]
@@ -174,7 +167,7 @@ class Caller:
         file = given.pop("crane", None)
         crane = load_crane() if file is None else load_crane(file)
         if "coordinates" in given:
-            for row in values["coordinates"]:
+            for row in values.get("coordinates", ()):
                 unit = "m" if crane.data.led_by(str(row["name"])).kind == "prismatic" else "rad"
                 require_unit(COORDINATE, row, unit, f"coordinate {row['name']!r}")
             given["coordinates"] = {row["name"]: row["value"] for row in given["coordinates"]}
@@ -200,7 +193,7 @@ class Caller:
         if "mooring_springs" in given:
             if "mooring" in given:
                 raise SceneError("vessel: has mooring and mooring_springs; give one of them")
-            given["mooring"] = [MooringSpring(**row) for row in given.pop("mooring_springs")]
+            given["mooring"] = given.pop("mooring_springs")
         if at_rest:  # neither fluid memory nor kinematics matter
             given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
         scene.add_vessel(source, **given)
@@ -225,7 +218,7 @@ class Caller:
         if systems is not None:
             of_state = {key: given.pop(key) for key in (*SEA_OF_SYSTEMS, "seed") if key in given}
             depth = ({} if database is None else {"depth": database.depth}) | of_state
-            given["sea"] = SeaState(systems=[_system(one) for one in systems], **depth)
+            given["sea"] = SeaState(systems=systems, **depth)
         for key in SEA_OF_SYSTEMS:
             if key in given:
                 text = "is given without systems, whose sea is as deep as the database"
@@ -274,15 +267,9 @@ def _system(given: Keywords) -> WaveSystem:
 
 
 def curve_from(given: Any, unit: str) -> float | Curve:
-    """A curve in SI from what a file holds; a number stays one.
+    """A curve in SI from what a file holds, checked: a number, which stays one, a piece, or several.
 
-    Parameters
-    ----------
-    given : float, mapping, or tuple of mapping
-        Checked.
-    unit : Of its values.
-
-    Raises SceneError for a curve that makes no sense.
+    SceneError for a curve that makes no sense.
     """
     scale = into_si(unit)
     if isinstance(given, float):
@@ -304,10 +291,10 @@ def _piece(piece: Mapping[str, Any], scale: Scale) -> Curve:
     return _CURVE_OF[piece["kind"]](**arguments)
 
 
-def _harmonic(*, amplitude: float, period: float, **others: float) -> Curve:
+def _harmonic(*, period: float, **others: float) -> Curve:
     if not period > 0.0:
         raise SceneError(f"curve: period_s is {period:g}; give a period above zero")
-    return Curve.harmonic(amplitude=amplitude, omega=2.0 * np.pi / period, **others)
+    return Curve.harmonic(omega=2.0 * np.pi / period, **others)
 
 
 def _spline(*, times: Any, values: Any) -> Curve:

@@ -17,11 +17,10 @@ from seacrane.errors import SceneError
 from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import plain_notes
 from seacrane.inputs.shown import shown
-from seacrane.lift.document import Document, read_document
+from seacrane.lift.document import Document, Place, read_document
 from seacrane.lift.inner_keys import CURVES, FROM, LIFTS, RANGE
 from seacrane.lift.keys import Key
 from seacrane.lift.tables import TABLES, Table
-from seacrane.lift.text_lines import Place
 
 LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known

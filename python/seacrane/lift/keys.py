@@ -31,19 +31,10 @@ TYPES = {str: "text", float: "number", int: "whole", bool: "flag", Literal: "tex
 class Key:
     """A keyword of the API as a key of a file.
 
-    Attributes
-    ----------
-    name : The keyword.
-    type : text, texts, number, whole, flag, array, curve, file, table, tables or notes; or by dotted name
-        names (texts), limits (numbers), ranges or values.
-    unit : As in `FIELDS` of the core's classes.
-    shapes : tuple of tuple of int
-        That an array may have; -1: any length, (): a number alone.
-    text : What it is, for people.
-    choices : The texts that it may be; of a number or a file, those that stand for one.
-    bounds : What its numbers must be, in the words of JSON Schema and in `unit`.
-    keys : Of a table, or of each table in a list.
-    entry : What messages call it, where they call it otherwise.
+    `type`: text, texts, number, whole, flag, array, curve, file, table, tables or notes; or by dotted name
+    names (texts), limits (numbers), ranges or values. `shapes` of an array: -1 is any length, () a number
+    alone. `choices`: texts that it may be, or that stand for a number or a file. `bounds` are in the words of
+    JSON Schema and in `unit`. `entry`: what messages call it, where they call it otherwise.
     """
 
     name: str
@@ -98,19 +89,10 @@ def keys_of(
     described: Any = None,
     entries: Mapping[str, str] | None = None,
 ) -> tuple[Key, ...]:
-    """The keywords of a call as keys.
+    """The keywords of a call as keys: types from its signature, texts from the docstring of `described`.
 
-    Parameters
-    ----------
-    call : A function or a dataclass; types come from its signature.
-    *classes : type
-        Of the core, whose FIELDS give type, shape, unit and text of the keywords of the same name.
-    more : mapping of str to mapping, optional
-        Attributes of `Key` by keyword, which neither knows.
-    without, only : collection of str
-        Keywords that a file does not hold, or those that it holds.
-    described : Whose docstring says what the keywords are; default: `call`.
-    entries : Names that FIELDS have for keywords, where they differ.
+    FIELDS of `classes` of the core give type, shape, unit and text of the keywords of the same name, or of
+    that in `entries`; `more` what neither knows, by keyword. A file holds `only` some, or is `without` some.
     """
     fields = {field.name: field for kind in classes for field in kind.FIELDS}  # type: ignore[attr-defined]
     other = entries or {}

@@ -23,8 +23,7 @@ from seacrane.ensembles.study_folder import study_in
 from seacrane.ensembles.targets import Certainty, known, targets_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
-from seacrane.lift.lift import Lift
-from seacrane.lift.study import Study
+from seacrane.lift.lift import Lift, Study
 from seacrane.lift.study_run import FILE, MEMBERS
 from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet
 from seacrane.plotting.table import format_value, table_of
@@ -43,22 +42,13 @@ UNITS = {"hs": "m", "tp": "s", "direction_deg": "deg", "gamma": "-", "seed": "-"
 
 @dataclass(frozen=True, kw_only=True)
 class Cell:
-    """What is kept under one name, for one combination of parameters.
+    """What is kept under one name, for one combination of parameters."""
 
-    Attributes
-    ----------
-    parameters : All but the seed.
-    failed : Seeds that failed: intervals would not hold for them.
-    values : (k,) Of the seeds, or of the one member; without those that failed or were not run.
-    sign : -1 for smallest values.
-    extremes : Of the values times the sign, where they are extremes of several seeds.
-    """
-
-    parameters: Mapping[str, Value]
-    values: Array
-    failed: int = 0
-    sign: float = 1.0
-    extremes: SeedExtremes | None = None
+    parameters: Mapping[str, Value]  # all but the seed
+    values: Array  # (k,) of the seeds, or of the one member; without those that failed or were not run
+    failed: int = 0  # seeds, for which intervals would not hold
+    sign: float = 1.0  # -1 for smallest values
+    extremes: SeedExtremes | None = None  # of the values times the sign, where there are several seeds
 
     @property
     def mean(self) -> float:
@@ -83,20 +73,13 @@ class Cell:
 
 @dataclass(frozen=True, kw_only=True)
 class Told:
-    """A table about what is kept under one name.
-
-    Attributes
-    ----------
-    name, unit, what : `what` is a sentence.
-    over_seeds : Whether cells hold seeds.
-    exposure : Of extremes, s; None: of one lift in stages.
-    """
+    """A table about what is kept under one name."""
 
     name: str
     unit: str
-    what: str
-    over_seeds: bool
-    exposure: float | None
+    what: str  # a sentence
+    over_seeds: bool  # whether cells hold seeds
+    exposure: float | None  # of extremes, s; None: of one lift in stages
     cells: tuple[Cell, ...]
 
     @property
@@ -146,12 +129,7 @@ class ShownStudy:
 def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
     """What is in the folder of a study.
 
-    Raises
-    ------
-    FileFormatError
-        If it is none, or damaged.
-    SceneError
-        If no member has been run.
+    Raises FileFormatError or SceneError where it is none, or damaged, or no member has been run.
     """
     path = Path(folder)
     study = Lift.load(path / FILE).study if (path / FILE).is_file() else None
@@ -221,7 +199,12 @@ def _told(name: str, study: Study, done: Ensemble, length: float | None) -> Told
     together = zip(_cells(variable, done), _cells(_failed(done), done), strict=True)
     for (parameters, values), (_, lost) in together:
         found = None if sign is None else _extremes(name, sign * values, span or 1.0, exposure or 1.0)
-        given = {"parameters": parameters, "values": values, "failed": lost.size, "extremes": found}
+        given: dict[str, Any] = {
+            "parameters": parameters,
+            "values": values,
+            "failed": lost.size,
+            "extremes": found,
+        }
         cells.append(Cell(sign=sign or 1.0, **given))
     about = str(variable.attrs.get("long_name", what.channel if isinstance(what, Kept) else what))
     at = ", ".join(what.names.values()) if isinstance(what, Kept) else ""

@@ -22,8 +22,7 @@ from seacrane.ensembles.study import Source, require_paths, stage_paths, with_va
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import is_draft
 from seacrane.lift.keys import Key
-from seacrane.lift.lift import Lift
-from seacrane.lift.study import Study
+from seacrane.lift.lift import Lift, Study
 from seacrane.lift.tables import TABLES
 from seacrane.scene.scene import Scene
 
@@ -42,14 +41,7 @@ def run_study(
     executor: Executor | None = None,
     progress: bool = False,
 ) -> Ensemble:
-    """Run the study of a lift file; what is in its folder is not run again.
-
-    Parameters
-    ----------
-    path : Of a lift file with a [study].
-    folder : Made if absent. It will hold the lift, complete, and the members as they come.
-    executor : concurrent.futures.Executor, optional
-    progress : Show a bar with the time left.
+    """Run the study of a lift file into a folder; what is there is not run again.
 
     Raises
     ------
@@ -171,17 +163,10 @@ def with_keys(tables: Tables, places: Mapping[str, KeyPlace], values: Mapping[st
 
 @dataclass(frozen=True)
 class LiftScenes:
-    """Makes the scenes of a study whose lift varies in its keys; what is derived from a key follows it.
+    """Makes the scenes of a study whose lift varies in its keys; what is derived from a key follows it."""
 
-    Attributes
-    ----------
-    tables : Of the lift.
-    places : mapping of str to KeyPlace
-        Of its keys that vary.
-    """
-
-    tables: Tables
-    places: Mapping[str, KeyPlace]
+    tables: Tables  # of the lift
+    places: Mapping[str, KeyPlace]  # of its keys that vary
 
     def __call__(self, **values: Value) -> Scene:
         """With values of keys, then of paths into the scene, then of words of its sea."""

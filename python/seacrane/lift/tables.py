@@ -29,9 +29,11 @@ from seacrane.lift.inner_keys import (
     TANK,
     TIME,
     control_keys,
+    part_keys,
+    sea_keys,
+    vessel_keys,
 )
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of, parameter_texts
-from seacrane.lift.vessel_keys import part_keys, sea_keys, vessel_keys
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
@@ -70,21 +72,13 @@ LIMITED = {"unit": CHANNEL_UNITS}
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """A table of a lift file.
-
-    Attributes
-    ----------
-    text : What it is, for people.
-    several : Whether there may be more than one, each as ``[[name]]``.
-    add : callable, optional
-        What is called with the scene and the keywords; default: the table needs more than one call.
-    """
+    """A table of a lift file."""
 
     name: str
-    text: str
+    text: str  # what it is, for people
     keys: tuple[Key, ...]
-    several: bool = True
-    add: Callable[..., Any] | None = None
+    several: bool = True  # whether there may be more than one, each as ``[[name]]``
+    add: Callable[..., Any] | None = None  # is called with the scene and the keywords; None: several calls
 
 
 def _call(
@@ -96,7 +90,7 @@ def _call(
     return Table(name=name, text=_summary(add), keys=keys, add=add, several=several)
 
 
-def _values(element: type, kinds: Mapping[str, type], **more: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+def _values(element: type, kinds: Mapping[str, type], **more: Mapping[str, Any]) -> dict[str, Any]:
     """Keywords that are values of entries of an element, as tables within its own."""
     return {
         word: {"type": "table", "keys": keys_of(kind, element, entries=entries_of(word, kind), more=more)}
@@ -139,14 +133,14 @@ SLINGS = keys_of(
         "rung": {"choices": lines.STRETCHING},
     },
 )
-WIRE: dict[str, dict[str, Any]] = {
+WIRE: dict[str, Any] = {
     "diameter": LENGTH,
     "density": {"unit": "kg/m3"},
     "flow": {"type": "array", "unit": "m/s", "shapes": ((3,),)},
     "segment_rung": {"type": "text", "choices": lines.STRETCHING},
 }
 SEABED = keys_of(Seabed, more={"depth": LENGTH, "stiffness": {"unit": "N/m2"}, "give": LENGTH})
-CONTACT = {
+CONTACT: dict[str, Any] = {
     "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
     "surface": {"type": "text", "choices": limits.SURFACES},
     "place": POINT, "axis": DIRECTION, "size": ROW | {"unit": "m", "shapes": ((-1,),)}, "edge": LENGTH,
@@ -210,7 +204,7 @@ _ALL = (
     ),
     Table(name="sea", text=_summary(sea.add_sea), keys=sea_keys()),
     Table(name="crane", text=_summary(add_crane), keys=CRANE),
-    Table(name="joint", text=_summary(elements.add_joint), keys=_joint_keys()),
+    Table(name="joint", text=_summary(elements.add_joint), keys=_joint_keys(), add=elements.add_joint),
     _call("driver", elements.add_driver, _core.Driver),
     _call("actuator", elements.add_actuator, _core.Actuator),
     _call(

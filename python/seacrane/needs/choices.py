@@ -173,7 +173,7 @@ def held_oil(scene: Scene) -> Iterator[Choice]:
     held = {
         name: slide
         for name, one in hydraulic_cylinders(scene).items()
-        if (slide := slide_of(scene, one)) is not None and _is_still(one.reference)
+        if (slide := slide_of(scene, one)) is not None and _is_constant(one.reference)
     }
     if held:
         removed = (call("remove", name, kind="load") for name in held)
@@ -181,7 +181,7 @@ def held_oil(scene: Scene) -> Iterator[Choice]:
         yield by_calls(f"cylinders held without oil: {', '.join(held)}", *removed, *added, of="drives")
 
 
-def _is_still(curve: _core.Curve) -> bool:
+def _is_constant(curve: _core.Curve) -> bool:
     pieces = curve.to_pieces()
     return len(pieces["starts"]) == 1 and not np.any(np.reshape(pieces["coefficients"], (-1, 6))[:, 1:])
 
@@ -198,7 +198,7 @@ def without_loads(scene: Scene) -> Iterator[Choice]:
     """Without one of the small dampings, of the winds by coefficients, or of the contacts."""
     for name, load in scene.loads.items():
         match load:
-            case _core.FlowForce() if _is_zero(load.speed):
+            case _core.FlowForce() if not np.any(load.speed.to_pieces()["coefficients"]):
                 told = f"no air drag on {load.body}", f"air drag of {load.body}"
             case _core.FlowForce():
                 told = f"no {name}", name
@@ -209,10 +209,6 @@ def without_loads(scene: Scene) -> Iterator[Choice]:
             case _:
                 continue
         yield by_calls(told[0], call("remove", name, kind="load"), of=told[1])
-
-
-def _is_zero(curve: _core.Curve) -> bool:
-    return not np.any(curve.to_pieces()["coefficients"])
 
 
 def more_pendulum_damping(scene: Scene) -> Iterator[Choice]:

@@ -7,22 +7,149 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial, reduce
 from typing import Any
 
+import numpy as np
+
 from seacrane._core import State
+from seacrane.description.channels import unit_of
+from seacrane.description.given import given_vessels
+from seacrane.description.suspension import hung_loads
+from seacrane.ensembles.kept import Kept
 from seacrane.errors import SceneError, SeacraneError
+from seacrane.inputs.caller import silently
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
+from seacrane.inputs.shown import shown
 from seacrane.needs.answer import Loss, Requirements
-from seacrane.needs.bench import Bench, Told, asked
 from seacrane.needs.choices import Choice, choices_of, missing_from
+from seacrane.result import Result
 from seacrane.run.method import Method, Start, settled
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
+
+Ask = Callable[[Any], float]
+Run = Callable[[Scene], Any]
+
+
+def usual(scene: Scene) -> dict[str, Any]:
+    """The peak of each hook load, the heave of each load and the roll of a vessel."""
+    out: dict[str, Any] = {}
+    for hung in hung_loads(scene):
+        one = hung.suspension
+        if one.channel == one.name:
+            out[f"hook_load[{one.name}].max"] = f"hook_load[{one.name}].max"
+        else:
+            out[f"hook load of {one.name}, N"] = partial(_lower_end, load=hung.load)
+        out[f"position[{hung.load}, z].std"] = f"position[{hung.load}, z].std"
+    if len(scene.vessels) == 1 and not given_vessels(scene):
+        out["roll.std"] = "roll.std"
+    return out
+
+
+def _lower_end(result: Any, load: str) -> float:
+    """The peak at the lower end of a line with mass, in however many segments."""
+    names = [hung.suspension.channel for hung in hung_loads(result.scene) if hung.load == load]
+    text = f"hook_load[{names[0]}].max"
+    return _single(text, Kept.of_text(text))(result)
+
+
+def asked(scene: Scene, keep: Mapping[str, Any] | None) -> tuple[dict[str, Ask], dict[str, str]]:
+    """The functions that give the numbers that are asked, or the usual ones, and their units, by name."""
+    found = usual(scene) if keep is None else keep
+    if keep is None and not found:
+        raise SceneError(
+            f'required: nothing hangs or floats in scene {scene.name!r}; give keep={{"z": '
+            '"position[<body>, z].max"}'
+        )
+    if not isinstance(found, Mapping) or not found:
+        raise SceneError(f'required: keep is {shown(found)}; give {{"peak": "hook_load.max"}}')
+    asks, units = {}, {}
+    for name, what in found.items():
+        kept = Kept.of_text(what) if isinstance(what, str) else what
+        if isinstance(kept, Kept):
+            asks[name], units[name] = _single(name, kept), unit_of(kept.channel, kept.names.values())
+        elif callable(kept):
+            asks[name], units[name] = kept, ""
+        else:
+            raise SceneError(f'required: {name!r} is {shown(what)}; give a text such as "hook_load.max"')
+    return asks, units
+
+
+def _single(name: str, kept: Kept) -> Ask:
+    if kept.what == "series":
+        raise SceneError(f"required: {name!r} is a series; ask for one number of it, such as its .max")
+
+    def ask(result: Any) -> float:
+        found = kept.of(result)
+        values = found.values
+        if values.size != 1:
+            names = ", ".join(str(one) for along in found.coords.values() for one in along)
+            raise SceneError(
+                f"required: {name!r} is {values.size} numbers of a run, of {names}; ask for one of them"
+            )
+        return float(values.reshape(-1)[0])
+
+    return ask
+
+
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """What one run says, and its cost."""
+
+    values: Mapping[str, float]  # by the name of what is asked
+    cpu_s: float  # processor time, s
+    evaluations: int  # of the equations of motion; 0 where what was run does not count them
+
+
+@dataclass(kw_only=True)
+class Bench:
+    """Runs scenes and counts what that costs."""
+
+    run: Run  # what is done with a scene
+    asked: Mapping[str, Ask]  # numbers of what it returns
+    runs: int = 0  # made by now
+
+    def told(self, scene: Scene, run: Run | None = None) -> Told:
+        """Of one run; what it warns of was told for the scene as it stands, or is a row's own."""
+        with silently():
+            begun = time.process_time()
+            found = (self.run if run is None else run)(scene)
+            cpu = time.process_time() - begun
+        self.runs += 1
+        if isinstance(found, Result) and found.interrupted:
+            raise KeyboardInterrupt
+        values = {name: self._number(name, ask, found) for name, ask in self.asked.items()}
+        evaluations = int(found.stats["evaluations"]) if isinstance(found, Result) else 0
+        return Told(values=values, cpu_s=cpu, evaluations=evaluations)
+
+    def _number(self, name: str, ask: Ask, found: Any) -> float:
+        try:
+            value = float(ask(found))
+        except KeyError as error:  # the part went with which the channel came
+            raise SceneError(f"required: {name!r} is gone: {error.args[0]}") from error
+        if not np.isfinite(value):
+            raise SceneError(f"required: {name!r} is {value:g}; ask for a number that the scene has")
+        return value
+
+    def beside(self, full: Scene, other: Scene, times: int) -> tuple[Told, list[float], float]:
+        """What the other says, its costs over the full one's in runs by turns, and the last one's share
+        of evaluations.
+
+        The first run of the other is not timed: it compiles, finds its rest, and tells whether it runs.
+        """
+        first = self.told(other)
+        shares = []
+        for _ in range(times):
+            one, two = self.told(full), self.told(other)
+            shares.append(two.cpu_s / max(one.cpu_s, 1e-9))
+            counted = two.evaluations / one.evaluations if one.evaluations else np.nan
+        return first, shares, counted
+
 
 TIGHTER = 1e-2  # times the tolerance, of the run that tells how well the numbers are known
 SHORTER = 0.5  # times the step, likewise
@@ -51,9 +178,9 @@ def required(
 
     Each choice is made simpler by itself (slings and block as one with the load, the rungs of lines, wave
     components, fluid memory, coupling of vessels, damping, waves of parts in water, oil, controlled drives,
-    contacts), run beside the scene as it stands by turns, and told with its share of
-    the processor time and the change of the numbers that are asked. The cheapest set whose changes together
-    stay within what is asked is then run once. What the scene leaves out, and would matter, is run likewise.
+    contacts), run beside the scene as it stands by turns, and told with its share of the processor time and
+    the change of the numbers that are asked. What saves most, and whose changes together stay within what is
+    asked, is then run as one set. What the scene leaves out, and would matter, is run likewise.
 
     Parameters
     ----------
@@ -189,28 +316,12 @@ def _bar(progress: bool, price: float, rows: int) -> Iterator[Callable[[], None]
 
 
 def least_of(rows: Sequence[Loss], limits: Mapping[str, float], noise: Mapping[str, float]) -> list[Loss]:
-    """Of the choices about one thing at most one; changes add by their sizes, costs multiply."""
-    about: dict[str, list[tuple[float, dict[str, float], Loss]]] = {}
-    for row in rows:
-        if row.stable and row.share < 1.0 - max(SAVES, row.spread):
-            used = {name: row.used(name, limit, noise.get(name, 0.0)) for name, limit in limits.items()}
-            about.setdefault(row.of, []).append((-math.log(row.share), used, row))
-    most = {of: max(saved for saved, _, _ in group) for of, group in about.items()}
-    groups = sorted(about, key=lambda of: -most[of])
-    ahead = [sum(most[of] for of in groups[i:]) for i in range(len(groups) + 1)]
-    best: tuple[float, list[Loss]] = (0.0, [])
-
-    def look(at: int, saved: float, taken: list[Loss], used: dict[str, float]) -> None:
-        nonlocal best
-        if saved > best[0]:
-            best = (saved, taken)
-        if at == len(groups) or saved + ahead[at] <= best[0]:
-            return
-        for own, takes, row in about[groups[at]]:
-            more = {name: used[name] + takes[name] for name in limits}
-            if all(share <= 1.0 for share in more.values()):
-                look(at + 1, saved + own, [*taken, row], more)
-        look(at + 1, saved, taken, used)
-
-    look(0, 0.0, [], dict.fromkeys(limits, 0.0))
-    return best[1]
+    """What saves most, one about each thing, as long as the sizes of changes together keep the limits."""
+    taken: dict[str, Loss] = {}
+    used = dict.fromkeys(limits, 0.0)
+    for row in sorted((one for one in rows if one.stable), key=lambda one: one.share):
+        more = {name: used[name] + row.used(name, limits[name], noise.get(name, 0.0)) for name in limits}
+        saves = row.share < 1.0 - max(SAVES, row.spread)
+        if saves and row.of not in taken and all(share <= 1.0 for share in more.values()):
+            taken[row.of], used = row, more
+    return [*taken.values()]

@@ -61,9 +61,12 @@ def findings(
         "ranges": _ranges, "following": partial(_following, steered=steered),
     }  # fmt: skip
     for what, look in looks.items():
-        judged = tried(f"looking at {what}", lambda one=look: list(one(scene, time, channels)), [], found)
-        found += judged
+        found += tried(f"looking at {what}", partial(_listed, look, scene, time, channels), [], found)
     return [*found, *_singular(stats)]
+
+
+def _listed(look: Look, scene: Description, time: Array, channels: Channels) -> list[Finding]:
+    return list(look(scene, time, channels))
 
 
 def _heel(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
