@@ -78,18 +78,10 @@ def read_stl(path: str | PathLike[str], *, most: int | None = None) -> FloatArra
 
 
 def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
-    """Triangles of the scene of a glTF model, in m, turned from y up to z up: x stays, y becomes z.
+    """Triangles of a glTF model (.glb, or .gltf with its buffers inside), in m, z up: x stays, y becomes z.
 
-    Parameters
-    ----------
-    path : path-like
-        .glb, or .gltf with its buffers inside.
-    most : Triangles that it may have.
-
-    Raises
-    ------
-    FileFormatError
-        Missing, truncated, malformed, too large, or with parts that are not read; or without trimesh.
+    FileFormatError for what is missing, truncated, malformed, of more than `most` triangles, or has parts
+    that are not read; or without trimesh.
     """
     source, content = _content(path, "decimate the mesh in the program that made it")
     with _refusing(source):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import operator
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -23,6 +24,7 @@ from seacrane.lift.keys import Key
 from seacrane.lift.tables import TABLES, Table
 
 LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
+ENDLESS = ("mooring_period", "depth")  # inf, for which TOML has a word, stands for none, or deep water
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
 Number = TypeVar("Number", int, float)
 BOUNDS: Mapping[str, tuple[Callable[[float, float], bool], str]] = {
@@ -251,9 +253,16 @@ def _checked(node: Node, key: Key, bounds: Mapping[str, float], folder: Path) ->
     """A value that is no table."""
     match key.type:
         case "text":
-            return _chosen(node, key)
+            text = node.text()
+            if key.choices and text not in key.choices:
+                node.fail(nearest(text, key.choices))
+            return text
+        case "number" | "curve" if node.value in key.choices:
+            return node.value
+        case "number" | "curve" if node.value == math.inf and key.name in ENDLESS:
+            return math.inf
         case "number" | "curve":
-            return node.value if node.value in key.choices else _number(node, key, bounds)
+            return _bounded(node, bounds, node.number())
         case "whole":
             return _bounded(node, bounds, node.whole())
         case "flag":
@@ -263,15 +272,11 @@ def _checked(node: Node, key: Key, bounds: Mapping[str, float], folder: Path) ->
         case "texts":
             return tuple(item.text() for item in node.items())
         case "file":
-            return _file(node, key, folder)
+            path = node.text()
+            if not path or not path.isprintable():
+                node.fail("give the path of a file")
+            return path if path in key.choices else os.path.normpath(folder.absolute() / path)
     raise TypeError(f"no lift file holds a {key.type}")
-
-
-def _number(node: Node, key: Key, bounds: Mapping[str, float]) -> float:
-    """Infinity too, where it stands for none or for deep water; TOML has a word for it."""
-    if node.value == float("inf") and key.name in ("mooring_period", "depth"):
-        return float("inf")
-    return _bounded(node, bounds, node.number())
 
 
 def _bounded(node: Node, bounds: Mapping[str, float], number: Number) -> Number:
@@ -281,13 +286,6 @@ def _bounded(node: Node, bounds: Mapping[str, float], number: Number) -> Number:
             f"give one {' and '.join(f'{BOUNDS[word][1]} {bound:g}' for word, bound in bounds.items())}"
         )
     return number
-
-
-def _chosen(node: Node, key: Key) -> str:
-    text = node.text()
-    if key.choices and text not in key.choices:
-        node.fail(nearest(text, key.choices))
-    return text
 
 
 def _array(node: Node, key: Key, bounds: Mapping[str, float]) -> Any:
@@ -310,14 +308,6 @@ def _deep(value: Any) -> int:
 
 def _fixed(value: Any) -> Any:
     return tuple(map(_fixed, value)) if isinstance(value, list) else value
-
-
-def _file(node: Node, key: Key, folder: Path) -> str:
-    """A path from the folder of the lift file, or the name of what comes with the package."""
-    text = node.text()
-    if not text or not text.isprintable():
-        node.fail("give the path of a file")
-    return text if text in key.choices else os.path.normpath(folder.absolute() / text)
 
 
 def nearest(name: str, known: tuple[str, ...]) -> str:

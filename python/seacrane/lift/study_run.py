@@ -116,12 +116,9 @@ def keys_in(tables: Tables) -> dict[str, KeyPlace]:
     Tables of which there are several are told apart by their names, or else by their number from 1 on; so
     are the parts of arrays, as in "crane.foot_m.2".
     """
-    named = ((name, given) for name, given in tables.items() if name not in OF_NO_SCENE)
-    return {
-        path: place
-        for name, given in named
-        for path, place in _inside(name, (name,), TABLES[name].keys, given)
-    }
+    named = [(name, given) for name, given in tables.items() if name not in OF_NO_SCENE]
+    inside = (_inside(name, (name,), TABLES[name].keys, given) for name, given in named)
+    return {path: place for places in inside for path, place in places}
 
 
 def _inside(
@@ -136,15 +133,12 @@ def _inside(
             here, inside, value = f"{path}.{spelling}", (*place, spelling), given.get(spelling)
             if key.type in ("table", "tables"):
                 yield from _inside(here, inside, key.keys, value) if value else ()
-            elif key.type == "array":
-                for number in range(len(value) if _of_numbers(value) else 0):
-                    yield f"{here}.{number + 1}", KeyPlace((*inside, number))
+            elif key.type == "array" and isinstance(value, list):
+                for number, part in enumerate(value):
+                    if not isinstance(part, list):
+                        yield f"{here}.{number + 1}", KeyPlace((*inside, number))
             elif key.type in SINGLE and not isinstance(value, list | dict):
                 yield here, KeyPlace(inside, tuple(one for one in key.spellings if one != spelling))
-
-
-def _of_numbers(value: Any) -> bool:
-    return isinstance(value, list) and not any(isinstance(one, list) for one in value)
 
 
 def with_keys(tables: Tables, places: Mapping[str, KeyPlace], values: Mapping[str, Value]) -> Tables:
