@@ -17,7 +17,7 @@ from seacrane.description.holding import with_holds
 from seacrane.description.places import ANGLES
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import untold
-from seacrane.lift.calls import Caller, Keywords, keywords, require_unit, require_unit_of_channel
+from seacrane.lift.calls import Caller, Keywords, by_name, keywords, require_unit, require_unit_of_channel
 from seacrane.lift.check_keys import Entry, only, plain, titled
 from seacrane.lift.document import Place
 from seacrane.lift.inner_keys import COMMANDS, STAGE, UNTIL, WAITS
@@ -260,7 +260,8 @@ def _stage(entry: Entry) -> Stage:
     given = keywords(STAGE, entry.values)
     tables = zip(entry.values.get("until", ()), given.get("until", ()), strict=True)
     given["until"] = [_condition(table, values) for table, values in tables]
-    given["commands"] = _commands(given.get("commands", ()))
+    commands = by_name("commands", given.get("commands", ()))
+    given["commands"] = {name: _command(name, values) for name, values in commands.items()}
     return Stage(**given)
 
 
@@ -283,16 +284,6 @@ def _condition(table: Mapping[str, Any], values: Keywords) -> Condition:
     if kind == "clear" and bounds.keys() != {"minimum"}:
         raise SceneError("until: clear needs a minimum, in m, and no maximum; give minimum_m")
     return made(values[kind], **bounds, **names)
-
-
-def _commands(tables: Iterable[Keywords]) -> dict[str, Command]:
-    found: dict[str, Command] = {}
-    for values in tables:
-        name = values["name"]
-        if name in found:
-            raise SceneError(f"commands: {name!r} is given twice; give one command of it in a stage")
-        found[name] = _command(name, values)
-    return found
 
 
 def _command(name: str, values: Mapping[str, Any]) -> Command:

@@ -150,8 +150,11 @@ class Caller:
             case "crane":
                 self.crane(scene, table, values, {})
             case "ballast":
-                left = {key: None for key, value in given.items() if value in LEFT}
-                scene.add_ballast(**given | _tanks(given) | left)
+                given |= {key: None for key, value in given.items() if value in LEFT}
+                if "tanks" in given:
+                    tanks = by_name("ballast: tanks", given["tanks"])
+                    given["tanks"] = {name: Tank(**tank) for name, tank in tanks.items()}
+                scene.add_ballast(**given)
             case "roles":
                 if "areas" in given:
                     rows = given["areas"]
@@ -226,31 +229,24 @@ class Caller:
         scene.add_sea(**given)
 
 
-def _tanks(given: Keywords) -> Keywords:
-    """Tanks by their names; nothing where there are none."""
-    if "tanks" not in given:
-        return {}
-    tanks: dict[str, Tank] = {}
-    for table in given["tanks"]:
-        name = table["name"]
-        if name in tanks:
-            raise SceneError.of("ballast: tanks", f"has {name!r} twice; names of tanks must differ")
-        tanks[name] = Tank(**{key: value for key, value in table.items() if key != "name"})
-    return {"tanks": tanks}
+def by_name(what: str, rows: Iterable[Keywords]) -> dict[str, Keywords]:
+    """Tables of a list by their names, without these; SceneError where two have one name."""
+    found: dict[str, Keywords] = {}
+    for row in rows:
+        if row["name"] in found:
+            raise SceneError.of(what, f"has {row['name']!r} twice; names must differ")
+        found[row["name"]] = {key: value for key, value in row.items() if key != "name"}
+    return found
 
 
 def _raos(headings: list[Keywords], **table: Any) -> MotionRaos:
     """From amplitudes and phases, heading by heading."""
     for one in headings:
-        if np.shape(one["amplitude"]) != np.shape(one["phase"]):
+        rows = [len(one[key]) for key in ("amplitude", "phase")]
+        if rows != 2 * [len(table["omega"])]:
             raise SceneError(
-                f"raos: amplitude has shape {np.shape(one['amplitude'])} and phase {np.shape(one['phase'])} "
-                f"at heading {one['heading']:.6g} rad; give one phase for each amplitude"
-            )
-        if len(one["amplitude"]) != len(table["omega"]):
-            raise SceneError(
-                f"raos: amplitude has {len(one['amplitude'])} rows at heading {one['heading']:.6g} rad, and "
-                f"omega {len(table['omega'])} values; give one row for each frequency"
+                f"raos: amplitude has {rows[0]} rows and phase {rows[1]} at heading {one['heading']:.6g} "
+                f"rad, and omega {len(table['omega'])} values; give one row for each frequency"
             )
     values = [np.array(one["amplitude"]) * np.exp(1j * np.array(one["phase"])) for one in headings]
     return MotionRaos(heading=[one["heading"] for one in headings], values=values, **table)

@@ -11,18 +11,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
-from seacrane.accuracy.simpler_scenes import (
-    BOUND,
-    CASES,
-    FEWER,
-    SHARES,
-    locked,
-    memory_name,
-    scattered,
-    shapes_in,
-    strongest,
-    with_memory,
-)
+from seacrane.accuracy import simpler_scenes as simpler
 from seacrane.description.databases import source_of
 from seacrane.description.given import given_vessels
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
@@ -190,7 +179,10 @@ def held_crane(scene: Scene) -> Iterator[Choice]:
     """Controlled coordinates held where they start."""
     if scene.actuators:
         yield Choice(
-            name="crane held where it starts", script="scene = needs.locked(scene)", made=locked, of="drives"
+            name="crane held where it starts",
+            script="scene = needs.locked(scene)",
+            made=simpler.locked,
+            of="drives",
         )
 
 
@@ -230,12 +222,12 @@ def fewer_waves(scene: Scene) -> Iterator[Choice]:
     waves = scene.waves
     if waves is None or not (waves.hulls or immersed_parts(scene)):
         return
-    for share in FEWER:
+    for share in simpler.FEWER:
         count = int(np.ceil(share * len(waves.omega)))
         if count < len(waves.omega):
             name = f"{count} of {len(waves.omega)} wave components"
             script = f"needs.strongest(scene.waves, {count})"
-            yield _on_waves(name, script, partial(strongest, count=count), "wave components")
+            yield _on_waves(name, script, partial(simpler.strongest, count=count), "wave components")
 
 
 def _on_waves(name: str, script: str, change: Callable[[Waves], Waves], of: str) -> Choice:
@@ -252,10 +244,10 @@ def coarse_table(scene: Scene) -> Iterator[Choice]:
     waves = scene.waves
     if waves is None or not waves.has_tables() or waves.evaluation == "fft":
         return
-    if waves.evaluation == "exact" or waves.relative_bound < BOUND:
-        script = f'dataclasses.replace(scene.waves, evaluation="table", relative_bound={BOUND!r})'
-        change = partial(replace, evaluation="table", relative_bound=BOUND)
-        yield _on_waves(f"wave table within {BOUND:g}", script, change, "wave table")
+    if waves.evaluation == "exact" or waves.relative_bound < simpler.BOUND:
+        script = f'dataclasses.replace(scene.waves, evaluation="table", relative_bound={simpler.BOUND!r})'
+        change = partial(replace, evaluation="table", relative_bound=simpler.BOUND)
+        yield _on_waves(f"wave table within {simpler.BOUND:g}", script, change, "wave table")
 
 
 def no_drift(scene: Scene) -> Iterator[Choice]:
@@ -303,13 +295,13 @@ def _memory(kind: str, level: float | None = None) -> Choice:
     return Choice(
         name=name if level is None else f"{name} within {100 * level:g} %",
         script=f'scene = needs.with_memory(scene, "{kind}"{more})',
-        made=partial(with_memory, kind=kind, level=level),
+        made=partial(simpler.with_memory, kind=kind, level=level),
         of="fluid memory",
     )
 
 
 def _memory_of_one(scene: Scene) -> str | None:
-    return memory_name(scene) if len(scene.vessels) == 1 and not given_vessels(scene) else None
+    return simpler.memory_name(scene) if len(scene.vessels) == 1 and not given_vessels(scene) else None
 
 
 def _is_known(scene: Scene) -> bool:
@@ -335,7 +327,7 @@ def uncoupled(scene: Scene, name: str) -> Scene:
     out = scene.copy()
     out.remove(name, kind="group")
     for vessel in group.vessels if len(group.memory) else ():
-        out = with_memory(out, "by-motion", vessel=vessel)
+        out = simpler.with_memory(out, "by-motion", vessel=vessel)
     return out
 
 
@@ -375,15 +367,15 @@ def _with_factor(scene: Scene, *, factor: float) -> Scene:
 
 def scatter(scene: Scene) -> Iterator[Choice]:
     """More and less added mass and drag than described: how well coefficients are known."""
-    if not shapes_in(scene):
+    if not simpler.shapes_in(scene):
         return
-    for case, (coefficient, _) in CASES.items():
-        shares = sorted({SHARES[shape][coefficient] for shape in shapes_in(scene)})
+    for case, (coefficient, _) in simpler.CASES.items():
+        shares = sorted({simpler.SHARES[shape][coefficient] for shape in simpler.shapes_in(scene)})
         told = " to ".join(f"{100 * share:g}" for share in dict.fromkeys([shares[0], shares[-1]]))
         yield Choice(
             name=f"{case} in water, by {told} %",
             script=f'scene = needs.scattered(scene, "{case}")',
-            made=partial(scattered, case=case),
+            made=partial(simpler.scattered, case=case),
             of="coefficients in water",
         )
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from typing import Any
@@ -213,6 +212,8 @@ def required(
     SceneError
         For what is asked and is no single number, limits that are none, and a scene that does not run.
     """
+    from tqdm.auto import tqdm
+
     asks, units = asked(scene, keep)
     method, outputs = settled(method, outputs, shorthand)
     begun = time.process_time()
@@ -229,7 +230,10 @@ def required(
     missing = missing_from(scene)
     count = len(tried) + len(missing)
     price = count * cold.cpu_s + (2 * repeats * (len(tried) + 1) + len(missing) + 4) * full.cpu_s
-    with _bar(progress, price, count) as tick:
+    if progress:
+        tqdm.write(f"required: takes about {price:.2g} s of CPU, fits of a memory aside", file=sys.stderr)
+    with tqdm(total=count, desc="required", unit="row", disable=not progress) as bar:
+        tick = bar.update
         rows = [_row(bench, scene, full, choice, repeats, tick) for choice in tried]
         lacks = [_row(bench, scene, full, choice, 0, tick) for choice in missing]
         noise = {
@@ -264,7 +268,7 @@ def _limits(within: float | Mapping[str, float], values: Mapping[str, float]) ->
 
 
 def _row(
-    bench: Bench, scene: Scene, full: Told, choice: Choice, repeats: int, tick: Callable[[], None]
+    bench: Bench, scene: Scene, full: Told, choice: Choice, repeats: int, tick: Callable[[], Any]
 ) -> Loss:
     """Of one choice; what does not run is a row that says why."""
     row = Loss(name=choice.name, script=choice.script, of=choice.of, choice=choice)
@@ -300,19 +304,6 @@ def _run_together(
             return (row, taken) if row.share < 1.0 - SAVES else (None, ())
         taken.remove(max(taken, key=lambda one: max(one.used(*limit) for limit in limits.items())))
     return None, ()
-
-
-@contextmanager
-def _bar(progress: bool, price: float, rows: int) -> Iterator[Callable[[], None]]:
-    """The price, then a bar; nothing where no progress is asked."""
-    if not progress:
-        yield lambda: None
-        return
-    from tqdm.auto import tqdm
-
-    tqdm.write(f"required: takes about {price:.2g} s of CPU, fits of a memory aside", file=sys.stderr)
-    with tqdm(total=rows, desc="required", unit="row") as bar:
-        yield lambda: bar.update() and None
 
 
 def least_of(rows: Sequence[Loss], limits: Mapping[str, float], noise: Mapping[str, float]) -> list[Loss]:

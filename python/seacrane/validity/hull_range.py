@@ -205,36 +205,29 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
 
 def relative_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> Iterator[Finding]:
     """Pairs of a group whose mean relative place or heading is out of range."""
-    moved = {vessel.name: motion for vessel, motion in motions(scene, channels)}
-    for name, group in scene.groups.items():
-        for one, other in combinations(group.vessels, 2):
-            if {one, other} <= moved.keys():
-                yield from _of_pair(scene, name, (one, other), time, (moved[one], moved[other]))
-
-
-def _of_pair(
-    scene: Description, group: str, pair: tuple[str, str], time: Array, moved: tuple[Array, Array]
-) -> Iterator[Finding]:
-    if scene.waves is not None and time[-1] - time[0] < peak_of(scene).period:
+    moved, waves = {vessel.name: motion for vessel, motion in motions(scene, channels)}, scene.waves
+    if waves is not None and time[-1] - time[0] < peak_of(scene).period:
         return  # within one wave there is no mean
-    fast = _relative(scene, pair, moved)
-    if scene.waves is None:
-        slow = np.broadcast_to(fast.mean(axis=0), fast.shape)
-    else:
-        slow = slowly(time, fast, peak_of(scene).period)
-    gap = gap_between(scene, *pair)
-    far, turned = np.hypot(*slow[:, :2].T), np.abs(slow[:, 2])
-    if far.max() <= LARGEST_GAP_SHARE * gap and turned.max() <= LARGEST_RELATIVE_TURN:
-        return
-    at, turn = int(far.argmax()), int(turned.argmax())
-    yield (
-        warnings.RelativePlaceWarning,
-        f"group {group!r}: {pair[1]!r} leaves its place beside {pair[0]!r} by {far[at]:.3g} m on the average "
-        f"at t = {time[at]:.6g} s and its heading by {np.degrees(turned[turn]):.3g} deg (limits: "
-        f"{LARGEST_GAP_SHARE * gap:.3g} m, a tenth of the gap of {gap:.3g} m, and "
-        f"{np.degrees(LARGEST_RELATIVE_TURN):.0f} deg). Moor them closer to the places of the group's data, "
-        "or compute the group where they go",
-    )
+    pairs = [(name, pair) for name, group in scene.groups.items() for pair in combinations(group.vessels, 2)]
+    for name, (one, other) in pairs:
+        if not {one, other} <= moved.keys():
+            continue
+        fast = _relative(scene, (one, other), (moved[one], moved[other]))
+        mean = np.broadcast_to(fast.mean(axis=0), fast.shape)
+        slow = mean if waves is None else slowly(time, fast, peak_of(scene).period)
+        gap = gap_between(scene, one, other)
+        far, turned = np.hypot(*slow[:, :2].T), np.abs(slow[:, 2])
+        if far.max() <= LARGEST_GAP_SHARE * gap and turned.max() <= LARGEST_RELATIVE_TURN:
+            continue
+        at = int(far.argmax())
+        yield (
+            warnings.RelativePlaceWarning,
+            f"group {name!r}: {other!r} leaves its place beside {one!r} by {far[at]:.3g} m on the average "
+            f"at t = {time[at]:.6g} s and its heading by {np.degrees(turned.max()):.3g} deg (limits: "
+            f"{LARGEST_GAP_SHARE * gap:.3g} m, a tenth of the gap of {gap:.3g} m, and "
+            f"{np.degrees(LARGEST_RELATIVE_TURN):.0f} deg). Moor them closer to the places of the group's "
+            "data, or compute the group where they go",
+        )
 
 
 def _relative(scene: Description, pair: tuple[str, str], moved: tuple[Array, Array]) -> Array:

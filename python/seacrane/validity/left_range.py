@@ -239,19 +239,17 @@ def _following(
                     "reference, or give it stronger gains",
                 )
         if actuator.stiffness == 0.0 or actuator.damping > 0.0:  # else a spring
-            yield from _short(scene, name, error)
+            yield from _short(scene, actuator, error)
 
 
 def _holds(actuator: _core.Actuator) -> bool:
     """Whether an actuator has a reference to follow: a controller's gains, or a curve that says so."""
     if actuator.stiffness > 0.0:
         return actuator.damping > 0.0 or actuator.coordinate in ANGLES
-    data = actuator.reference.to_pieces()
-    return bool(np.any(np.asarray(data["coefficients"]) != 0.0))
+    return bool(np.any(actuator.reference.to_pieces()["coefficients"]))
 
 
-def _short(scene: Description, name: str, error: Array) -> Iterator[Finding]:
-    actuator = scene.actuators[name]
+def _short(scene: Description, actuator: _core.Actuator, error: Array) -> Iterator[Finding]:
     last = error[-max(int(LAST * error.size), 1) :]
     angular = actuator.coordinate in ANGLES
     limit = SHORT[angular] * (1.0 if angular else scene.length_scale)
@@ -261,8 +259,8 @@ def _short(scene: Description, name: str, error: Array) -> Iterator[Finding]:
     away = f"{np.degrees(mean):.4g} deg" if angular else f"{mean:.4g} m"
     yield (
         warnings.SoftGainsWarning,
-        f"actuator {name!r}: ends {away} from its reference: stiffness {actuator.stiffness:.4g} and damping "
-        f"{actuator.damping:.4g} {'N m/rad, N m s/rad' if angular else 'N/m, N s/m'} are too soft for what "
-        "it carries. Give stiffness = inertia * omega**2 with omega well above the motion "
+        f"actuator {actuator.name!r}: ends {away} from its reference: stiffness {actuator.stiffness:.4g} and "
+        f"damping {actuator.damping:.4g} {'N m/rad, N m s/rad' if angular else 'N/m, N s/m'} are too soft "
+        "for what it carries. Give stiffness = inertia * omega**2 with omega well above the motion "
         "(seacrane.analysis.reflected_inertia), or its load as feed_forward (seacrane.balance)",
     )
