@@ -177,7 +177,7 @@ class Checker:
         if key.type == "table":
             return self.table(path, key.keys, value)
         if key.type == "tables":
-            listed = enumerate(self._list(path, value))
+            listed = enumerate(self._node(path, value).values())
             return tuple(self.table((*path, i), key.keys, one) for i, one in listed)
         if key.type == "curve" and isinstance(value, Mapping | list):
             return self._curve(path, value, of_speed=key.unit == "m/s")
@@ -217,11 +217,6 @@ class Checker:
     def _node(self, path: Place, value: Any) -> Node:
         where = titled(path[:-1]) if path[:-1] else "the file"
         return Node(value, f"{self.document.place(path)}: {short(str(path[-1]))} in {where}")
-
-    def _list(self, path: Place, value: Any) -> list[Any]:
-        if not isinstance(value, list):
-            self._node(path, value).fail("give a list of tables")
-        return value
 
     def _curve(self, path: Place, value: Any, *, of_speed: bool) -> Any:
         """One piece, or several with the time from which each after the first holds."""

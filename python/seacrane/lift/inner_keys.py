@@ -271,6 +271,8 @@ def sea_keys() -> tuple[Key, ...]:
         "keys": _system_keys(),
         "text": "Wave systems, in place of hs to count.",
     }
+    units = {"depth": "m", "speed": "m/s", "direction_deg": "deg"}
+    current = {name: EACH | {"unit": unit} for name, unit in units.items()}
     of_state = keys_of(SeaState, more=CHOSEN | {"depth": LENGTH}, without=("systems", "seed"))
     plain = keys_of(
         sea.add_sea,
@@ -278,17 +280,12 @@ def sea_keys() -> tuple[Key, ...]:
             **HEIGHT_AND_PERIOD, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
             "cutoff": {"unit": "rad/s"}, "position": POINT | {"shapes": ((2,),)},
             "stretching": {"choices": STRETCHING},
-            "current": {"type": "table", "keys": _current_keys()},
+            "current": {"type": "table", "keys": keys_of(Current, more=current)},
         },
         without=("sea",),
     )  # fmt: skip
     beside = tuple(replace(key, text=f"Beside systems. {key.text}") for key in of_state)
     return (*plain, *beside, Key(name="systems", **several))
-
-
-def _current_keys() -> tuple[Key, ...]:
-    units = {"depth": "m", "speed": "m/s", "direction_deg": "deg"}
-    return keys_of(Current, more={name: EACH | {"unit": unit} for name, unit in units.items()})
 
 
 def _system_keys() -> tuple[Key, ...]:

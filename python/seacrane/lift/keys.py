@@ -111,14 +111,10 @@ def keys_of(
     return tuple(found)
 
 
-def fields_of(kind: type, *, without: Collection[str] = ()) -> tuple[Key, ...]:
-    """The FIELDS of a class of the core, or the parameters of a joint kind, as keys."""
-    return field_keys(field for field in kind.FIELDS if field.name not in without)  # type: ignore[attr-defined]
-
-
-def field_keys(fields: Iterable[Any]) -> tuple[Key, ...]:
-    """Entries of FIELDS as keys."""
-    return tuple(Key(name=field.name, required=field.required, **_of_field(field)) for field in fields)
+def field_keys(fields: Iterable[Any], *, without: Collection[str] = ()) -> tuple[Key, ...]:
+    """FIELDS of a class of the core, or the parameters of a joint kind, as keys."""
+    kept = (field for field in fields if field.name not in without)
+    return tuple(Key(name=field.name, required=field.required, **_of_field(field)) for field in kept)
 
 
 def _of_field(field: Any) -> dict[str, Any]:

@@ -33,7 +33,7 @@ from seacrane.lift.inner_keys import (
     sea_keys,
     vessel_keys,
 )
-from seacrane.lift.keys import Key, field_keys, fields_of, keys_of, parameter_texts
+from seacrane.lift.keys import Key, field_keys, keys_of, parameter_texts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
@@ -68,6 +68,7 @@ START: dict[str, Any] = {
     "text": '"rest" finds the state at rest; default: as described.',
 }
 LIMITED = {"unit": CHANNEL_UNITS}
+FRAME = {"type": "table", "keys": field_keys(_core.Frame.FIELDS)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,11 +105,10 @@ def _summary(call: Any) -> str:
 
 def _joint_keys() -> tuple[Key, ...]:
     """The keys of `add_joint`, and the parameters of all kinds of joints."""
-    frame = {"type": "table", "keys": fields_of(_core.Frame)}
     places = {key: POINT for key in ("point", "second_point")} | {
         key: DIRECTION for key in ("axis", "second_axis")
     }
-    keys = keys_of(elements.add_joint, more=CHOSEN | places | {"first_frame": frame, "second_frame": frame})
+    keys = keys_of(elements.add_joint, more=CHOSEN | places | {"first_frame": FRAME, "second_frame": FRAME})
     parameters = [field for kind in _core.joint_kinds().values() for field in kind.parameters]
     return (*keys, *(replace(key, required=False) for key in field_keys(parameters)))
 
@@ -194,7 +194,7 @@ _ALL = (
         name="hydrodynamics", text="Hydrodynamics of a body by their matrices.",
         keys=tuple(
             replace(key, required=key.name == "body", choices=CHOSEN.get(key.name, {}).get("choices", ()))
-            for key in fields_of(_core.VesselHydrodynamics, without=("memory",))
+            for key in field_keys(_core.VesselHydrodynamics.FIELDS, without=("memory",))
         ),
         add=vessel.add_vessel,
     ),
@@ -291,7 +291,7 @@ _ALL = (
             replace(key, required=key.required or key.name == "file")
             for key in keys_of(
                 bodies.add_mesh,
-                more={"file": {"type": "file"}, "frame": {"type": "table", "keys": fields_of(_core.Frame)}},
+                more={"file": {"type": "file"}, "frame": FRAME},
                 without=("vertices", "faces"),
             )
         ),
