@@ -46,8 +46,8 @@ def manifold(hs: float = 0.0, depth: float | None = None) -> Scene:
     scene.add_driver(joint="A", name="slew", curve=Curve.constant(value=0.0))
     place = {"on": "vessel", "height": DECK} if depth is None else {"height": -depth}
     scene.add_hoist(
-        "wire", mass=MASS, size=SIZE, rung="with mass", EA=EA, mass_per_length=WIRE, winch={"lag": WINCH},
-        wire={"segments": SEGMENTS, "diameter": DIAMETER, "medium": "sea"}, **place,
+        "wire", mass=MASS, size=SIZE, EA=EA, winch={"lag": WINCH}, **place,
+        wire={"mass_per_length": WIRE, "segments": SEGMENTS, "diameter": DIAMETER, "medium": "sea"},
     )  # fmt: skip
     scene.add_heave_compensation("active", body=jib, point=head, winch="wire", lag=LAG, high_pass=FILTER)
     scene.add_immersed("load", parts=[BODY], density=RHO)

@@ -1,4 +1,4 @@
-"""A derrick on a ship, part by part: hinge, cylinder, wire, bridle, tag line; wind, a slack tank, a current.
+"""A derrick on a ship, part by part: hinge, cylinder, wire, slings, tag line; wind, a slack tank, a current.
 
 Usage: python derrick.py [FOLDER FOR A PICTURE]
 """
@@ -23,9 +23,8 @@ CURRENT, SWAY, SIDE = 0.8, 0.7, 600.0  # m/s, 1, m2
 TANK = 2.5e6  # kg m
 
 scene = Scene(name="derrick")
-scene.add_vessel(shipped_database())
-stiff = scene.vessels["vessel"].restoring[3, 3]
-scene.add_slack_tank(moment=TANK)
+ship = shipped_database()
+scene.add_vessel(ship, slack_moment=TANK)
 across = FlowCoefficients(
     angle=np.radians([0, 90, 180]), x=np.array([0.1, 0, -0.1]), y=np.array([0, SWAY, 0]), yaw=np.zeros(3)
 )
@@ -40,7 +39,7 @@ scene.add_body(
 )  # fmt: skip
 scene.add_joint("heel", kind="revolute", first="vessel", second="boom", point=HEEL, axis=(1.0, 0.0, 0.0))
 scene.add_friction("heel", load=5e3, speed=1e-3)  # N m, rad/s
-scene.add_range("heel", minimum=-0.3, maximum=0.3)
+scene.add_channel(joint="heel", minimum=-0.3, maximum=0.3)
 
 hook = HEEL + TIP - (0.0, 0.0, WIRE)
 middle = hook - (0.0, 0.0, OVER + TOP)
@@ -53,10 +52,11 @@ scene.add_line(
     "wire", first="boom", second="hook", first_point=(0.0, 0.0, 0.5 * BOOM), EA=6e7, tension_at_start=hung,
     rung="quasi-static",
 )  # fmt: skip
-scene.add_bridle(
-    "sling", hook="hook", load="container", points=EYES, EA=EA, lengths=4 * [leg / (1.0 + pull / EA)],
-    rung="quasi-static",
-)  # fmt: skip
+for i, eye in enumerate(EYES, start=1):
+    scene.add_line(
+        f"sling {i}", bodies=["hook", "container"], points=[(0, 0, 0), eye], EA=EA, tension_at_start=pull,
+        rung="quasi-static",
+    )  # fmt: skip
 x, y, z = 0.5 * SIZE
 corners = [(a, b, c) for c in (-z, z) for a, b in ((-x, -y), (x, -y), (x, y), (-x, y))]
 sides = [(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4)] + [(3, 2, 1, 0), (4, 5, 6, 7)]
@@ -70,8 +70,8 @@ scene.add_hydraulic_cylinder(  # after what it carries, which sets its pressures
     valve=Valve(rated_flow=2e-3), piston=Piston(viscous_friction=1e5),
     command=Curve.quintic(start_time=10.0, end_time=12.0, start=0.0, end=-0.4),
 )  # fmt: skip
-scene.add_air_drag(
-    "container",
+scene.add_wind(
+    body="container",
     frontal_area=SIZE[1] * SIZE[2],
     lateral_area=SIZE[0] * SIZE[2],
     drag_coefficient=DRAG,
@@ -104,7 +104,7 @@ rows = {
         result.select("load_force", load="current", axis="y")[0] / 1e3, 0.5 * 1.025 * SWAY * SIDE * CURRENT**2
     ),
     "roll stiffness less by the tank, MN m": (
-        (stiff - scene.vessels["vessel"].restoring[3, 3]) / 1e6, scene.gravity * TANK / 1e6
+        (ship.restoring[3, 3] - scene.vessels["vessel"].restoring[3, 3]) / 1e6, scene.gravity * TANK / 1e6
     ),
 }  # fmt: skip
 print(f"{'at rest':38} {'here':>8} {'by hand':>8}")

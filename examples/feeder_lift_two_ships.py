@@ -36,7 +36,7 @@ RECORDED = Outputs(
 def feeder_lift(lid_damping: float | None, seed: int = 1) -> Scene:
     """The load on the feeder's deck below the crane's tip, its wire slack."""
     scene = Scene(name="feeder lift", gravity=GRAVITY)
-    scene.add_vessel(two_barges(lid_damping=lid_damping), mooring_period=60.0)
+    scene.add_vessel(two_barges(lid_damping=lid_damping), mooring=60.0)
     crane = load_crane("lattice_boom_100t")
     scene.add_crane(
         crane, base="crane vessel", foot=(0.0, 6.0, 3.0), coordinates={"slew": -0.5 * np.pi, "boom": 1.176}

@@ -21,8 +21,8 @@ scene.add_joint(kind="prismatic", name="heave", first="ground", second="tip", ax
 scene.add_driver(name="sea", joint="heave", curve=Curve.constant(value=0.0))
 scene.add_body(name="load", mass=LOAD, inertia=(4e4, 4e4, 4e4), position=(0, 0, -LENGTH))
 scene.add_line(
-    name="wire", rung="with mass", bodies=["tip", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=EA,
-    length=LENGTH, mass_per_length=WIRE, segments=20,
+    name="wire", bodies=["tip", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=EA, length=LENGTH,
+    wire={"mass_per_length": WIRE, "segments": 20},
 )  # fmt: skip
 rest = equilibrium(scene)
 held = simulate(scene, t_end=0.1, start=rest, channels=["position", "line_tension"])

@@ -39,7 +39,7 @@ for angle, tension in zip(np.radians(degrees), told["rope tension boom"], strict
 rate = Curve.quintic(start_time=5.0, end_time=10.0, start=0.0, end=-1.0).then(
     time=40.0, curve=Curve.quintic(start_time=40.0, end_time=45.0, start=-1.0, end=0.0)
 )
-scene.add_luffing_rope(rate=rate)
+scene.add_winch("luffing rope", rate=rate)
 result = simulate(scene, t_end=60.0, dt_out=0.1)
 tension = result["line_tension"][:, 0] / 1e3
 height = result["position"][:, list(result.coords["body"]).index("payload"), 2]

@@ -29,9 +29,7 @@ def on_deck(roll: float) -> Scene:
     scene.add_contact(
         "load", on="barge", points=FEET, place=(0.0, 0.0, HEIGHT + 0.01), friction=FRICTION, name="feet"
     )
-    scene.add_point(name="middle", body="load")
-    scene.add_point(name="mark", body="barge", point=(0.0, 0.0, HEIGHT))
-    scene.add_relative(name="load on deck", point="middle", to="mark", axes="barge")
+    scene.add_channel("load on deck", expression="load.y in barge")
     return scene
 
 
@@ -53,8 +51,7 @@ if len(sys.argv) > 1:
 
     figure, (place, pressed) = plt.subplots(2, 1, figsize=(8.0, 5.0), sharex=True, layout="constrained")
     for degrees, result in runs.items():
-        moved = result.select("relative_position", pair="load on deck", axis="y")
-        place.plot(result.time, moved, label=f"{degrees:g} deg")
+        place.plot(result.time, result.curve("own[load on deck]"), label=f"{degrees:g} deg")
         pressed.plot(result.time, result.select("contact_press", contact_point="feet.1") / 1e3)
     place.set(ylabel="load over the deck [m]")
     figure.legend(title="roll", ncols=4, loc="outside upper right")

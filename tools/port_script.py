@@ -72,10 +72,18 @@ GAS = _values(
 DRIVE = _values(
     drive="Drive actuator_frequency=frequency actuator_damping=damping maximum_rate maximum_stroke settling"
 )
+LINE = _values(
+    wire="Wire mass_per_length segments diameter drag_coefficient drag_coefficient_along"
+    " added_mass_coefficient density flow medium seabed",
+    sheaves="Sheaves radii axes turns efficiencies frictions slip_speed",
+)
 OF_OTHERS = {"pressure", "gain", "friction", "air", "overlap"}  # keys of dicts that may be of anything
 IMPORTED = "import the values from seacrane.scene; in dicts of keywords one replaces another as a whole"
+WITH_MASS = "import the values from seacrane.scene; rung='with mass' goes, and segment_rung is rung"
 CALLS = {
     "add_hydraulic_cylinder": Call("add_hydraulic_cylinder", values=OIL, note=IMPORTED),
+    "add_line": Call("add_line", values=LINE, note=WITH_MASS),
+    "add_vessel": Call("add_vessel", renamed={"mooring_period": "mooring"}),
     "add_gas_spring": Call("add_gas_spring", values=GAS, note=IMPORTED),
     "add_heave_compensation": Call("add_heave_compensation", values=DRIVE, note=IMPORTED),
     "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),
@@ -88,6 +96,15 @@ CALLS = {
     "add_soft_stop": Call("add_stop"),
     "add_seat": Call("add_stop"),
     "record_coordinate": Call("add_channel", places=("joint",)),
+    "add_range": Call("add_channel", places=("joint",)),
+    "add_clearance": Call("add_channel"),
+    "add_air_drag": Call("add_wind", places=("body",)),
+    "add_luffing_rope": Call(
+        "add_winch",
+        words={"line": '"luffing rope"'},
+        dropped=("luff",),
+        note="line is the rope's name in its crane",
+    ),
     "add_given_vessel": Call("add_vessel", places=("motion",)),
     "add_vessels": Call("add_vessel", renamed={"group": "what"}),
     "add_seabed": Call("add_contact", words={"on": '"seabed"'}),
@@ -109,6 +126,9 @@ PASSIVE = re.compile(r"""\b(memory|kind)=(["'])passive\2""")  # a kind of fluid 
 GONE = {
     "KnuckleBoomCrane": "KnuckleBoomCrane.load() is load_crane(), crane.geometry.tip(...) is crane.tip(...); "
     "bodies and joints are those of crane.parts(...)",
+    "add_bridle": "slings are lines: add_line for each, or slings=Slings(...) of add_hoist",
+    "add_relative": 'it is add_channel(name, expression="<point>.z in <body> - <to>.z in <body>")',
+    "add_slack_tank": "it is add_vessel(..., slack_moment=...), of all tanks together",
     "JointedCrane": "JointedCrane is Crane, as of load_crane; crane.tip(coordinates=x) is crane.tip(**x)",
     "coefficient_scatter": "it is ensemble(partial(needs.scattered, scene), over={'case': [...]}, keep=...)",
     "model_error": "model_error is the difference of a run with memory='convolution'",
@@ -148,7 +168,7 @@ def _changes(tree: ast.AST) -> Iterator[Change]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and (old := _called(node.func)) in CALLS:
             new = CALLS[old]
-            if old == new.name and not {one.arg for one in node.keywords} & new.values.keys():
+            if old == new.name and not {one.arg for one in node.keywords} & {*new.values, *new.renamed}:
                 continue
             yield node, _written(node, new), f"{old} is {new.name}; {new.note}".rstrip("; ")
         elif isinstance(node, ast.Dict) and (named := _oil_in(node)):
@@ -157,6 +177,8 @@ def _changes(tree: ast.AST) -> Iterator[Change]:
         elif isinstance(node, ast.ImportFrom) and any(one.name in CALLS for one in node.names):
             names = [CALLS[one.name].name if one.name in CALLS else ast.unparse(one) for one in node.names]
             yield node, f"from {node.module} import {', '.join(dict.fromkeys(names))}", ""
+        elif isinstance(node, ast.Call) and _called(node.func) in GONE:
+            yield node.func, ast.unparse(node.func), GONE[_called(node.func)]
         elif isinstance(node, ast.ImportFrom) and (
             gone := [one.name for one in node.names if one.name in GONE]
         ):

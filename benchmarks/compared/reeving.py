@@ -28,7 +28,7 @@ def hook() -> Scene:
     viscous = peer.DAMPING / peer.LENGTH  # N s/m
     scene.add_line(
         name="hoist", bodies=["hook" if on else "ground" for on in peer.ON_HOOK], points=peer.POINTS,
-        EA=peer.STIFFNESS, length=peer.LENGTH, radii=peer.RADII, axes=peer.AXES, mass=mass,
+        EA=peer.STIFFNESS, length=peer.LENGTH, sheaves={"radii": peer.RADII, "axes": peer.AXES}, mass=mass,
         damping_ratio=0.5 * viscous / np.sqrt(peer.STIFFNESS * mass / peer.LENGTH),
     )  # fmt: skip
     return scene

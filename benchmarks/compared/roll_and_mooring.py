@@ -39,7 +39,7 @@ def roll_damping() -> Iterator[Row]:
 def moorings() -> Iterator[Row]:
     """Stiffness of a moored vessel as linearised, less that of the free one, turned and displaced."""
     pose: dict[str, Any] = {"position": (30.0, -20.0, 0.0), "heading_deg": 130.0}
-    free = mooring.stiffness(mooring.vessel(mooring_period=None, **pose))
+    free = mooring.stiffness(mooring.vessel(mooring=None, **pose))
     wanted = mooring_matrix(mooring.FOUR)
     held = mooring.stiffness(mooring.vessel(mooring=mooring.FOUR, **pose)) - free
     yield _moored("four springs", "the matrix assembled from them", held, wanted)

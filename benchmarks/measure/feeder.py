@@ -44,14 +44,14 @@ def feeder() -> Iterator[list[object]]:
 
 def _one() -> Scene:
     scene = Scene(name="one vessel", gravity=9.81)
-    scene.add_vessel(two_barges(lid_damping=None)["crane vessel"], name="crane vessel", mooring_period=60.0)
+    scene.add_vessel(two_barges(lid_damping=None)["crane vessel"], name="crane vessel", mooring=60.0)
     scene.add_sea(vessel="crane vessel", **SEA)
     return scene
 
 
 def _two(lid: float | None) -> Scene:
     scene = Scene(name="two vessels", gravity=9.81)
-    scene.add_vessel(two_barges(lid_damping=lid), mooring_period=60.0)
+    scene.add_vessel(two_barges(lid_damping=lid), mooring=60.0)
     for vessel in scene.vessels:
         scene.add_sea(vessel=vessel, **SEA)
     return scene

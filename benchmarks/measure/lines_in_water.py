@@ -35,9 +35,9 @@ def _hanging(medium: str, count: int, rung: str) -> Scene:
     place = (0.0, 0.0, -5.0 - LENGTH)
     scene.add_body(name="load", mass=LOAD, inertia=(1e5, 1e5, 1e5), position=place)
     scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, -5.0), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=4e8, length=LENGTH, mass_per_length=25.0, segments=count, segment_rung=rung,
-        diameter=0.06, medium="air" if medium == "air" else "sea",
+        "wire", "ground", "load", first_point=(0.0, 0.0, -5.0), second_point=(0.0, 0.0, 0.0), EA=4e8,
+        length=LENGTH, wire={"mass_per_length": 25.0, "segments": count, "diameter": 0.06,
+        "medium": "air" if medium == "air" else "sea"}, rung=rung,
     )  # fmt: skip
     return scene
 

@@ -12,7 +12,7 @@ import numpy as np
 from seacrane import Scene
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.scene import HullLoads, Waves
-from seacrane.scene.position import force_by_heading
+from seacrane.scene.sea_loads import force_by_heading
 from seacrane.sea import ExactWaveLoad, WaveTable, jonswap
 
 from .scaling import exponent

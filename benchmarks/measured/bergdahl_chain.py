@@ -125,9 +125,10 @@ def chain(model: Model, period: float, radius: float) -> Scene:
         first = name
     scene.add_line(
         "chain", "ground", "top", first_point=(0.0, 0.0, -DEPTH), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", segments=SEGMENTS, EA=EA, length=LENGTH, mass_per_length=MASS, medium="sea",
-        density=RHO, diameter=VOLUME, drag_coefficient=DRAG * NOMINAL / VOLUME,
-        drag_coefficient_along=model.along, added_mass_coefficient=model.added,
-        seabed={"depth": DEPTH, "stiffness": STIFFNESS, "friction": model.friction},
+        wire={"segments": SEGMENTS, "mass_per_length": MASS, "medium": "sea", "density": RHO,
+        "diameter": VOLUME, "drag_coefficient": DRAG * NOMINAL / VOLUME,
+        "drag_coefficient_along": model.along, "added_mass_coefficient": model.added,
+        "seabed": {"depth": DEPTH, "stiffness": STIFFNESS, "friction": model.friction}}, EA=EA,
+        length=LENGTH,
     )  # fmt: skip
     return scene

@@ -133,7 +133,7 @@ def decay(database: HydroDatabase, start: float, t_end: float) -> tuple[Array, A
     restoring[ROLL, ROLL] = RHO * VOLUME * G * METACENTRIC
     database = replace(database, restoring=restoring).at([0.0, 0.0, HEIGHT_OF_GRAVITY - DRAUGHT])
     scene = Scene(name="roll decay", gravity=G)
-    scene.add_vessel(database, mooring_period=None)
+    scene.add_vessel(database, mooring=None)
     turned = (np.cos(0.5 * start), np.sin(0.5 * start), 0.0, 0.0)
     scene.bodies["vessel"] = changed(scene.bodies["vessel"], quaternion=turned)
     result = simulate(scene, t_end=t_end, dt_out=0.01)

@@ -136,14 +136,16 @@ def chain(case: Case, model: Model, heave: float) -> Scene:
     heaved = heave * rise * np.sin(2.0 * np.pi * times / PERIOD)
     scene.add_driver(joint="guide", curve=spline_curve(times=times, values=heaved))
     stiffness = PRESSURE * DIAMETER * model.stiffer
+    bed = {
+        "depth": case.depth - model.raised, "stiffness": stiffness, "friction": model.friction,
+        "damping_ratio": 0.5 * DASHPOT * DIAMETER / np.sqrt(stiffness * MASS),
+    }  # fmt: skip
     scene.add_line(
         "chain", "ground", "fairlead", first_point=(0.0, 0.0, -case.depth), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", segments=case.segments * model.finer, EA=EA, length=case.length,
-        mass_per_length=MASS, damping_ratio=0.1, medium="sea", density=RHO, diameter=DIAMETER,
-        drag_coefficient=ACROSS, drag_coefficient_along=model.along, added_mass_coefficient=ADDED,
-        seabed={
-            "depth": case.depth - model.raised, "stiffness": stiffness, "friction": model.friction,
-            "damping_ratio": 0.5 * DASHPOT * DIAMETER / np.sqrt(stiffness * MASS),
-        },
+        wire={"segments": case.segments * model.finer, "mass_per_length": MASS, "medium": "sea",
+        "density": RHO, "diameter": DIAMETER, "drag_coefficient": ACROSS,
+        "drag_coefficient_along": model.along, "added_mass_coefficient": ADDED,
+        "seabed": bed},
+        EA=EA, length=case.length, damping_ratio=0.1,
     )  # fmt: skip
     return scene

@@ -8,7 +8,7 @@ SHIP, EA, PULL, FORCE = shipped_database(), 4e7, 4e5, 1e5  # -, N, N of pre-tens
 ENDS = [(side * 50.0, beam * 10.0, side * 150.0, beam * 110.0) for side in (1, -1) for beam in (1, -1)]  # m
 
 scene = Scene(name="four lines")
-scene.add_vessel(SHIP, mooring_period=None)
+scene.add_vessel(SHIP, mooring=None)
 stiffness = np.zeros((3, 3))  # by hand: of surge, sway and yaw
 for i, (x, y, far, off) in enumerate(ENDS):
     ends = {"bodies": ["ground", "vessel"], "points": [(far, off, 0.0), (x, y, 0.0)]}

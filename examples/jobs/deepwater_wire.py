@@ -13,9 +13,9 @@ def lowered(length: float) -> Scene:
     scene = Scene(name=f"{length:g} m of wire")
     scene.add_body(name="load", mass=MASS + WATER, size=(6, 6, 6), position=(0, 0, -length))
     scene.add_force("load", name="water", force=(0, 0, WATER * scene.gravity))
-    wire = {"rung": "with mass", "EA": EA, "mass_per_length": WIRE, "segments": 24}
+    wire = {"mass_per_length": WIRE, "segments": 24}
     scene.add_line(
-        name="wire", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], length=length, **wire
+        "wire", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=EA, length=length, wire=wire
     )
     return scene
 

@@ -15,14 +15,14 @@ crane = load_crane("lattice_boom_100t")
 scene.add_crane(crane, base="ship", foot=(20, 9, 8), coordinates={"slew": -np.pi / 2, "boom": 1.0})
 scene.add_ballast()
 x, y, _ = scene.place_of("tip")
-scene.add_vessel(SHIP, name="feeder", position=(x, y, 0), heading_deg=180, mooring_period=60)
+scene.add_vessel(SHIP, name="feeder", position=(x, y, 0), heading_deg=180, mooring=60)
 scene.add_hoist(mass=MASS, size=(6, 6, 6), on="feeder", height=DECK, EA=EA, slack=1.0, winch={"lag": 0.2})
 scene.add_sea(vessel="ship", hs=1.2, tp=7.0, direction_deg=180.0)
 scene.add_sea(vessel="feeder")
 for i, at in enumerate(((3, 3, -3), (3, -3, -3), (-3, 3, -3), (-3, -3, -3))):
     scene.add_point(name=f"corner {i}", body="load", point=at)
 box = {"body": "feeder", "center": (0, 0, DECK - 5), "size": (60, 18, 10)}
-scene.add_clearance("deck", points=[f"corner {i}" for i in range(4)], **box)
+scene.add_channel("deck", points=[f"corner {i}" for i in range(4)], **box)
 free = Until.release("load on feeder")
 lift = Stage(name="lift", until=free, maximum_duration=60.0, commands={"hoist.rate": -RATE})
 

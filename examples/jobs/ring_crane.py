@@ -35,7 +35,7 @@ for radius, allowable in zip(chart.radii, np.ravel(chart.allowable), strict=True
     empty, one = (by_hand(np.degrees(np.arccos((radius - 9) / BOOM)), kg)[0] for kg in (0.0, 1.0))
     print(f"{radius:.0f} m: {allowable / 1e3:7.2f} t, by hand {(LIMIT - empty) / (one - empty) / 1e3:7.2f} t")
 scene, low, high = ring(60), by_hand(60)[1], by_hand(70)[1]
-scene.add_luffing_rope(lag=0.3, maximum_rate=3.0)
+scene.add_winch("luffing rope", lag=0.3, maximum_rate=3.0)
 luff = {"luffing rope.rate": -FALLS * (low - high) / TIME}
 stages = [Stage(name="hold", duration=10.0), Stage(name="luff", duration=TIME + 1.0, commands=luff)]
 stages += [Stage(name="stop", duration=60.0, commands={"luffing rope.rate": 0.0})]

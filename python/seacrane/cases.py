@@ -65,7 +65,7 @@ def vessel(
     memory: str = "per-pair",
     kinematics: str = "yaw_following",
     database: str | os.PathLike[str] | HydroDatabase | None = None,
-    mooring_period: float | None = MOORING_PERIOD,
+    mooring: float | None = MOORING_PERIOD,
     **sea: Any,
 ) -> Scene:
     """The vessel alone in waves.
@@ -78,14 +78,14 @@ def vessel(
         "yaw_following" or "paper".
     database : path or HydroDatabase, optional
         Default: the shipped hull of 115 m.
-    mooring_period : float or None
+    mooring : float or None
         s; None removes station keeping.
     **sea
         hs (2 m), tp (8 s), gamma (3.3), wave_direction_deg (135), seed (1), count (200), and the other
         arguments of `add_sea`; hs = 0 is calm water.
     """
     return _afloat(
-        "vessel", memory=memory, kinematics=kinematics, database=database, mooring_period=mooring_period,
+        "vessel", memory=memory, kinematics=kinematics, database=database, mooring=mooring,
         **sea,
     )  # fmt: skip
 
@@ -96,11 +96,11 @@ def _afloat(
     memory: str = "per-pair",
     kinematics: str = "yaw_following",
     database: Any = None,
-    mooring_period: float | None = MOORING_PERIOD,
+    mooring: float | None = MOORING_PERIOD,
     **sea: Any,
 ) -> Scene:
     scene = Scene(name=name)
-    scene.add_vessel(_database(database), memory=memory, kinematics=kinematics, mooring_period=mooring_period)
+    scene.add_vessel(_database(database), memory=memory, kinematics=kinematics, mooring=mooring)
     if "wave_direction_deg" in sea:
         sea["direction_deg"] = sea.pop("wave_direction_deg")
     scene.add_sea(**({} if "sea" in sea else {"hs": 2.0, "tp": 8.0, "direction_deg": 135.0}) | sea)
@@ -142,10 +142,10 @@ def _lift(
     scene, start = _crane_afloat(name, payload=payload, foot=foot, options=options)
     loads = {actuator: _core.Curve.constant(value=load) for actuator, load in start.loads.items()}
     if feed_forward == "references":
-        mooring_period = options.get("mooring_period", MOORING_PERIOD)
+        mooring = options.get("mooring", MOORING_PERIOD)
         load = payload and replace(payload, size=(payload.size[0], payload.size[1], payload.size[2]))
         try:
-            loads = _quasi_static(motion, load, tuple(foot), database, mooring_period)
+            loads = _quasi_static(motion, load, tuple(foot), database, mooring)
         except SceneError as error:
             raise SceneError(
                 f"{name}: no rest state at every pose of the crane, as its feed-forward needs; lift less, or "
@@ -171,10 +171,10 @@ def _quasi_static(
     payload: Payload | None,
     foot: tuple[float, ...],
     database: HydroDatabase,
-    mooring_period: float | None,
+    mooring: float | None,
 ) -> dict[str, _core.Curve]:
     """Quasi-static balance along the motion; neither sea nor fluid memory nor kinematics matter at rest."""
-    options = {"memory": "none", "database": database, "mooring_period": mooring_period, "hs": 0.0}
+    options = {"memory": "none", "database": database, "mooring": mooring, "hs": 0.0}
     scene, _ = _crane_afloat("at rest", payload=payload, foot=foot, options=options)
     return quasi_static.feed_forward(
         scene, references=motion.references, times=motion.times, period=motion.period

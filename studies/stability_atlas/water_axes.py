@@ -121,8 +121,8 @@ def _heavy(segments: float, mass: float = 2e4, mass_per_length: float = 60.0) ->
     scene.add_driver(joint="guide", curve=_core.Curve.harmonic(offset=-0.5, amplitude=0.5, omega=1.0))
     scene.add_body(name="load", mass=mass, inertia=(mass, mass, mass), position=(0.0, 0.0, -300.0))
     scene.add_line(
-        name="hoist", rung="with mass", bodies=["block", "load"], points=np.zeros((2, 3)), EA=3e8,
-        length=299.9, mass_per_length=mass_per_length, segments=int(segments), damping_ratio=0.02,
+        name="hoist", bodies=["block", "load"], points=np.zeros((2, 3)), EA=3e8, length=299.9,
+        wire={"mass_per_length": mass_per_length, "segments": int(segments)}, damping_ratio=0.02,
     )  # fmt: skip
     return Case(scene=scene, t_end=5.0, dt_out=0.25)
 

@@ -20,7 +20,7 @@ def limited() -> Scene:
     scene.add_joint(
         kind="revolute", name="pin", first="ground", second="load", point=(0, 0, 0), axis=(0, 1, 0)
     )
-    scene.add_range(joint="pin", minimum=-1.0, maximum=1.0)
+    scene.add_channel(joint="pin", minimum=-1.0, maximum=1.0)
     scene.add_limit_state(name="swing", channel="position", names={"body": "load", "axis": "x"}, maximum=2.0)
     return scene
 

@@ -101,9 +101,7 @@ systems = [
 
 def test_the_sea_of_several_systems(tmp_path: Path) -> None:
     database, scene = shipped_database(), Scene()
-    scene.add_vessel(
-        database, name="barge", memory="none", position=(10, 5, 0), heading_deg=30, mooring_period=None
-    )
+    scene.add_vessel(database, name="barge", memory="none", position=(10, 5, 0), heading_deg=30, mooring=None)
     swell = WaveSystem(name="swell", spectrum=jonswap(hs=1, tp=14, gamma=5), direction_deg=10, count=20)
     spectrum = cases._core.pierson_moskowitz(hs=2, tp=9)
     wind = WaveSystem(spectrum=spectrum, direction_deg=90, spreading=cos_2s(10), count=30)

@@ -73,16 +73,6 @@ def test_given_ships(tmp_path: Path) -> None:
     assert Scene.load(tmp_path / "scene.json") == scene
 
 
-def test_a_slack_tank(tmp_path: Path) -> None:
-    text = '[vessel]\ndatabase = "hull_115"\nmemory = "none"\n[slack_tank]\nmoment_kg_m = 1e6\n'
-    scene = lift_of(text, tmp_path).scene()
-    by_call = Scene(name=scene.name)
-    by_call.add_vessel(shipped_database(), memory="none")
-    by_call.add_slack_tank(moment=1e6)
-    assert scene.vessels == by_call.vessels
-    assert scene.provenance["vessel"].slack_tanks == (1e6 * scene.gravity, 0.0)
-
-
 def test_a_luffing_rope_lifts_the_boom_that_it_holds(tmp_path: Path) -> None:
     text = """
 [crane]
@@ -91,8 +81,8 @@ crane = "crane.toml"; base = "ground"; foot_m = [0, 0, 0]; held = true
 name = "boom"; value_deg = 60
 [crane.payload]
 mass_kg = 20e3
-[luffing_rope]
-luff = "boom"; rate_m_per_s = 0.1
+[winch]
+line = "luffing rope"; rate_m_per_s = 0.1
 [run]
 t_end_s = 0.5
 """.replace("; ", "\n")

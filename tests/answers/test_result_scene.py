@@ -17,8 +17,8 @@ from view_scenes import alone
 from seacrane import Result, Scene, cases, report, simulate, view
 from seacrane.cli.command_line import main
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.result import kept_scene
-from seacrane.result.kept_scene import NOT_KEPT
+from seacrane.result import about
+from seacrane.result.about import NOT_KEPT
 from seacrane.result.result_file import SCENE, SCENE_DIMENSION
 from seacrane.result.stream import ResultFile
 
@@ -88,7 +88,7 @@ def test_c_functions_and_notes_are_left_out(tmp_path: Path) -> None:
 
 
 def test_a_scene_too_large_for_a_file_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kept_scene, "LARGEST_FILE", 100)
+    monkeypatch.setattr(about, "LARGEST_FILE", 100)
     loaded = Result.load(simulate(pendulum(), 0.5).save(tmp_path / "run.nc"))
     assert loaded.scene is None
     with pytest.raises(SceneError, match=r"takes \d+ bytes, above 100"):

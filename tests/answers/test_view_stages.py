@@ -54,7 +54,7 @@ def marked() -> Result:
     """Two stages, a named point 3 m beside a box on the ground, and a line that pulls at a seat."""
     scene = on_deck(length=HEIGHT / (1.0 + PULL / STIFFNESS))
     scene.add_point(name="corner", body="load", point=(1.0, 0.0, 0.0))
-    scene.add_clearance(name="mast", points=["corner"], center=(5.0, 0.0, 1.0), size=(2.0, 2.0, 4.0))
+    scene.add_channel("mast", points=["corner"], center=(5.0, 0.0, 1.0), size=(2.0, 2.0, 4.0))
     stages = [Stage(name="hold", duration=1.0), Stage(name="wait", duration=1.0)]
     return simulate(scene, stages, dt_out=0.2)
 

@@ -35,9 +35,10 @@ def hoist(*, drum_on_path: bool = False, drum: bool = True) -> Scene:
     if drum_on_path:
         bodies, points = ["ground", *bodies], [(-RADIUS, 0, 0), *points]
         radii, axes = [0, RADIUS, OVER, 0], [(0, 0, 0), ACROSS, ACROSS, (0, 0, 0)]
-    path: dict[str, Any] = {"bodies": bodies, "points": points, "radii": radii, "axes": axes}
-    length = laid(Line(name="hoist", EA=1e7, length=1.0, **path), described_poses(scene)).length
-    scene.add_line(name="hoist", EA=1e7, length=length - 0.01, damping_ratio=0.1, **path)
+    path: dict[str, Any] = {"bodies": bodies, "points": points}
+    wheels = {"radii": radii, "axes": axes}
+    length = laid(Line(name="hoist", EA=1e7, length=1.0, **path, **wheels), described_poses(scene)).length
+    scene.add_line(name="hoist", EA=1e7, length=length - 0.01, damping_ratio=0.1, sheaves=wheels, **path)
     own = {"drum_inertia": 100.0, "drum_radius": RADIUS} if drum else {}
     scene.add_winch(line="hoist", rate=RATE, lag=0.1, maximum_acceleration=2.0, **own)
     return scene
@@ -87,10 +88,9 @@ def test_sheaves_are_discs_about_their_axes_on_their_bodies() -> None:
     assert set(wheels(hoist(drum_on_path=True))) == {"hoist drum", "hoist sheave 2"}
     line = scene.loads["hoist"]
     for name, sign in (("again", 1.0), ("backwards", -1.0)):
-        scene.add_line(
-            name=name, bodies=line.bodies, points=[(10 if sign < 0 else 0, 0.0, 0.0), *line.points[1:]],
-            radii=line.radii, axes=sign * line.axes, EA=1e7, length=12.0,
-        )  # fmt: skip
+        scene.add_line(name=name, bodies=line.bodies, points=[(10 if sign < 0 else 0, 0.0, 0.0),
+                       *line.points[1:]], sheaves={"radii": line.radii, "axes": sign * line.axes}, EA=1e7,
+                       length=12.0)  # fmt: skip
     assert set(wheels(scene)) == set(found) == {"hoist drum", "hoist sheave 1"}
 
 

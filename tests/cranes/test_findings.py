@@ -70,7 +70,7 @@ def test_a_ship_adrift_moves_as_momentum_says() -> None:
     Moments are about the hull's reference point, which may move because the total momentum is zero. Over the
     whole motion the fluid counts with the added mass of zero frequency.
     """
-    scene = cases.case1(hs=0.0, mooring_period=None)
+    scene = cases.case1(hs=0.0, mooring=None)
     adrift = simulate(scene, t_end=400.0, dt_out=0.2, rtol=1e-8)
     rate = np.degrees(np.gradient(motion(adrift, "yaw"), adrift.time))
     assert np.min(rate[(adrift.time > 25.0) & (adrift.time < 33.0)]) > 0.006  # while it slews, and not after

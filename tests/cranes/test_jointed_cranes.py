@@ -69,7 +69,7 @@ def test_luffing_rope_force_by_moments_about_the_hinge(lattice: Crane, degrees: 
 def test_an_elastic_luffing_rope_takes_the_place_of_the_driver(lattice: Crane) -> None:
     scene = fixed(lattice, Payload(mass=50e3, size=(3.0, 3.0, 3.0)), boom=1.0)
     by_moment = float(seacrane.statics(scene, coordinates={"boom": 0.0})["rope tension boom"])
-    rope = scene.add_luffing_rope()
+    rope = scene.add_winch("luffing rope")
     assert list(scene.drivers) == ["slew.angle"]
     assert len(rope.bodies) == 13
     for formulation in ("recursive", "redundant"):
@@ -79,7 +79,9 @@ def test_an_elastic_luffing_rope_takes_the_place_of_the_driver(lattice: Crane) -
         assert np.ptp(result["position"][:, -1, 2]) < 1e-5
     hauled = fixed(lattice, boom=0.5)
     hauled.add_point(name="head", body="boom", point=(-48.0, 0.0, 0.0))
-    hauled.add_luffing_rope(rate=-0.3)  # blocks come nearer by what is wound over the falls, stretch aside
+    hauled.add_winch(
+        "luffing rope", rate=-0.3
+    )  # blocks come nearer by what is wound over the falls, stretch aside
     head = simulate(hauled, t_end=10.0, channels=["point_position"])["point_position"][:, 0]
     shrunk = np.ptp(np.linalg.norm(head - [6.0, 0.0, 28.0], axis=1))
     assert shrunk == pytest.approx(3.0 / 12.0, rel=5e-3) and head[-1, 2] > head[0, 2]
@@ -150,7 +152,7 @@ def test_what_a_crane_of_joints_cannot_do_is_told(lattice: Crane) -> None:
         (lambda: scene.add_crane(lattice, slew=0.5, coordinates={"slew": 0.5}), "give it once"),
         (lambda: scene.add_crane(coordinates={"s1": 0.5, "main": 0.5}), "under two names"),
         (lambda: wide.tip(tilt=8.5), "its loops stay open by"),
-        (moved.add_luffing_rope, "'boom hinge.angle' leads its hinge"),
+        (lambda: moved.add_winch("luffing rope"), "'boom hinge.angle' leads its hinge"),
     ):
         with pytest.raises(SceneError, match=words):
             call()

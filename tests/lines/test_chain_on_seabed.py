@@ -70,15 +70,9 @@ def test_a_chain_stays_where_it_is_described(formulation: str) -> None:
     scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(400.0, 0.0, 0.0))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
     bed = {"depth": 50.0, "stiffness": 1e6, "friction": 0.6}
-    line: dict[str, Any] = {
-        "EA": EA,
-        "length": 410.0,
-        "mass_per_length": 390.0,
-        "segments": 41,
-        "seabed": bed,
-    }
+    wet = {"medium": "sea", "density": 1025.0, "diameter": 0.252, "seabed": bed}
     scene.add_line("chain", "ground", "end", first_point=(0.0, 0.0, -50.0), second_point=(0.0, 0.0, 0.0),
-                   rung="with mass", medium="sea", density=1025.0, diameter=0.252, **line)  # fmt: skip
+                   EA=EA, length=410.0, wire={"mass_per_length": 390.0, "segments": 41, **wet})  # fmt: skip
     result = simulate(scene, t_end=2.0, dt_out=0.5, rtol=1e-8, formulation=formulation)
     assert np.ptp(np.asarray(result["position"]), axis=0).max() < 1e-6
     anchor, top = heavy_line_tension(result, line="chain")[-1]
@@ -89,10 +83,9 @@ def test_what_the_line_does_not_carry_lies_on_the_seabed() -> None:
     """`start="rest"`: what the seabed bears and the pull of the ground are the weight of what is free."""
     scene = Scene(name="landed", gravity=10.0)
     scene.add_body(name="load", mass=200.0, inertia=(90.0,) * 3, position=(6.0, 0.0, -9.9))
-    scene.add_line(
-        "line", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=2e5, length=15.0, mass_per_length=40.0, segments=6, seabed=BED,
-    )  # fmt: skip
+    scene.add_line("line", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
+                   EA=2e5, length=15.0, wire={"mass_per_length": 40.0, "segments": 6,
+                   "seabed": BED})  # fmt: skip
     result = simulate(scene, t_end=1.0, dt_out=0.5, start="rest", rtol=1e-8)
     assert np.abs(result["velocity"]).max() < 1e-6
     place = {name: np.asarray(result.select("position", body=name))[-1] for name in scene.bodies}
@@ -145,11 +138,9 @@ def pulled(segments: int) -> float:
     scene = Scene(name="pulled", gravity=10.0)
     draw = Curve.quintic(start_time=0.0, end_time=4.0, start=0.0, end=0.013)
     add_led(scene, "sled", draw, place=(20.0, 0.0, -10.0 - sunk), axis=(1, 0, 0))
-    scene.add_line(
-        "line", "ground", "sled", first_point=(0.0, 0.0, -10.0 - sunk), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=1e6, length=20.0 / (1.0 + strain), mass_per_length=50.0, segments=segments,
-        damping_ratio=0.3, seabed=BED | {"give": 1e-3},
-    )  # fmt: skip
+    scene.add_line("line", "ground", "sled", first_point=(0.0, 0.0, -10.0 - sunk), second_point=(0.0, 0.0,
+                   0.0), EA=1e6, length=20.0 / (1.0 + strain), wire={"mass_per_length": 50.0,
+                   "segments": segments, "seabed": BED | {"give": 1e-3}}, damping_ratio=0.3)  # fmt: skip
     result = simulate(scene, t_end=5.0, dt_out=0.5, rtol=1e-8)
     last = np.asarray(result.select("line_tension", line=f"line.{segments}"))
     return float(last[-1] - last[0])
@@ -166,19 +157,18 @@ def test_friction_takes_up_the_pull_along_a_line_that_is_laid() -> None:
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [({"seabed": BED | {"soil": "clay"}}, "it takes depth, stiffness, friction"),
+    [({"seabed": BED | {"soil": "clay"}}, "no 'soil'.*it takes depth, stiffness, friction"),
      ({"seabed": BED | {"depth": 5.0}}, "'load' is 3.4 m in the seabed"),
      ({"length": Curve.table([0.0, 9.0], [16.0, 17.0])}, "length that changes and a seabed"),
-     ({"medium": "sea", "diameter": 0.4}, "would not lie on its seabed"),
-     ({"rung": "elastic", "mass_per_length": None, "segments": None}, "'elastic' takes no seabed")],
+     ({"medium": "sea", "diameter": 0.4}, "would not lie on its seabed")],
 )  # fmt: skip
 def test_what_is_no_line_on_a_seabed_is_refused_by_name(given: dict[str, Any], message: str) -> None:
     scene = Scene(name="refused")
     scene.add_body(name="load", mass=300.0, inertia=(90.0,) * 3, position=(14.0, 2.0, -8.4))
-    usual = {"rung": "with mass", "EA": 2e5, "length": 16.0, "mass_per_length": 40.0, "segments": 3}
-    line = {key: one for key, one in (usual | {"seabed": BED} | given).items() if one is not None}
+    length, wire = given.pop("length", 16.0), {"mass_per_length": 40.0, "segments": 3, "seabed": BED} | given
+    ends = {"first": "ground", "second": "load", "first_point": (0.0, 0.0, -4.0)}
     with pytest.raises(SceneError, match=message):
-        scene.add_line("line", "ground", "load", first_point=(0.0, 0.0, -4.0), **line)
+        scene.add_line("line", **ends, EA=2e5, length=length, wire=wire)
     assert list(scene.bodies) == ["load"]
 
 

@@ -100,7 +100,7 @@ def test_swing_damping_makes_no_momentum_and_no_force_along_the_wire() -> None:
 def test_a_free_body_slows_in_still_air_as_one_over_time() -> None:
     scene = Scene(name="puck")
     scene.add_body(name="puck", mass=50.0, inertia=(1.0, 1.0, 1.0), velocity=(8.0, 0.0, 0.0), gravity=False)
-    scene.add_air_drag(body="puck", frontal_area=12.0, lateral_area=40.0)
+    scene.add_wind(body="puck", frontal_area=12.0, lateral_area=40.0)
     result = simulate(scene, t_end=20.0, rtol=1e-9)
     rate = 0.5 * 1.226 * 1.05 * 12.0 / 50.0
     law = 8.0 / (1.0 + rate * 8.0 * result.time)
@@ -115,7 +115,7 @@ def test_half_swings_in_still_air_end_where_their_closed_form_says(formulation: 
     start, area = 0.01, 5e4
     b = 0.5 * 1.226 * 1.05 * area * LENGTH / MASS
     scene = pendulum(start)
-    scene.add_air_drag(body="load", frontal_area=area, lateral_area=area)
+    scene.add_wind(body="load", frontal_area=area, lateral_area=area)
     result = simulate(scene, t_end=40.0, dt_out=0.05, rtol=1e-9, formulation=formulation)
     angle = swing(result)
     turns = np.flatnonzero(np.diff(np.sign(np.diff(angle)))) + 1
@@ -155,7 +155,7 @@ def test_the_jacobian_is_exact_and_both_formulations_agree_to_the_bits_of_a_rest
 def test_drag_of_an_oblique_wind_is_that_of_each_area() -> None:
     scene = Scene(name="box")
     scene.add_body(name="box", mass=1e3, inertia=(1.0, 1.0, 1.0), gravity=False)
-    scene.add_air_drag(
+    scene.add_wind(
         body="box", frontal_area=6.0, lateral_area=20.0, drag_coefficient=2.0, speed=10.0, direction_deg=33.0
     )
     model = scene.compile()
@@ -207,7 +207,8 @@ def test_all_that_hangs_on_a_hook_counts() -> None:
     scene.add_body(name="hook", mass=500.0, inertia=(50.0, 50.0, 50.0), position=(0, 0, -20.0))
     scene.add_body(name="box", mass=LOAD, inertia=(4e4, 4e4, 6e4), position=(0, 0, -25.0))
     corners = [(2, 1, 1), (-2, 1, 1), (-2, -1, 1), (2, -1, 1)]
-    scene.add_bridle(name="sling", hook="hook", load="box", EA=2e8, points=corners)
+    for corner in corners:
+        scene.add_line(f"sling {corner}", bodies=["hook", "box"], points=[(0, 0, 0), corner], EA=2e8)
     scene.add_line(
         name="hoist", bodies=["ground", "hook"], points=np.zeros((2, 3)), EA=3e7, tension_at_start=whole * G
     )

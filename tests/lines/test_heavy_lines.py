@@ -54,10 +54,9 @@ def test_drag_slows_a_line_across_and_not_along() -> None:
         scene = Scene(name="falling")
         for name, place in (("one", (0.0, 0.0, 0.0)), ("two", along)):
             scene.add_body(name=name, mass=100.0, inertia=(1.0, 1.0, 1.0), position=place)
-        scene.add_line(
-            name="line", rung="with mass", bodies=["one", "two"], points=np.zeros((2, 3)), EA=1e6,
-            length=50.0, mass_per_length=4.0, segments=1, diameter=0.1, density=1.2, drag_coefficient=1.1,
-        )  # fmt: skip
+        scene.add_line(name="line", bodies=["one", "two"], points=np.zeros((2, 3)), EA=1e6, length=50.0,
+                       wire={"mass_per_length": 4.0, "segments": 1, "diameter": 0.1, "density": 1.2,
+                       "drag_coefficient": 1.1})  # fmt: skip
         speed = simulate(scene, t_end=5.0, rtol=1e-8).select("velocity", body="one")[:, 2]
         final = np.sqrt(400.0 * G / (0.5 * 1.2 * 1.1 * area)) if area else 1e9
         assert speed[-1] == pytest.approx(-final * np.tanh(5.0 * G / final), rel=1e-6 if area else 1e-9)
@@ -70,7 +69,7 @@ def test_as_its_mass_falls_it_becomes_the_elastic_line_in_first_order() -> None:
         scene = Scene(name="thrown")
         start = (0.0, 0.0, -30.0 * (1.0 + 1e3 * G / 1e6))
         scene.add_body(name="load", mass=1e3, inertia=(1e3,) * 3, position=start, velocity=(1.0, 0.0, 0.5))
-        heavy: dict[str, Any] = {"rung": "with mass", "mass_per_length": mass_per_length, "segments": 4}
+        heavy: dict[str, Any] = {"wire": {"mass_per_length": mass_per_length, "segments": 4}}
         scene.add_line(name="wire", first="ground", second="load", EA=1e6, length=30.0, damping_ratio=0.0,
                        **(heavy if mass_per_length else {"rung": "elastic"}))  # fmt: skip
         return simulate(scene, t_end=5.0, rtol=1e-9).select("position", body="load")
@@ -88,9 +87,7 @@ def test_as_its_mass_falls_it_becomes_the_elastic_line_in_first_order() -> None:
 def test_what_makes_no_line_is_refused_by_name(given: dict[str, Any], message: str) -> None:
     scene = Scene(name="refused")
     scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -5.0))
-    line: dict[str, Any] = {"bodies": ["ground", "load"], "points": np.zeros((2, 3)), "segments": 4}
+    line: dict[str, Any] = {"bodies": ["ground", "load"], "points": np.zeros((2, 3)), "length": 5.0}
     with pytest.raises(SceneError, match=f"line 'wire': .*{message}"):
-        scene.add_line(
-            "wire", rung="with mass", EA=1e6, mass_per_length=3.0, **line | {"length": 5.0} | given
-        )
+        scene.add_line("wire", EA=1e6, wire={"mass_per_length": 3.0, "segments": 4}, **line | given)
     assert list(scene.bodies) == ["load"]

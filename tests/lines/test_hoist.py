@@ -181,7 +181,7 @@ SLUNG = {"angle_deg": 60, "EA": 5e7}
 
 @pytest.mark.parametrize(
     ("given", "words"),
-    [({"falls": 2, "rung": "with mass"}, "has one fall"), ({"slings": SLUNG}, "block_mass is 0"),
+    [({"falls": 2, "wire": {"mass_per_length": 9}}, "has one fall"), ({"slings": SLUNG}, "block_mass is 0"),
      ({"block_mass": 1e3, "slings": {"length": 2.0, "EA": 1e7}}, r"give more than 2\.828"),
      ({"block_mass": 1e3, "slings": SLUNG | {"angle_deg": 95}}, "between 0 and 90"),
      ({"height": 500.0}, "above the tip"), ({"height": 1.0, "length": 3.0}, "a length and a height"),

@@ -119,8 +119,8 @@ THREE = {"first": None, "second": None, "bodies": ["ground", "load", "ground"], 
 
 REFUSED: list[tuple[dict[str, Any], str]] = [
     ({"rung": "rigid", "EA": 1e7}, "takes no EA"), (THREE | {"rung": "rigid"}, "between two bodies"),
-    ({"EA": 1e7, "mass_per_length": 5.0}, "'with mass'"), ({"EA": 1e7, "joint": "link"}, "takes no joint"),
-    ({"rung": "with mass", "EA": 1e7}, "mass_per_length is 0.0"),
+    ({"rung": "rigid", "wire": {"mass_per_length": 5.0}}, "no wire"), ({"EA": 1e7, "joint": "a"}, "no joint"),
+    ({"wire": {"mass_per_length": 0.0}, "EA": 1e7}, "mass_per_length is 0.0"),
     ({"EA": 1e7, "bodies": ["ground", "load"]}, "other words for its path"),
     ({"EA": 1e7, "length": 29.0, "tension_at_start": 1e5}, "a length and a tension"), ({}, "has no EA"),
 ]  # fmt: skip

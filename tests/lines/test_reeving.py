@@ -73,7 +73,7 @@ def test_a_capstan_holds_by_euler_and_eytelwein(turns: float) -> None:
 
 def test_forces_are_the_gradient_of_the_length_out_of_plane() -> None:
     """Without friction and damping the energy is kept while the line leans far out of its sheaves' planes."""
-    scene = slewing(efficiencies=[], frictions=[], damping_ratio=0.0)
+    scene = slewing({"efficiencies": [], "frictions": []}, damping_ratio=0.0)
     scene.replace("hoist", winch=False, rate=0.0, lag=0.0)
     scene.remove("cord")
     scene.replace("load", velocity=(0.0, 1.5, 0.0))
@@ -131,7 +131,9 @@ def test_slings_share_a_load_by_their_stiffness() -> None:
     scene = Scene(name="slung")
     scene.add_body(name="load", mass=8e3, inertia=(2e4, 2e4, 3e4), position=(0.0, 0.0, -4.0))
     corners = [(2.0, 2.0, 0.0), (-2.0, 2.0, 0.0), (-2.0, -2.0, 0.0), (2.0, -2.0, 0.0)]
-    scene.add_bridle(name="sling", hook="ground", load="load", points=corners, EA=(8e6, 4e6, 8e6, 4e6))
+    for i, corner in enumerate(corners):
+        ends = {"bodies": ["ground", "load"], "points": [(0, 0, 0), corner]}
+        scene.add_line(f"sling {i}", EA=(8e6, 4e6)[i % 2], **ends)
     rest = equilibrium(scene)
     tensions = simulate(scene, 0.01, start=rest, dt_out=0.01)["line_tension"][0]
     assert_allclose(tensions[[0, 1]], tensions[[2, 3]], rtol=1e-6)

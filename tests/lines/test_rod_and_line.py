@@ -27,7 +27,7 @@ SLUNG = {"falls": 4, "block_mass": 2e3, "slings": {"angle_deg": 60.0, "EA": 8e7}
 LIFTS: dict[str, dict[str, Any]] = {
     "rod": {}, "rigid": {"rung": "rigid"}, "quasi-static": {"rung": "quasi-static", **ROPE},
     "elastic": {"rung": "elastic", **ROPE}, "auto": {"rung": "auto", **ROPE},
-    "with mass": {"rung": "with mass", "mass_per_length": 20.0, **ROPE},
+    "with mass": {"wire": {"mass_per_length": 20.0}, **ROPE},
     "four falls, block, slings": SLUNG | ROPE,
 }  # fmt: skip
 SWINGS = ("payload swing", "offlead", "sidelead", "payload offset x", "payload offset y")

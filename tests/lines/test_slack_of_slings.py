@@ -30,13 +30,14 @@ def rigged(depth: float, *, at: Any = (0.0, 0.0, 0.0), points: Array = CORNERS, 
     scene = Scene(name="rig", gravity=G)
     scene.add_body("load", mass=MASS, size=SIZE, position=(0.0, 0.0, -depth))
     top = -depth + 1.5 + REACH * np.tan(STEEP)
-    held: dict[str, Any] = {"hook": "ground", "hook_point": (0.0, 0.0, top)}
+    hook = {"first": "ground", "first_point": (0.0, 0.0, top)}
     if block:
         scene.add_body("block", mass=BLOCK, size=(0.5, 0.5, 0.5), position=(0.0, 0.0, top))
         scene.add_line("wire", first="ground", second="block", first_point=(0.0, 0.0, top + 10.0), EA=1e8,
                        tension_at_start=DRY + BLOCK * G)  # fmt: skip
-        held = {"hook": "block"}
-    scene.add_bridle("sling", load="load", points=points, EA=EA, **held)
+        hook = {"first": "block", "first_point": (0.0, 0.0, 0.0)}
+    for i, point in enumerate(points):
+        scene.add_line(f"sling {i + 1}", second="load", second_point=point, EA=EA, **hook)
     scene.add_immersed("load", parts=[BoxPart(size=VOLUME, point=at)], density=RHO)
     return scene
 

@@ -24,7 +24,7 @@ G = 9.80665
 MASS, SIZE, LENGTH = 40e3, (3.0, 3.0, 2.0), 12.0
 RUNGS: Mapping[str, dict[str, Any]] = {
     "rigid": {}, "quasi-static": {"EA": 4e8}, "elastic": {"EA": 4e8}, "auto": {"EA": 4e8},
-    "with mass": {"EA": 4e8, "mass_per_length": 20.0},
+    "with mass": {"EA": 4e8, "wire": {"mass_per_length": 20.0}},
 }  # fmt: skip
 QUICK = ["rod", "rigid", "elastic", "auto"]
 
@@ -37,7 +37,7 @@ def lift(rung: str, *, mass: float = MASS, slew: float = 0.0, base: str = "groun
     rod = Payload(mass=mass, size=SIZE, link_length=LENGTH) if rung == "rod" else None
     scene.add_crane(base=base, slew=slew, payload=rod)
     if rod is None:
-        how: dict[str, Any] = {"rung": rung} | RUNGS[rung]
+        how: dict[str, Any] = RUNGS[rung] | ({} if "wire" in RUNGS[rung] else {"rung": rung})
         scene.add_hoist(load="payload", mass=mass, size=SIZE, length=LENGTH, **how)
     return scene
 
@@ -223,7 +223,7 @@ def lattice(*, drum: bool = False, link: bool = False) -> Scene:
     scene.add_crane(load_crane("lattice_boom_100t"), base="ground", payload=load, damping=False, **pose)
     if not link:
         hang(scene, ("boom", (-48.0, 0.0, 0.0)), drum=("house", (4.0, 0.0, 2.0)) if drum else None)
-    scene.add_luffing_rope()
+    scene.add_winch("luffing rope")
     return scene
 
 

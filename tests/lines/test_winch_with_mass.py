@@ -24,10 +24,9 @@ def hauled(length: Curve | float, *, rung: Any) -> Scene:
     """Taut, with a load that swings."""
     scene = Scene(name="hauled", gravity=G)
     scene.add_body(name="load", mass=4e3, inertia=(9e2, 8e2, 7e2), position=(1.0, 0.0, -FIRST))
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), EA=4e6,
-        length=length, mass_per_length=40.0, rung="with mass", segments=4, segment_rung=rung,
-    )  # fmt: skip
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
+                   EA=4e6, length=length, wire={"mass_per_length": 40.0, "segments": 4},
+                   rung=rung)  # fmt: skip
     if not isinstance(length, Curve):
         scene.add_winch("wire", rate=asked(LAG), lag=LAG)
     return scene
@@ -53,7 +52,7 @@ def hung(heave: Curve, *, deep: float = DEEP, segments: int = HEAVY, **winch: An
     stretch = deep * (MASS + 0.5 * MU * deep) * G / STIFF
     scene.add_body(name="load", mass=MASS, inertia=(1e6, 1e6, 1e6), position=(0.0, 0.0, -deep - stretch))
     scene.add_line("wire", "tip", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), EA=STIFF,
-                   length=deep, mass_per_length=MU, rung="with mass", segments=segments)  # fmt: skip
+                   length=deep, wire={"mass_per_length": MU, "segments": segments})  # fmt: skip
     scene.add_winch("wire", **{"lag": LAG} | winch)
     return scene
 
@@ -189,9 +188,9 @@ def paid_out(count: int, **given: Any) -> Scene:
     scene = Scene(name="paid out", gravity=G)
     ends = laid_out(count)
     scene.add_body(name="load", mass=LOAD, inertia=(LOAD,) * 3, position=(ends[-1, 0], 0.0, ends[-1, 1]))
-    line: dict[str, Any] = {"EA": SOFT, "length": WOUND, "mass_per_length": MU, "damping_ratio": 0.0}
+    line: dict[str, Any] = {"EA": SOFT, "length": given.pop("length", WOUND), "damping_ratio": 0.0}
     scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
-                   rung="with mass", segments=count, **line | given)  # fmt: skip
+                   wire={"mass_per_length": MU, "segments": count} | given, **line)  # fmt: skip
     for i, (x, z) in enumerate(ends[:-1], start=1):
         scene.bodies[f"wire.{i}"] = type(scene.bodies["load"])(
             **scene.bodies[f"wire.{i}"].__getstate__() | {"position": (x, 0.0, z)}
@@ -219,9 +218,9 @@ def test_at_a_steady_rate_an_upright_line_carries_its_weight_as_at_rest(directio
     scene.add_body(name="load", mass=4e3, inertia=(4e3,) * 3,
                    position=(0.0, 0.0, -first * (1.0 + tension / 1e9)))  # fmt: skip
     paid = Curve.quintic(start_time=0.0, end_time=120.0, start=first, end=last)
-    scene.add_line("wire", "ground", "load", rung="with mass", EA=1e9, length=paid, mass_per_length=MU,
-                   first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0), segments=6,
-                   segment_rung="quasi-static")  # fmt: skip
+    scene.add_line("wire", "ground", "load", EA=1e9, length=paid, wire={"mass_per_length": MU, "segments": 6},
+                   first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
+                   rung="quasi-static")  # fmt: skip
     result = simulate(scene, t_end=120.0, dt_out=20.0, rtol=1e-6)
     here = paid.evaluate(np.asarray(result.time))
     upper, lower = heavy_line_tension(result, line="wire").T

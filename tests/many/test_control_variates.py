@@ -61,7 +61,7 @@ def test_a_loose_control_is_left_out() -> None:
 def test_the_control_is_the_run_in_small_waves(channel: str, within: float) -> None:
     """From rest on, with the transient of the start; of a load in water with the waves on it."""
     wet = "box" in channel
-    scene = lowered_load(drag=0.0) if wet else vessel(hs=0.02, memory="by-motion", mooring_period=None)
+    scene = lowered_load(drag=0.0) if wet else vessel(hs=0.02, memory="by-motion", mooring=None)
     state = equilibrium(scene) if wet else None
     control = LinearControl(scene, channel, t_end=30.0, after=3.0, state=state)
     name = channel.partition("[")[0]

@@ -166,12 +166,11 @@ def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
 @needs_lanes
 def test_what_the_first_of_the_runs_decides_is_the_same_in_all() -> None:
     given = {"t_end": 1.0, "rtol": 1e-6, "formulation": "recursive"}
-    for other in ({"rtol": 1e-5}, {"maximum_step": 0.01}, {"t_end": 2.0}, {"integrator": "tsit5"}):
+    for other in ({"rtol": 1e-5}, {"maximum_step": 0.01}, {"integrator": "tsit5"}):
         runs = [Run(pendulum(), **given), Run(pendulum(), **given | other)]
         assert advance_side_by_side(runs, 4, lambda _: None)
         assert [run.core.time for run in runs] == [0.0, 0.0]
-        told = "end at different times" if "t_end" in other else "different methods"
-        assert all(told in run.lanes["kept_apart"] for run in runs)
+        assert all("different methods" in run.lanes["kept_apart"] for run in runs)
     runs = [Run(pendulum(start=start), **given) for start in (1.0, 2.0)]
     with pytest.raises(ValueError, match=f"side by side: {MORE} joint 'pin'"):
         _core.advance_side_by_side([run.core for run in runs], module_of(4), 1.0)

@@ -51,11 +51,10 @@ def many_loads() -> Scene:
     )
     scene.add_friction("pin", load=0.4, speed=0.02)
     scene.add_stop(joint="pin", minimum=-2.0, maximum=2.0, stiffness=50.0)
-    scene.add_air_drag("weight", frontal_area=0.3, lateral_area=0.5)
-    scene.add_line(
-        name="whip", bodies=["ground", "bob", "weight"], points=[(0, 0, 4), (0, 0, 0), (0, 0, 0)], EA=3e3,
-        length=5.0, radii=[0, 0.1, 0], axes=[(0, 0, 0), (0, 1, 0), (0, 0, 0)], efficiencies=[1, 0.98, 1],
-    )  # fmt: skip
+    scene.add_wind(body="weight", frontal_area=0.3, lateral_area=0.5)
+    scene.add_line(name="whip", bodies=["ground", "bob", "weight"], points=[(0, 0, 4), (0, 0, 0), (0, 0, 0)],
+                   EA=3e3, length=5.0, sheaves={"radii": [0, 0.1, 0], "axes": [(0, 0, 0), (0, 1, 0), (0, 0,
+                   0)], "efficiencies": [1, 0.98, 1]})  # fmt: skip
     return scene
 
 

@@ -34,7 +34,7 @@ def pendulum() -> sc.Scene:
     scene.add_joint(kind="distance", name="rod", first="ground", second="bob", point=(0, 0, 0),
                     second_point=(SWING, 0.0, -LENGTH))  # fmt: skip
     scene.add_pendulum_damping("friction", first="ground", second="bob", ratio=RATIO)
-    scene.add_air_drag("bob", frontal_area=2.0, lateral_area=3.0, drag_coefficient=0.0)
+    scene.add_wind(body="bob", frontal_area=2.0, lateral_area=3.0, drag_coefficient=0.0)
     return scene
 
 
@@ -91,9 +91,8 @@ def drifting(*, drift: bool = True, phase: Any = "mean") -> sc.Scene:
 def heavy(segments: int = 4, **more: Any) -> sc.Scene:
     """A load on a wire with mass in water, off a winch."""
     scene = held()
-    wire = {"segments": segments, "medium": "sea", "diameter": 0.05, **more}
-    line = {"length": 50.0, "EA": 6e7, "rung": "with mass", "mass_per_length": 20.0, "wire": wire}
-    scene.add_hoist(mass=35e3, size=(6, 4, 4), winch={"lag": 0.2}, **line)
+    wire = {"mass_per_length": 20.0, "segments": segments, "medium": "sea", "diameter": 0.05, **more}
+    scene.add_hoist(mass=35e3, size=(6, 4, 4), winch={"lag": 0.2}, length=50.0, EA=6e7, wire=wire)
     return scene
 
 

@@ -23,7 +23,7 @@ def fails(*_: Any) -> Any:
 
 LOOKS: dict[str, tuple[Any, str]] = {
     "a look at its range": (seacrane.validity.left_range, "lifting"),
-    "a look at oil": (seacrane.run.run, "boiled"),
+    "a look at events": (seacrane.run.run, "event_findings"),
     "modes": (seacrane.run.advance, "slow_findings"),
 }
 HALVES = [sc.Stage(name="one", duration=0.5), sc.Stage(name="two", duration=0.5)]

@@ -137,7 +137,7 @@ def test_another_start() -> None:
 def test_errors_come_where_they_came() -> None:
     scene = small()
     run(scene)
-    scene.add_range(joint="rail", minimum=-0.1, maximum=0.1)
+    scene.add_channel(joint="rail", minimum=-0.1, maximum=0.1)
     for _ in range(2):
         with pytest.raises(SceneError, match="outside its range"):
             simulate(scene, 5.0)

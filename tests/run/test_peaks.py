@@ -170,14 +170,14 @@ def test_what_is_evaluated_or_made_anew_reaches_its_peak(formulation: str) -> No
     scene.add_joint(kind="weld", name="foot", first="ground", second="post", point=(0, 0, 0))
     scene.add_point("pin", body="post")
     scene.add_point("middle", body="bob")
-    scene.add_relative("under", point="middle", to="pin")
+    scene.add_channel("under", expression="middle.z in post")
     scene.add_channel("fallen", expression="pin.z - bob.z")
-    channels = ["reaction_force", "relative_position", "own"]
+    channels = ["reaction_force", "own"]
     result = sc.simulate(scene, 5.4, dt_out=2.7, channels=channels, formulation=formulation)
     share = MASS * LENGTH**2 / (MASS * LENGTH**2 + inertia)
     for name, end, peak in (
         ("reaction_force[pin, z]", 1, WEIGHT * (1.0 + 2.0 * share)),
-        ("relative_position[under, z]", 0, -LENGTH),
+        ("own[under]", 0, -LENGTH),
         ("own[fallen]", 1, LENGTH),
     ):
         bound = result.reached(name)[end]
@@ -188,10 +188,8 @@ def test_what_is_evaluated_or_made_anew_reaches_its_peak(formulation: str) -> No
 def test_a_line_with_mass_carries_its_load_at_the_one_end_and_itself_too_at_the_other() -> None:
     scene, length, per_length = sc.Scene(name="deep", gravity=GRAVITY), 1000.0, 20.0
     scene.add_body("load", mass=2e4, inertia=np.diag([1e4] * 3), position=(0.0, 0.0, -length))
-    scene.add_line(
-        "wire", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0)] * 2, length=length, EA=4e8,
-        rung="with mass", mass_per_length=per_length, segments=8, segment_rung="quasi-static",
-    )  # fmt: skip
+    scene.add_line("wire", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0)] * 2, length=length, EA=4e8,
+                   wire={"mass_per_length": per_length, "segments": 8}, rung="quasi-static")  # fmt: skip
     result = sc.simulate(scene, 1.0, start="rest")
     load, all_of_it = 2e4 * GRAVITY, (2e4 + per_length * length) * GRAVITY
     upper, lower = result["end_tension"][:, 0].T

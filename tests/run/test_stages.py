@@ -276,10 +276,6 @@ FREE = {"until": Until.release("on deck")}
     [
         ([{}], "'wait'.* duration"), ([FREE | ONE], "a duration and until"),
         ([FREE], "'wait'.* maximum_duration"),
-        ([HOLD, LONG | {"until": Until.length("hoist", maximum=1.5)}], "never end: .*minimum_length of 2 m"),
-        ([HOLD, LONG | {"until": Until.tension("hoist", maximum=-1.0)}], "never end: .*below -1 N"),
-        ([LONG | {"until": Until.length("hoist", minimum=25.0)}], "never end: .* from 20.1 m to 20.1 m"),
-        ([LONG | {"until": Until.length("hoist", maximum=15.0), "commands": {WIND: -0.1}}], "end.* 19.15 m"),
         ([LONG | {"until": Until.contact("on deck")}], "never end: seat 'on deck'"),
         ([HOLD, ONE | {"commands": {WIND: -0.6}}], "'hoist.rate' reaches 0.6 m/s, .*maximum_rate of 0.5"),
         ([HOLD, ONE | {"commands": {WIND: Move(to=0.7, over=3.0)}}], "reaches 0.7 m/s"),

@@ -19,13 +19,13 @@ C33, C44, C55 = 1.2e7, 2.4e8, 2.0e9  # N/m, N m/rad
 HEIGHT, LOAD = 20.0, 5.0e4  # m above the waterline, kg
 
 
-def barge() -> sc.Scene:
+def barge(**slack: float) -> sc.Scene:
     """A hull by its matrices, restored in heave, roll and pitch, moored in the plane."""
     scene = sc.Scene(name="barge", gravity=G)
     scene.add_body("hull", mass=MASS, inertia=np.diag([2e8, 2e9, 2e9]), position=(0, 0, 0), gravity=False)
     scene.add_vessel(
         body="hull", name="hull", added_mass=np.zeros((6, 6)), restoring=np.diag([0, 0, C33, C44, C55, 0]),
-        linear_damping=np.diag([1e6, 1e6, 1e7, 3e8, 3e9, 1e9]), mooring_stiffness=[1e5, 1e5, 1e7],
+        linear_damping=np.diag([1e6, 1e6, 1e7, 3e8, 3e9, 1e9]), mooring_stiffness=[1e5, 1e5, 1e7], **slack,
     )  # fmt: skip
     return scene
 

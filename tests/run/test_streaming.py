@@ -17,6 +17,7 @@ import seacrane as sc
 from seacrane import cases
 from seacrane.result import stream
 from seacrane.result.partial_file import PartialFile, Piece
+from seacrane.run import to_file
 from seacrane.warnings import LargeHeelWarning
 
 GENEROUS = 60.0  # s
@@ -24,7 +25,8 @@ GENEROUS = 60.0  # s
 
 @pytest.fixture(autouse=True)
 def small_pieces(monkeypatch: Any) -> None:
-    monkeypatch.setattr(stream, "MOST_ROWS", 16)
+    for module in (stream, to_file):
+        monkeypatch.setattr(module, "rows_of_piece", lambda width: 16)
 
 
 def spinner() -> sc.Scene:
@@ -55,13 +57,13 @@ def stopping_after(pieces: int, monkeypatch: Any, error: type[BaseException] | N
     append = stream.ResultFile.append
     done = []
 
-    def counted(file: stream.ResultFile, result: sc.Result, **given: Any) -> None:
-        done.append(result)
+    def counted(file: stream.ResultFile, piece: Piece) -> None:
+        done.append(piece)
         if len(done) == pieces:
             if error is not None:
                 raise error
             signal.raise_signal(signal.SIGINT)
-        append(file, result, **given)
+        append(file, piece)
 
     monkeypatch.setattr(stream.ResultFile, "append", counted)
 

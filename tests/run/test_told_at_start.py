@@ -100,9 +100,9 @@ def test_a_load_beside_the_plane_of_a_deck_is_told(aside: float, told_of: bool) 
 def wire(**slip: Any) -> sc.Scene:
     scene = sc.Scene(name="wire")
     scene.add_body("load", mass=20e3, size=(4, 3, 2), position=(0, 0, -90))
-    given = {"EA": 4e8, "length": 99.0, "mass_per_length": 25.0, "diameter": 0.06} | slip
-    given |= {"first": "ground", "first_point": (0, 0, 10), "second": "load", "medium": "sea"}
-    scene.add_line("wire", rung="with mass", segments=5, **given)
+    given = {"EA": slip.pop("EA", 4e8), "length": 99.0, "first": "ground", "first_point": (0, 0, 10)}
+    wet = {"mass_per_length": 25.0, "diameter": 0.06, "medium": "sea", "segments": 5}
+    scene.add_line("wire", second="load", **given, wire=wet | slip)
     return scene
 
 

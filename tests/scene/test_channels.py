@@ -238,6 +238,8 @@ def corner(result: Result, axis: str) -> Any:
 
 
 EXPRESSIONS: dict[str, tuple[str, str, Callable[[Result], Any]]] = {
+    "rate": ("corner.vz - load.vz", "m/s",
+             lambda r: r.select("point_velocity", point="corner", axis="z") - of_load(r, "z")),
     "sum": ("corner.z - load.z + 3 m", "m", lambda r: corner(r, "z") - z(r, "load") + 3.0),
     "signs": ("-load.z - -hull.z", "m", lambda r: -z(r, "load") + z(r, "hull")),
     "order": ("load.z - 2 * hull.z / 4 - 1 m", "m", lambda r: z(r, "load") - 2 * z(r, "hull") / 4 - 1),

@@ -51,7 +51,7 @@ def jump(end: float, *, time: float = 1.0) -> Curve:
 
 def out_of_range_between_its_ends() -> None:
     scene = rail(Curve.harmonic(amplitude=1.2, omega=2.0, phase=-np.pi / 2))
-    scene.add_range(joint="rail", minimum=-1.0, maximum=1.0)
+    scene.add_channel(joint="rail", minimum=-1.0, maximum=1.0)
     simulate(scene, t_end=np.pi)
 
 

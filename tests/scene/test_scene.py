@@ -160,7 +160,7 @@ def hung() -> Scene:
     scene.add_joint("wire", kind="distance", first="trolley", second="load", **ends)
     scene.add_line(joint="wire", rung="rigid")
     scene.add_actuator("rail", name="drive", stiffness=10.0)
-    scene.add_range(joint="rail", minimum=-3.0, maximum=3.0)
+    scene.add_channel(joint="rail", minimum=-3.0, maximum=3.0)
     scene.add_channel(joint="rail")
     return scene
 

@@ -23,8 +23,8 @@ def slung(count: int) -> Scene:
     scene = Scene(name="slung")
     scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(800.0, 0.0, 300.0))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_line(name="line", rung="with mass", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e9,
-                   length=900.0, mass_per_length=1000.0 / G, segments=count)  # fmt: skip
+    scene.add_line(name="line", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e9,
+                   length=900.0, wire={"mass_per_length": 1000.0 / G, "segments": count})  # fmt: skip
     return scene
 
 
@@ -43,7 +43,7 @@ def heave(t_end: float) -> Curve:
     return spline_curve(times=times, values=HEAVE * np.sin(2.0 * np.pi * times / PERIOD) ** 3)
 
 
-def heaving(count: int, t_end: float, **more: Any) -> Scene:
+def heaving(count: int, t_end: float) -> Scene:
     """A slack line below an end that moves up and down."""
     scene = Scene(name="heaving")
     scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(800.0, 0.0, 0.0))
@@ -51,20 +51,19 @@ def heaving(count: int, t_end: float, **more: Any) -> Scene:
         kind="prismatic", name="guide", first="ground", second="end", point=(800, 0, 0), axis=(0, 0, 1)
     )
     scene.add_driver(joint="guide", curve=heave(t_end))
-    line = {"EA": EA, "length": LENGTH, "mass_per_length": MASS, "damping_ratio": RATIO} | more
-    scene.add_line(name="line", rung="with mass", bodies=["ground", "end"], points=[(0, 0, -300), (0, 0, 0)],
-                   segments=count, **line)  # fmt: skip
+    line = {"EA": EA, "length": LENGTH, "damping_ratio": RATIO}
+    scene.add_line(name="line", bodies=["ground", "end"], points=[(0, 0, -300), (0, 0, 0)],
+                   wire={"mass_per_length": MASS, "segments": count}, **line)  # fmt: skip
     return scene
 
 
-def hanging(count: int, **more: Any) -> Scene:
+def hanging(count: int) -> Scene:
     """1 t on a wire of 100 m that hangs at rest, stretched by its own weight and the load's."""
-    line = {"EA": 1e6, "length": 100.0, "mass_per_length": 50.0} | more
     low = -100.0 - (1e3 + 0.5 * 5e3) * G * 100.0 / 1e6
     scene = Scene(name="hanging")
     scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, low))
-    scene.add_line(name="wire", rung="with mass", bodies=["ground", "load"], points=np.zeros((2, 3)),
-                   segments=count, **line)  # fmt: skip
+    scene.add_line(name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)),
+                   EA=1e6, length=100.0, wire={"mass_per_length": 50.0, "segments": count})  # fmt: skip
     return scene
 
 
@@ -74,10 +73,9 @@ def string(count: int) -> Scene:
     scene = Scene(name="string", gravity=0.0)
     scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(50.0, 0.0, 0.0))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_line(
-        name="line", rung="with mass", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e6,
-        length=50.0 / (1.0 + strain), mass_per_length=2.0 * (1.0 + strain), segments=count,
-    )  # fmt: skip
+    scene.add_line(name="line", bodies=["ground", "end"], points=np.zeros((2, 3)), EA=1e6,
+                   length=50.0 / (1.0 + strain), wire={"mass_per_length": 2.0 * (1.0 + strain),
+                   "segments": count})  # fmt: skip
     return scene
 
 
@@ -89,8 +87,8 @@ def in_waves(length: Curve | float, *, seed: int = 3, rung: Any = "elastic") -> 
     scene.add_body(name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
                    velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6))  # fmt: skip
     scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4),
-                   EA=2e5, length=length, mass_per_length=40.0, diameter=0.25, rung="with mass", medium="sea",
-                   segments=4, segment_rung=rung)  # fmt: skip
+                   EA=2e5, length=length, wire={"mass_per_length": 40.0, "diameter": 0.25, "medium": "sea",
+                   "segments": 4}, rung=rung)  # fmt: skip
     return scene
 
 
@@ -103,8 +101,8 @@ def dropped(*, friction: float = 0.5, segments: int = 6, **given: Any) -> Scene:
     scene.add_body(name="load", mass=300.0, inertia=(90.0, 80.0, 70.0), position=(14.0, 2.0, -8.5),
                    velocity=(1.0, 2.0, -0.5), angular_velocity=(0.2, -0.1, 0.3))  # fmt: skip
     scene.add_line("line", "ground", "load", first_point=(0.0, 0.0, -4.0), second_point=(0.1, -0.2, 0.1),
-                   rung="with mass", EA=2e5, length=16.0, mass_per_length=40.0, segments=segments,
-                   damping_ratio=0.1, seabed=BED | {"friction": friction}, **given)  # fmt: skip
+                   EA=2e5, length=16.0, damping_ratio=0.1, wire={"mass_per_length": 40.0,
+                   "segments": segments, "seabed": BED | {"friction": friction}, **given})  # fmt: skip
     return scene
 
 

@@ -78,10 +78,8 @@ natural_length_m = 0.3
 name = "hoist"; bodies = ["ground", "box", "bob"]; points_m = [[0, 0, 9], [0, 0, 1], [0, 0, 0]]; EA_N = 1e6
 length_m = 12; damping_ratio = 0.05; mass_kg = 300
 [[line]]; name = "whip"; bodies = ["ground", "ground", "bob"]; points_m = [[-3, 0, 9], [0, 0, 9], [0, 0, 0]]
-strains = [0, 0.1]; tensions_N = [0, 1000]; length_m = 12; radii_m = [0, 0.3, 0]
-axes = [[0, 0, 0], [0, 1, 0], [0, 0, 0]]; efficiencies = [1, 0.98, 1]; slip_speed_m_per_s = 0.02
-[[bridle]]; name = "sling"; hook = "ground"; load = "box"; hook_point_m = [0, 0, 9]
-points_m = [[0.5, 0, 0.5], [-0.5, 0, 0.5]]; EA_N = [1e6]
+strains = [0, 0.1]; tensions_N = [0, 1000]; length_m = 12
+sheaves = { radii_m = [0, 0.3, 0], axes = [[0, 0, 0], [0, 1, 0], [0, 0, 0]], efficiencies = [1, 0.98, 1] }
 [[roles]]; prefix = "quay "; tip = { body = "hull", point_m = [6, 0, 20] }
 [[hoist]]
 name = "quay hoist"; crane = "quay "; load = "anode"; mass_kg = 2e3; size_m = [1, 1, 2]; length_m = 5
@@ -111,15 +109,15 @@ rupture = { time_s = 9, area_m2 = 1e-5 }
 [[force]]
 name = "gust"; body = "box"; times_s = [0, 1]; force_N = [[0, 1, 2, 3, 4, 5], [6, 7, 8, 9, 10, 11]]
 [[line]]
-name = "chain"; rung = "with mass"; bodies = ["ground", "box"]; points_m = [[20, 5, 10], [0, 0, 1]]
-EA_N = 1e8; length_m = 40; mass_per_length_kg_per_m = 5; segments = 3; segment_rung = "quasi-static"
-settling_s = 0.3; diameter_m = 0.02; flow_m_per_s = [1, 0, 0]
+name = "chain"; rung = "quasi-static"; bodies = ["ground", "box"]; points_m = [[20, 5, 10], [0, 0, 1]]
+EA_N = 1e8; length_m = 40; settling_s = 0.3
+[line.wire]; mass_per_length_kg_per_m = 5; segments = 3; diameter_m = 0.02; flow_m_per_s = [1, 0, 0]
 seabed = { depth_m = 50, stiffness_N_per_m2 = 1e4, friction = 0.5, damping_ratio = 0.4, give_m = 0.02 }
 [[line]]
-name = "wet chain"; rung = "with mass"; bodies = ["ground", "box"]; points_m = [[20, 5, -10], [0, 0, 1]]
+name = "wet chain"; bodies = ["ground", "box"]; points_m = [[20, 5, -10], [0, 0, 1]]
 EA_N = 1e8; length_m = {kind = "quintic", start_time_s = 1, end_time_s = 9, start = 30, end = 34}
-mass_per_length_kg_per_m = 5; segments = 2; diameter_m = 0.05; medium = "sea"; density_kg_per_m3 = 1000
-drag_coefficient_along = 0.02; added_mass_coefficient = 0.9
+[line.wire]; mass_per_length_kg_per_m = 5; segments = 2; diameter_m = 0.05; medium = "sea"
+density_kg_per_m3 = 1000; drag_coefficient_along = 0.02; added_mass_coefficient = 0.9
 [[immersed]]; body = "bob"; parts = [
     { kind = "sphere", diameter_m = 0.4 },
     { kind = "box", size_m = [1, 2, 0.5], strips = [2, 1], point_m = [0, 0, 0.1], slam = 6 },
@@ -129,8 +127,8 @@ openings = [{ point_m = [0, 0.5, -0.1], area_m2 = 0.02 }, { point_m = [0.5, 0, 0
 air = "shut"; exponent = 1.2; air_pressure_Pa = 1.1e5; initial_m3 = 0.5
 [pendulum_damping]
 name = "swing"; first = "ground"; first_point_m = [0, 0, 9]; second = "bob"; ratio = 0.01
-[air_drag]; body = "bob"; frontal_area_m2 = 2; lateral_area_m2 = 3; drag_coefficient = 0.8
-[wind]; body = "hull"; direction_deg = 90; frontal_area_m2 = 400; lateral_area_m2 = 1200; length_m = 100
+[[wind]]; body = "bob"; frontal_area_m2 = 2; lateral_area_m2 = 3; drag_coefficient = 0.8
+[[wind]]; body = "hull"; direction_deg = 90; frontal_area_m2 = 400; lateral_area_m2 = 1200; length_m = 100
 coefficients = { angle_deg = [0, 90, 180], x = [0.9, 0, -0.9], y = [0, 0.8, 0], yaw = [0, 0.1, 0] }
 [wind.speed_m_per_s]; kind = "gust"; mean_speed_m_per_s = 12; duration_s = 10; seed = 3
 [current]
@@ -151,12 +149,11 @@ hold_m = 2e-3
 place_m = [0, 50, 0]; table = [[0, 0], [0.1, 2e3], [0.3, 2e4]]
 [[contact]]; body = "box"; points_m = [[0, 0, -0.5]]; on = "seabed"; depth_m = 80; stiffness_N_per_m = 2e5
 friction = 0.4
-[range]; joint = "sleeve"; minimum_m = -1; maximum_m = 3
 [[point]]; name = "corner"; body = "box"; point_m = [0.1, 0.2, 0.3]
 [[point]]; name = "edge"; body = "hull"; point_m = [1, 2, 3]
-[clearance]; name = "hull"; points = ["corner"]; body = "hull"; center_m = [1, 0, 2]; size_m = [3, 4, 5]
-[relative]; name = "corner over the edge"; point = "corner"; to = "edge"; axes = "hull"
-[[channel]]; name = "drop"; expression = "edge.z - box.z"
+[[channel]]; joint = "sleeve"; minimum_m = -1; maximum_m = 3
+[[channel]]; name = "hull"; points = ["corner"]; body = "hull"; center_m = [1, 0, 2]; size_m = [3, 4, 5]
+[[channel]]; name = "drop"; expression = "edge.z - box.z in hull"
 [[limit_state]]; channel = "link_tension"; maximum_N = 8e4; minimum_N = 1e3
 [[limit_state]]; name = "luffing"; channel = "stroke"; maximum_m = 2.5; names = { cylinder = "aft luff" }
 [[limit_state]]; channel = "vessel_motion"; maximum_deg = 90; names = { motion = "roll" }
@@ -165,7 +162,7 @@ load = "box"; weight_contingency = 1.1; center_of_gravity_m = [0.1, 0, 0]; skew_
 dynamic_factor = 1.3; sling_safety_factor = 3; shackle_safety_factor = 4; shackle_breaking_load_N = 1e5
 alpha = 0.7; sources = { alpha = "the project's own" }
 [[channel]]; joint = "pin"; name = "angle of the arm"
-[[channel]]; joint = "sleeve"; coordinate = "angle"
+[[channel]]; joint = "sleeve"; coordinate = "angle"; name = "turn"
 [[roles]]; prefix = "aft "; slew = "pin"; cylinders = { luff = "sleeve" }; link = "rope"
 tip = { body = "arm", point_m = [0, 0, 1] }
 areas = [{ cylinder = "luff", full_m2 = 0.5, rod_side_m2 = 0.25 }]

@@ -128,9 +128,9 @@ class Builder:
         if self.chance(0.5):
             given = {"length": falls * (drop - top[2]) * self.between(0.95, 1.08)}
         if self.chance(0.15) and falls == 1:
-            self.scene.add_line(name="hoist", rung="with mass", bodies=bodies, points=points, EA=stiffness,
-                                segments=4, length=(drop - top[2]) * self.between(0.99, 1.009),
-                                mass_per_length=self.between(5.0, 40.0))  # fmt: skip
+            self.scene.add_line(name="hoist", bodies=bodies, points=points, EA=stiffness, wire={"segments": 4,
+                                "mass_per_length": self.between(5.0, 40.0)},
+                                length=(drop - top[2]) * self.between(0.99, 1.009))  # fmt: skip
             return
         self.scene.add_line(name="hoist", bodies=bodies, points=points, EA=stiffness,
                             damping_ratio=self.between(0.0, 0.1), **given)  # fmt: skip

@@ -18,7 +18,7 @@ DOWN = (0.0, -1.0, 0.0)  # axis of a sheave that a line passes below, towards x
 OVER = (0.0, 1.0, 0.0)
 
 
-def tackle(*, falls: int = 6, **line: Any) -> Scene:
+def tackle(*, falls: int = 6, damping_ratio: float = 0.02, **sheaves: Any) -> Scene:
     """A hook on an even number of vertical falls, all in one plane, at rest in its own weight."""
     taut = MASS * G / (falls * STIFFNESS)
     scene = Scene(name="tackle")
@@ -29,12 +29,11 @@ def tackle(*, falls: int = 6, **line: Any) -> Scene:
     at_hook = np.arange(centers.size) % 2 == 0
     bodies = ["ground", *np.where(at_hook, "hook", "ground").tolist(), "ground"]
     x = [centers[0] - RADIUS, *centers, centers[-1] + RADIUS]
-    scene.add_line(
-        name="hoist", bodies=bodies, points=np.column_stack([x, np.zeros((len(x), 2))]), EA=STIFFNESS,
-        length=path_of_tackle(falls) / (1.0 + taut), mass=MASS / falls**2,
-        radii=[0.0, *[RADIUS] * centers.size, 0.0],
-        axes=[(0, 0, 0), *[DOWN if low else OVER for low in at_hook], (0, 0, 0)], **line,
-    )  # fmt: skip
+    axes = [(0, 0, 0), *[DOWN if low else OVER for low in at_hook], (0, 0, 0)]
+    scene.add_line(name="hoist", bodies=bodies, points=np.column_stack([x, np.zeros((len(x), 2))]),
+                   EA=STIFFNESS, length=path_of_tackle(falls) / (1.0 + taut), mass=MASS / falls**2,
+                   damping_ratio=damping_ratio, sheaves={"radii": [0.0, *[RADIUS] * centers.size, 0.0],
+                   "axes": axes, **sheaves})  # fmt: skip
     return scene
 
 
@@ -54,11 +53,9 @@ def belt(*, crossed: bool) -> tuple[Scene, float]:
     straight = np.sqrt(apart**2 - (large + small if crossed else large - small) ** 2)
     wraps = (np.pi + 2.0 * lean, np.pi + 2.0 * lean if crossed else np.pi - 2.0 * lean)
     length = 2.0 * straight + large * wraps[0] + small * wraps[1]
-    scene.add_line(
-        name="belt", bodies=["ground", "small", "ground", "ground"],
-        points=[start, (0, 0, 0), (0, 0, 0), start], EA=1e3, length=length, radii=[0, small, large, 0],
-        axes=[(0, 0, 0), DOWN if crossed else OVER, OVER, (0, 0, 0)],
-    )  # fmt: skip
+    scene.add_line(name="belt", bodies=["ground", "small", "ground", "ground"], points=[start, (0, 0, 0), (0,
+                   0, 0), start], EA=1e3, length=length, sheaves={"radii": [0, small, large, 0], "axes": [(0,
+                   0, 0), DOWN if crossed else OVER, OVER, (0, 0, 0)]})  # fmt: skip
     return scene, float(length)
 
 
@@ -70,17 +67,15 @@ def capstan(*, turns: float = 0.0, friction: float = 0.1, rate: float = -0.5) ->
         kind="prismatic", name="guide", first="ground", second="load", point=(RADIUS, 0, 0), axis=(0, 0, 1)
     )
     path = 5.0 + 6.0 + RADIUS * (0.5 * np.pi + 2.0 * np.pi * turns)
-    scene.add_line(
-        name="hoist", bodies=["ground", "ground", "load"],
-        points=[(-5.0, 0.0, RADIUS), (0, 0, 0), (0, 0, 0)], EA=5e6,
-        length=path / (1.0 + 1e3 * G / 5e6), damping_ratio=0.2, radii=[0, RADIUS, 0],
-        axes=[(0, 0, 0), OVER, (0, 0, 0)], turns=[0, turns, 0], frictions=[0, friction, 0],
-    )  # fmt: skip
+    scene.add_line(name="hoist", bodies=["ground", "ground", "load"], points=[(-5.0, 0.0, RADIUS), (0, 0, 0),
+                   (0, 0, 0)], EA=5e6, length=path / (1.0 + 1e3 * G / 5e6), damping_ratio=0.2,
+                   sheaves={"radii": [0, RADIUS, 0], "axes": [(0, 0, 0), OVER, (0, 0, 0)], "turns": [0, turns,
+                   0], "frictions": [0, friction, 0]})  # fmt: skip
     scene.add_winch(line="hoist", rate=rate, lag=0.2)
     return scene
 
 
-def slewing(**change: Any) -> Scene:
+def slewing(sheaves: Any = None, **change: Any) -> Scene:
     """An arm that swings, with a tackle of two falls over sheaves that lean out of its plane, a winch on the
     arm, friction, and a cord to the load."""
     scene = Scene(name="slewing")
@@ -92,15 +87,14 @@ def slewing(**change: Any) -> Scene:
     scene.add_body(name="cleat", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(3.5, 0.0, 0.2))
     scene.add_joint(kind="weld", name="bolts", first="arm", second="cleat", point=(3.5, 0, 0))
     scene.add_body(name="load", mass=1500.0, inertia=(200.0, 250.0, 300.0), position=(4.2, 0.3, -5.0))
-    line: dict[str, Any] = {
-        "EA": 3e6, "length": 14.75, "damping_ratio": 0.05, "radii": [0, 0.2, 0.25, 0.2, 0],
+    sheaves = {
+        "radii": [0, 0.2, 0.25, 0.2, 0],
         "axes": [(0, 0, 0), (0.0, 1.0, 0.1), (0.1, 1.0, 0.1), (0.2, -1.0, 0.1), (0, 0, 0)],
         "efficiencies": [1, 0.98, 1, 0.96, 1], "frictions": [0, 0, 0.03, 0, 0], "slip_speed": 0.05,
-    } | change  # fmt: skip
-    scene.add_line(
-        name="hoist", bodies=["ground", "arm", "cleat", "load", "cleat"],
-        points=[(0.0, 0.0, 0.0), (-0.5, 0.0, 0.8), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.9, 0.2, 0.1)], **line,
-    )  # fmt: skip
+    } | (sheaves or {})  # fmt: skip
+    scene.add_line(name="hoist", bodies=["ground", "arm", "cleat", "load", "cleat"], sheaves=sheaves,
+                   points=[(0.0, 0.0, 0.0), (-0.5, 0.0, 0.8), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.9, 0.2,
+                   0.1)], **{"EA": 3e6, "length": 14.75, "damping_ratio": 0.05} | change)  # fmt: skip
     scene.add_winch(line="hoist", rate=Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.5, omega=2.1),
                     maximum_rate=0.4, maximum_acceleration=0.6, lag=0.15)  # fmt: skip
     scene.add_line(

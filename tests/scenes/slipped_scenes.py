@@ -111,6 +111,11 @@ def weighed(scene: Scene, **numbers: Any) -> None:
     scene.add_line("wire", bodies=["ground", "load"], points=np.zeros((2, 3)), EA=5e7, length=15.0)
 
 
+def sheaved(scene: Scene, **given: Any) -> None:
+    words = given.keys() & {"radii", "axes", "efficiencies", "frictions", "slip_speed"}
+    scene.add_line(sheaves={word: given.pop(word) for word in words}, **given)
+
+
 def linked(scene: Scene, length: float, **points: Any) -> None:
     frames = {f"{end}_frame": _core.Frame(point=points[f"{end} point"]) for end in ("first", "second")}
     scene.add_joint("link", kind="distance", first="ground", second="load", length=length, **frames)
@@ -139,9 +144,9 @@ SAMPLES: Mapping[str, Sample] = {
         "rung": "quasi-static"}),
     "cord": Sample(_core.Line, {"strains": [0.0, 0.15, 0.3], "tensions": [0.0, 1e5, 4e5]}, with_load, CORD),
     "sheaved line": Sample(_core.Line, {"radii": [0.0, 0.5, 0.0], "efficiencies": [1.0, 0.98, 1.0],
-        "slip_speed": 0.01}, with_load, SHEAVE, Scene.add_line),
+        "slip_speed": 0.01}, with_load, SHEAVE, sheaved),
     "rubbing line": Sample(_core.Line, {"frictions": [0.0, 0.1, 0.0]}, with_load, {**SHEAVE,
-        "radii": [0.0, 0.5, 0.0]}, Scene.add_line),
+        "radii": [0.0, 0.5, 0.0]}, sheaved),
     "winch": Sample(_core.Line, {"rate": -0.1, "maximum_rate": 0.5, "maximum_acceleration": 0.5, "lag": 0.2,
         "minimum_length": 2.0}, with_load, WOUND),
     "tensioned winch": Sample(_core.Line, {"tension": MASS * G, "tension_gain": 2e-6, "dead_band": 1e4},

@@ -54,7 +54,7 @@ def stiffness(scene: Scene) -> Array:
 def test_springs_and_a_matrix_with_all_its_couplings_act_as_given(heading: float) -> None:
     """The matrix is of a symmetric mooring, beside what it adds to heave, roll and pitch."""
     pose: dict[str, Any] = {"position": (30.0, -20.0, 0.0), "heading_deg": heading}
-    free = stiffness(vessel(mooring_period=None, **pose))
+    free = stiffness(vessel(mooring=None, **pose))
     for springs in (FOUR, SYMMETRIC):
         wanted = mooring_matrix(springs)
         held = stiffness(vessel(mooring=springs, **pose)) - free
@@ -73,7 +73,7 @@ def test_a_matrix_that_couples_nothing_needs_no_springs_and_damping_is_a_share_o
     assert not held.springs
     assert np.array_equal(held.vessels["vessel"].mooring_stiffness, [1e5, 2e5, 4e8])
     assert np.allclose(held.vessels["vessel"].restoring - water, np.diag([0, 0, 3e4, 0, 1e6, 0]), rtol=1e-9)
-    assert vessel(mooring=90.0) == vessel(mooring_period=90.0)
+    assert vessel(mooring=200.0) == vessel()
     wanted = mooring_matrix(SYMMETRIC)
     period = vessel(mooring_damping=0.2).vessels["vessel"]
     damped = vessel(mooring=wanted, mooring_damping=0.2).vessels["vessel"]
@@ -88,7 +88,7 @@ def with_own(database: HydroDatabase, matrix: Array) -> HydroDatabase:
 @pytest.mark.warns("NonPassiveMemoryWarning")
 def test_the_mooring_of_a_database_is_used_once() -> None:
     database, own = shipped_database(), mooring_matrix(SYMMETRIC)
-    bare = stiffness(vessel(database, mooring_period=None))
+    bare = stiffness(vessel(database, mooring=None))
     with pytest.warns(OwnMooringWarning, match="C11 = "):
         scene = vessel(with_own(database, own))
     assert np.abs(stiffness(scene) - bare - own).max() <= 1e-9 * own.max()
@@ -117,8 +117,6 @@ def test_what_is_no_mooring_is_refused() -> None:
     ):  # fmt: skip
         with pytest.raises(SceneError, match=words):
             vessel(mooring=mooring)
-    with pytest.raises(SceneError, match="both given"):
-        vessel(mooring=FOUR, mooring_period=90.0)
 
 
 def test_files_hold_matrices_and_springs(tmp_path: Path) -> None:

@@ -62,7 +62,7 @@ def test_the_series_is_the_sum_within_the_bound(first: float, relative_bound: fl
 @pytest.mark.warns("MeanPositionWarning")
 def test_a_run_from_the_series_is_the_run_from_the_sum(tmp_path: Path) -> None:
     scene = Scene(name="series")
-    scene.add_vessel(shipped_database(), mooring_period=100.0)
+    scene.add_vessel(shipped_database(), mooring=100.0)
     scene.waves = uniform()
     given = {"t_end": 20.0, "dt_out": 1.0, "rtol": 1e-9}
     first = simulate(scene, **given)
@@ -81,7 +81,7 @@ def test_a_run_from_the_series_is_the_run_from_the_sum(tmp_path: Path) -> None:
 @pytest.mark.warns("MeanPositionWarning")
 def test_a_run_longer_than_its_sea_is_told_so() -> None:
     scene = Scene(name="long")
-    scene.add_vessel(shipped_database(), mooring_period=100.0, memory="none")
+    scene.add_vessel(shipped_database(), mooring=100.0, memory="none")
     scene.waves = uniform(step=0.2, first=2.0, count=10)
     with pytest.warns(RepeatingSeaWarning, match=r"31\.4159 s, the run takes 40 s"):
         simulate(scene, t_end=40.0, dt_out=10.0)

@@ -14,7 +14,7 @@ from seacrane import Scene, SceneError, response_statistics
 from seacrane.hydro import HydroDatabase, hydro_from_hull, natural_frequency, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.inputs.frames import MOTIONS
-from seacrane.scene.sea import without_load
+from seacrane.scene.sea_loads import without_load
 from seacrane.sea import jonswap, realise_waves
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import BelowBandWarning

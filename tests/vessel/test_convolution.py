@@ -179,7 +179,7 @@ def driven_heave(database: HydroDatabase, omega: float) -> complex:
     scene = Scene()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        scene.add_vessel(database, memory="convolution", mooring_period=None)
+        scene.add_vessel(database, memory="convolution", mooring=None)
     scene.add_joint(kind="free", name="motion", first="ground", second="vessel")
     for motion in ("x", "y", "z", "roll", "pitch", "yaw"):
         curve = Curve.harmonic(amplitude=1.0 if motion == "z" else 0.0, omega=omega)

@@ -90,7 +90,7 @@ def test_the_table_stays_within_its_bound() -> None:
 
 def moored(database: HydroDatabase | None = None, **sea_options: Any) -> Scene:
     scene = Scene(name="moored")
-    scene.add_vessel(drifting() if database is None else database, mooring_period=100.0)
+    scene.add_vessel(drifting() if database is None else database, mooring=100.0)
     scene.add_sea(**{"hs": 4.0, "tp": 9.0, "count": 40, **sea_options})
     return scene
 

@@ -164,7 +164,7 @@ def test_the_vessel_alone_moves_as_the_databases_matrices_say(ship: str, shared:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         database = same = shipped_database() if shipped else load_database(shared / ship)
-        scene = cases.vessel(database=database, hs=0.0, mooring_period=None, memory="convolution")
+        scene = cases.vessel(database=database, hs=0.0, mooring=None, memory="convolution")
         if database.additional:
             functions = retardation_functions(database=database)
             linear = vessel_parameters(database, memory=functions).linear_damping
@@ -181,7 +181,7 @@ def test_the_vessel_alone_moves_as_the_databases_matrices_say(ship: str, shared:
 def test_a_run_by_convolution_is_the_linear_model_by_convolution() -> None:
     """In a regular wave, springs included; the database's own matrices are as near as the kernel is."""
     database, omega = shipped_database(), 0.9
-    scene = cases.vessel(hs=0.0, mooring_period=60.0, memory="convolution")
+    scene = cases.vessel(hs=0.0, mooring=60.0, memory="convolution")
     calm = scene.copy()
     scene.waves = regular_wave(database, omega=omega, heading_deg=120.0, amplitude=1e-4, phase=0.0)
     period = 2.0 * np.pi / omega
@@ -198,7 +198,7 @@ def test_a_run_by_convolution_is_the_linear_model_by_convolution() -> None:
 def test_modes_have_the_matrices_of_their_own_frequency() -> None:
     """lambda^2 (M + A(w)) + lambda B(w) + C is singular at w = Im lambda."""
     database = shipped_database()
-    scene = cases.vessel(hs=0.0, mooring_period=None)
+    scene = cases.vessel(hs=0.0, mooring=None)
     modes = natural_modes(scene, memory="database", database=database)
     assert {modes.label(i) for i in range(len(modes.eigenvalues))} == {
         "vessel heave", "vessel roll", "vessel pitch",

@@ -75,7 +75,7 @@ def test_motions_of_wave_frequency_are_no_drift_and_slow_ones_pass_the_low_pass(
 
 
 def test_a_ship_under_way_warns_of_its_place_and_of_its_speed() -> None:
-    scene = moored(hs=0.0, mooring_period=None)
+    scene = moored(hs=0.0, mooring=None)
     scene.replace("hull", kind="body", velocity=(5.0, 0.0, 0.0))
     assert not told(scene, t_end=60.0)[1]
     scene.add_sea(vessel="hull", hs=1.0, count=40)

@@ -78,11 +78,11 @@ def ship_at(speed: float, folder: Path) -> tuple[HydroDatabase, HydroDatabase]:
     return read_veres(stem, speed=0.0), read_veres(stem, speed=speed)
 
 
-def free(database: HydroDatabase, mooring_period: float | None) -> Scene:
+def free(database: HydroDatabase, mooring: float | None) -> Scene:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         scene = Scene()
-        scene.add_vessel(database, memory="convolution", mooring_period=mooring_period)
+        scene.add_vessel(database, memory="convolution", mooring=mooring)
     return scene
 
 

@@ -23,12 +23,12 @@ def supply(shared: Path) -> HydroDatabase:
     return load_database(shared / "veres" / "supply")
 
 
-def afloat(database: HydroDatabase, memory: str = "per-pair") -> Scene:
+def afloat(database: HydroDatabase, memory: str = "per-pair", slack_moment: float = 0.0) -> Scene:
     scene = Scene(name="supply")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", InfiniteFrequencyWarning)
         warnings.simplefilter("ignore", MemoryFitWarning)
-        scene.add_vessel(database, memory=memory)
+        scene.add_vessel(database, memory=memory, slack_moment=slack_moment)
     return scene
 
 
@@ -47,8 +47,7 @@ def test_a_slack_tank_takes_its_moment_over_the_displacement(tmp_path: Path) -> 
     scene = barge()
     before = statics(scene)
     assert "GM solid" not in before.columns
-    scene.add_slack_tank(moment=1e6)
-    scene.add_slack_tank(moment=5e5, vessel="hull")
+    scene = barge(slack_moment=1.5e6)
     told = statics(scene)
     assert told["GM"] == pytest.approx(float(before["GM"]) - 1.5e6 / MASS, rel=1e-9)
     assert told["GM solid"] == pytest.approx(float(before["GM"]), rel=1e-9)
@@ -65,8 +64,7 @@ def test_a_slack_tank_takes_its_moment_over_the_displacement(tmp_path: Path) -> 
 def test_a_slack_tank_stays_beside_the_matrices_of_a_database(supply: HydroDatabase) -> None:
     periods = []
     for moment in (0.0, 1e6):
-        scene = afloat(supply, "convolution")
-        scene.add_slack_tank(moment=moment)
+        scene = afloat(supply, "convolution", slack_moment=moment)
         modes = natural_modes(scene, memory="database", database=supply)
         periods.append(modes.natural_period[modes.find("vessel roll")])
     assert periods[1] > 1.02 * periods[0]
@@ -177,7 +175,7 @@ def test_what_makes_no_ballast_is_refused() -> None:
         (lambda: scene.add_ballast(tanks=dry), "'port' would have to give .* holds 1000 kg"),
         (barge().add_ballast, "'hull' carries no body"),
         (lambda: scene.add_ballast(heel_deg=40.0), "heel_deg is 40"),
-        (lambda: barge().add_slack_tank(moment=1e9), "slack tank: moment"),
+        (lambda: barge(slack_moment=1e9), "slack_moment is 1000000000.0 kg m"),
         (lambda: Tank(point=(0.0, 0.0, 0.0), capacity=4.0, content=5.0), "content is 5"),
     ):  # fmt: skip
         with pytest.raises(SceneError, match=words):

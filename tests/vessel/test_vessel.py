@@ -28,7 +28,7 @@ def moored(
 ) -> Scene:
     """Vessel alone in calm water; short, well damped station keeping lets transients die soon."""
     scene = Scene(name="vessel alone")
-    scene.add_vessel(database, mooring_period=period, mooring_damping=damping, memory=memory)
+    scene.add_vessel(database, mooring=period, mooring_damping=damping, memory=memory)
     return scene
 
 
@@ -167,7 +167,7 @@ def test_restoring_makes_no_energy_in_a_loop_of_finite_angles() -> None:
     database = replace(shipped_database(), linear_damping=np.zeros((6, 6)))
     scene = Scene(name="undamped")
     with pytest.warns(RollDampingWarning, match="no roll damping"):
-        scene.add_vessel(database, memory="none", mooring_period=60.0, mooring_damping=0.0)
+        scene.add_vessel(database, memory="none", mooring=60.0, mooring_damping=0.0)
     model = scene.compile()
     values = np.array(model.initial_state)
     at = model.twist_index(0)
@@ -246,7 +246,7 @@ def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, at: tuple[
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", InfiniteFrequencyWarning)
-        scene = cases.vessel(database=database, hs=0.0, mooring_period=None)
+        scene = cases.vessel(database=database, hs=0.0, mooring=None)
     found = simulated_rao(database, scene, *at, t_end=800.0, rtol=1e-11)
     memory = vessel_parameters(database).memory
     parts = (memory.frequency_response(database.omega), memory.additional_response(database.omega))
@@ -264,7 +264,7 @@ def test_regular_wave_returns_wamits_motion(shared: Path, deg: float, omega: flo
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         tanker = load_database(shared / "wamit")
-        scene = cases.vessel(database=tanker, hs=0.0, mooring_period=None, memory="convolution")
+        scene = cases.vessel(database=tanker, hs=0.0, mooring=None, memory="convolution")
     heading = int(np.argmin(np.abs(np.degrees(tanker.heading) - deg)))
     frequency = int(np.argmin(np.abs(tanker.omega - omega)))
     # Its slowest memory and motions decay in 1500 s.

@@ -142,7 +142,7 @@ def test_a_free_pair_keeps_its_energy() -> None:
     undamped = {"linear_damping": np.zeros((6, 6)), "quadratic_damping": np.zeros(6)}
     group = replace(mixed(), bodies=tuple(replace(body, **undamped) for body in apart().bodies))
     scene = Scene(name="free")
-    scene.add_vessel(group, memory="none", mooring_period=None)
+    scene.add_vessel(group, memory="none", mooring=None)
     velocities = {"a": (1.0, -0.5, 0.3), "b": (-0.4, 0.2, 0.6)}
     for name, velocity in velocities.items():
         turning = (0.02, -0.01, 0.03)
@@ -195,11 +195,11 @@ def scaled(factor: float) -> HydroDatabase:
 def test_natural_modes_are_those_of_hulls_that_move_alike_and_against_each_other() -> None:
     """T of a mirrored motion is 1 + share times it, of one against it 1 - share: two single hulls."""
     share = 0.2
-    found = natural_modes(afloat(linear(mixed(share)), mooring_period=None)).eigenvalues
+    found = natural_modes(afloat(linear(mixed(share)), mooring=None)).eigenvalues
     expected = []
     for factor in (1.0 + share, 1.0 - share):
         single = Scene(name="single")
-        single.add_vessel(replace(scaled(factor), quadratic_damping=np.zeros(6)), mooring_period=None)
+        single.add_vessel(replace(scaled(factor), quadratic_damping=np.zeros(6)), mooring=None)
         expected.append(natural_modes(single).eigenvalues)
     both = np.sort_complex(np.concatenate(expected))
     np.testing.assert_allclose(np.sort_complex(found), both, rtol=1e-6)

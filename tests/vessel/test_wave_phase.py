@@ -64,7 +64,7 @@ def test_a_fixed_vessel_gets_the_mean_load_of_its_place_and_heading(x: float, y:
 def driven(*, cutoff: float = CUTOFF, phase: str | None = None, **curves: Curve) -> Scene:
     """A hull whose six coordinates are given; in a short-crested sea where a phase is asked for."""
     scene = Scene(name="driven")
-    scene.add_vessel(database(), mooring_period=None, memory="none")
+    scene.add_vessel(database(), mooring=None, memory="none")
     scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
     for name in ("x", "y", "z", "roll", "pitch", "yaw"):
         scene.add_driver(joint="tow", coordinate=name, curve=curves.get(name, Curve.constant(value=0.0)))
@@ -102,7 +102,7 @@ def steady(start: float, speed: float, **more: Any) -> Curve:
 
 def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
     scene = Scene(name="actual")
-    scene.add_vessel(database(), mooring_period=100.0)
+    scene.add_vessel(database(), mooring=100.0)
     scene.add_sea(hs=3.0, tp=8.0, direction_deg=60.0, count=40, phase="actual")
     scene.waves = replace(scene.waves.changed(**changes), evaluation=evaluation)
     return scene
@@ -196,7 +196,7 @@ def test_a_steady_drift_is_followed_from_the_start_on() -> None:
 
 def afloat(phase: Any, *, memory: Any = "per-pair", **waves: Any) -> Scene:
     scene = Scene(name="afloat")
-    scene.add_vessel(database(), mooring_period=120.0, memory=memory)
+    scene.add_vessel(database(), mooring=120.0, memory=memory)
     scene.add_sea(phase=phase, **{"hs": 3.0, "tp": 8.0, "count": 30} | waves)
     return scene
 

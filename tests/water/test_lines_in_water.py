@@ -29,13 +29,10 @@ def with_ends(scene: Scene, places: Any, *, mass: float, velocities: Any = ((0, 
         scene.add_body(name=name, mass=mass, inertia=(mass,) * 3, position=place, velocity=velocity)
 
 
-def wet_line(scene: Scene, **given: Any) -> None:
+def wet_line(scene: Scene, length: float | None = None, **given: Any) -> None:
     """Between these bodies."""
-    line: dict[str, Any] = {
-        "first": "one", "second": "two", "EA": 1e6, "mass_per_length": 20.0, "segments": 3, "diameter": 0.1,
-        "density": RHO,
-    }  # fmt: skip
-    scene.add_line("line", rung="with mass", medium="sea", **line | given)
+    wire = {"mass_per_length": 20.0, "segments": 3, "diameter": 0.1, "density": RHO, "medium": "sea"} | given
+    scene.add_line("line", "one", "two", EA=1e6, length=length, wire=wire)
 
 
 def tossed(*, waves: bool = True) -> Scene:
@@ -47,9 +44,9 @@ def tossed(*, waves: bool = True) -> Scene:
         scene.add_sea(vessel=None, gamma=2.0, current=current, **sea)
     scene.add_body(name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
                    velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6))  # fmt: skip
-    scene.add_line("wire", "ground", "load", rung="with mass", medium="sea", segments=3,
-                   first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4), EA=2e5, length=11.5,
-                   mass_per_length=40.0, diameter=0.25, drag_coefficient_along=0.05)  # fmt: skip
+    scene.add_line("wire", "ground", "load", wire={"medium": "sea", "segments": 3, "mass_per_length": 40.0,
+                   "diameter": 0.25, "drag_coefficient_along": 0.05}, first_point=(0.0, 0.0, 5.0),
+                   second_point=(0.1, -0.2, 0.4), EA=2e5, length=11.5)  # fmt: skip
     return scene
 
 
@@ -134,8 +131,9 @@ def test_a_taut_wire_under_water_swings_by_its_mass_and_added_mass() -> None:
         scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(length, 0.0, -20.0))
         scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
         scene.add_line("line", "ground", "end", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
-                       rung="with mass", EA=pull / strain, length=short, mass_per_length=2.0, segments=n,
-                       diameter=diameter, medium="sea", density=RHO, added_mass_coefficient=0.8)  # fmt: skip
+                       EA=pull / strain, length=short, wire={"mass_per_length": 2.0, "segments": n,
+                       "diameter": diameter, "medium": "sea", "density": RHO,
+                       "added_mass_coefficient": 0.8})  # fmt: skip
         mass = (2.0 + 0.8 * RHO * area(diameter)) / (1.0 + strain)
         whole = np.pi / length * np.sqrt(pull / mass)
         chain = whole * 2.0 * n / np.pi * np.sin(0.5 * np.pi / n)
@@ -158,8 +156,8 @@ def test_a_load_on_a_long_wire_bounces_with_the_wire_s_own_mass(length: float, p
         scene = Scene(name="long wire", gravity=G)
         scene.add_body(name="load", mass=60e3, inertia=(1e5,) * 3, position=(0.0, 0.0, low))
         scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
-                       rung="with mass", EA=4e8, length=length, mass_per_length=25.0, segments=segments,
-                       diameter=0.06, medium="sea")  # fmt: skip
+                       EA=4e8, length=length, wire={"mass_per_length": 25.0, "segments": segments,
+                       "diameter": 0.06, "medium": "sea"})  # fmt: skip
         add_load(scene, _core.ImmersedPart(
             name="water", body="load", shape="box", size=(1.0, 1.0, 1.0), fill=0.0, density=RHO,
             depths=[0.0, 2.0], added_masses=[(0.0, 0.0, 0.0), (0.0, 0.0, 50e3)],
@@ -177,11 +175,10 @@ def drawn_aside(speed: float, segments: int) -> float:
     scene = Scene(name="drawn aside", gravity=G)
     scene.add_sea(vessel=None, hs=0.0, current=Current(depth=0.0, speed=speed, direction_deg=0.0))
     scene.add_body(name="load", mass=400e3 / G, inertia=(1e5,) * 3, position=(0.0, 0.0, -20.0 - length))
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
-        rung="with mass", EA=4e10, length=length, mass_per_length=200.0 / G + RHO * area(diameter),
-        segments=segments, diameter=diameter, drag_coefficient=1.2, medium="sea", density=RHO,
-    )  # fmt: skip
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, -20.0), second_point=(0.0, 0.0, 0.0),
+                   EA=4e10, length=length, wire={"mass_per_length": 200.0 / G + RHO * area(diameter),
+                   "segments": segments, "diameter": diameter, "drag_coefficient": 1.2, "medium": "sea",
+                   "density": RHO})  # fmt: skip
     push = 0.5 * RHO * 1.5 * 20.0
     add_load(scene, _core.ImmersedPart(
         name="drag", body="load", shape="box", size=(1.0, 1.0, 1.0), fill=0.0, density=RHO,
@@ -210,8 +207,8 @@ def test_a_wire_hangs_by_its_weight_less_the_water_that_it_displaces() -> None:
     scene = Scene(name="wet and dry", gravity=G)
     scene.add_body(name="load", mass=1e3, inertia=(1e3,) * 3, position=(0.0, 0.0, -40.0))
     scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 20.0), second_point=(0.0, 0.0, 0.0),
-                   rung="with mass", medium="sea", length=60.0, EA=1e8, mass_per_length=30.0, segments=12,
-                   diameter=0.08)  # fmt: skip
+                   wire={"medium": "sea", "mass_per_length": 30.0, "segments": 12, "diameter": 0.08},
+                   length=60.0, EA=1e8)  # fmt: skip
     upper, lower = heavy_line_tension(simulate(scene, t_end=0.1, start="rest"), line="wire")[-1]
     assert upper == pytest.approx((1e3 + 30.0 * 60.0 - RHO * area(0.08) * 40.0) * G, rel=1e-5)
     assert lower == pytest.approx(1e3 * G, rel=1e-5)
@@ -225,9 +222,9 @@ def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: f
     scene = Scene(name="slack", gravity=G)
     scene.add_body(name="end", mass=1e3, inertia=(1e3,) * 3, position=(40.0, 0.0, end))
     scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
-    scene.add_line("line", "ground", "end", first_point=(0.0, 0.0, top), second_point=(0.0, 0.0, 0.0),
-                   rung="with mass", EA=1e6, length=60.0, mass_per_length=mass_per_length, segments=12,
-                   diameter=0.08, medium="sea", density=RHO)  # fmt: skip
+    scene.add_line("line", "ground", "end", first_point=(0.0, 0.0, top), second_point=(0.0, 0.0, 0.0), EA=1e6,
+                   length=60.0, wire={"mass_per_length": mass_per_length, "segments": 12, "diameter": 0.08,
+                   "medium": "sea", "density": RHO})  # fmt: skip
     floating = end == -25.0
     start: Any = "rest" if floating else None
     place = np.asarray(simulate(scene, t_end=1.0, rtol=1e-9, start=start)["position"])

@@ -209,10 +209,9 @@ def with_wire(depth: float, sea: dict[str, Any] | None = None, *, drag: float = 
     """A small weight below a wire with mass whose lower part is in water."""
     scene = Scene(name="wire", gravity=G)
     scene.add_body("load", mass=4e3, size=(1.0, 1.0, 1.0), position=(0.0, 0.0, -depth))
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, 5.0), EA=5e6, rung="with mass", medium="sea",
-        segments=4, mass_per_length=40.0, diameter=0.2, length=0.992 * (depth + 4.5), drag_coefficient=drag,
-    )  # fmt: skip
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 5.0), EA=5e6, wire={"medium": "sea",
+                   "segments": 4, "mass_per_length": 40.0, "diameter": 0.2, "drag_coefficient": drag},
+                   length=0.992 * (depth + 4.5))  # fmt: skip
     if sea is not None:
         scene.add_sea(vessel=None, **sea)
     return scene

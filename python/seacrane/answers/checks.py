@@ -16,7 +16,7 @@ from seacrane.description.pick import Pick
 from seacrane.pictures.plots import payload_bodies, resultants
 from seacrane.plotting.table import Table, Verdict, table_of
 from seacrane.result import CHANNELS, Result
-from seacrane.result.events import Event
+from seacrane.result.about import Event
 from seacrane.result.traces import ANGLES, NO_MOTION, Trace, beyond_rounding, shown_unit, traces
 
 MOST_EVENTS = 200

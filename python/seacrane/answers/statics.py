@@ -299,7 +299,7 @@ def luffing(scene: Description, roles: CraneRoles, luff: str | None) -> str:
     if not any((one.joint, one.coordinate) == (joint, coordinate) for one in scene.ranges.values()):
         raise SceneError(
             f"coordinate {label!r}: it has no range, within which a radius is looked for; give one by "
-            f"add_range(joint={joint!r}, minimum=..., maximum=...)"
+            f"add_channel(joint={joint!r}, minimum=..., maximum=...)"
         )
     return label
 

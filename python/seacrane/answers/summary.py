@@ -20,7 +20,7 @@ from seacrane.inputs.keywords import named
 from seacrane.plotting.table import Column, Rows, Table
 from seacrane.result import Result
 from seacrane.result.contact_loads import NO_CONTACTS, ContactLoads, contact_loads
-from seacrane.result.traces import inside
+from seacrane.result.record import inside
 from seacrane.result.utilisation import Utilisation
 
 DASHED = (

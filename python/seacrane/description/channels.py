@@ -92,8 +92,6 @@ DERIVED: Mapping[str, Channel] = MappingProxyType({
     "hook_load": _derived("suspension", "N", _PULL,
         "load on the lower end of a link, a wire or a line, all its falls together"),
     "clearance": _derived("gap", "m", _POSE, "distance of points from a box, negative inside"),
-    "relative_position": _derived("pair axis", "m", _POSE, "of a named point over another"),
-    "relative_velocity": _derived("pair axis", "m/s", _MOTION, "rate of the relative position"),
     "heel": _asked("body", "rad", "quaternion",
         "yaw-pitch-roll angle about the body's own x axis; positive lifts its port side"),
     "trim": _asked("body", "rad", "quaternion",

@@ -42,7 +42,6 @@ KINDS: Mapping[str, str] = {
     "provenance": "provenance",
     "limit_states": "limit state",
     "clearances": "clearance",
-    "relatives": "relative",
     "channels": "channel",
     "ratings": "rating",
     "lift_factors": "lift factors",
@@ -75,8 +74,8 @@ class Description:
     ----------
     recorded : dict of str to (str, str)
         Joint and coordinate that are recorded under a name.
-    ranges, limit_states, clearances, relatives, channels : dict of str to Range, LimitState and so on
-        What `Scene.add_range`, `add_limit_state` and so on returned.
+    ranges, limit_states, clearances, channels : dict of str to Range, LimitState and so on
+        What `Scene.add_channel` and `add_limit_state` added.
     ratings, lift_factors : dict of str to Rating, LiftFactors
         What lines and slings break at; by loads, what their lifts are calculated with beside the scene.
     roles : dict of str to CraneRoles
@@ -111,7 +110,6 @@ class Description:
     ranges: dict[str, Range] = field(default_factory=dict)
     limit_states: dict[str, LimitState] = field(default_factory=dict)
     clearances: dict[str, Any] = field(default_factory=dict)
-    relatives: dict[str, Any] = field(default_factory=dict)
     channels: dict[str, Any] = field(default_factory=dict)
     ratings: dict[str, Any] = field(default_factory=dict)
     lift_factors: dict[str, Any] = field(default_factory=dict)

@@ -5,7 +5,8 @@
     factor  = "-" factor | number [unit] | curve | function "(" sum { "," sum } ")" | "(" sum ")"
 
 A curve is a channel as `pick` reads it ("hook_load[main]", "roll"), or a named point or a body with an axis
-("tip.z"; quoted where the name is more than a word: "'corner 0'.z").
+("tip.z", its speed "tip.vz"; quoted where the name is more than a word: "'corner 0'.z"), also along the axes
+of a body ("tip.z in barge").
 """
 
 from __future__ import annotations
@@ -99,10 +100,11 @@ def unit_text(dimension: Dimension) -> str:
 
 
 _UNIT = "|".join(sorted((re.escape(unit) for unit in UNITS if unit != "1"), key=len, reverse=True))
+_NAME = r"""(?:[^\W0-9]\w*|'[^']*'|"[^"]*")"""
 _TOKEN = re.compile(
     rf"""\s*(?:
     (?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?:\s*(?P<unit>{_UNIT})(?![\w\[.]))?
-  | (?P<place>(?:[^\W0-9]\w*|'[^']*'|"[^"]*")\.[xyz])(?!\w)
+  | (?P<place>{_NAME}\.v?[xyz])(?!\w)(?:\s+in\s+(?P<along>{_NAME}))?
   | (?P<curve>[^\W0-9]\w*\s*\[[^\[\]]*\])
   | (?P<word>[^\W0-9]\w*)
   | (?P<sign>[-+*/(),])
@@ -121,10 +123,16 @@ class Number:
 
 @dataclass(frozen=True)
 class Curve:
-    """The text of a curve; of a place its name and its axis."""
+    """The text of a curve; of a place its name, its axis, and the body along whose axes that is."""
 
     text: str
     axis: str = ""
+    along: str = ""
+
+    @property
+    def is_rate(self) -> bool:
+        """Whether it is the speed of a place."""
+        return self.axis.startswith("v")
 
 
 @dataclass(frozen=True)
@@ -274,7 +282,7 @@ class _Parser:
             self.steps.append(Number(number, dimension))
         elif token["place"]:
             name, _, axis = token["place"].rpartition(".")
-            self.steps.append(Curve(name.strip("\"'"), axis))
+            self.steps.append(Curve(name.strip("\"'"), axis, (token["along"] or "").strip("\"'")))
         elif token["curve"] or not self.sign("("):
             self.steps.append(Curve(token["curve"] or token["word"]))
         else:

@@ -121,7 +121,7 @@ def springs_of(
 
 
 def whole_of(name: str, line: _core.Line) -> str:
-    """The line that one is a segment of, as rung "with mass" names them; else its own name."""
+    """The line with mass that one is a segment of; else its own name."""
     whole, _, number = name.rpartition(".")
     tied = any(body.startswith(f"{whole}.") for body in line.bodies)
     return whole if number.isdigit() and whole and tied else name

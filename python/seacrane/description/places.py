@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.description.description import GROUND, Description, require
+from seacrane.description.expression import Curve
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of, text_of
 from seacrane.inputs.frames import cross, euler_matrix, rotation_matrix
@@ -108,23 +109,22 @@ def velocity_of(scene: Description, arrays: Mapping[str, Array], body: str, poin
     return np.asarray(arrays["velocity"][:, place] + turning)
 
 
-def relative_motion(
-    scene: Description, arrays: Mapping[str, Array], point: str, to: str, axes: str, *, velocity: bool
-) -> Array:
-    """Motion of a named point over another along the axes of a body, m; its rate, m/s; shape (time, 3)."""
-    ends = [scene.points[name] for name in (point, to)]
-    over, below = (position_of(scene, arrays, one.body, one.point) for one in ends)
-    told = over - below
-    if velocity:
-        fast, slow = (velocity_of(scene, arrays, one.body, one.point) for one in ends)
-        rate = fast - slow
-        if axes in scene.bodies:
-            rate -= cross(arrays["angular_velocity"][:, place_in(scene, axes)], told)
-        told = rate
-    if axes not in scene.bodies:
-        return np.asarray(told)
-    turn = rotation_matrix(arrays["quaternion"][:, place_in(scene, axes)])
-    return np.asarray((told[:, None, :] @ turn)[:, 0])
+def place_along(scene: Description, arrays: Mapping[str, Array], place: Curve) -> Array:
+    """A coordinate of a named point, or of a body's centre of mass, along the axes of a body from its origin.
+
+    m, or its rate as who stands on the body sees it, m/s; shape (time,).
+    """
+    if place.text in scene.points:
+        at = scene.points[place.text].body, scene.points[place.text].point
+    else:
+        at = place.text, scene.bodies[place.text].center_of_mass
+    origin = place.along, ORIGIN
+    told = position_of(scene, arrays, *at) - position_of(scene, arrays, *origin)
+    if place.is_rate:
+        turning = cross(arrays["angular_velocity"][:, place_in(scene, place.along)], told)
+        told = velocity_of(scene, arrays, *at) - velocity_of(scene, arrays, *origin) - turning
+    turn = rotation_matrix(arrays["quaternion"][:, place_in(scene, place.along)])
+    return np.asarray((told[:, None, :] @ turn)[:, 0, "xyz".index(place.axis[-1])])
 
 
 def place_in(scene: Description, body: str) -> int:

@@ -33,7 +33,7 @@ class VesselProvenance:
         What the free surface of the database's roll tanks takes from C44, N m/rad: as the vessel has it, and
         the least and the most of the fits to the data.
     slack_tanks : (float, float) or None
-        What tanks of `Scene.add_slack_tank` take from C44 and C55, N m/rad.
+        What tanks by `slack_moment` of `Scene.add_vessel` take from C44 and C55, N m/rad.
     """
 
     database: str | None = None

@@ -96,7 +96,7 @@ class LuffingRope:
 
     Attributes
     ----------
-    name : Of the line that stands for it once it is one, see `Scene.add_luffing_rope`.
+    name : Of the line that stands for it once it is one, see `Scene.add_winch`.
     falls : Parts of rope between the blocks; all carry the same tension.
     EA : Axial stiffness of one fall, N.
     first, second : (str, (float, float, float))

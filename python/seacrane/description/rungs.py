@@ -11,7 +11,7 @@ from seacrane.description.loads import changed, lines_of
 from seacrane.description.once import once, sharing
 
 RIGID, QUASI_STATIC, ELASTIC, AUTO, WITH_MASS = "rigid", "quasi-static", "elastic", "auto", "with mass"
-Rung = Literal["rigid", "quasi-static", "elastic", "auto", "with mass"]
+Rung = Literal["rigid", "quasi-static", "elastic", "auto"]
 StretchingRung = Literal["quasi-static", "elastic", "auto"]
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
-from inspect import cleandoc
+from inspect import cleandoc, signature
 from typing import Any, TypeVar, dataclass_transform
 
 from seacrane.errors import SceneError
@@ -12,6 +13,7 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 
 T = TypeVar("T")
+Call = TypeVar("Call", bound=Callable[..., Any])
 _ENTRIES: dict[type, Mapping[str, str]] = {}
 
 
@@ -37,6 +39,36 @@ def value(element: Any, prefix: str = "", *keys: str, **entries: str) -> Callabl
         return kind
 
     return made
+
+
+def told_by(*elements: Any) -> Callable[[Call], Call]:
+    """A call whose docstring tells the keywords that it leaves out as FIELDS of elements of the core do."""
+
+    def told(call: Call) -> Call:
+        text = cleandoc(call.__doc__ or "")
+        head, mark, rest = text.partition("\nParameters\n----------\n")
+        keywords = signature(call).parameters
+        missing = [
+            f"{field.name} : {field.unit or field.type}" + f"\n    {field.text}" * bool(field.text)
+            for field in {one.name: one for kind in elements for one in kind.FIELDS}.values()
+            if field.text
+            and field.name in keywords
+            and not re.search(rf"^(\w+, )*{field.name}\b", rest, re.MULTILINE)
+        ]
+        said, end, after = rest.partition("\n\n")
+        call.__doc__ = head + mark + "\n".join([said, *missing]) + end + after
+        return call
+
+    return told
+
+
+def made_of(what: str, word: str, kind: type[T], given: T | Mapping[str, Any]) -> T:
+    """A value of a kind, or its keywords as one. SceneError for what is neither."""
+    if isinstance(given, kind):
+        return given
+    if not isinstance(given, Mapping):
+        raise SceneError(f"{what}: {word} is {shown(given)}; give {word}={kind.__name__}(...)")
+    return kind(**given)
 
 
 def entries_of(word: str, kind: type) -> dict[str, str]:

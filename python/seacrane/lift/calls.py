@@ -37,6 +37,7 @@ LONGEST_GUST = 1e7  # s times components: fourteen hours of the usual 200
 ANGLES = ("angle", "roll", "pitch", "yaw")
 RADIANS = {degrees: radians for radians, degrees in DEGREES.items()}
 SEA_OF_SYSTEMS = ("depth", "placement")
+MOORINGS = ("mooring", "mooring_period", "mooring_springs")
 SHIPS = ("database", "raos", "history", "motion")  # what tells which vessel it is
 _MADE: Mapping[str, Callable[..., Any]] = {
     "payload": Payload,
@@ -191,11 +192,13 @@ class Caller:
         if led or found != ["database"]:
             scene.add_vessel(motion="rest" if at_rest else source, **given)
             return
-        if given.get("mooring_period") == float("inf"):
-            given["mooring_period"] = None
+        held = [key for key in MOORINGS if key in given]
+        if len(held) > 1:
+            raise SceneError(f"vessel: has {' and '.join(held)}; give one of them")
+        if "mooring_period" in given:
+            period = given.pop("mooring_period")
+            given["mooring"] = None if period == float("inf") else period
         if "mooring_springs" in given:
-            if "mooring" in given:
-                raise SceneError("vessel: has mooring and mooring_springs; give one of them")
             given["mooring"] = given.pop("mooring_springs")
         if at_rest:  # neither fluid memory nor kinematics matter
             given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}

@@ -18,7 +18,7 @@ from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.keys import EITHER, Key, keys_of
 from seacrane.run.method import FORMULATIONS
 from seacrane.run.stage import Stage
-from seacrane.scene import afloat, given_vessel, sea, vessel
+from seacrane.scene import afloat, sea, vessel
 from seacrane.scene.afloat import MEMORY
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
@@ -206,7 +206,7 @@ def vessel_keys() -> tuple[Key, ...]:
     )
     more = CHOSEN | {
         "mooring": {"type": "array", "unit": "N/m, N m/rad", "shapes": ((6, 6),), "text": matrix},
-        "mooring_period": {"unit": "s", "text": mooring},
+        "slack_moment": EACH | {"unit": "kg m"},
         "position": POINT, "ramp": TIME, "duration": TIME, "size": POINT,
     }  # fmt: skip
     return (
@@ -219,7 +219,8 @@ def vessel_keys() -> tuple[Key, ...]:
         Key("raos", "table", keys=_rao_keys(), text="Led by a table of RAOs, without a database."),
         Key("history", "table", keys=history, text="Led by a history, without a database."),
         *keys_of(afloat.add_hull, described=vessel.add_vessel, more=more, without=("database",)),
-        *keys_of(given_vessel.add_given, described=vessel.add_vessel, more=more, only=OF_MOTION),
+        *keys_of(vessel.add_given, described=vessel.add_vessel, more=more, only=OF_MOTION),
+        Key("mooring_period", "number", "s", mooring),
         Key("mooring_springs", "tables", keys=spring, text="Mooring by horizontal springs."),
         *keys_of(load_database, more=READING, only=tuple(READING)),
     )  # fmt: skip

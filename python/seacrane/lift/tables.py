@@ -18,7 +18,6 @@ from seacrane.lift.inner_keys import (
     CHOSEN,
     COORDINATE,
     DIRECTION,
-    EACH,
     LENGTH,
     NUMBER,
     PISTON,
@@ -46,7 +45,6 @@ from seacrane.scene import (
     lift_factors,
     limits,
     lines,
-    own_channels,
     recorded,
     rigging,
     roles,
@@ -56,7 +54,8 @@ from seacrane.scene import (
 )
 from seacrane.scene.add_crane import add_crane
 from seacrane.scene.ballast import add_ballast
-from seacrane.scene.line_fluid import Seabed
+from seacrane.scene.hung_load import Slings
+from seacrane.scene.line_fluid import Seabed, Wire
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 from seacrane.water import Opening
@@ -123,7 +122,7 @@ def _flow(name: str, add: Callable[..., Any]) -> Table:
 
 
 SLINGS = keys_of(
-    hoist.Slings,
+    Slings,
     more={
         "EA": {"unit": "N"},
         "length": LENGTH,
@@ -133,13 +132,15 @@ SLINGS = keys_of(
         "rung": {"choices": lines.STRETCHING},
     },
 )
-WIRE: dict[str, Any] = {
-    "diameter": LENGTH,
-    "density": {"unit": "kg/m3"},
-    "flow": {"type": "array", "unit": "m/s", "shapes": ((3,),)},
-    "segment_rung": {"type": "text", "choices": lines.STRETCHING},
-}
 SEABED = keys_of(Seabed, more={"depth": LENGTH, "stiffness": {"unit": "N/m2"}, "give": LENGTH})
+WIRE: dict[str, Any] = {
+    "type": "table",
+    "keys": keys_of(Wire, more={
+        "mass_per_length": {"unit": "kg/m"}, "diameter": LENGTH, "density": {"unit": "kg/m3"},
+        "flow": {"type": "array", "unit": "m/s", "shapes": ((3,),)},
+        "seabed": {"type": "table", "keys": SEABED},
+    }),
+}  # fmt: skip
 CONTACT: dict[str, Any] = {
     "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
     "surface": {"type": "text", "choices": limits.SURFACES},
@@ -198,10 +199,6 @@ _ALL = (
         ),
         add=vessel.add_vessel,
     ),
-    _call(
-        "slack_tank", vessel.add_slack_tank,
-        moment={"unit": "kg m"}, trim_moment={"unit": "kg m"}, vessel={"type": "text"},
-    ),
     Table(name="sea", text=_summary(sea.add_sea), keys=sea_keys()),
     Table(name="crane", text=_summary(add_crane), keys=CRANE),
     Table(name="joint", text=_summary(elements.add_joint), keys=_joint_keys(), add=elements.add_joint),
@@ -215,11 +212,9 @@ _ALL = (
     _call(
         "line", lines.add_line, _core.Line,
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
-        sticking_speed={"unit": "m/s"}, mass_per_length={"unit": "kg/m"},
-        breaking_load={"unit": "N"}, rung={"choices": lines.RUNGS}, **WIRE,
-        seabed={"type": "table", "keys": SEABED},
+        sticking_speed={"unit": "m/s"}, breaking_load={"unit": "N"}, rung={"choices": lines.RUNGS},
+        wire=WIRE, sheaves={"type": "table", "keys": keys_of(lines.Sheaves, _core.Line)},
     ),
-    _call("winch", rigging.add_winch, _core.Line),
     _call(
         "roles", roles.add_roles, without=("ropes",),
         cylinders={"type": "names"}, luffs={"type": "names"},
@@ -231,28 +226,20 @@ _ALL = (
     _call(
         "hoist", hoist.add_hoist,
         mass={"unit": "kg"}, size=POINT, length=LENGTH, height=LENGTH, slack=LENGTH, EA={"unit": "N"},
-        crane={"type": "text"}, stiffness={"unit": "N/m"}, mass_per_length={"unit": "kg/m"},
+        crane={"type": "text"}, stiffness={"unit": "N/m"},
         block_mass={"unit": "kg"}, breaking_load={"unit": "N"},
         rung={"choices": lines.RUNGS}, slings={"type": "table", "keys": SLINGS},
         winch={"type": "table", "keys": keys_of(rigging.add_winch, _core.Line, without=("line",))},
         feet={"type": "table", "keys": FEET},
-        wire={"type": "table", "keys": keys_of(lines.add_line, _core.Line, more=WIRE, only=hoist.WIRE_KEYS)},
+        wire=WIRE,
     ),
-    Table(
-        name="luffing_rope", text=_summary(roles.add_luffing_rope), add=roles.add_luffing_rope,
-        keys=(*keys_of(roles.add_luffing_rope), *keys_of(rigging.add_winch, _core.Line, without=("line",))),
-    ),
+    _call("winch", rigging.add_winch, _core.Line),
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring,
         **_values(_core.GasSpring, heave.VALUES, force={"unit": "N"}, stiffness={"unit": "N/m"}),
     ),
     RAM,
     _call("hold_pressures", hydraulics.hold_pressures, several=False),
-    _call(
-        "bridle", rigging.add_bridle, _core.Line,
-        hook_point=POINT, EA=EACH | {"unit": "N"}, lengths=ROW | {"unit": "m"},
-        rung={"choices": lines.STRETCHING}, breaking_load={"unit": "N"},
-    ),
     _call(
         "immersed", immersed.add_immersed, _core.ImmersedPart,
         parts={"type": "tables", "keys": part_keys()},
@@ -263,19 +250,16 @@ _ALL = (
         openings={"type": "tables", "keys": keys_of(Opening, more={"point": POINT, "area": {"unit": "m2"}})},
     ),
     _call("pendulum_damping", wind_current.add_pendulum_damping, _core.PendulumDamping),
-    _call("air_drag", wind_current.add_air_drag, _core.FlowForce),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
     _call("stop", limits.add_stop, _core.SoftStop, _core.Limit),
     _call("friction", limits.add_friction, _core.Friction),
     _call("contact", limits.add_contact, _core.Contact, **CONTACT),
-    _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
     _call("point", recorded.add_point, _core.Point),
     _call(
-        "clearance", recorded.add_clearance, points={"type": "texts"}, center=POINT, size=POINT,
+        "channel", recorded.add_channel, points={"type": "texts"}, center=POINT, size=POINT,
+        minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"},
     ),
-    _call("relative", recorded.add_relative),
-    _call("channel", own_channels.add_channel),
     _call(
         "lift_factors", lift_factors.add_lift_factors,
         center_of_gravity=POINT, skew_load=ROW, shackle_breaking_load={"unit": "N"},

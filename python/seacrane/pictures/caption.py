@@ -19,9 +19,9 @@ from seacrane.pictures.drawn_bodies import Look
 from seacrane.pictures.pose_curves import Blob, Motion, linear_rows
 from seacrane.pictures.wheels import end_of
 from seacrane.result import Result
+from seacrane.result.about import NOT_KEPT
 from seacrane.result.contact_loads import contact_loads
 from seacrane.result.history import wanted_traces
-from seacrane.result.kept_scene import NOT_KEPT
 from seacrane.result.traces import Trace
 from seacrane.scene.file import scene_digest
 

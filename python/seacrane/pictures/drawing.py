@@ -24,7 +24,7 @@ from seacrane.pictures.drawn_bodies import Look, looks
 from seacrane.pictures.pose_curves import Motion, motion_of
 from seacrane.pictures.wheels import Wheel, end_of, surfaces_of_contacts, wheels_of, wires_of
 from seacrane.result import Result
-from seacrane.result.kept_scene import NOT_KEPT
+from seacrane.result.about import NOT_KEPT
 
 Spans = list[list[float]]
 

@@ -3,7 +3,7 @@
 from seacrane.result.result import Result as Result
 from seacrane.run.to_file import StreamedResult as StreamedResult
 from seacrane.result.about import About as About
-from seacrane.result.events import Event as Event
+from seacrane.result.about import Event as Event
 from seacrane.result.utilisation import Utilisation as Utilisation
 from seacrane.result.traces import heavy_line_tension as heavy_line_tension
 from seacrane.description.channels import Channel as Channel

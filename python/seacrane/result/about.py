@@ -1,7 +1,8 @@
-"""What a result is made of: what it holds of its scene and settings, and its arrays and counters, checked."""
+"""What a result is made of beside its channels: scene, settings, counters and events, checked."""
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from collections import Counter
@@ -13,8 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.limit_state import LimitState
+from seacrane.errors import SeacraneError
 from seacrane.inputs.checked import is_finite
 from seacrane.inputs.file_version import FILE_VERSION, require_file_version
+from seacrane.scene.file import LARGEST_FILE, described, scene_from_bytes
+from seacrane.scene.scene import Scene
 
 SETTINGS, ABOUT = "settings", "about"  # attributes of files and datasets: JSON
 VERSION = "file_version"
@@ -25,6 +29,20 @@ ALWAYS_STATED = (
     "rejected_steps", "states", "coordinates", "constraints", "degrees_of_freedom", "compiled_coordinates",
     "compiled_constraints",
 )  # fmt: skip
+SUMS = (
+    "simulated_s", "wall_s", "steps", "rejected_steps", "evaluations", "jacobians", "newton_iterations",
+    "projections", "restarts", "dense_solves", "events",
+)  # fmt: skip
+NOT_KEPT = "scene_not_kept"  # among the stats of a result: what of the scene its file does not hold, and why
+EVENT_KINDS = ("contact", "rebound", "release", "slip", "stick", "through", "stage", "connection", "limit")
+PREFIX = "event_"
+NUMBERS: Mapping[str, tuple[str, str]] = {
+    "time": ("s", "when it happened"),
+    "speed": ("m/s or rad/s", "rate of approach just before; 0 for a release"),
+    "impulse": ("N s or N m s", "along the coordinate, positive as the limit can act"),
+    "energy_lost": ("J", "mechanical energy lost in the impact"),
+}
+TEXTS = ("name", "kind")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,3 +189,111 @@ def plain_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
             raise ValueError(f"stat {name!r} is not a number; leave out what is not defined")
         plain[name] = value
     return plain
+
+
+def added_stats(before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any]:
+    """Stats of two pieces of a run as of one: counters are added, and what either was warned of is told."""
+    out = dict(now)
+    out |= {key: before.get(key, 0) + now.get(key, 0) for key in SUMS if key in before or key in now}
+    for key in ("described", "validity"):
+        lines = [line for stats in (before, now) for line in str(stats.get(key, "")).splitlines()]
+        if lines:
+            out[key] = "\n".join(dict.fromkeys(lines))
+    return out
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """A limit or a connection that began or ceased to hold, or a stage that began.
+
+    Attributes
+    ----------
+    time : float
+        s.
+    name : str
+        The limit's, the connection's or the stage's; ".minimum" or ".maximum" is added where a stop has both,
+        the number of the point, such as ".1", to a contact.
+    kind : str
+        "contact": holds from now on (a wire is taut, a point touches); "rebound": was hit and left at once;
+        "release": holds no more (a wire is slack, a seat or a point is lifted off, a stage released a
+        connection); "slip", "stick": a point slides from now on, or friction holds it; "through": what has
+        left a seat went below its plane again, unhindered; "stage": a stage
+        began; "connection": a stage connected an element; "limit": a winch, a compensator, a gas spring
+        or a hydraulic cylinder reached one of its bounds, which the name ends with, such as ".stroke", or its
+        hose burst (".rupture").
+    speed : float
+        Rate of approach just before, m/s or rad/s; 0 for a release, a stage or a limit.
+    impulse : float
+        N s or N m s, as the limit can act: tension of a wire, push of a stop; 0 of stages, connections,
+        limits of that kind, and contacts, whose force lasts: `seacrane.answers.contact_hits` adds it up.
+    energy_lost : float
+        Mechanical energy lost in the impact, or with what a stage connected or released, J.
+    """
+
+    time: float
+    name: str
+    kind: str
+    speed: float = 0.0
+    impulse: float = 0.0
+    energy_lost: float = 0.0
+
+
+def checked_events(events: Sequence[Event]) -> tuple[Event, ...]:
+    """The events as a tuple; ValueError for times that decrease or numbers that are not finite."""
+    out = tuple(events)
+    for before, event in itertools.pairwise(out):
+        if event.time < before.time:
+            raise ValueError(f"event {event.name!r} at {event.time} s comes after one at {before.time} s")
+    for event in out:
+        if not np.isfinite([getattr(event, key) for key in NUMBERS]).all():
+            raise ValueError(f"event {event.name!r} at {event.time} s holds a number that is not finite")
+        if event.kind not in EVENT_KINDS:
+            raise ValueError(
+                f"event {event.name!r} is of kind {event.kind!r}; choose from {', '.join(EVENT_KINDS)}"
+            )
+    return out
+
+
+def event_arrays(events: Sequence[Event]) -> dict[str, np.ndarray[Any, Any]]:
+    """Arrays by the names that files have: numbers, then names and kinds."""
+    out = {PREFIX + key: np.array([getattr(e, key) for e in events], dtype=np.float64) for key in NUMBERS}
+    return out | {PREFIX + key: np.array([getattr(e, key) for e in events], dtype=object) for key in TEXTS}
+
+
+def events_from_arrays(arrays: Mapping[str, Any]) -> tuple[Event, ...]:
+    """What `event_arrays` made; KeyError where one is missing."""
+    numbers = {key: np.asarray(arrays[PREFIX + key], dtype=np.float64) for key in NUMBERS}
+    texts = {key: [str(text) for text in arrays[PREFIX + key]] for key in TEXTS}
+    return tuple(
+        Event(name=name, kind=kind, **{key: float(values[i]) for key, values in numbers.items()})
+        for i, (name, kind) in enumerate(zip(texts["name"], texts["kind"], strict=True))
+    )
+
+
+class KeptScene:
+    """A scene of the process that ran it, or the text that `written` made, found at a place."""
+
+    def __init__(self, scene: Scene | None, text: bytes = b"", place: str = "") -> None:
+        self._live, self._text, self._place = scene, text, place
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, always the same one; FileFormatError where the text is none."""
+        if self._live is None:
+            self._live = scene_from_bytes(self._text, self._place, Scene())
+        return self._live
+
+    def written(self) -> tuple[bytes, str]:
+        """The text of a scene file, and in words what it lacks; empty where nothing, or all, is lost."""
+        if self._live is None:
+            return self._text, ""
+        functions = ", ".join(f"function force {name!r}" for name in self._live.function_forces)
+        lacks = f"{functions}: a file holds data only" if functions else ""
+        try:
+            data = described(self._live.copy(notes={}, function_forces={}))
+            text = json.dumps(data, allow_nan=False, separators=(",", ":")).encode("ascii")
+        except (SeacraneError, ValueError) as error:
+            return b"", f"the scene: {error}"
+        if len(text) > LARGEST_FILE:
+            return b"", f"the scene: takes {len(text)} bytes, above {LARGEST_FILE}"
+        return text, lacks

@@ -11,7 +11,8 @@ from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet
-from seacrane.result.traces import Record, Trace, traces
+from seacrane.result.record import Record
+from seacrane.result.traces import Trace, traces
 
 Array = NDArray[np.float64]
 STYLES = ("-", "--", ":")
@@ -57,16 +58,17 @@ def panels_of(quantity: str, found: Iterable[Trace], *, skip: int = 0) -> list[P
     by_unit: dict[str, list[Trace]] = {}
     for one in found:
         by_unit.setdefault(one.unit, []).append(one)
-    return [
-        Panel(quantity=quantity, unit=unit, lines=tuple(_line(i, one, skip) for i, one in enumerate(group)))
-        for unit, group in by_unit.items()
-    ]
-
-
-def _line(number: int, one: Trace, skip: int) -> Line:
-    style = STYLES[number // len(COLOURS) % len(STYLES)]
-    label = " ".join(one.names[skip:])
-    return Line(label=label, values=one.values, bounds=one.bounds, colour=number, style=style)
+    panels = []
+    for unit, group in by_unit.items():
+        lines = tuple(
+            Line(
+                label=" ".join(one.names[skip:]), values=one.values, bounds=one.bounds, colour=i,
+                style=STYLES[i // len(COLOURS) % len(STYLES)],
+            )
+            for i, one in enumerate(group)
+        )  # fmt: skip
+        panels.append(Panel(quantity=quantity, unit=unit, lines=lines))
+    return panels
 
 
 def marks_of(result: Record) -> Mapping[str, Array]:

@@ -15,20 +15,17 @@ import json
 import os
 import struct
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.channels import CHANNELS, NAMED, channel_of
+from seacrane.description.channels import CHANNELS, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs import sole_writer
-from seacrane.inputs.state import state_from_bytes
-from seacrane.result.about import About, parted
-from seacrane.result.events import Event
-from seacrane.result.kept_scene import KeptScene
+from seacrane.result.about import About, Event, parted
 
 Array = NDArray[np.float64]
 MAGIC = b"seacrane partial result\n"
@@ -38,16 +35,13 @@ DIGEST = hashlib.sha256().digest_size
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Piece:
-    """Outputs of a run from one moment to another.
+    """Outputs of a run from one moment to another, or all of them, as files hold them.
 
     Attributes
     ----------
-    arrays : mapping of str to ndarray
-        "time" and the channels.
-    coords : mapping of str to sequence of str
-        As `Result.coords`.
-    stats : As `Result.stats`, of all of the run until here.
-    about : As `Result.about`.
+    arrays : "time" and the channels.
+    coords, about : As of `Result`.
+    stats : Likewise, of all of the run until here.
     events : Of this piece.
     interrupted : False for the last piece of a run that reached its end.
     state : Where the piece ends, as a state file; empty where there is none.
@@ -160,8 +154,8 @@ def pieces_of(file: BinaryIO, name: str | Path) -> Iterator[tuple[Piece, int]]:
         file.seek(end)
 
 
-def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None) -> dict[str, Any]:
-    """What is in the file of a run in progress, as `netcdf.read_arrays` gives it."""
+def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None) -> Piece:
+    """What is in the file of a run in progress, as `result_file.read_netcdf` gives it."""
     parts: dict[str, list[Array]] = {}
     events: list[Event] = []
     last, state, scene, total = None, b"", b"", 0
@@ -181,17 +175,7 @@ def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None
     if last is None:
         raise FileFormatError(f"{path}: holds no outputs yet")
     arrays = {name: np.concatenate(several) for name, several in parts.items()}
-    return {
-        "time": arrays.pop("time"),
-        "arrays": arrays,
-        "coords": {dim: last.coords[dim] for dim in NAMED if dim in last.coords},
-        "events": events,
-        "stats": last.stats,
-        "about": last.about,
-        "interrupted": last.interrupted,
-        "state": state_from_bytes(state, path) if state else None,
-        "scene": KeptScene.from_text(scene, f"{path.name}: its scene") if scene else None,
-    }
+    return replace(last, arrays=arrays, events=events, state=state, scene=scene)
 
 
 class PartialFile:
@@ -203,15 +187,7 @@ class PartialFile:
         self._end = 0
 
     def claim(self) -> None:
-        """Open the file, made if absent, for this writer alone.
-
-        Raises
-        ------
-        FileExistsError
-            If another writer has it.
-        OSError
-            If it cannot be made.
-        """
+        """Open the file, made if absent, for this writer alone; FileExistsError if another one has it."""
         while self._number < 0:
             self._number = sole_writer.opened(self.path)
             if not sole_writer.claim(self._number):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from itertools import chain
 from pathlib import Path
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes, channel_of
+from seacrane.description.channels import CHANNELS, FIXED, attributes, channel_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.description.places import POSE, on_body, position_of
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
@@ -21,24 +21,26 @@ from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.keywords import named
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
 from seacrane.inputs.shown import shown
-from seacrane.inputs.state import state_to_bytes
+from seacrane.inputs.state import state_from_bytes, state_to_bytes
 from seacrane.plotting.panel import draw
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result.about import (
+    NOT_KEPT,
     About,
-    StageSpan,
+    Event,
+    KeptScene,
     checked_array,
+    checked_events,
     checked_names,
     checked_stats,
     checked_time,
+    event_arrays,
 )
-from seacrane.result.events import TEXTS as EVENT_TEXTS
-from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.history import axes_note, history_sheet
-from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.partial_file import Piece, is_partial, partial_path, read_partial
-from seacrane.result.result_file import read_arrays, write_netcdf
-from seacrane.result.traces import Record, as_arrays, curves_of, inside, parted
+from seacrane.result.record import Record, dims_of
+from seacrane.result.result_file import read_netcdf, write_netcdf
+from seacrane.result.traces import as_arrays, parted
 from seacrane.result.utilisation import Utilisation, utilisation_of
 
 if TYPE_CHECKING:
@@ -53,13 +55,9 @@ Array = NDArray[np.float64]
 LARGEST_RESULT = 4 * 2**30  # bytes
 
 
-def _dims(channels: Mapping[str, ArrayLike]) -> dict[str, tuple[str, ...]]:
-    return {name: CHANNELS[channel_of(name)].dims_of(np.ndim(array)) for name, array in channels.items()}
-
-
 @named
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Result(Record, Mapping[str, Array], Answer):
+class Result(Record, Answer):
     """What one run recorded, a mapping of its channels by name.
 
     Build it with `Result.from_arrays`, or read it with `Result.load`.
@@ -95,11 +93,6 @@ class Result(Record, Mapping[str, Array], Answer):
     state: State | None = None
     kept_scene: KeptScene | None = None
 
-    def __post_init__(self) -> None:
-        for name in ("channels", "coords", "stats", "extremes"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
-        object.__setattr__(self, "dims", MappingProxyType(_dims(self.channels)))
-
     def __repr__(self) -> str:
         stopped = ", interrupted" if self.interrupted else ""
         return (
@@ -111,7 +104,11 @@ class Result(Record, Mapping[str, Array], Answer):
         """The channels that were recorded, with the smallest and the largest value of each."""
         names = list(self.channels)
         along = [", ".join(f"{dim} {len(self.coords[dim])}" for dim in self.dims[n][1:]) for n in names]
-        ends = np.array([self._ends(name) for name in names]).reshape(-1, 2)
+        ends = np.full((len(names), 2), np.nan)
+        for i, name in enumerate(names):
+            values = np.stack(self.extremes.get(name, (self[name], self[name])))
+            finite = values[np.isfinite(values)]
+            ends[i] = (finite.min(), finite.max()) if finite.size else np.nan
         method = f"{self.stats['formulation']}, {self.stats['integrator']}"
         return Table(
             axes=[Column(name="channel", values=names)],
@@ -122,12 +119,6 @@ class Result(Record, Mapping[str, Array], Answer):
             ],
             title=f"{repr(self)[1:-1]}; {method}, {len(self.events)} events",
         )  # fmt: skip
-
-    def _ends(self, name: str) -> tuple[float, float]:
-        """The extremes of what is finite."""
-        values = np.stack(self.extremes.get(name, (self.channels[name],) * 2))
-        finite = values[np.isfinite(values)]
-        return (float(finite.min()), float(finite.max())) if finite.size else (np.nan, np.nan)
 
     def __reduce__(self) -> tuple[Any, ...]:  # read-only mapping views cannot be pickled themselves
         parts = {one.name: getattr(self, one.name) for one in fields(self) if one.init}
@@ -163,8 +154,8 @@ class Result(Record, Mapping[str, Array], Answer):
         ----------
         arrays : mapping of str to array_like
             Channels by the names of `CHANNELS`, and their `extremes` as "hook_load_least" and
-            "hook_load_largest". Arrays of float64 are taken over without a copy and
-            made read-only; the caller must not write to them through another view.
+            "hook_load_largest". Arrays of float64 are taken over without a copy and made read-only; the
+            caller must not write to them through another view.
         coords : mapping of str to sequence of str
             Names along the dimensions that a scene names, such as `body` and `joint`, in the order of the
             arrays.
@@ -189,7 +180,7 @@ class Result(Record, Mapping[str, Array], Answer):
         for name in arrays:
             if channel_of(name) not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
-        all_dims = _dims(arrays)
+        all_dims = dims_of(arrays)
         used = dict.fromkeys(dim for dims in all_dims.values() for dim in dims[1:])
         given = {dim: checked_names(dim, coords[dim]) for dim in used if dim in coords}
         names = given | dict(FIXED)
@@ -203,161 +194,16 @@ class Result(Record, Mapping[str, Array], Answer):
             time=times, channels=channels, extremes=extremes, coords={dim: names[dim] for dim in used},
             stats=checked_stats(stats), about=about, interrupted=bool(interrupted),
             events=checked_events(events), state=state,
-            kept_scene=scene if scene is None or isinstance(scene, KeptScene) else KeptScene.of(scene),
+            kept_scene=scene if scene is None or isinstance(scene, KeptScene) else KeptScene(scene),
         )  # fmt: skip
-
-    def __getitem__(self, name: str) -> Array:
-        """The channel of that name; the error lists what was recorded."""
-        try:
-            return self.channels[name]
-        except KeyError:
-            known = ", ".join(self.channels) or "nothing"
-            raise KeyError(f"no channel {name!r} in this result; it holds {known}") from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.channels)
-
-    def __len__(self) -> int:
-        """The number of channels."""
-        return len(self.channels)
-
-    __eq__ = object.__eq__  # two results are the same only if they are one: a mapping would compare arrays
-    __hash__ = object.__hash__
-
-    def __bool__(self) -> bool:
-        """True also without channels: a result is there."""
-        return True
 
     @property
     def arrays(self) -> dict[str, Array]:
         """Channels and `extremes` by the names that files give them."""
         return {**self.channels, **as_arrays(self.extremes)}
 
-    @property
-    def settings(self) -> Mapping[str, Any]:
-        """The settings of the run by the words of `simulate`, with what is known of its vessels and sea."""
-        return self.about.settings
-
-    @property
-    def stages(self) -> tuple[StageSpan, ...]:
-        """When each stage began and ended, and what ended it; none: it was one run."""
-        return self.about.stages
-
-    def stage(self, name: str) -> slice:
-        """The outputs of a stage, to index time and channels: after its start and up to its end.
-
-        Those of the first stage include its start. Raises ValueError for a stage that was not run.
-        """
-        for place, span in enumerate(self.stages):
-            if span.name == name:
-                after, upto = np.searchsorted(self.time, [span.start, span.end], side="right")
-                return slice(0 if place == 0 else int(after), int(upto))
-        known = ", ".join(span.name for span in self.stages) or "none"
-        raise ValueError(f"no stage {name!r} in this result; choose from {known}")
-
-    def part(self, *, after: float | None = None, stage: str | None = None) -> slice:
-        """The outputs from a time (s) on, or those of a stage, or both, to index time and channels."""
-        whole = slice(0, self.time.size) if stage is None else self.stage(stage)
-        first = 0 if after is None else int(np.searchsorted(self.time, after))
-        return slice(max(first, whole.start), max(first, whole.stop))
-
-    def select(self, channel: str | Pick, /, **names: str) -> Array:
-        """A channel at named coordinates, as a read-only view.
-
-        Parameters
-        ----------
-        channel : str or Pick
-            Channel name, or a short text with names in brackets, such as ``"position[load, z]"`` or "roll".
-        **names : str
-            One name per dimension to pick, for instance ``body="payload", axis="z"``.
-
-        Returns
-        -------
-        ndarray
-            The channel without the picked dimensions; unit as in `CHANNELS`.
-
-        Raises
-        ------
-        KeyError
-            If the channel was not recorded.
-        ValueError
-            For a dimension the channel has not, or a name it does not hold; for a text that says from when
-            on, which is for `to_dataframe`.
-        """
-        if isinstance(channel, Pick) or channel in MOTIONS or channel not in self.channels:
-            pick = self._picked(channel, names)
-            if pick.parts:
-                raise SceneError(f"select {channel!s}: a view has all outputs; index it by time")
-            channel, names = pick.channel, dict(pick.names)
-        picked: Array = self[channel][self._index(channel, names)]
-        return picked
-
-    def _index(self, channel: str, names: Mapping[str, str]) -> tuple[Any, ...]:
-        """The place of names in the array of a channel."""
-        dims = self.dims[channel]
-        for dim in names:
-            if dim not in dims[1:]:
-                raise ValueError(f"channel {channel!r} has dimensions {dims}, not {dim!r}")
-        index: list[Any] = [slice(None)] * len(dims)
-        for dim, name in names.items():
-            if name not in self.coords[dim]:
-                raise ValueError(
-                    f"no {dim} {name!r} in this result; choose from {', '.join(self.coords[dim])}"
-                )
-            index[dims.index(dim)] = self.coords[dim].index(name)
-        return tuple(index)
-
-    def reached(
-        self, channel: str | Pick, /, *, part: slice | None = None, **names: str
-    ) -> tuple[Array, Array]:
-        """Least and largest values of a channel at named coordinates since the output before.
-
-        They come from the steps of the run, also between outputs, where it kept them: of what
-        docs/channels.md lists, of others they are the values of the outputs.
-
-        Parameters
-        ----------
-        channel, **names
-            As of `select`.
-        part : slice, optional
-            Of the outputs, as `part` and `stage` give it; default: all.
-
-        Raises
-        ------
-        KeyError, ValueError
-            As `select`.
-        """
-        pick = self._picked(channel, names)
-        values = self.select(pick.channel, **pick.names)
-        whole = slice(0, self.time.size) if part is None else part
-        if pick.channel not in self.extremes:
-            return values[whole], values[whole]
-        index = self._index(pick.channel, pick.names)
-        least, largest = (inside(self, whole, values, one[index]) for one in self.extremes[pick.channel])
-        return least, largest
-
-    def curve(self, channel: str | Pick, /, **names: str) -> Array:
-        """One curve, shape (n,): as `select`, where dimensions with a single name need none.
-
-        Raises
-        ------
-        SceneError
-            If the channel was not recorded, for names that are not there, or where several curves are left.
-        """
-        try:
-            pick = self._picked(channel, names)
-            values = self.select(pick.channel, **pick.names)
-        except (KeyError, ValueError) as error:
-            raise SceneError(str(error.args[0])) from error
-        left = [dim for dim in self.dims[pick.channel][1:] if dim not in pick.names]
-        several = {dim: self.coords[dim] for dim in left if len(self.coords[dim]) > 1}
-        if several:
-            listed = "; ".join(f"{dim}: one of {', '.join(known)}" for dim, known in several.items())
-            raise SceneError(f"channel {pick.channel!r} holds several curves; give {listed}")
-        return values.reshape(self.time.size)
-
     def place_of(self, body: str, point: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
-        """Where a point of a body, or of the ground, was at every output.
+        """Where a point of a body, or of the ground, was at every output, (n, 3), inertial frame, m.
 
         Parameters
         ----------
@@ -365,11 +211,6 @@ class Result(Record, Mapping[str, Array], Answer):
             Or the name of a point, such as "tip", as `Scene.place_of` takes it.
         point : array_like, shape (3,)
             Coordinates of the body, m; default: its origin.
-
-        Returns
-        -------
-        ndarray, shape (n, 3)
-            Inertial frame, m.
 
         Raises
         ------
@@ -385,15 +226,10 @@ class Result(Record, Mapping[str, Array], Answer):
             raise SceneError(f"{what}: this result has no scene; ask that of the run, or its file")
         return position_of(scene, self.channels, *on_body(scene, "place_of", body, point))
 
-    def _picked(self, channel: str | Pick, names: Mapping[str, str]) -> Pick:
-        """A selector as a value; KeyError for a plain name that is no channel."""
-        if isinstance(channel, str) and "[" not in channel and channel not in MOTIONS:
-            self[channel]
-        return pick_of("select", channel, names)
-
     def plot(self, *channels: str | Pick, **names: str) -> Figure:
         """Draw channels over time, a panel for each channel and unit, with events and extremes marked.
 
+        ``savefig(path)`` of the figure writes it; a notebook shows it.
         `seacrane.plot_overview` draws what a run recorded, and more functions of that kind one thing each.
 
         Parameters
@@ -402,11 +238,6 @@ class Result(Record, Mapping[str, Array], Answer):
             As `select` takes them, such as "hook_load", "roll" or ``"position[load, z]"``.
         **names : str
             Pick one along a dimension, such as ``body="payload"``.
-
-        Returns
-        -------
-        matplotlib.figure.Figure
-            ``savefig(path)`` writes it; a notebook shows it.
 
         Raises
         ------
@@ -437,19 +268,6 @@ class Result(Record, Mapping[str, Array], Answer):
         """
         return self._curves(channels).to_dataframe()
 
-    def _curves(self, channels: Sequence[str | Pick]) -> Table:
-        picks = [self._picked(channel, {}) for channel in channels or self.channels]
-        for pick in picks:
-            self.select(pick.channel, **pick.names)  # which refuses what is not there
-        parts = {(pick.after, pick.stage) for pick in picks}
-        if len(parts) > 1:
-            raise SceneError(
-                "table: its columns are of one part of the run; give all the same after= and stage="
-            )
-        (after, stage) = next(iter(parts), (None, None))
-        part = self.part(after=after, stage=stage)
-        return curves_of(self, picks, part)
-
     def to_csv(self, path: str | os.PathLike[str], *channels: str | Pick) -> Path:
         """Write curves as comma-separated values: a line for each output, time first, SI.
 
@@ -459,11 +277,6 @@ class Result(Record, Mapping[str, Array], Answer):
             Its folder must exist. An older file of that name is replaced, complete or not at all.
         *channels : str or Pick
             As of `to_dataframe`.
-
-        Returns
-        -------
-        Path
-            The file written.
 
         Raises
         ------
@@ -486,35 +299,24 @@ class Result(Record, Mapping[str, Array], Answer):
         }
         if self.events:
             for name, array in event_arrays(self.events).items():
-                text = name.removeprefix("event_") in EVENT_TEXTS
-                variables[name] = (("event",), array.astype(str) if text else array, {})
+                variables[name] = (("event",), array.astype(str) if array.dtype == object else array, {})
         coords: dict[str, Any] = {"time": ("time", self.time.copy(), attributes("time"))}
         coords.update({dim: list(names) for dim, names in self.coords.items()})
         if self.stages:
-            coords["stage"] = ("time", self._stage_names())
+            names = np.full(self.time.size, self.stages[0].name, dtype=object)
+            for span in self.stages:
+                names[self.stage(span.name)] = span.name
+            coords["stage"] = ("time", list(names))
         told = {**self.about.to_attributes(), "interrupted": int(self.interrupted)}
         return xarray.Dataset(variables, coords, {**self.stats, **told})
 
-    def _stage_names(self) -> list[str]:
-        """The stage of each output."""
-        names = [self.stages[0].name] * self.time.size
-        for span in self.stages:
-            part = self.stage(span.name)
-            names[part] = [span.name] * (part.stop - part.start)
-        return names
-
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the result as NetCDF4: complete under its name, or not at all.
+        """Write the result as NetCDF4.
 
         Parameters
         ----------
         path : path
-            Target file; its folder must exist. An older file of that name is replaced.
-
-        Returns
-        -------
-        Path
-            The file written.
+            Its folder must exist. An older file of that name is replaced, complete or not at all.
 
         Raises
         ------
@@ -546,7 +348,7 @@ class Result(Record, Mapping[str, Array], Answer):
         channels: Sequence[str] | None = None,
         largest: int = LARGEST_RESULT,
     ) -> Result:
-        """Read a result that `save` or `simulate` wrote.
+        """Read a result that `save` or `simulate` wrote: the same arrays, bit for bit.
 
         Parameters
         ----------
@@ -557,11 +359,6 @@ class Result(Record, Mapping[str, Array], Answer):
         largest : int
             Bytes that its arrays may take in memory, 4 GiB by default: what a file says that it holds is
             looked at before any of it is read.
-
-        Returns
-        -------
-        Result
-            With the same arrays, bit for bit.
 
         Raises
         ------
@@ -578,8 +375,14 @@ class Result(Record, Mapping[str, Array], Answer):
                 + (f"; its run has left {started} so far" if started.is_file() else "")
             )
         try:
-            read = read_partial if is_partial(path) else read_arrays
-            return cls.from_arrays(**read(path, largest, channels))
+            piece = (read_partial if is_partial(path) else read_netcdf)(path, largest, channels)
+            arrays = dict(piece.arrays)
+            return cls.from_arrays(
+                time=arrays.pop("time"), arrays=arrays, coords=piece.coords, events=piece.events,
+                stats=piece.stats, about=piece.about, interrupted=piece.interrupted,
+                state=state_from_bytes(piece.state, path) if piece.state else None,
+                scene=KeptScene(None, piece.scene, f"{path.name}: its scene") if piece.scene else None,
+            )  # fmt: skip
         except NETCDF_ERRORS as error:
             if isinstance(error, SeacraneError):
                 raise

@@ -9,20 +9,23 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.description.channels import NAMED, attributes, channel_of
+from seacrane.description.channels import attributes, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs.netcdf_limits import open_netcdf
-from seacrane.inputs.state import state_from_bytes
-from seacrane.result.about import parted
-from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
-from seacrane.result.kept_scene import KeptScene
+from seacrane.result.about import NUMBERS, PREFIX, event_arrays, events_from_arrays, parted, plain_stats
 from seacrane.result.partial_file import Piece
 from seacrane.scene.file import LARGEST_FILE
 
 STATE, STATE_DIMENSION = "state", "state_byte"
 SCENE, SCENE_DIMENSION = "scene_json", "scene_byte"
-LARGEST_CHUNKS = 2**21  # bytes of one chunk of all channels
+LARGEST_PIECE = 2**21  # bytes of one chunk of all channels
 MOST_ROWS, LEAST_ROWS = 4096, 16
+EVERY = slice(None)
+
+
+def rows_of_piece(width: int) -> int:
+    """Outputs of so many numbers that are written at once."""
+    return max(LEAST_ROWS, min(MOST_ROWS, LARGEST_PIECE // (8 * max(width, 1))))
 
 
 def _shape(told: Piece, dims: Sequence[str]) -> tuple[int, ...]:
@@ -33,7 +36,7 @@ def _shape(told: Piece, dims: Sequence[str]) -> tuple[int, ...]:
 def rows_of_chunk(told: Piece, outputs: int) -> int:
     """Outputs that a chunk of a file with so many holds."""
     width = 1 + sum(math.prod(_shape(told, dims)) for dims in told.dims.values())
-    return min(max(LEAST_ROWS, min(MOST_ROWS, LARGEST_CHUNKS // (8 * width))), outputs)
+    return min(rows_of_piece(width), outputs)
 
 
 def write_netcdf(path: Path, told: Piece, blocks: Iterable[Mapping[str, Any]], outputs: int) -> None:
@@ -61,7 +64,11 @@ def write_netcdf(path: Path, told: Piece, blocks: Iterable[Mapping[str, Any]], o
                 file[name][at : at + count] = block[name]
             at += count
         if told.events:
-            _add_events(file, told.events)
+            file.createDimension("event", len(told.events))
+            for name, array in event_arrays(told.events).items():
+                file.createVariable(name, str if array.dtype == object else "f8", ("event",))[:] = array
+            for key, (unit, long_name) in NUMBERS.items():
+                file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
         if told.state:
             file.createDimension(STATE_DIMENSION, len(told.state))
             file.createVariable(STATE, "u1", (STATE_DIMENSION,))[:] = np.frombuffer(told.state, "u1")
@@ -81,19 +88,10 @@ def _add_variable(file: Any, name: str, dims: tuple[str, ...], chunks: tuple[int
     variable.setncatts(attributes(name))
 
 
-def _add_events(file: Any, events: Sequence[Event]) -> None:
-    file.createDimension("event", len(events))
-    for name, array in event_arrays(events).items():
-        file.createVariable(name, str if array.dtype == object else "f8", ("event",))[:] = array
-    for key, (unit, long_name) in NUMBERS.items():
-        file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
-
-
-def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None) -> dict[str, Any]:
-    """What is in a result's file, or those channels of it, as the arguments of `Result.from_arrays`.
-
-    FileFormatError beyond `largest` bytes.
-    """
+def read_netcdf(
+    path: Path, largest: int, channels: Sequence[str] | None = None, rows: slice = EVERY
+) -> Piece:
+    """What is in a result's file, of channels and outputs those; FileFormatError beyond `largest` bytes."""
     fix = "raise it with Result.load(path, largest=...) if the file is yours"
     with open_netcdf(path, largest, fix) as file:
         if "time" not in file.variables:
@@ -103,27 +101,25 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
             name: one for name, one in file.variables.items() if name not in (*file.dimensions, STATE, SCENE)
         }
         told = {name: one[:] for name, one in held.items() if "event" in one.dimensions}
-        return {
-            "time": np.asarray(file["time"][:]),
-            "arrays": {
-                name: variable[:]
-                for name, variable in held.items()
-                if name not in told and (channels is None or channel_of(name) in channels)
-            },
-            "coords": {dim: [str(name) for name in file[dim][:]] for dim in NAMED if dim in file.variables},
-            "events": events_from_arrays(told) if "event" in file.dimensions else (),
-            "interrupted": bool(stats.pop("interrupted", 0)),
-            "stats": stats,
-            "about": about,
-            "state": state_from_bytes(file[STATE][:].tobytes(), path) if STATE in file.variables else None,
-            "scene": _scene(path, file),
+        taken = {
+            name: one
+            for name, one in held.items()
+            if name not in told and (channels is None or channel_of(name) in channels)
         }
+        dims = dict.fromkeys(dim for one in taken.values() for dim in one.dimensions[1:])
+        interrupted = bool(stats.pop("interrupted", 0))
+        return Piece(
+            arrays={name: np.asarray(one[rows]) for name, one in {"time": file["time"], **taken}.items()},
+            coords={dim: [str(name) for name in file[dim][:]] for dim in dims if dim in file.variables},
+            stats=plain_stats(stats), about=about, interrupted=interrupted,
+            events=events_from_arrays(told) if "event" in file.dimensions else (),
+            state=file[STATE][:].tobytes() if STATE in file.variables else b"", scene=_scene(path, file),
+        )  # fmt: skip
 
 
-def _scene(path: Path, file: Any) -> KeptScene | None:
-    """The text, unread."""
+def _scene(path: Path, file: Any) -> bytes:
     if SCENE not in file.variables:
-        return None
+        return b""
     variable = file[SCENE]
     if variable.dtype != np.uint8:
         raise FileFormatError(
@@ -131,5 +127,4 @@ def _scene(path: Path, file: Any) -> KeptScene | None:
         )
     if variable.size > LARGEST_FILE:
         raise FileFormatError(f"{path}: its {SCENE} has {variable.size} bytes, above {LARGEST_FILE}")
-    data = variable[:]
-    return KeptScene.from_text(data.tobytes(), f"{path.name}: its scene")
+    return bytes(variable[:].tobytes())

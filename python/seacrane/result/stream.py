@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,29 +13,20 @@ from numpy.typing import NDArray
 from seacrane.description.channels import CHANNELS, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs.atomic import atomic_write, require_replaceable, space_left
-from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.inputs.state import state_to_bytes
-from seacrane.result.about import About, parted
-from seacrane.result.events import Event
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
+from seacrane.inputs.state import state_from_bytes
+from seacrane.result.about import Event, added_stats, checked_time
 from seacrane.result.partial_file import PartialFile, Piece, partial_path
-from seacrane.result.result import Result
-from seacrane.result.result_file import rows_of_chunk, write_netcdf
+from seacrane.result.result_file import read_netcdf, rows_of_chunk, rows_of_piece, write_netcdf
 
 Array = NDArray[np.float64]
-LARGEST_PIECE = 2**21  # bytes
 LARGEST = 2**50  # bytes: a file without end is read piece by piece
-MOST_ROWS, LEAST_ROWS = 4096, 16
-COUNTERS = ("wall_s", "evaluations", "steps", "rejected_steps", "jacobians",
-            "newton_iterations", "projections", "restarts", "dense_solves")  # fmt: skip
+NO_OUTPUTS = slice(0, 0)
 ANOTHER_SCENE = "is of another scene"
+NO_STATE = "holds no state to go on from: overwrite=True starts the run anew"
 DIGEST = "scene_digest"  # of a scene's description, among the stats of a result
 METHOD = (DIGEST, "formulation", "integrator")
 SETTINGS = ("dt_out", "rtol", "dt", "maximum_step", "spectral_radius", "energy_limit", "baumgarte")
-
-
-def rows_of_piece(width: int) -> int:
-    """Outputs of so many numbers that are written at once."""
-    return max(LEAST_ROWS, min(MOST_ROWS, LARGEST_PIECE // (8 * max(width, 1))))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,10 +36,9 @@ class Left:
     Attributes
     ----------
     source : Where it is.
-    piece : The last outputs, and the state where they end.
+    piece : The last outputs, or none, all events, and the state where they end.
     first : Time of the first output, s.
     outputs : All outputs until the state.
-    events : All events until the state.
     end : Where the piece ends in a partial file; 0 where it is of a result's file.
     """
 
@@ -57,7 +46,6 @@ class Left:
     piece: Piece = field(repr=False)
     first: float
     outputs: int
-    events: int
     end: int
 
 
@@ -65,22 +53,21 @@ class ResultFile:
     """A result on disk to which outputs are added.
 
     They are in the file of `partial_path` until `finish` makes the result's own.
+
+    Attributes
+    ----------
+    outputs : How many there are.
+    told : All but the outputs, as the last piece has it.
     """
 
     def __init__(self, path: Path) -> None:
-        self.path = path
-        self.outputs = 0
-        self.scene = b""  # what is run, as a scene file
-        self.stats: dict[str, Any] = {}
-        self.about = About()
+        self.path, self.outputs = path, 0
+        self.told = Piece(arrays={}, coords={}, stats={})
         self._partial = PartialFile(partial_path(path))
-        self._source: Path | None = None
-        self._nothing: Mapping[str, Array] = {}
-        self._coords: Mapping[str, Sequence[str]] = {}
+        self._goes_on = self._begun = False
         self._last_time = -np.inf
         self._last_angles: dict[str, Array] = {}
         self._events = self._events_of_run = 0
-        self._begun = False
         self._before: Mapping[str, Any] = {}
 
     def claim(self) -> None:
@@ -119,7 +106,7 @@ class ResultFile:
         if not self.path.exists():
             return
         try:
-            old = _told(self.path)
+            old = read_netcdf(self.path, LARGEST, rows=NO_OUTPUTS)
             reason = unlike or difference(old, new)
             ends = [some.about.settings["t_end"] for some in (old, new)]
             if not reason and ends[0] > ends[1]:
@@ -143,113 +130,86 @@ class ResultFile:
             If there is no state, or the files are damaged.
         """
         found: Left | None = None
-        outputs = events = 0
         first: float | None = None
+        outputs, events = 0, list[Event]()
         for piece, end in self._partial.pieces():
             first = float(piece.arrays["time"][0]) if first is None else first
-            outputs, events = outputs + piece.outputs, events + len(piece.events)
+            outputs += piece.outputs
+            events += piece.events
             if piece.state:
-                found = Left(source=self._partial.path, piece=piece, first=first, outputs=outputs,
-                             events=events, end=end)  # fmt: skip
+                whole = replace(piece, events=tuple(events))
+                found = Left(source=self._partial.path, piece=whole, first=first, outputs=outputs, end=end)
         if found is not None:
             return found
-        if not self.path.is_file():
-            if first is not None:
-                raise FileFormatError(
-                    f"{self._partial.path} holds no state to go on from: overwrite=True starts the run anew"
-                )
-            raise FileNotFoundError(f"no result file {self.path} to go on with")
-        return self._left_in_result()
+        if self.path.is_file():
+            return self._left_in_result()
+        if first is not None:
+            raise FileFormatError(f"{self._partial.path} {NO_STATE}")
+        raise FileNotFoundError(f"no result file {self.path} to go on with")
 
     def _left_in_result(self) -> Left:
         try:
-            told = _told(self.path)
-            result = Result.load(self.path, channels=[], largest=LARGEST)
+            told = read_netcdf(self.path, LARGEST, rows=NO_OUTPUTS)
+            times = checked_time(read_netcdf(self.path, LARGEST, channels=()).arrays["time"])
+            until = state_from_bytes(told.state, self.path).time if told.state else np.nan
             if DIGEST not in told.stats:
                 raise ValueError("it does not tell its scene")
         except NETCDF_ERRORS as error:
             raise FileFormatError(f"{self.path} is not a result that a run left: {error}") from error
-        if result.state is None:
-            raise FileFormatError(
-                f"{self.path} holds no state to go on from: overwrite=True starts the run anew"
-            )
-        until = result.state.time
-        piece = dataclasses.replace(
-            told, events=[event for event in result.events if event.time <= until],
-            state=state_to_bytes(result.state),
+        if not told.state:
+            raise FileFormatError(f"{self.path} {NO_STATE}")
+        events = [event for event in told.events if event.time <= until]
+        return Left(
+            source=self.path, piece=replace(told, events=events, interrupted=True), first=float(times[0]),
+            outputs=int(np.searchsorted(times, until, "right")), end=0,
         )  # fmt: skip
-        return Left(source=self.path, piece=piece, first=float(result.time[0]),
-                    outputs=int(np.searchsorted(result.time, until, "right")),
-                    events=len(piece.events), end=0)  # fmt: skip
 
     def go_on(self, left: Left) -> None:
         """Add to what a run left from now on."""
+        self._partial.keep_until(left.end)
         if left.end:
-            self._partial.keep_until(left.end)
             self._count(left.piece)
         else:
             self._copy_result(left)
-            self._source = left.source
-        self._coords, self._before = left.piece.coords, left.piece.stats
-        self.outputs, self._events = left.outputs, left.events
-        self._begun = True
+        self._goes_on = not left.end
+        self._before, self._begun = left.piece.stats, True
+        self.outputs, self._events = left.outputs, len(left.piece.events)
 
     def _copy_result(self, left: Left) -> None:
         """A state is with the last piece alone: until it is there, the result is where to continue."""
-        self._partial.keep_until(0)
-        with open_netcdf(left.source, LARGEST) as file:
-            names = list(left.piece.arrays)
-            rows = rows_of_piece(sum(int(np.prod(file[name].shape[1:])) for name in names))
-            for at in range(0, left.outputs, rows):
-                last = at + rows >= left.outputs
-                piece = dataclasses.replace(
-                    left.piece,
-                    arrays={name: file[name][at : min(at + rows, left.outputs)] for name in names},
-                    events=left.piece.events if last else (),
-                    state=left.piece.state if last else b"",
-                    scene=self.scene if at == 0 else b"",
-                )
-                self._partial.append(piece)
-                self._count(piece)
+        rows = rows_of_piece(sum(int(np.prod(one.shape[1:])) for one in left.piece.arrays.values()))
+        for at in range(0, left.outputs, rows):
+            until = min(at + rows, left.outputs)
+            arrays = read_netcdf(left.source, LARGEST, rows=slice(at, until)).arrays
+            piece = replace(left.piece, arrays=arrays, scene=left.piece.scene if at == 0 else b"")
+            if until < left.outputs:
+                piece = replace(piece, events=(), state=b"")
+            self._partial.append(piece)
+            self._count(piece)
 
-    def append(
-        self,
-        result: Result | None,
-        *,
-        stats: Mapping[str, Any],
-        about: About,
-        events: Sequence[Event],
-        state: bytes,
-        interrupted: bool,
-    ) -> None:
-        """Add the outputs of a result that are not there yet, and the state where they end.
+    def append(self, piece: Piece) -> None:
+        """Add what is not there yet of outputs and events of the run, and the state where they end.
 
         Parameters
         ----------
-        result : None: there are no new outputs.
-        stats, about, events
-            Of the run until now, as a result has them.
-        state : As `state_to_bytes` gives it.
-        interrupted : False at the end of the run.
+        piece : With the stats and events of the run until now; without arrays: there are no new outputs.
 
         Raises OSError if the disk has no room for them; the files then are as they were before.
         """
-        if result is not None:
-            new = slice(int(np.searchsorted(result.time, self._last_time, "right")), None)
-            arrays = {name: array[new] for name, array in {"time": result.time, **result.arrays}.items()}
-            self._coords = result.coords
-        else:
-            arrays = dict(self._nothing)
-        for name, array in arrays.items():
-            if name in self._last_angles and array.size:
-                arrays[name] = _continued(array, self._last_angles[name])
-        new_events = events[self._events_of_run :]
-        stats = self._stats(stats, self._events + len(new_events))
-        scene = b"" if self._begun else self.scene
-        piece = Piece(arrays=arrays, coords=self._coords, stats=stats, about=about, events=new_events,
-                      interrupted=interrupted, state=state, scene=scene)  # fmt: skip
+        if not piece.arrays:
+            piece = replace(piece, arrays=self.told.arrays, coords=self.told.coords)
+        new = int(np.searchsorted(piece.arrays["time"], self._last_time, "right"))
+        arrays = {name: array[new:] for name, array in piece.arrays.items()}
+        for name, last in self._last_angles.items():
+            if name in arrays and arrays[name].size:
+                arrays[name] = _continued(arrays[name], last)
+        events, stats = piece.events[self._events_of_run :], added_stats(self._before, piece.stats)
+        if "events" in stats:
+            stats["events"] = self._events + len(events)
+        scene = b"" if self._begun else piece.scene
+        own = replace(piece, arrays=arrays, events=events, stats=stats, scene=scene)
         try:
-            self._partial.append(piece)
+            self._partial.append(own)
         except OSError as error:
             kept = (
                 f"the outputs until {self._last_time:.6g} s are kept in {self._partial.path}"
@@ -258,9 +218,8 @@ class ResultFile:
             )
             why = f"{error.strerror or error}{space_left(self.path.parent)}"
             raise OSError(f"could not write {self.path}: {why}; {kept}") from error
-        self._count(piece)
-        self._begun = True
-        self._events_of_run = len(events)
+        self._count(own)
+        self._begun, self._events_of_run = True, len(piece.events)
 
     def _count(self, piece: Piece) -> None:
         if piece.outputs:
@@ -270,9 +229,9 @@ class ResultFile:
                 for name, array in piece.arrays.items()
                 if name in CHANNELS and CHANNELS[name].turns
             }
-        self._nothing = {name: array[:0] for name, array in piece.arrays.items()}
         self.outputs, self._events = self.outputs + piece.outputs, self._events + len(piece.events)
-        self.stats, self.about = dict(piece.stats), piece.about
+        nothing = {name: array[:0] for name, array in piece.arrays.items()}
+        self.told = replace(piece, arrays=nothing, events=(), state=b"", scene=b"")
 
     def finish(self, *, reached_end: bool) -> Path:
         """Make the result's file, and return where the outputs are.
@@ -281,7 +240,7 @@ class ResultFile:
 
         Raises OSError if there is no room; the partial file then holds everything.
         """
-        if not reached_end and self.path.exists() and self._source is None:
+        if not reached_end and self.path.exists() and not self._goes_on:
             return self._partial.path
         try:
             with atomic_write(self.path) as draft:
@@ -298,29 +257,13 @@ class ResultFile:
 
     def _write(self, draft: Path) -> None:
         events: list[Event] = []
-        outputs, last, state = 0, None, b""
+        state = scene = b""
         for piece, _ in self._partial.pieces():
-            outputs += piece.outputs
             events += piece.events
-            last, state = piece, piece.state or state
-        assert last is not None
-        told = dataclasses.replace(last, events=events, state=state, scene=self.scene)
-        blocks = _blocks((piece for piece, _ in self._partial.pieces()), rows_of_chunk(told, outputs))
-        write_netcdf(draft, told, blocks, outputs)
-
-    def _stats(self, stats: Mapping[str, Any], events: int) -> dict[str, Any]:
-        """The stats of all pieces of the run: counters and simulated time of the one before are added."""
-        out = dict(stats)
-        for name in ("simulated_s", *COUNTERS):
-            if name in self._before and name in stats:
-                out[name] = stats[name] + self._before[name]
-        for key in ("described", "validity"):
-            lines = [*self._before.get(key, "").splitlines(), *stats.get(key, "").splitlines()]
-            if lines:
-                out[key] = "\n".join(dict.fromkeys(lines))
-        if "events" in stats or "events" in self._before:
-            out["events"] = events
-        return out
+            state, scene = piece.state or state, piece.scene or scene
+        told = replace(self.told, events=events, state=state, scene=scene)
+        blocks = _blocks((piece for piece, _ in self._partial.pieces()), rows_of_chunk(told, self.outputs))
+        write_netcdf(draft, told, blocks, self.outputs)
 
 
 def _continued(angle: Array, last: Array) -> Array:
@@ -343,20 +286,6 @@ def difference(old: Piece, new: Piece) -> str:
         if there != here:
             return f"has {name} {there!r}, this run {here!r}"
     return ""
-
-
-def _told(path: Path) -> Piece:
-    """What a result's file tells, without outputs."""
-    with open_netcdf(path, LARGEST) as file:
-        attributes = {name: file.getncattr(name) for name in file.ncattrs() if name != "interrupted"}
-        stats, about = parted(path, attributes)
-        stats = {
-            name: value.item() if isinstance(value, np.generic) else value for name, value in stats.items()
-        }
-        names = [name for name, variable in file.variables.items() if variable.dimensions[:1] == ("time",)]
-        dims = {dim for name in names for dim in file[name].dimensions[1:]}
-        coords = {dim: [str(name) for name in file[dim][:]] for dim in sorted(dims)}
-        return Piece(arrays=dict.fromkeys(names, np.empty(0)), coords=coords, stats=stats, about=about)
 
 
 def _blocks(pieces: Iterator[Piece], rows: int) -> Iterator[dict[str, Array]]:

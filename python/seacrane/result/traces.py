@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import re
-from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.channels import CHANNELS, LARGEST, LEAST, unit_of
-from seacrane.description.pick import Pick, column_name
+from seacrane.description.channels import LARGEST, LEAST, unit_of
+from seacrane.description.pick import Pick
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of
-from seacrane.plotting.table import Column, Table
-from seacrane.result.about import About, Stat
-from seacrane.result.events import Event
+from seacrane.result.record import Extremes, Record
 
 Array = NDArray[np.float64]
 ROUNDING = 1e-9  # of the largest beside it: what is smaller is drawn by rounding alone
@@ -26,26 +23,6 @@ ANGLES = ("angle", "roll", "pitch", "yaw")  # coordinates that are angles
 PREFIXES = ((1e6, "M"), (1e3, "k"))
 LOADS = ("N", "N m", "J", "N or N m")
 FEWEST_DIGITS = 1e4  # N: below it loads stay as they are
-Extremes = Mapping[str, tuple[Array, Array]]  # least and largest values by channel
-
-
-@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Record(ABC):
-    """What curves are read from: the part of a `Result` that was recorded."""
-
-    time: Array
-    channels: Mapping[str, Array]
-    coords: Mapping[str, tuple[str, ...]]
-    stats: Mapping[str, Stat]
-    interrupted: bool = False
-    events: tuple[Event, ...] = ()
-    about: About = field(default_factory=About)
-    extremes: Extremes = field(default_factory=dict)
-    dims: Mapping[str, tuple[str, ...]] = field(init=False)
-
-    @abstractmethod
-    def select(self, channel: str | Pick, /, **names: str) -> Array:
-        """A channel at named coordinates; KeyError or ValueError for what is not there."""
 
 
 class Bounded:
@@ -105,41 +82,31 @@ def traces(result: Record, channel: str, **names: str) -> list[Trace]:
     Raises KeyError or ValueError as `Result.select`.
     """
     result.select(channel, **names)  # which refuses what is not there
-    pick, array = Pick(channel=channel, names=names), result.channels[channel]
-    every = (array, *result.extremes.get(channel, (array, array)))
-    curves = [
-        (
-            (*names.values(), *(name for dim, name in named.items() if dim not in names)),
-            (values, least, largest),
-        )
-        for (named, values), (_, least), (_, largest) in zip(
-            *(pick.curves(one, result.dims[channel], result.coords) for one in every), strict=True
-        )
-    ]
-    units = [_unit(result, channel, named) for named, _ in curves]
+    pick, dims = Pick(channel=channel, names=names), result.dims[channel]
+    every = (result.channels[channel], *result.extremes.get(channel, ()))
+    by_unit: dict[str, list[Array]] = {}
+    curves = []
+    for several in zip(*(pick.curves(one, dims, result.coords) for one in every), strict=True):
+        labels = (*names.values(), *(name for dim, name in several[0][0].items() if dim not in names))
+        unit, own = _unit(result, channel, labels), [values for _, values in several]
+        curves.append((labels, unit, own))
+        by_unit.setdefault(unit, []).append(own[0])
+    shown = {unit: shown_unit(unit, same) for unit, same in by_unit.items()}
     found: list[Trace] = []
-    for (named, own), unit in zip(curves, units, strict=True):
-        same = [values for (_, (values, _, _)), one in zip(curves, units, strict=True) if one == unit]
-        factor, shown = shown_unit(unit, same)
-        values, least, largest = (np.asarray(factor * one) for one in own)
-        bounds = (least, largest) if channel in result.extremes else None
-        found.append(Trace(channel=channel, names=named, unit=shown, values=values, bounds=bounds))
+    for labels, unit, own in curves:
+        factor, told = shown[unit]
+        values, *bounds = (np.asarray(factor * one) for one in own)
+        reached = (bounds[0], bounds[1]) if bounds else None
+        found.append(Trace(channel=channel, names=labels, unit=told, values=values, bounds=reached))
     return found
 
 
 def _unit(result: Record, channel: str, names: tuple[str, ...]) -> str:
-    """The unit of one curve."""
-    if channel == "limit_force":
-        return _unit_of_limit(result, names[-1])
-    return unit_of(channel, names)
-
-
-def _unit_of_limit(result: Record, name: str) -> str:
-    """As the run noted its limits; stops of angles push with moments."""
-    for bound in result.about.bounds:
-        if name in (bound["name"], f"{bound['name']}.minimum", f"{bound['name']}.maximum"):
+    """The unit of one curve; stops of angles push with moments, as the run noted its limits."""
+    for bound in result.about.bounds if channel == "limit_force" else ():
+        if names[-1] in (bound["name"], f"{bound['name']}.minimum", f"{bound['name']}.maximum"):
             return "N m" if bound["kind"] == "stop" and bound["coordinate"] in ANGLES else "N"
-    return CHANNELS["limit_force"].unit
+    return unit_of(channel, names)
 
 
 def shown_unit(unit: str, curves: Iterable[Array]) -> tuple[float, str]:
@@ -170,18 +137,6 @@ def _size(one: Trace) -> float:
     return max(float(np.nanmax(np.abs(bound), initial=0.0)) for bound in (one.least, one.largest))
 
 
-def curves_of(result: Record, picks: Sequence[Pick], part: slice) -> Table:
-    """A column for each curve of each selector, by the times of a part."""
-    found: dict[str, Column] = {}
-    for pick in picks:
-        dims = result.dims[pick.channel]
-        for names, curve in pick.curves(result.channels[pick.channel], dims, result.coords):
-            name = column_name(pick.channel, list(names.values()))
-            unit = unit_of(pick.channel, names.values())
-            found[name] = Column(name=name, values=curve[part], unit=unit)
-    return Table(axes=[Column(name="time", values=result.time[part], unit="s")], columns=list(found.values()))
-
-
 def as_arrays(extremes: Extremes) -> dict[str, Array]:
     """As arrays with names of their own, which files hold beside the channels."""
     return {
@@ -199,32 +154,10 @@ def parted(arrays: Mapping[str, Array]) -> tuple[dict[str, Array], dict[str, tup
     return {name: array for name, array in arrays.items() if name not in own}, extremes
 
 
-def inside(result: Record, part: slice, values: Array, bound: Array) -> Array:
-    """Least or largest values (n,) of a part of the outputs, whose values are `values`.
-
-    What was before the first output of the part counts if the part begins at the output before it: at the
-    start of a stage.
-    """
-    out = bound[part]
-    if not len(out) or part.start == 0:
-        return out
-    before = float(result.time[part.start - 1])
-    if any(span.start == before for span in result.about.stages):
-        return out
-    return np.concatenate([values[part][:1], out[1:]])
-
-
 def heavy_line_tension(result: Record, *, line: str) -> Array:
     """Tension at both ends of a line with mass, of `Scene.add_line`.
 
     Extrapolated from the two segments next to each end, whose tension is that of their middle.
-
-    Parameters
-    ----------
-    result : Result
-        With the channel `line_tension`.
-    line : str
-        Its name.
 
     Returns
     -------

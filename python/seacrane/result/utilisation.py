@@ -13,7 +13,7 @@ from seacrane.description.limit_state import LimitState
 from seacrane.description.pick import Pick
 from seacrane.errors import FileFormatError
 from seacrane.plotting.table import Rows, Table, Verdict, read_as
-from seacrane.result.traces import Record
+from seacrane.result.record import Record
 
 Array = NDArray[np.float64]
 
@@ -98,23 +98,20 @@ def _utilised(state: LimitState, result: Record) -> Utilised:
     channel, where = state.channel, state.names
     known = (("maximum", state.maximum), ("minimum", state.minimum))
     bounds = [(key, float(value)) for key, value in known if value is not None]
-    if channel not in result.channels:
-        return Utilised(
-            name=state.name, channel=channel, curve="", unit=unit_of(channel, tuple(where.values())),
-            limit=bounds[0][1],
-            reached=math.nan, at=math.nan, utilisation=math.nan,
-        )  # fmt: skip
-    least, largest = result.extremes.get(channel, (result.channels[channel],) * 2)
-    pick, dims = Pick(channel=channel, names=where), result.dims[channel]
-    found = [
-        (*_worst(values, kind, bound), bound, [name for dim, name in names.items() if dim not in where])
-        for kind, bound in bounds
-        for names, values in pick.curves(largest if kind == "maximum" else least, dims, result.coords)
-    ]
-    used, at, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])
+    used, at, reached, bound, names = math.nan, math.nan, math.nan, bounds[0][1], list[str]()
+    if channel in result.channels:
+        least, largest = result.extremes.get(channel, (result.channels[channel],) * 2)
+        pick, dims = Pick(channel=channel, names=where), result.dims[channel]
+        found = [
+            (*_worst(values, kind, bound), bound, [name for dim, name in names.items() if dim not in where])
+            for kind, bound in bounds
+            for names, values in pick.curves(largest if kind == "maximum" else least, dims, result.coords)
+        ]
+        used, when, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])
+        at = float(result.time[when])
     return Utilised(
         name=state.name, channel=channel, curve=" ".join(names), limit=bound, reached=reached,
-        unit=unit_of(channel, (*where.values(), *names)), at=float(result.time[at]), utilisation=used,
+        unit=unit_of(channel, (*where.values(), *names)), at=at, utilisation=used,
     )  # fmt: skip
 
 

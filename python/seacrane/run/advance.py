@@ -62,7 +62,20 @@ def drive(
     """
     try:
         with _bar(run.start.time, run.t_end, progress) as report:
-            _advance(run, calls, interrupts, report, watch, halt)
+
+            def look(now: float) -> None:
+                watch(now)
+                report(now)
+                interrupts.take()
+
+            while True:
+                interrupts.take()
+                calls.call(run, interrupts)
+                stop = min(run.t_end, calls.next(run.core.time))
+                reached = run.advance(stop, look)
+                watch(run.core.time)
+                if not reached or stop >= run.t_end or (halt is not None and halt()):
+                    break
     except KeyboardInterrupt:  # between two pieces of the loop, or inside a controller
         run.interrupted = True
     except MemoryError as error:
@@ -88,29 +101,6 @@ def _bar(t_start: float, t_end: float, wanted: bool) -> Iterator[Look]:
 
     with tqdm(total=round(t_end - t_start, 3), unit="s", desc="simulated") as bar:
         yield lambda time: bar.update(round(time - t_start - bar.n, 3)) and None
-
-
-def _advance(
-    run: Run,
-    calls: Calls,
-    interrupts: Interrupts,
-    report: Look,
-    watch: Look,
-    halt: Callable[[], object] | None,
-) -> None:
-    def look(now: float) -> None:
-        watch(now)
-        report(now)
-        interrupts.take()
-
-    while True:
-        interrupts.take()
-        calls.call(run, interrupts)
-        stop = min(run.t_end, calls.next(run.core.time))
-        reached = run.advance(stop, look)
-        watch(run.core.time)
-        if not reached or stop >= run.t_end or (halt is not None and halt()):
-            return
 
 
 def _advise(run: Run, error: BaseException) -> None:

@@ -34,18 +34,14 @@ def carried(state: _core.State, old: _core.Model, new: _core.Model) -> _core.Sta
     for name, place in slots_of(new).items():
         if name in had:
             inputs[place] = state.inputs[had[name]]
-    return _core.State(
-        time=state.time, values=values, inputs=inputs, histories=state.histories,
-        closed=_closed(state, old, new, begun), parts=begun.parts,
-    )  # fmt: skip
-
-
-def _closed(state: _core.State, old: _core.Model, new: _core.Model, begun: _core.State) -> list[str]:
-    """Limits that hold: those that did, and new ones that do as they are described."""
     before = _core.initial_state(old).closed if state.closed is None else state.closed
-    known = {name for name, _ in old.limits}
-    there = {name for name, _ in new.limits}
-    return [*(n for n in before or () if n in there), *(n for n in begun.closed or () if n not in known)]
+    known, there = ({name for name, _ in model.limits} for model in (old, new))
+    closed = [name for name in before or () if name in there]  # those that held
+    closed += [name for name in begun.closed or () if name not in known]  # and new ones, as described
+    return _core.State(
+        time=state.time, values=values, inputs=inputs, histories=state.histories, closed=closed,
+        parts=begun.parts,
+    )  # fmt: skip
 
 
 def slots_of(model: _core.Model) -> dict[str, slice]:
@@ -64,19 +60,15 @@ def changed_inputs(scene: Scene, model: _core.Model, present: Array, values: Map
         old = slots[places[name]]
         if new.shape != old.shape or not np.isfinite(new).all():
             raise SceneError(f"input {name!r} is {value!r}; give {old.size} finite number(s)")
-        _check_turn(scene, name, float(new[0] - old[0]))
+        owner, _, kind = name.rpartition(".")
+        turns = kind == "reference" and scene.actuators[owner].coordinate in ANGLES
+        if turns and abs(jump := float(new[0] - old[0])) >= np.pi:  # it takes the turn that is nearest
+            raise SceneError(
+                f"input {name!r} jumps by {np.degrees(jump):.6g} deg, half a turn or more: it would turn the "
+                "short way; lead it there in smaller steps"
+            )
         slots[places[name]] = new
     return slots
-
-
-def _check_turn(scene: Scene, name: str, jump: float) -> None:
-    """An actuator takes the turn of an angle that is nearest to its reference."""
-    owner, _, kind = name.rpartition(".")
-    if kind == "reference" and scene.actuators[owner].coordinate in ANGLES and abs(jump) >= np.pi:
-        raise SceneError(
-            f"input {name!r} jumps by {np.degrees(jump):.6g} deg, half a turn or more: it would turn the "
-            "short way; lead it there in smaller steps"
-        )
 
 
 def steered(scene: Scene, model: _core.Model, inputs: Array) -> set[str]:

@@ -35,10 +35,6 @@ def redescribed(scene: Some, measured: Mapping[str, Array], state: _core.State) 
 
     Vessels stay as described, because their mean position and heading are; the others keep their places
     relative to the first vessel. Drivers begin at their present value, lines at their winch's length.
-
-    Parameters
-    ----------
-    measured : Channels of the present instant.
     """
     out = scene.copy()
     floating = {vessel.body: None for vessel in scene.vessels.values() if vessel.floats}
@@ -112,11 +108,9 @@ def compiled_there(scene: Scene) -> _core.Model:
 
 @dataclass(frozen=True)
 class Begin:
-    """Where a stage began, to run it again from: what was there just before its connections and commands.
+    """Where a stage began, to run it again from: just before its connections and commands.
 
-    Attributes
-    ----------
-    scene : With the commands of the stages before, and with what later stages connect.
+    The scene is that with the commands of the stages before, and with what later stages connect.
     """
 
     scene: Scene
@@ -125,15 +119,7 @@ class Begin:
 
 @dataclass(frozen=True, kw_only=True)
 class There:
-    """Where a lift is between two stages.
-
-    Attributes
-    ----------
-    whole : With all commands until then, and with what is absent.
-    absent : Names.
-    scene, model
-        What is there.
-    """
+    """Where a lift is between two stages: the scene as it is there, and `whole` with what is absent."""
 
     whole: Scene
     absent: frozenset[str]
@@ -146,19 +132,7 @@ def rest_after(calm: There, later: Sequence[Stage], scene: Scene, start: _core.S
     """Where a lift stands still that was carried out in calm water until then, in the sea of a scene.
 
     What still moved is at rest, and takes its way up from there. Seats that let go stay open. From a state
-    that is known there, all goes on as it was.
-
-    Parameters
-    ----------
-    later : sequence of Stage
-        That are left.
-    start : State, optional
-        The state there, where it is known.
-
-    Raises
-    ------
-    SceneError
-        Where nothing rests there.
+    that is known there (`start`), all goes on as it was. Raises SceneError where nothing rests there.
     """
     time = calm.state.time
     if start is not None:
@@ -202,15 +176,8 @@ def _aboard(still: Scene, moving: Scene, state: _core.State) -> _core.State:
 
 @dataclass
 class AlikeStages:
-    """Found by the first of them, and used by the others; threads may share it.
+    """Found by the first of them, and used by the others; threads may share it."""
 
-    Attributes
-    ----------
-    model : Of the scene before the first stage.
-    channels : Names that are known, by what is absent.
-    runs : Of stages, at their start.
-    """
-
-    model: _core.Model | None = None
-    channels: dict[frozenset[str], set[str]] = field(default_factory=dict)
-    runs: dict[Key, Run] = field(default_factory=dict)
+    model: _core.Model | None = None  # of the scene before the first stage
+    channels: dict[frozenset[str], set[str]] = field(default_factory=dict)  # known names, by what is absent
+    runs: dict[Key, Run] = field(default_factory=dict)  # of stages, at their start

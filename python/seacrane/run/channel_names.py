@@ -1,4 +1,4 @@
-"""Names of channels: what the core records for those that are wanted, and what a scene needs to have them."""
+"""Names of channels: what the core records and keeps for those that are wanted, and what they need."""
 
 from __future__ import annotations
 
@@ -16,12 +16,23 @@ from seacrane.description.crane_parts import cylinders, hooks, piston_areas, sle
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, whole_of, winches_of
 from seacrane.description.once import once, once_in_any_sea
+from seacrane.description.places import POSE
 from seacrane.description.roles import CraneRoles
 from seacrane.description.suspension import Hung, hung_loads, names_of_suspensions
 from seacrane.description.wet_parts import wet_names
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
-from seacrane.scene.own_channels import picks
+from seacrane.scene.recorded import picks
+
+USUAL = (
+    "vessel_motion", "actuator_force", "driver_force", "hydraulic_force", "tension", "line_tension",
+    "end_tension", "section_tension", "gas_spring_tension", "contact_press", "limit_force",
+)  # fmt: skip
+# Derived channels that rise, or fall, with what they are made of.
+MONOTONE = (
+    "stroke", "stroke_rate", "cylinder_force", "cylinder_pressure", "slew_torque", "link_tension",
+    "hook_load", "slack_margin", "utilisation", "wire_paid_out", "wire_spare",
+)  # fmt: skip
 
 
 def sources_of(name: str) -> tuple[str, ...]:
@@ -70,12 +81,37 @@ def all_names(scene: Description, model: _core.Model) -> Mapping[str, Sequence[s
 def recorded_channels(scene: Description, model: _core.Model, asked: tuple[str, ...] | None) -> Set[str]:
     """The core's channels that a run records for those that it is asked for; None: for the usual ones."""
     ends = ["end_tension"] if lowest_segments(scene) else []
-    usual = [*model.channel_names(), *ends, *(state.channel for state in scene.limit_states.values()), OWN]
+    usual = [*model.channel_names(), *ends, *limited_channels(scene), OWN]
     wanted = with_sources(scene, usual if asked is None else asked)
     if "slack_margin" in wanted:
         least_pulls(scene)  # before the run: what comes to no rest is refused
     made_of = core_channels(scene, wanted, model.channel_names(defaults_only=False))
     return made_of if ends or "end_tension" in wanted else made_of - {"end_tension"}
+
+
+def limited_channels(scene: Description) -> list[str]:
+    """The channels of its limit states."""
+    return [state.channel for state in scene.limit_states.values()]
+
+
+def wanted_extremes(scene: Description, recorded: Set[str], asked: tuple[str, ...] | None) -> set[str]:
+    """Those of the core's recorded channels, for the channels that are asked for; None: the usual ones."""
+    names = (*USUAL, *limited_channels(scene)) if asked is None else asked
+    made_of = {source for name in names if name in MONOTONE for source in sources_of(name)}
+    wanted = {*names, *made_of.difference(POSE)}
+    return {name for name in recorded & wanted if CHANNELS[name].has_extremes}
+
+
+def followed(scene: Description, recorded: Set[str], asked: tuple[str, ...] | None) -> dict[str, set[str]]:
+    """Derived channels that are made anew at every step: of what recorded channels."""
+    names = limited_channels(scene) if asked is None else asked
+    found = {}
+    for name in names:
+        if name not in DERIVED or name in MONOTONE or DERIVED[name].turns:
+            continue
+        made_of = {source for part in with_sources(scene, [name]) for source in sources_of(part)}
+        found[name] = made_of & recorded
+    return found
 
 
 def on_cranes(scene: Description) -> list[Hung]:
@@ -93,10 +129,6 @@ def has_slew(scene: Description, crane: CraneRoles | None) -> bool:
     if crane is None or crane.slew is None or crane.tip is None:
         return False
     return crane.slew[0] in scene.joints and crane.tip[0] in scene.bodies
-
-
-def _rated_hooks(scene: Description) -> list[Hung]:
-    return [one for one in on_cranes(scene) if is_rated(one.crane)]
 
 
 def _slewing_hooks(scene: Description) -> list[Hung]:
@@ -121,8 +153,7 @@ ALONG: Mapping[str, Names] = {  # by dimension of derived channels: its names, a
     "weighed": (weighed_suspensions,
                 "a link, a wire or lines that carry a load which nothing else holds: add one"),
     "immersed": (wet_names, "parts in water: add_immersed them"),
-    "gap": (attrgetter("clearances"), "a clearance: add_clearance one"),
-    "pair": (attrgetter("relatives"), "two points: add_relative them"),
+    "gap": (attrgetter("clearances"), "points and a box: add_channel(points=...) them"),
     "expression": (attrgetter("channels"), "an expression: add_channel one"),
     "winch": (lambda scene: winches_of(scene.loads), "a line on a winch: add_winch one"),
     "slew": (slews, "a slew drive: add_crane, or name it by add_roles(slew=...)"),
@@ -133,7 +164,10 @@ PARTS: Mapping[str, Names] = {  # of those that some of these names have, and ot
     "link_tension": (hooks, "a link on a crane: name a distance joint by add_roles(link=...)"),
     "offlead": (_slewing_hooks, _SLEWING_HOOK),
     "sidelead": (_slewing_hooks, _SLEWING_HOOK),
-    "utilisation": (_rated_hooks, f"{_HOOK}, on a crane with a tip, a slew drive and a capacity table"),
+    "utilisation": (
+        lambda scene: [one for one in on_cranes(scene) if is_rated(one.crane)],
+        f"{_HOOK}, on a crane with a tip, a slew drive and a capacity table",
+    ),
 }
 
 
@@ -142,8 +176,8 @@ def require_channels(scene: Description, wanted: Iterable[str]) -> None:
 
     Of a scene that cannot be compiled as it is described, those that Python derives are known.
     """
-    limits, asked = [state.channel for state in scene.limit_states.values()], list(wanted)
-    require_names(scene, [*asked, *limits])
+    asked = list(wanted)
+    require_names(scene, [*asked, *limited_channels(scene)])
     if all(name in CHANNELS and "body" in CHANNELS[name].dims for name in asked):  # what has bodies has these
         return
     known = list(CHANNELS)
@@ -175,10 +209,15 @@ def missing_names(scene: Description, wanted: Iterable[str]) -> dict[str, str]:
 
 @once
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
-    """SceneError where a limit state or an expression has a channel or a place that the scene has not."""
-    known = model.channel_names(defaults_only=False)
-    axes = all_names(scene, model)
-    _require_own(scene, axes)
+    """SceneError where a limit state or an expression has a channel or a place that the scene has not.
+
+    Also where an expression leaves one of several places open.
+    """
+    known, axes = model.channel_names(defaults_only=False), all_names(scene, model)
+    for channel, curves in picks(scene).items():
+        for pick in curves:
+            for dim in CHANNELS[pick.channel].dims_of_several[1:]:
+                _require_name(f"channel {channel!r}: {pick}", dim, pick.names.get(dim), axes.get(dim, ()))
     require_names(scene, [OWN] if scene.channels else [])
     for name, state in scene.limit_states.items():
         try:
@@ -188,15 +227,6 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
             raise SceneError(f"limit state {name!r}: {error}") from error
         for dim, chosen in state.names.items():
             _require_name(f"limit state {name!r}", dim, chosen, axes.get(dim, ()))
-
-
-def _require_own(scene: Description, names: Mapping[str, Sequence[str]]) -> None:
-    """SceneError where an expression has a name that the scene has not, or leaves one of several open."""
-    for channel, curves in picks(scene).items():
-        for pick in curves:
-            for dim in CHANNELS[pick.channel].dims_of_several[1:]:
-                known = names.get(dim, ())
-                _require_name(f"channel {channel!r}: {pick}", dim, pick.names.get(dim), known)
 
 
 def _require_name(what: str, dim: str, name: str | None, known: Sequence[str]) -> None:

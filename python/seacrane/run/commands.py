@@ -54,10 +54,8 @@ class Move:
             raise SceneError(f"move: to is {self.to} and by is {self.by}; give one of them")
         for name in ("to", "by", "over"):
             value = getattr(self, name)
-            if value is None:
-                continue
-            number = finite_of(f"move: {name}", value)
-            object.__setattr__(self, name, number)
+            if value is not None:
+                object.__setattr__(self, name, finite_of(f"move: {name}", value))
         if not self.over > 0.0:
             raise SceneError(f"move: over is {self.over:g} s; give the positive time that it takes")
 
@@ -156,8 +154,15 @@ def commanded(scene: Some, what: str, commands: Mapping[str, Command], time: flo
             continue
         old = present(out, target)
         if isinstance(value, _core.Curve):
-            new = old.then(time=time, curve=_begun(value, time))
-            _check_start(what, name, target, old, new, time)
+            pieces = value.to_pieces()  # on the stage's own clock, 0 where it begins
+            own = _core.Curve.pieces(**pieces | {"starts": [start + time for start in pieces["starts"]]})
+            new = old.then(time=time, curve=own)
+            before, after = (float(curve.evaluate([time])[0, 0]) for curve in (old, new))
+            if target.place and abs(after - before) > JUMP:
+                raise SceneError(
+                    f"{what}: command {name!r} begins at {after:.6g} where it stands at {before:.6g} (t = "
+                    f"{time:.6g} s): that is a jump. Begin the curve there, or give Move(to=..., over=...)"
+                )
         else:
             move = value if isinstance(value, Move) else Move(to=value, over=RATE_TIME)
             new = move.from_where_it_is(old, time)
@@ -189,23 +194,5 @@ def taken_up(scene: Some, time: float) -> Some:
 
 def present(scene: Scene | Some, target: Target) -> _core.Curve:
     """The curve that a command would change."""
-    tables = {"load": scene.loads, "actuator": scene.actuators, "driver": scene.drivers}
-    curve: _core.Curve = getattr(tables[target.kind][target.element], target.attribute)
+    curve: _core.Curve = getattr(getattr(scene, f"{target.kind}s")[target.element], target.attribute)
     return curve
-
-
-def _begun(curve: _core.Curve, time: float) -> _core.Curve:
-    """A curve of the stage's own clock, 0 where it begins, on the clock of the run."""
-    pieces = curve.to_pieces()
-    return _core.Curve.pieces(**pieces | {"starts": [start + time for start in pieces["starts"]]})
-
-
-def _check_start(
-    what: str, name: str, target: Target, old: _core.Curve, new: _core.Curve, time: float
-) -> None:
-    before, after = (float(curve.evaluate([time])[0, 0]) for curve in (old, new))
-    if target.place and abs(after - before) > JUMP:
-        raise SceneError(
-            f"{what}: command {name!r} begins at {after:.6g} where it stands at {before:.6g} (t = {time:.6g} "
-            "s): that is a jump. Begin the curve there, or give Move(to=..., over=...)"
-        )

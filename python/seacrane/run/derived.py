@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane import _core
 from seacrane.analysis.least_pulls import least_pulls
 from seacrane.description.channels import CHANNELS, DERIVED, OWN, channel_of
 from seacrane.description.crane_parts import cylinders, piston_areas, slews, tip_radius, tips
@@ -17,7 +18,7 @@ from seacrane.description.description import Description
 from seacrane.description.expression import Curve, Number, values_of, worked_out
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.loads import lines_of, path_of, winches_of
-from seacrane.description.places import POSE, position_of, relative_motion, velocity_of
+from seacrane.description.places import POSE, place_along, position_of, velocity_of
 from seacrane.description.roles import allowed_at, pressure
 from seacrane.description.suspension import (
     Hung,
@@ -28,16 +29,18 @@ from seacrane.description.suspension import (
 )
 from seacrane.description.wet_parts import immersed_depths
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.result.record import Extremes
 from seacrane.run.channel_names import (
+    MONOTONE,
     has_slew,
     is_rated,
     lowest_segments,
     missing_names,
     on_cranes,
+    sources_of,
     with_sources,
 )
-from seacrane.scene.own_channels import picked, programs
-from seacrane.scene.recorded import Clearance, distance_from_box
+from seacrane.scene.recorded import distance_from_box, picked, programs
 
 Array = NDArray[np.float64]
 Places = Mapping[str, tuple[str, str]]  # joint coordinates by label
@@ -71,7 +74,7 @@ def derived_channels(
     parts = {name: DERIVED[name].made_of for name in wanted}
     found = [name for name in parts if name in OF_SOME or all(part in arrays for part in parts[name])]
     missing = missing_names(scene, found)
-    values = {name: getattr(made, name)() for name in found if name not in missing}
+    values = {name: MADE[name](made) for name in found if name not in missing}
     return {name: squeezed(name, array) for name, array in values.items() if array is not None}
 
 
@@ -83,52 +86,83 @@ def squeezed(name: str, array: Array) -> Array:
 
 
 class _Made:
-    """A method for each channel, by its name; None where its parts are not recorded."""
+    """What channels of one scene are made of, by `MADE`; None where it is not recorded."""
 
     def __init__(self, scene: Description, arrays: Mapping[str, Array]) -> None:
         self.scene, self.arrays = scene, arrays
 
-    def stroke(self) -> Array | None:
-        return self._recorded("coordinate", self._strokes)
+    @cached_property
+    def strokes(self) -> Places:
+        return {label: (joint, "displacement") for label, joint in cylinders(self.scene).items()}
 
-    def stroke_rate(self) -> Array | None:
-        return self._recorded("coordinate_rate", self._strokes)
+    @cached_property
+    def turns(self) -> Array:
+        return np.asarray(rotation_matrix(self.arrays["quaternion"]))
 
-    def cylinder_force(self) -> Array | None:
-        return self._driven(self._strokes)
+    @cached_property
+    def loads(self) -> Array | None:
+        return hook_loads(self.scene, self.arrays)
 
-    def cylinder_pressure(self) -> Array | None:
+    def at(self, body: str, point: ArrayLike) -> Array:
+        return position_of(self.scene, self.arrays, body, point)
+
+    def velocities(self, places: Iterable[tuple[str, Any]]) -> Array:
+        return np.stack([velocity_of(self.scene, self.arrays, *place) for place in places], axis=1)
+
+    def coordinates(self, channel: str, wanted: Places) -> Array | None:
+        """Columns of joint coordinates; None unless all of them are recorded."""
+        recorded = list(self.scene.recorded.values())
+        if not all(place in recorded for place in wanted.values()):
+            return None
+        return self.arrays[channel][:, [recorded.index(place) for place in wanted.values()]]
+
+    def driven(self, wanted: Places) -> Array | None:
+        """What actuators, drivers and cylinders apply along joint coordinates; None unless known of all."""
+        slides = [slide_of(self.scene, one) for one in hydraulic_cylinders(self.scene).values()]
+        acting: dict[str, list[tuple[str, str] | None]] = {
+            "actuator_force": [(one.joint, one.coordinate) for one in self.scene.actuators.values()],
+            "driver_force": [(one.joint, one.coordinate) for one in self.scene.drivers.values()],
+            "hydraulic_force": [None if slide is None else (slide, "displacement") for slide in slides],
+        }
+        columns = []
+        for place in wanted.values():
+            loads = [
+                self.arrays[channel][:, i]
+                for channel, places in acting.items()
+                for i, one in enumerate(places)
+                if one == place and channel in self.arrays
+            ]
+            if not loads:
+                return None
+            columns.append(sum(loads[1:], loads[0].copy()))
+        return np.column_stack(columns) if columns else None
+
+    def pressures(self) -> Array | None:
         """In the loaded chambers of the cylinders whose areas are known."""
         areas = piston_areas(self.scene)
-        forces = self._driven({label: self._strokes[label] for label in areas})
+        forces = self.driven({label: self.strokes[label] for label in areas})
         if forces is None:
             return None
         return np.column_stack([pressure(forces[:, i], pair) for i, pair in enumerate(areas.values())])
 
-    def slew_angle(self) -> Array | None:
+    def slew_angles(self) -> Array | None:
         """Counted on over whole turns."""
-        angles = self._recorded("coordinate", slews(self.scene))
+        angles = self.coordinates("coordinate", slews(self.scene))
         return None if angles is None else np.unwrap(angles, axis=0)
 
-    def slew_torque(self) -> Array | None:
-        return self._driven(slews(self.scene))
-
-    def link_tension(self) -> Array:
+    def link_tensions(self) -> Array:
         """Of a line in the place of a link its hook load."""
         names = names_of_suspensions(self.scene)
-        known = self.arrays["tension"] if self._loads is None else self._loads
+        known = self.arrays["tension"] if self.loads is None else self.loads
         unknown = np.full(len(known), np.nan)
         columns = [names.index(one.suspension.channel) for one in on_cranes(self.scene)]
         return np.stack([known[:, i] if i < known.shape[1] else unknown for i in columns], axis=1)
 
-    def hook_load(self) -> Array | None:
-        return self._loads
-
-    def slack_margin(self) -> Array | None:
+    def slack_margins(self) -> Array | None:
         """Zero of a sling that carries nothing at rest."""
-        if self._loads is None:
+        if self.loads is None:
             return None
-        loads, names = self._loads, names_of_suspensions(self.scene)
+        loads, names = self.loads, names_of_suspensions(self.scene)
         columns = [
             loads[:, names.index(name)] / pull if pull > 0.0 else np.zeros(len(loads))
             for name, pull in least_pulls(self.scene).items()
@@ -136,81 +170,37 @@ class _Made:
         return np.stack(columns, axis=1) if columns else None
 
     def utilisation(self) -> Array | None:
-        """NaN of a crane without a table; infinite beyond its last radius."""
-        if self._loads is None or not all(name in self.arrays for name in POSE):
+        """Hook load over what the crane's table allows there with its design factor.
+
+        NaN of a crane without a table; infinite beyond its last radius.
+        """
+        if self.loads is None or not all(name in self.arrays for name in POSE):
             return None
-        loads, names = self._loads, names_of_suspensions(self.scene)
-        columns = [self._used(one, loads[:, names.index(one.suspension.channel)])
-                   for one in on_cranes(self.scene)]  # fmt: skip
+        names, columns = names_of_suspensions(self.scene), []
+        for one in on_cranes(self.scene):
+            if one.crane is None or not is_rated(one.crane):
+                columns.append(np.full(len(self.loads), np.nan))
+                continue
+            radius = tip_radius(self.scene, one.crane, self.arrays["position"], self.arrays["quaternion"])
+            allowed = allowed_at(one.crane.capacity, radius) * one.crane.design_factor * self.scene.gravity
+            with np.errstate(divide="ignore"):
+                columns.append(self.loads[:, names.index(one.suspension.channel)] / allowed)
         return np.stack(columns, axis=1)
 
-    def clearance(self) -> Array:
-        return np.stack([self._clearance(one) for one in self.scene.clearances.values()], axis=1)
-
-    def immersed_depth(self) -> Array | None:
-        return immersed_depths(self.scene, self.arrays)
-
-    def tip_velocity(self) -> Array:
-        every = tips(self.scene).values()
-        return np.stack([velocity_of(self.scene, self.arrays, *place) for place in every], axis=1)
-
-    def swing(self) -> Array:
-        hangs = [self._at(one.load, one.point) - self._at(*one.hangs_from) for one in on_cranes(self.scene)]
+    def swings(self) -> Array:
+        hangs = [self.at(one.load, one.point) - self.at(*one.hangs_from) for one in on_cranes(self.scene)]
         return np.stack([swing_of(hang) for hang in hangs], axis=1)
 
-    def sling_angle(self) -> Array:
+    def sling_angles(self) -> Array:
         found: dict[str, Array] = {}
         for one in suspensions(self.scene):
-            up = self._at(*one.upper) - self._at(*one.lower)
+            up = self.at(*one.upper) - self.at(*one.lower)
             angle = np.arctan2(up[:, 2], np.hypot(up[:, 0], up[:, 1]))
             found |= dict.fromkeys((one.channel, *one.parts), angle)
         return np.stack([found[name] for name in names_of_suspensions(self.scene)], axis=1)
 
-    def offlead(self) -> Array:
-        return self._leads[0]
-
-    def sidelead(self) -> Array:
-        return self._leads[1]
-
-    def relative_position(self) -> Array:
-        return self._relative(velocity=False)
-
-    def relative_velocity(self) -> Array:
-        return self._relative(velocity=True)
-
-    def heel(self) -> Array:
-        turn = rotation_matrix(self.arrays["quaternion"])
-        return np.asarray(np.arctan2(turn[..., 2, 1], turn[..., 2, 2]))
-
-    def trim(self) -> Array:
-        turn = rotation_matrix(self.arrays["quaternion"])
-        return np.asarray(np.arcsin(np.clip(-turn[..., 2, 0], -1.0, 1.0)))
-
-    def yaw(self) -> Array:
-        turn = rotation_matrix(self.arrays["quaternion"])
-        return np.asarray(np.arctan2(turn[..., 1, 0], turn[..., 0, 0]))
-
-    def hook_speed(self) -> Array:
-        ends = lower_ends(self.scene)
-        return np.stack([velocity_of(self.scene, self.arrays, *end)[:, 2] for end in ends], axis=1)
-
-    def wire_paid_out(self) -> Array:
-        wound = winches_of(self.scene.loads).values()
-        return self._lengths([float(one.length.evaluate([0.0])[0, 0]) / one.share for one in wound])
-
-    def wire_spare(self) -> Array:
-        return self._lengths([one.minimum_length for one in winches_of(self.scene.loads).values()])
-
-    @property
-    def _strokes(self) -> Places:
-        return {label: (joint, "displacement") for label, joint in cylinders(self.scene).items()}
-
     @cached_property
-    def _loads(self) -> Array | None:
-        return hook_loads(self.scene, self.arrays)
-
-    @cached_property
-    def _leads(self) -> tuple[Array, Array]:
+    def leads(self) -> tuple[Array, Array]:
         """Offlead and sidelead of what hangs on cranes, rad, (time, hook) each.
 
         Both are angles from the vertical, of the line from the tip to where the rod or wire ends: offlead in
@@ -229,8 +219,8 @@ class _Made:
     def _angles(self, one: Hung) -> tuple[Array, Array]:
         assert one.crane is not None and one.crane.slew is not None
         slew = self.scene.joints[one.crane.slew[0]]
-        tip, hook = self._at(*one.hangs_from), self._at(*one.suspension.lower)
-        out = tip - self._at(slew.first, slew.first_frame.point)
+        tip, hook = self.at(*one.hangs_from), self.at(*one.suspension.lower)
+        out = tip - self.at(slew.first, slew.first_frame.point)
         out[:, 2] = 0.0
         with np.errstate(invalid="ignore"):  # a tip on the slew axis has no plane: NaN
             out /= np.linalg.norm(out, axis=1, keepdims=True)
@@ -242,74 +232,52 @@ class _Made:
             np.arctan2(np.einsum("ij,ij->i", hang, across), down),
         )
 
-    def _used(self, one: Hung, load: Array) -> Array:
-        """Hook load over what the crane's table allows there with its design factor, (time,)."""
-        if one.crane is None or not is_rated(one.crane):
-            return np.full(len(load), np.nan)
-        radius = tip_radius(self.scene, one.crane, self.arrays["position"], self.arrays["quaternion"])
-        allowed = allowed_at(one.crane.capacity, radius) * one.crane.design_factor * self.scene.gravity
-        with np.errstate(divide="ignore"):
-            return np.asarray(load / allowed)
+    def clearances(self) -> Array:
+        columns = []
+        for gap in self.scene.clearances.values():
+            center, turn = self.at(gap.body, gap.center), np.eye(3)[None]
+            if gap.body in self.scene.bodies:
+                index = list(self.scene.bodies).index(gap.body)
+                turn = rotation_matrix(self.arrays["quaternion"][:, index])
+            found = []
+            for point in (self.scene.points[name] for name in gap.points):
+                away = self.at(point.body, point.point) - center
+                found.append(distance_from_box((away[:, None, :] @ turn)[:, 0], gap.size))
+            columns.append(np.min(found, axis=0))
+        return np.stack(columns, axis=1)
 
-    def _at(self, body: str, point: ArrayLike) -> Array:
-        return position_of(self.scene, self.arrays, body, point)
-
-    def _recorded(self, channel: str, wanted: Places) -> Array | None:
-        """Columns of joint coordinates; None unless all of them are recorded."""
-        recorded = list(self.scene.recorded.values())
-        if not all(place in recorded for place in wanted.values()):
-            return None
-        return self.arrays[channel][:, [recorded.index(place) for place in wanted.values()]]
-
-    def _driven(self, wanted: Places) -> Array | None:
-        """Loads along joint coordinates; None unless something is known to act along all of them."""
-        columns = [self._drive_load(place) for place in wanted.values()]
-        known = [column for column in columns if column is not None]
-        return np.column_stack(known) if known and len(known) == len(columns) else None
-
-    def _drive_load(self, wanted: tuple[str, str]) -> Array | None:
-        """What actuators, the driver and hydraulic cylinders apply along a joint coordinate together."""
-        slides = [slide_of(self.scene, one) for one in hydraulic_cylinders(self.scene).values()]
-        acting: dict[str, list[tuple[str, str] | None]] = {
-            "actuator_force": [(one.joint, one.coordinate) for one in self.scene.actuators.values()],
-            "driver_force": [(one.joint, one.coordinate) for one in self.scene.drivers.values()],
-            "hydraulic_force": [None if slide is None else (slide, "displacement") for slide in slides],
-        }
-        loads = [
-            self.arrays[channel][:, i]
-            for channel, places in acting.items()
-            for i, place in enumerate(places)
-            if place == wanted and channel in self.arrays
-        ]
-        return sum(loads[1:], loads[0].copy()) if loads else None
-
-    def _clearance(self, gap: Clearance) -> Array:
-        center, turn = self._at(gap.body, gap.center), np.eye(3)[None]
-        if gap.body in self.scene.bodies:
-            turn = rotation_matrix(self.arrays["quaternion"][:, list(self.scene.bodies).index(gap.body)])
-        found = []
-        for point in (self.scene.points[name] for name in gap.points):
-            away = self._at(point.body, point.point) - center
-            found.append(distance_from_box((away[:, None, :] @ turn)[:, 0], gap.size))
-        return np.asarray(np.min(found, axis=0))
-
-    def _relative(self, *, velocity: bool) -> Array:
-        return np.stack(
-            [
-                relative_motion(self.scene, self.arrays, one.point, one.to, one.axes, velocity=velocity)
-                for one in self.scene.relatives.values()
-            ],
-            axis=1,
-        )
-
-    def _lengths(self, over: list[float]) -> Array:
+    def lengths_over(self, length: Callable[[_core.Line], float]) -> Array:
         """Unstretched lengths of the lines on winches over given ones, m."""
         lines, wound = list(lines_of(self.scene.loads)), winches_of(self.scene.loads).values()
         lengths = self.arrays["line_unstretched_length"][:, [lines.index(one.name) for one in wound]]
-        return np.asarray(lengths / [one.share for one in wound] - over)
+        return np.asarray(lengths / [one.share for one in wound] - [length(one) for one in wound])
 
 
-MADE = tuple(name for name in vars(_Made) if name in DERIVED)
+MADE: Mapping[str, Callable[[_Made], Array | None]] = {
+    "stroke": lambda made: made.coordinates("coordinate", made.strokes),
+    "stroke_rate": lambda made: made.coordinates("coordinate_rate", made.strokes),
+    "cylinder_force": lambda made: made.driven(made.strokes),
+    "cylinder_pressure": _Made.pressures,
+    "slew_angle": _Made.slew_angles,
+    "slew_torque": lambda made: made.driven(slews(made.scene)),
+    "link_tension": _Made.link_tensions,
+    "hook_load": lambda made: made.loads,
+    "slack_margin": _Made.slack_margins,
+    "utilisation": _Made.utilisation,
+    "clearance": _Made.clearances,
+    "immersed_depth": lambda made: immersed_depths(made.scene, made.arrays),
+    "tip_velocity": lambda made: made.velocities(tips(made.scene).values()),
+    "swing": _Made.swings,
+    "sling_angle": _Made.sling_angles,
+    "offlead": lambda made: made.leads[0],
+    "sidelead": lambda made: made.leads[1],
+    "heel": lambda made: np.arctan2(made.turns[..., 2, 1], made.turns[..., 2, 2]),
+    "trim": lambda made: np.arcsin(np.clip(-made.turns[..., 2, 0], -1.0, 1.0)),
+    "yaw": lambda made: np.arctan2(made.turns[..., 1, 0], made.turns[..., 0, 0]),
+    "hook_speed": lambda made: made.velocities(lower_ends(made.scene))[:, :, 2],
+    "wire_paid_out": lambda made: made.lengths_over(lambda one: one.length.evaluate([0.0])[0, 0] / one.share),
+    "wire_spare": lambda made: made.lengths_over(lambda one: one.minimum_length),
+}
 
 
 def hook_loads(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
@@ -351,6 +319,54 @@ def swing_of(hang: Array) -> Array:
     return np.asarray(np.arctan2(np.hypot(hang[:, 0], hang[:, 1]), -hang[:, 2]))
 
 
+def followed_extremes(
+    trail: Mapping[str, Array],
+    outputs: Mapping[str, Array],
+    made_of: Mapping[str, set[str]],
+    named: Callable[[Mapping[str, Array], set[str]], Mapping[str, Array]],
+) -> dict[str, tuple[Array, Array]]:
+    """Least and largest values of derived channels, from what the core kept of every step (`trail`).
+
+    `named` makes channels of those of the core; `made_of` is that of `followed`.
+    """
+    names = {
+        name for name, sources in made_of.items() if name in outputs and sources and sources <= trail.keys()
+    }
+    if not names:
+        return {}
+    at = np.searchsorted(outputs["time"], trail["time"])
+    seen = at < len(outputs["time"])
+    found = {}
+    for name, values in named(trail, names).items():
+        if name in names:
+            least, largest = outputs[name].copy(), outputs[name].copy()
+            np.fmin.at(least, at[seen], values[seen])
+            np.fmax.at(largest, at[seen], values[seen])
+            found[name] = least, largest
+    return found
+
+
+def derived_extremes(
+    scene: Description, arrays: Mapping[str, Array], extremes: Extremes, wanted: Collection[str]
+) -> dict[str, tuple[Array, Array]]:
+    """Least and largest values of derived channels, from those of what they rise or fall with."""
+    names = [one for one in MONOTONE if one in wanted and any(part in extremes for part in sources_of(one))]
+    if not names:
+        return {}
+    known = {name: values for name, values in arrays.items() if name != "time"}
+    ends = [
+        named_channels(scene, known | {name: both[i] for name, both in extremes.items()}, names)
+        for i in (0, 1)
+    ]
+    values = named_channels(scene, known, names)
+    found = {}
+    for name in names:
+        every = [one[name] for one in (*ends, values) if name in one]
+        if len(every) == 3:
+            found[name] = (np.min(every, axis=0), np.max(every, axis=0))
+    return found
+
+
 def own_values(
     scene: Description, arrays: Mapping[str, Array], names: Mapping[str, Sequence[str]], count: int
 ) -> Array | None:
@@ -361,6 +377,8 @@ def own_values(
     def leaf(step: Number | Curve) -> Array:
         if isinstance(step, Number):
             return np.asarray(step.value)
+        if step.along:
+            return place_along(scene, arrays, step)
         pick = picked(scene, "channel", step)
         array = arrays[pick.channel]
         for dim in reversed(CHANNELS[pick.channel].dims_of(array.ndim)[1:]):

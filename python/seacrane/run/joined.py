@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -11,46 +12,28 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.channels import CHANNELS, COUNTED_ON, DERIVED, NAMED, channel_of
-from seacrane.result.about import About, StageSpan
-from seacrane.result.events import Event
+from seacrane.result.about import About, Event, StageSpan, added_stats
 from seacrane.result.result import Result
 from seacrane.run.derived import derived_channels, squeezed
 from seacrane.run.lanes import joined_lanes
-from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
-SUMS = (
-    "simulated_s", "wall_s", "steps", "rejected_steps", "evaluations", "jacobians", "newton_iterations",
-    "projections", "restarts", "dense_solves", "events",
-)  # fmt: skip
 LOST = "impact_energy_lost_J"
 NOTHING = ("N", "N m", "N or N m", "W", "Pa")  # units of what is zero where its element is not there
 
 
 @dataclass
 class Piece:
-    """One finished run of a sequence: its result, and its counters at both ends.
-
-    Attributes
-    ----------
-    names : dict of str to sequence of str
-        All names along each dimension, also of channels that are not recorded.
-    start, end : dict of str to array
-        Values of `COUNTED_ON` and of angles that count turns.
-    reached : dict of str to array
-        Values of `COUNTED_ON` before these changes, counted from the first start.
-    lost : J, in connections made and released just before it.
-    before : These changes.
-    """
+    """One finished run of a sequence: its result, and its counters at both ends."""
 
     result: Result
-    names: Mapping[str, Sequence[str]]
-    start: Mapping[str, Array]
+    names: Mapping[str, Sequence[str]]  # along each dimension, also of channels that are not recorded
+    start: Mapping[str, Array]  # values of `COUNTED_ON`, and of angles that count turns
     end: Mapping[str, Array]
-    reached: Mapping[str, Any]
-    lost: float = 0.0
-    before: list[Event] = field(default_factory=list)
+    reached: Mapping[str, Any]  # `COUNTED_ON` before the changes, counted from the first start
+    lost: float = 0.0  # J, in connections made and released just before it
+    before: list[Event] = field(default_factory=list)  # these changes
 
     @property
     def added(self) -> dict[str, Any]:
@@ -74,13 +57,8 @@ class Piece:
         return _core.State(**state.__getstate__() | {"record": record})
 
 
-def counters(run: Run) -> dict[str, Array]:
-    """Values at the present instant of what each run counts from where its record begins."""
-    return counted(run.scene, run.model, run.core.snapshot())
-
-
 def counted(scene: Scene, model: _core.Model, snapshot: Mapping[str, Array]) -> dict[str, Array]:
-    """The same of a snapshot of the core."""
+    """What a run counts from where its record begins, at a snapshot of the core."""
     wanted = [name for name in model.channel_names() if name in COUNTED_ON and name in snapshot]
     turning = [name for name, channel in DERIVED.items() if channel.turns]
     now = {name: snapshot[name] for name in wanted} | derived_channels(scene, snapshot, turning)
@@ -103,8 +81,11 @@ def joined(
     What an element does where it is not there is nothing for forces and powers, and not a number else.
     """
     offsets = _offsets(pieces)
-    kept = _kept(pieces)
     names = _all_names(pieces)
+    kept, last = [], -np.inf
+    for piece in pieces:
+        kept.append(piece.result.time > last)
+        last = max(last, float(piece.result.time[-1]))
     every = list(dict.fromkeys(name for piece in pieces for name in piece.result.arrays))
     arrays = {}
     for channel in every:
@@ -132,15 +113,6 @@ def _offsets(pieces: Sequence[Piece]) -> list[dict[str, Any]]:
             added[name] = 2.0 * np.pi * np.round((before[name] - piece.start[name]) / (2.0 * np.pi))
         before = {**piece.end, **{name: piece.end.get(name, 0.0) + more for name, more in added.items()}}
         out.append(added)
-    return out
-
-
-def _kept(pieces: Sequence[Piece]) -> list[NDArray[np.bool_]]:
-    """Outputs later than all before."""
-    out, last = [], -np.inf
-    for piece in pieces:
-        out.append(piece.result.time > last)
-        last = max(last, float(piece.result.time[-1]))
     return out
 
 
@@ -197,20 +169,11 @@ def _about(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> About:
 
 def _stats(pieces: Sequence[Piece], before: str) -> dict[str, Any]:
     every = [piece.result.stats for piece in pieces]
-    out: dict[str, Any] = dict(every[-1])
-    out |= {
-        key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)
-    }
-    out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
+    out: dict[str, Any] = reduce(added_stats, every, {"validity": before} if before else {})
     out.pop("kept_apart", None)
     out |= joined_lanes(every)
     if any(one.get("rank_changed") for one in every):
         out["rank_changed"] = 1
     if any(LOST in one for one in every):
         out[LOST] = sum(_lost_in_impacts(piece) for piece in pieces)
-    for key, first in (("described", ""), ("validity", before)):
-        texts = [first, *(str(one.get(key, "")) for one in every)]
-        told = dict.fromkeys(line for text in texts for line in text.splitlines())
-        if told:
-            out[key] = "\n".join(told)
     return out

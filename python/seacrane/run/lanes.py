@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -46,67 +46,12 @@ def lanes_of(given: int | None) -> int:
     return given
 
 
-def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float], None]) -> bool:
-    """Step runs as far as they go side by side, those that differ apart, and note in each what came of it.
-
-    Parameters
-    ----------
-    runs : No more than `lanes`, with one method and one end time.
-    look : Called with the time now and then.
-
-    Returns
-    -------
-    bool
-        False when Ctrl-C stopped them.
-    """
-    module = module_of(lanes)
-    if module is None:
-        note_apart(runs, NO_LANES)
-        return True
-    for group in _alike(runs):
-        if len(group) == 1:
-            note_apart(group, _apart(group[0], next((run for run in runs if run is not group[0]), None)))
-        elif not _advance_alike(group, module, lanes, runs[0].t_end, look):
-            return False
-    return True
+def advance_side_by_side(runs: Iterable[Run], lanes: int, look: Callable[[float], None]) -> bool:
+    """Step runs as far as they go side by side, each as a lift of one run; as `LiftsInLanes`."""
+    return LiftsInLanes([iter([run]) for run in runs], lanes, look).advance()
 
 
-def _alike(runs: Sequence[Run]) -> list[list[Run]]:
-    """Runs that can be stepped beside the first of their group, in the order of these."""
-    groups: list[list[Run]] = []
-    for run in runs:
-        beside = next((group for group in groups if not _apart(group[0], run)), None)
-        if beside is None:
-            groups.append([run])
-        else:
-            beside.append(run)
-    return groups
-
-
-def _apart(one: Run, other: Run | None) -> str:
-    """Why two runs are not stepped side by side; empty: they can be."""
-    if other is None:
-        return ALONE
-    if one.t_end != other.t_end:
-        return "the runs end at different times"
-    return _core.kept_apart([other.core, one.core])
-
-
-def _advance_alike(
-    runs: Sequence[Run], module: ModuleType, lanes: int, stop: float, look: Callable[[float], None]
-) -> bool:
-    """Step them to a time (s); False when Ctrl-C stopped them."""
-    for run in runs:
-        run.lanes = {"lanes": lanes}
-    if not _core.advance_side_by_side([run.core for run in runs], module, stop, look):
-        return False
-    for run in runs:
-        if run.core.time < stop:
-            _note_alone(run, run.core.set_aside)
-    return True
-
-
-def note_apart(runs: Sequence[Run], why: str) -> None:
+def note_apart(runs: Iterable[Run], why: str) -> None:
     """In the stats of runs: that they are stepped by themselves."""
     for run in runs:
         run.lanes = {"lanes": 1, "kept_apart": why}
@@ -116,7 +61,7 @@ class LiftsInLanes:
     """Brings lifts to their ends, always those forward that are furthest behind in time.
 
     Lifts whose runs share what lanes share, at one time, go side by side: to where a run of one of them is
-    over, or to where another one joins. What comes of it depends on these lifts alone.
+    over, or to where another one joins. What comes of it depends on these lifts alone; each run notes it.
 
     Parameters
     ----------
@@ -134,6 +79,7 @@ class LiftsInLanes:
         self._models: list[_core.Model] = []  # one of each kind
         self._kinds: dict[int, int] = {}
         self._runs: dict[int, Run] = {}  # of lifts that wait to be stepped
+        self._last: dict[int, Run] = {}  # of all lifts
 
     def advance(self) -> bool:
         """Bring all to their ends; False when Ctrl-C stopped them."""
@@ -157,7 +103,8 @@ class LiftsInLanes:
         for run in self._lifts[lift]:
             why = NO_LANES if self._module is None else _core.kept_apart([run.core])
             if not why:
-                self._runs[lift], self._kinds[lift] = run, self._kind(run.model)
+                self._runs[lift] = self._last[lift] = run
+                self._kinds[lift] = self._kind(run.model)
                 return
             note_apart([run], why)
 
@@ -171,9 +118,14 @@ class LiftsInLanes:
 
     def _beside(self, here: Mapping[int, Run], stop: float) -> bool:
         assert self._module is not None
-        if not _advance_alike([*here.values()], self._module, self._lanes, stop, self._look):
+        for run in here.values():
+            run.lanes = {"lanes": self._lanes}
+        cores = [run.core for run in here.values()]
+        if not _core.advance_side_by_side(cores, self._module, stop, self._look):
             return False
         for lift, run in here.items():
+            if run.core.time < stop:
+                _note_alone(run, run.core.set_aside)
             if run.core.time < stop or stop >= run.t_end:
                 self._ask(lift)
         return True
@@ -181,7 +133,7 @@ class LiftsInLanes:
     def _alone(self, lift: int, run: Run, stop: float) -> bool:
         """Up to where another may join: where it is, or where one of another kind is over."""
         now = run.core.time
-        _note_alone(run, NOBODY if len(self._lifts) > 1 else ALONE)
+        _note_alone(run, self._why_alone(run))
         stop = min([stop, *(other.t_end for other in self._runs.values() if other.t_end > now)])
         if stop >= run.t_end:
             self._ask(lift)
@@ -191,6 +143,13 @@ class LiftsInLanes:
         except Exception:  # the lift meets it again as it steps what is left, and tells it as its own
             self._ask(lift)
             return True
+
+    def _why_alone(self, run: Run) -> str:
+        if len(self._lifts) == 1:
+            return ALONE
+        now, every = run.core.time, self._last.values()
+        others = [one.core for one in every if one is not run and one.core.time == now]
+        return (_core.kept_apart([others[0], run.core]) if others else "") or NOBODY
 
 
 def _together(runs: Mapping[int, Run]) -> dict[int, Run]:

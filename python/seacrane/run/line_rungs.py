@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,12 +18,13 @@ from seacrane.description.compilation import compiled
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, on_winch
 from seacrane.description.once import once
-from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, automatic, with_rungs
+from seacrane.description.rungs import ELASTIC, QUASI_STATIC, automatic, with_rungs
 from seacrane.description.wet_parts import immersed_parts, starts_wet
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.scene.scene import Scene
-from seacrane.warnings import QuasiStaticLineWarning
+from seacrane.validity.after_run import Finding
+from seacrane.warnings import LineRungWarning, QuasiStaticLineWarning
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for the squares of cubics
 LEAST = 1e-9  # of the largest weight of a frequency
@@ -43,18 +44,10 @@ UNSMOOTH = "its winch has no lag, and so may jump"
 
 @dataclass(frozen=True, kw_only=True)
 class LineRung:
-    """What a line with rung "auto" is in a run.
-
-    Attributes
-    ----------
-    name : "elastic" or "quasi-static".
-    """
+    """What a line with rung "auto" is in a run: elastic or quasi-static."""
 
     name: str
     reason: str
-
-
-NONE = LineRung(name=AUTO, reason="")  # of a line that is given otherwise
 
 
 def line_rungs(
@@ -65,20 +58,19 @@ def line_rungs(
     start: _core.State | None,
     controlled: bool,
 ) -> dict[str, LineRung]:
-    """The rungs of a run, by line; none where no line has rung "auto".
+    """The rungs of a run to an end (s), by line; none where no line has rung "auto".
 
-    Parameters
-    ----------
-    known : That steps it.
-    end : s.
-    start : Where it begins; default: the assembled start of the scene.
-    controlled : Whether inputs are set during the run.
+    `controlled`: inputs are set during the run. Without a start it begins at the assembled one.
     """
     lines = automatic(scene)
     if not lines:
         return {}
     if start is not None and start.time > 0.0:
-        return {name: _kept(name, start) for name in lines}
+        reason = f"as in the state it goes on from, at {start.time:g} s"
+        held = {name for name in lines if f"{name}.strain_rate" in start.load_states}
+        return {
+            name: LineRung(name=QUASI_STATIC if name in held else ELASTIC, reason=reason) for name in lines
+        }
     reason = _why_elastic(scene, known, controlled=controlled)
     if reason:
         return all_elastic(lines, reason)
@@ -101,19 +93,9 @@ def _chosen_from_described(scene: Scene, end: float) -> Mapping[str, LineRung]:
     return _chosen(scene, end, None)
 
 
-def as_told(rungs: Mapping[str, LineRung]) -> str:
-    """One line of text for each."""
-    return "\n".join(f"{name}: {rung.name}: {rung.reason}" for name, rung in rungs.items())
-
-
 def all_elastic(names: Mapping[str, object], reason: str) -> dict[str, LineRung]:
     """The elastic rung for all of them, for one reason."""
     return {name: LineRung(name=ELASTIC, reason=reason) for name in names}
-
-
-def _kept(name: str, start: _core.State) -> LineRung:
-    known = QUASI_STATIC if f"{name}.strain_rate" in start.load_states else ELASTIC
-    return LineRung(name=known, reason=f"as in the state it goes on from, at {start.time:g} s")
 
 
 def _why_elastic(scene: Scene, known: Integrator, *, controlled: bool) -> str:
@@ -156,7 +138,17 @@ def _by_their_own(
         wound = on_winch(every, line)
         smooth = wound is None or wound.lag > 0.0
         reason = _ringing(line, wound, now[name], kinks, jumps) if smooth else UNSMOOTH
-        out[name] = _bounded(line, now, sources) if not reason else _elastic(reason)
+        if not reason:
+            error, worst = _worst_error(line, now, sources)
+            text = (
+                f"its tension would err by {100.0 * error:.2g} % of {worst}, its own frequency being "
+                f"{now[name].omega:.4g} rad/s"
+            )
+            if error <= LARGEST_ERROR:
+                out[name] = LineRung(name=QUASI_STATIC, reason=text)
+                continue
+            reason = f"{text}: more than {100.0 * LARGEST_ERROR:g} %"
+        out[name] = LineRung(name=ELASTIC, reason=reason)
     return _beside_elastic(scene, out, now)
 
 
@@ -166,23 +158,21 @@ def _beside_elastic(
     """Elastic too where the ringing of an elastic line that moves what a line moves errs by too much."""
     out = dict(rungs)
     lines = lines_of(scene.loads)
-    ringing = [name for name, line in lines.items() if ELASTIC in (line.rung, out.get(name, NONE).name)]
+    chosen = {name: line.rung for name, line in lines.items()} | {name: one.name for name, one in out.items()}
+    ringing = [name for name in lines if chosen[name] == ELASTIC]
     while ringing:
         other = ringing.pop()
         for name in [name for name, rung in out.items() if rung.name == QUASI_STATIC]:
             fast, own = np.array([now[other].fastest]), now[name]
             error = _error(lines[name].settling, own, fast, np.ones(1))
             if other in own.coupled and error > LARGEST_ERROR:
-                out[name] = _elastic(
+                reason = (
                     f"its tension would err by {100.0 * error:.2g} % of what line {other!r} makes of it, "
                     f"which is elastic and may ring, with up to {now[other].fastest:.4g} rad/s"
                 )
+                out[name] = LineRung(name=ELASTIC, reason=reason)
                 ringing.append(name)
     return out
-
-
-def _elastic(reason: str) -> LineRung:
-    return LineRung(name=ELASTIC, reason=reason)
 
 
 def _jump(of: Callable[[float], Array], time: float) -> tuple[Array, Array]:
@@ -222,20 +212,6 @@ def _driven(line: _core.Line, wound: _core.Line | None, time: float) -> Array:
     return np.asarray(line.share * np.clip(command / wound.lag, -2.0 * fastest, 2.0 * fastest))
 
 
-def _bounded(
-    line: _core.Line, now: Mapping[str, LineDynamics], sources: list[tuple[str, Array, Array]]
-) -> LineRung:
-    """By the error that the sources make."""
-    error, worst = _worst_error(line, now, sources)
-    text = (
-        f"its tension would err by {100.0 * error:.2g} % of {worst}, its own frequency being "
-        f"{now[line.name].omega:.4g} rad/s"
-    )
-    if error > LARGEST_ERROR:
-        return _elastic(f"{text}: more than {100.0 * LARGEST_ERROR:g} %")
-    return LineRung(name=QUASI_STATIC, reason=text)
-
-
 def _worst_error(
     line: _core.Line, now: Mapping[str, LineDynamics], sources: list[tuple[str, Array, Array]]
 ) -> tuple[float, str]:
@@ -265,21 +241,30 @@ def _error(settling: float, own: LineDynamics, omega: Array, weight: Array) -> f
 def tension_error(omega: Array, *, settling: float, own: float, loss: float = 0.0) -> Array:
     """Error of the tension of a quasi-static stretch, of what motion of a frequency makes of it.
 
-    (omega / own)^2 times the error of the strain, and more near the line's own frequency. See
-    docs/stiff-lines.md.
-
-    Parameters
-    ----------
-    omega : rad/s.
-    settling : s.
-    own : Frequency of the elastic line, rad/s.
-    loss : Of its damping at that frequency: c own over the stiffness.
+    (omega / own)^2 times the error of the strain, and more near the line's own frequency (rad/s). `loss`: of
+    its damping at that frequency, c own over the stiffness. See docs/stiff-lines.md.
     """
     p, x = 1j * settling * np.asarray(omega, dtype=float), np.asarray(omega, dtype=float) / own
     settled = p**2 * (2.0 + p) / (1.0 + p)  # T / (EA e) - 1
     elastic = 1.0 + 1j * loss * x
     follows = elastic + settled
     return np.asarray(np.abs(settled * x**2 / (elastic * (follows - x**2))))
+
+
+def struck(
+    scene: Scene, settled: Sequence[str], events: Iterable[tuple[float, str]], start: float
+) -> list[Finding]:
+    """Whether water struck what hangs on a line that "auto" settled, as it had not as the run began."""
+    parts = {f"{name}.touch": name for name in immersed_parts(scene)} if settled else {}
+    for time, name in events:
+        if name in parts and time > start:
+            lines = ", ".join(map(repr, settled))
+            text = (
+                f"immersed part {parts[name]!r}: met water at t = {time:.6g} s, and slam is fast; 'auto' "
+                f"had made {lines} quasi-static, whose peaks are then too small. Give rung='elastic'"
+            )
+            return [(LineRungWarning, text)]
+    return []
 
 
 @once
@@ -309,10 +294,14 @@ def excitations(scene: Description, *, start: float, end: float) -> Iterator[tup
     """
     if scene.waves is not None:
         yield "the sea", *_sea(scene.waves)
-    for name, curve, derivative in _curves(scene):
-        omega = curve_frequency(curve, derivative, start=start, end=end)
-        if omega > 0.0:
-            yield name, np.array([omega]), np.ones(1)
+    for element in (*scene.drivers.values(), *scene.all_loads()):
+        for name, value in element.__getstate__().items():
+            for curve in value if isinstance(value, list) else [value]:
+                if not isinstance(curve, _core.Curve):
+                    continue
+                omega = curve_frequency(curve, _derivative(element, name), start=start, end=end)
+                if omega > 0.0:
+                    yield f"the {name} of {element.name!r}", np.array([omega]), np.ones(1)
 
 
 def _sea(waves: Any) -> tuple[Array, Array]:
@@ -327,16 +316,8 @@ def _sea(waves: Any) -> tuple[Array, Array]:
     return omega, weights if weights.any() else amplitude**2 * omega**4
 
 
-def _curves(scene: Description) -> Iterator[tuple[str, _core.Curve, int]]:
-    """All curves of a scene, each with the derivative that is an acceleration of what follows, or a force."""
-    for element in (*scene.drivers.values(), *scene.all_loads()):
-        for name, value in element.__getstate__().items():
-            for curve in value if isinstance(value, list) else [value]:
-                if isinstance(curve, _core.Curve):
-                    yield f"the {name} of {element.name!r}", curve, _derivative(element, name)
-
-
 def _derivative(element: Any, name: str) -> int:
+    """Of a curve: the one that is an acceleration of what follows, or a force."""
     if isinstance(element, _core.Line):
         return {"length": 2, "rate": 1}.get(name, 0)
     return 2 if name in ("curve", "reference") else 0

@@ -28,27 +28,17 @@ MOMENT = 1e-5  # s, in which what a stage begins at the bound of is seen to leav
 
 @dataclass
 class Course:
-    """The runs of one stage.
-
-    Attributes
-    ----------
-    scene, model, method, outputs
-        What is stepped, how, and what is recorded, the channels of conditions among it.
-    first : Time from which outputs are counted, s.
-    calls : Of controllers.
-    began, done : callables
-        Told of each run that begins, and of each that is part of the result.
-    """
+    """The runs of one stage."""
 
     scene: Scene
     model: _core.Model
     method: Method
-    outputs: Outputs
-    first: float
+    outputs: Outputs  # the channels of conditions among them
+    first: float  # s, from which outputs are counted
     interrupts: Interrupts
     calls: Calls
-    began: Callable[[Run], None]
-    done: Callable[[Run], None]
+    began: Callable[[Run], None]  # told of each run that begins
+    done: Callable[[Run], None]  # and of each that is part of the result
     first_run: Run | None = None
 
     def run(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
@@ -70,12 +60,6 @@ class Course:
         self.done(run)
         return run
 
-    def stand(self, start: _core.State) -> None:
-        """The state itself as part of the result."""
-        run = self.run(start, start.time)
-        self.began(run)
-        self.done(run)
-
     def tried(self, start: _core.State, t_end: float) -> Run:
         """A run advanced to its end, and no part of the result; KeyboardInterrupt by Ctrl-C."""
         run = self.run(start, t_end)
@@ -92,22 +76,16 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> Generator[Ru
 
     Raises SimulationError for a stage whose conditions are not met within its `maximum_duration`.
     """
-    if stage.duration is not None:
-        course.calls.begin(start.time, replayed=False)
-        run = course.run(start, start.time + stage.duration)
-        course.began(run)
-        yield run
-        drive(run, course.calls, course.interrupts)
-        course.done(run)
-        return "" if run.interrupted else "duration"
-    assert stage.maximum_duration is not None
-    end, state = start.time + stage.maximum_duration, start
-    course.calls.begin(start.time, replayed=True)
+    timed, longest = stage.duration is not None, stage.duration or stage.maximum_duration
+    assert longest is not None
+    end, state = start.time + longest, start
+    course.calls.begin(start.time, replayed=not timed)
     left = _left(course, start, end, stage.conditions)
     if isinstance(left, str):
         return left
     while True:
-        stop = min(_next_look(course, state.time), end)
+        outputs = np.floor((state.time - course.first) / course.outputs.dt_out + 1e-6) + LOOK
+        stop = end if timed else min(float(course.first + course.outputs.dt_out * outputs), end)
         run = course.run(state, stop)
         course.began(run)
         yield run
@@ -123,20 +101,16 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> Generator[Ru
         course.done(run)
         if run.interrupted:
             return ""
+        if timed:
+            return "duration"
         if stop >= end:
             raise SimulationError(
-                f"{stage.title}: is not over after its maximum_duration of {stage.maximum_duration:g} s, "
+                f"{stage.title}: is not over after its maximum_duration of {longest:g} s, "
                 f"at t = {end:.6g} s: it waits for {_waits_for(stage, run)}. "
                 "Command what leads there, correct the condition, or allow longer"
             )
         state = run.state
         course.calls.begin(state.time, replayed=True)
-
-
-def _next_look(course: Course, now: float) -> float:
-    """The output that is so many outputs away, s."""
-    dt = course.outputs.dt_out
-    return float(course.first + dt * (np.floor((now - course.first) / dt + 1e-6) + LOOK))
 
 
 def _left(
@@ -147,6 +121,8 @@ def _left(
     A stage that ended as a contact touched begins where that gap is zero to its last digits. What counts is
     where it goes from there.
     """
+    if not conditions:
+        return set()
     run = course.run(start, end, capacity=1)
     there = [one for one in conditions if excess_now(run, one) >= 0.0]
     if not there:
@@ -181,22 +157,12 @@ class _Hit:
 def _hits(run: Run, conditions: tuple[Condition, ...], since: Mapping[Condition, float]) -> list[_Hit]:
     """Conditions met by now, in the outputs, at events or at this instant; some from a time on, s."""
     start = float(run.start.time)
-    asked = [(one, max(start, since.get(one, start))) for one in conditions]
-    found = (_found(run, *one) or _found_now(run, *one) for one in asked)
+    found = (_found(run, one, max(start, since.get(one, start))) for one in conditions)
     return [hit for hit in found if hit is not None]
 
 
-def _found_now(run: Run, condition: Condition, start: float) -> _Hit | None:
-    """A condition that is met between the last output and now."""
-    now = float(run.core.time)
-    if isinstance(condition, Contact) or now <= start or excess_now(run, condition) < 0.0:
-        return None
-    times = run.core.channels()["time"]
-    return _Hit(condition, float(max([start, *times[times < now]])), now)
-
-
 def _found(run: Run, condition: Condition, start: float) -> _Hit | None:
-    """Where a run first met a condition: between two of its outputs, or at an event."""
+    """Where a run first met a condition: between two of its outputs, after the last, or at an event."""
     if isinstance(condition, Contact):
         kind = "contact" if condition.holds else "release"
         names = (condition.limit, f"{condition.limit}.minimum", f"{condition.limit}.maximum")
@@ -206,10 +172,13 @@ def _found(run: Run, condition: Condition, start: float) -> _Hit | None:
     time = arrays["time"]
     met = np.flatnonzero(condition.excess(condition.series(run, run.named(arrays))) >= 0.0)
     met = met[time[met] > start]
-    if not met.size:
+    if met.size:
+        at = int(met[0])
+        return _Hit(condition, float(max(start, time[at - 1] if at else start)), float(time[at]))
+    now = float(run.core.time)
+    if now <= start or excess_now(run, condition) < 0.0:
         return None
-    at = int(met[0])
-    return _Hit(condition, float(max(start, time[at - 1] if at else start)), float(time[at]))
+    return _Hit(condition, float(max([start, *time[time < now]])), now)
 
 
 def _located(course: Course, state: _core.State, first: _Hit, hits: list[_Hit]) -> str:
@@ -221,8 +190,12 @@ def _located(course: Course, state: _core.State, first: _Hit, hits: list[_Hit]) 
     times = [(_crossing(course, lead, hit), hit) for hit in levels]
     times += [(hit.by, hit) for hit in near if isinstance(hit.condition, Contact)]
     time, hit = min(times, key=lambda one: one[0])
-    if isinstance(hit.condition, Contact):
-        return _at_contact(course, state, time, hit.condition)
+    if isinstance(hit.condition, Contact):  # to just after its event: another last step may see it later
+        waits = (
+            one for one in CONTACT_WAITS if excess_now(course.tried(state, time + one), hit.condition) >= 0.0
+        )
+        course.taken(state, time + next(waits, CONTACT_WAITS[-1]))
+        return hit.condition.text
     if lead is not state:
         lead = course.taken(state, after).state
     course.taken(lead, time)
@@ -245,24 +218,12 @@ def _crossing(course: Course, lead: _core.State, hit: _Hit) -> float:
     return float(brentq(excess, hit.after, hit.by, xtol=LOCATED, rtol=8.9e-16))
 
 
-def _at_contact(course: Course, state: _core.State, time: float, condition: Contact) -> str:
-    """Run to just after an event of a limit: another last step may see it a little later."""
-    wait = CONTACT_WAITS[-1]
-    for one in CONTACT_WAITS:
-        if excess_now(course.tried(state, time + one), condition) >= 0.0:
-            wait = one
-            break
-    course.taken(state, time + wait)
-    return condition.text
-
-
 def _waits_for(stage: Stage, run: Run) -> str:
     """The conditions of a stage, and how they stand."""
-    said = []
+    said, measured = [], run.named(run.core.snapshot())
     for condition in stage.conditions:
         now = "not yet"
         if isinstance(condition, Level):
-            measured = run.named(run.core.snapshot())
             now = f"it is {float(condition.series(run, measured)[0]):.6g}"
         said.append(f"{condition.text} ({now})")
     return " or ".join(said)

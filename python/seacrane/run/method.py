@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeAlias, TypedDict
 
@@ -131,8 +131,6 @@ class Shorthand(TypedDict, total=False):
 
 
 METHOD_WORDS = tuple(Method.__dataclass_fields__)
-
-
 OUTPUT_WORDS = tuple(Outputs.__dataclass_fields__)
 
 
@@ -155,39 +153,29 @@ def settled(
             error = KeywordError(f"settings: {no_keyword(word, shorthand[word], known)}")
             error.known = (*METHOD_WORDS, *OUTPUT_WORDS)
             raise error
-    return (
-        _settled("method", Method, method, METHOD_WORDS, shorthand),
-        _settled("outputs", Outputs, outputs, OUTPUT_WORDS, shorthand),
-    )
+    kinds: dict[str, tuple[Any, Any]] = {"method": (Method, method), "outputs": (Outputs, outputs)}
+    for name, (kind, given) in kinds.items():
+        if given is not None and not isinstance(given, kind):
+            raise SceneError(f"{name} is {given!r}; give a seacrane.{kind.__name__}")
+    made = overridden(method, outputs, shorthand)
+    for one, (name, (kind, given)) in zip(made, kinds.items(), strict=True):
+        for word in () if given is None else kind.__dataclass_fields__:
+            if getattr(one, word) != getattr(given, word):
+                raise SceneError(
+                    f"{word}={shorthand[word]!r} contradicts {name}, whose {word} is "
+                    f"{getattr(given, word)!r}: leave {word} out, or change {name}"
+                )
+    return made
 
 
 def overridden(
     method: Method | None, outputs: Outputs | None, shorthand: Mapping[str, Any]
 ) -> tuple[Method, Outputs]:
     """The objects, or defaults, with what the shorthand says in their place; raises SceneError."""
-    return (
-        _changed(Method() if method is None else method, METHOD_WORDS, shorthand),
-        _changed(Outputs() if outputs is None else outputs, OUTPUT_WORDS, shorthand),
-    )
-
-
-def _settled(name: str, kind: Any, given: Any, words: Iterable[str], shorthand: Mapping[str, Any]) -> Any:
-    if given is not None and not isinstance(given, kind):
-        raise SceneError(f"{name} is {given!r}; give a seacrane.{kind.__name__}")
-    made = _changed(kind() if given is None else given, words, shorthand)
-    if given is not None and made != given:
-        word = next(word for word in words if getattr(made, word) != getattr(given, word))
-        raise SceneError(
-            f"{word}={shorthand[word]!r} contradicts {name}, whose {word} is {getattr(given, word)!r}: "
-            f"leave {word} out, or change {name}"
-        )
-    return made
-
-
-def _changed(whole: Any, words: Iterable[str], shorthand: Mapping[str, Any]) -> Any:
-    """The object with the attributes that the words given stand for."""
-    values = {word: shorthand[word] for word in words if shorthand.get(word) is not None}
-    return replace(whole, **values)
+    given = {word: value for word, value in shorthand.items() if value is not None}
+    how = {word: given[word] for word in METHOD_WORDS if word in given}
+    what = {word: given[word] for word in OUTPUT_WORDS if word in given}
+    return replace(method or Method(), **how), replace(outputs or Outputs(), **what)
 
 
 def start_state(scene: Scene, start: Any, *, time: float = 0.0) -> _core.State | None:
@@ -208,23 +196,22 @@ def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Sc
     Raises SceneError for a combination that does not exist.
     """
     model = scene.compile() if model is None else model
-    known = integrator(method.integrator)
-    formulation = _formulation(model, method, known)
-    if known.name == SOLVES_FOR_MULTIPLIERS:
-        _refuse_redundant_joints(model)
-    return scene, model, formulation
-
-
-def _formulation(model: _core.Model, method: Method, known: Integrator) -> str:
-    """The formulation to step; SceneError where the recursive one is asked for and does not exist."""
+    known, formulation = integrator(method.integrator), method.formulation
     reason = _redundant_because(model, known)
-    if method.formulation == "recursive" and reason:
+    if formulation == "recursive" and reason:
         raise SceneError(f"formulation 'recursive' is not available here: {reason}; choose 'redundant'")
-    if method.formulation != "auto":
-        return method.formulation
-    if reason:
-        return "redundant"
-    return "recursive" if model.tree["loop_rows"] == 0 or recursive_pays(model) else "redundant"
+    if formulation == "auto":
+        pays = not reason and (model.tree["loop_rows"] == 0 or recursive_pays(model))
+        formulation = "recursive" if pays else "redundant"
+    dependent = model.redundant if known.name == SOLVES_FOR_MULTIPLIERS else ()
+    joints = ", ".join(name for name in dependent if name not in model.merge["dropped"])
+    if joints:
+        raise SceneError(
+            f"integrator {SOLVES_FOR_MULTIPLIERS!r} is not available here: the joints {joints} are "
+            "redundant, and it solves for every reaction; give one of them more freedom, or choose "
+            "'cvode-bdf', which projects"
+        )
+    return scene, model, formulation
 
 
 def _redundant_because(model: _core.Model, known: Integrator) -> str | None:
@@ -242,17 +229,6 @@ def _redundant_because(model: _core.Model, known: Integrator) -> str | None:
     if model.tree["speeds"] == 0:
         return "the joints and drivers of this scene leave nothing to move"
     return None
-
-
-def _refuse_redundant_joints(model: _core.Model) -> None:
-    """SceneError where joints that are stepped depend on each other: each multiplier is solved for."""
-    joints = ", ".join(name for name in model.redundant if name not in model.merge["dropped"])
-    if joints:
-        raise SceneError(
-            f"integrator {SOLVES_FOR_MULTIPLIERS!r} is not available here: the joints {joints} are "
-            "redundant, and it solves for every reaction; give one of them more freedom, or choose "
-            "'cvode-bdf', which projects"
-        )
 
 
 def recursive_pays(model: _core.Model) -> bool:
@@ -281,24 +257,10 @@ def recursive_pays(model: _core.Model) -> bool:
     return bool(dense > MARGIN * tree)
 
 
-def core_options(
-    method: Method,
-    formulation: str,
-    *,
-    channels: Set[str],
-    times: Any,
-    capacity: int | None = None,
-    extremes: Set[str] = frozenset(),
-    trail: Set[str] = frozenset(),
-) -> _core.RunOptions:
-    """The options of the core for a method, with the channels that it records and when (s).
-
-    `extremes`: those of the channels of which it keeps least and largest values between outputs. `trail`:
-    those whose values at every step it keeps.
-    """
+def core_options(method: Method, formulation: str, **recorded: Any) -> _core.RunOptions:
+    """The options of the core for a method; `recorded`: what it records and keeps, and when."""
     return _core.RunOptions(
         formulation=formulation, integrator=method.integrator, scaled_tolerance=method.used_rtol,
         fixed_step=method.dt, max_step=method.maximum_step, spectral_radius=method.spectral_radius,
-        energy_limit=method.energy_limit, output_times=times, channels=channels,
-        extremes=extremes, trail=trail, capacity=capacity,
+        energy_limit=method.energy_limit, **recorded,
     )  # fmt: skip

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -52,63 +51,44 @@ Mode = tuple[complex, str]  # an eigenvalue (1/s), and the body that it moves mo
 
 
 class Modes:
-    """Found when they are first asked for.
-
-    Parameters
-    ----------
-    model : Model
-    bodies : sequence of str
-        Their names, in the order of the model.
-    states : sequence of State
-        At least one.
-    """
+    """Found when they are first asked for, at one state or more; bodies in the order of the model."""
 
     def __init__(self, model: _core.Model, bodies: Sequence[str], states: Sequence[_core.State]) -> None:
         self.model, self._bodies, self._states = model, list(bodies), list(states)
+        first = (6 if model.euler_angles else 7) * len(self._bodies)
+        self._speeds = slice(first, first + 6 * len(self._bodies))
 
     @cached_property
     def fastest(self) -> tuple[float, str, float]:
         """The fastest of all states: |eigenvalue| (1/s), zero where it is not finite; body; time, s."""
-        return max(self._fastest(state) for state in self._states)
+        found = []
+        for state in self._states:
+            modes = self._at(np.array(state.values), state.time)
+            worst, body = max(modes, key=lambda mode: abs(mode[0]), default=(0j, ""))
+            found.append((abs(worst), body, state.time))
+        return max(found)
 
     @cached_property
     def oscillations(self) -> list[Mode]:
         """Those with little damping, at rest in the pose of each state; imaginary parts are positive."""
-        return [mode for state in self._states for mode in self._oscillations(state)]
-
-    @property
-    def _speeds(self) -> slice:
-        first = (6 if self.model.euler_angles else 7) * len(self._bodies)
-        return slice(first, first + 6 * len(self._bodies))
-
-    def _sizes(self, vectors: NDArray[np.complex128]) -> NDArray[np.float64]:
-        """Speeds of bodies in modes, over their scales."""
-        scale = np.array(self.model.scale)
-        return np.asarray((np.abs(vectors) / scale[np.isfinite(scale), None])[self._speeds])
+        found: list[Mode] = []
+        for state in self._states if self._bodies else ():
+            values = np.array(state.values)
+            values[self._speeds] = 0.0
+            found += self._at(values, state.time)
+        return [one for one in found if one[0].imag > 0.0 and abs(one[0].real) < MOST_DAMPING * abs(one[0])]
 
     @one_thread
-    def _fastest(self, state: _core.State) -> tuple[float, str, float]:
-        matrix = jacobian(self.model, state=np.array(state.values), time=state.time)
+    def _at(self, values: Array, time: float) -> list[Mode]:
+        """All modes of a state; none where its rates are not finite."""
+        matrix = jacobian(self.model, state=values, time=time)
         if not np.all(np.isfinite(matrix)):
-            return 0.0, "", state.time
-        eigenvalues, vectors = np.linalg.eig(matrix)
-        worst = int(np.abs(eigenvalues).argmax())
-        twists = self._sizes(vectors[:, worst : worst + 1])[:, 0]
-        body = self._bodies[int(twists.argmax()) // 6] if self._bodies else ""
-        return float(np.abs(eigenvalues[worst])), body, state.time
-
-    @one_thread
-    def _oscillations(self, state: _core.State) -> list[Mode]:
-        values = np.array(state.values)
-        values[self._speeds] = 0.0
-        matrix = jacobian(self.model, state=values, time=state.time)
-        if not self._bodies or not np.all(np.isfinite(matrix)):
             return []
         modes, shapes = np.linalg.eig(matrix)
-        little = (modes.imag > 0.0) & (np.abs(modes.real) < MOST_DAMPING * np.abs(modes))
-        sizes = self._sizes(shapes[:, little])
-        moved = [self._bodies[int(column.argmax()) // 6] for column in sizes.T]
-        return list(zip(modes[little].tolist(), moved, strict=True))
+        scale = np.array(self.model.scale)
+        speeds = (np.abs(shapes) / scale[np.isfinite(scale), None])[self._speeds]
+        moved = [self._bodies[int(column.argmax()) // 6] if self._bodies else "" for column in speeds.T]
+        return list(zip(modes.tolist(), moved, strict=True))
 
 
 def fewest_steps(states: int, least: int = MANY_STEPS) -> int:
@@ -124,13 +104,9 @@ def stiffness(
     *,
     near: float = 1.0,
 ) -> list[Finding]:
-    """The mode that sets the steps of a slow run, looked for only where there are many steps.
+    """The mode that sets the steps of a slow run, told from a share of the limits (`near`) on.
 
-    Parameters
-    ----------
-    loads : Of the scene, by name.
-    stats, settings : Of the run: `Result.stats`, `Result.settings`.
-    near : Share of the limits from which on it is told.
+    It is looked for only where there are many steps. `stats`, `settings`: as of its result.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     method = integrator_of(integrator)
@@ -160,32 +136,17 @@ def stiffness(
 def _taut_lines(loads: Mapping[str, Any], body: str, mode: float) -> str:
     """The rung that takes the mode, where it may be that of an elastic line on the body."""
     fast = {
-        whole_of(name, line)
+        repr(whole_of(name, line))
         for name, line in lines_of(loads).items()
         if line.rung == "elastic" and body in line.bodies and mode * line.settling > SETTLES
     }
-    names = [repr(name) for name in sorted(fast)]
-    if not names:
+    if not fast:
         return ""
     return (
-        f". If it is the stretch of line {' or '.join(names)} and the line stays taut, give it "
+        f". If it is the stretch of line {' or '.join(sorted(fast))} and the line stays taut, give it "
         "rung='quasi-static': with an explicit method it then costs what a soft line does. For motion of "
         f"omega rad/s the tension errs by less than (omega / {mode:.4g})^2 of what omega makes of it"
     )
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Fed:
-    """What steps make of an oscillation's amplitude: rate (1/s), and whether longer steps feed it."""
-
-    mode: complex
-    body: str
-    rate: float
-    rings: bool
-
-    def __str__(self) -> str:
-        damping = abs(max(-self.mode.real / abs(self.mode), 0.0))
-        return f"a mode of {self.mode.imag:.4g} rad/s with {damping:.2g} of critical damping"
 
 
 def growing(
@@ -201,15 +162,8 @@ def growing(
     A step h of y' = lambda y multiplies y by R(h lambda). Where log|R| exceeds the decay of the mode, its
     amplitude grows by that much in each step, though the solution's does not; step control ends that only
     where the amplitude has come to its tolerance. What would have grown from rounding beyond the tolerance
-    has come there: it rings.
-
-    Parameters
-    ----------
-    modes : At rest in the poses of the states; the mode counts that grows most.
-    stats, settings : Of the run: `Result.stats`, `Result.settings`.
-    undamped : collection of str
-        Bodies whose damping the linear model lacks, whose modes are not judged.
-    near : Share of the limits, and of what damps the modes, from which on it is told.
+    has come there: it rings. Modes of bodies whose damping the linear model lacks (`undamped`) are not
+    judged; `near` as of `stiffness`, and of what damps the modes.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     polynomial = _core.stability_polynomial(integrator)
@@ -218,40 +172,38 @@ def growing(
         return []
     duration = float(stats["simulated_s"])
     step, tolerance = duration / steps, float(settings["rtol"])
-    judged = [_judged(*mode, polynomial, step, near, undamped) for mode in modes.oscillations]
+    fed = [
+        (added(polynomial, mode, step), near * min(mode.real, 0.0), mode, body)
+        for mode, body in modes.oscillations
+        if body not in undamped
+    ]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")
     most = math.log(tolerance / ROUNDING) / duration if adapts else math.inf
-    worst = max((one for one in judged if one.rate <= most), key=lambda one: one.rate, default=None)
-    if worst is not None and worst.rate * duration >= near * LEAST_GROWTH:
-        factor = math.exp(min(worst.rate * HOUR, 99.0))
+    rates = [(more + own, mode, body) for more, own, mode, body in fed if more + own <= most]
+    rate, mode, body = max(rates, key=lambda one: one[0], default=(-math.inf, 0j, ""))
+    if rate * duration >= near * LEAST_GROWTH:
+        factor = math.exp(min(rate * HOUR, 99.0))
         text = (
-            f"run: {integrator} makes an oscillation of body {worst.body!r} grow by a factor of "
-            f"{factor:.3g} an hour: {worst}, which its steps of {step:.3g} s on average outweigh. {fix}"
+            f"run: {integrator} makes an oscillation of body {body!r} grow by a factor of {factor:.3g} an "
+            f"hour: {_shown(mode)}, which its steps of {step:.3g} s on average outweigh. {fix}"
         )
         return [(GrowingModeWarning, text)]
-    ringing = next((one for one in judged if one.rings), None)
-    if ringing is not None and adapts and tolerance >= LOOSE:
-        text = (
-            f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body "
-            f"{ringing.body!r} ringing: {ringing}, which grows with steps a little "
-            f"longer than those of {step:.3g} s on average, until it comes to the tolerance. {fix}"
-        )
-        return [(GrowingModeWarning, text)]
+    for more, own, mode, body in fed if adapts and tolerance >= LOOSE else ():
+        seen = more > 0.0 and abs(mode) * step > LEAST_SEEN
+        if seen and added(polynomial, mode, LONGER * step) + own > 0.0:
+            text = (
+                f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body "
+                f"{body!r} ringing: {_shown(mode)}, which grows with steps a little "
+                f"longer than those of {step:.3g} s on average, until it comes to the tolerance. {fix}"
+            )
+            return [(GrowingModeWarning, text)]
     return []
 
 
-def _judged(
-    mode: complex, body: str, polynomial: Sequence[float], step: float, near: float, undamped: Collection[str]
-) -> _Fed:
-    """What steps of a method with this stability polynomial make of one."""
-    own, judged = near * min(mode.real, 0.0), body not in undamped
-    fed = added(polynomial, mode, step)
-    longer = added(polynomial, mode, LONGER * step) if judged and fed > 0.0 else -math.inf
-    return _Fed(
-        mode=mode, body=body, rate=fed + own if judged else -math.inf,
-        rings=longer + own > 0.0 and abs(mode) * step > LEAST_SEEN,
-    )  # fmt: skip
+def _shown(mode: complex) -> str:
+    damping = abs(max(-mode.real / abs(mode), 0.0))
+    return f"a mode of {mode.imag:.4g} rad/s with {damping:.2g} of critical damping"
 
 
 def added(polynomial: Sequence[float], mode: complex, step: float) -> float:
@@ -283,7 +235,13 @@ def unsteady_oil(scene: Description, model: _core.Model, states: Sequence[_core.
     start = next((one for one in states if _unrest(scene, model, one) < RESTLESS), None)
     if start is None:
         return []
-    matrix = _mean_jacobian(model, start, [*spools.values()], cylinders)
+    found = []
+    for side in (-1.0, 1.0):
+        values = _stopped(model, start)
+        for name, place in spools.items():
+            values[place] = side * (cylinders[name].overlap + OPEN)
+        found.append(jacobian(model, state=values, time=start.time))
+    matrix = np.asarray(0.5 * (found[0] + found[1]))
     if not np.all(np.isfinite(matrix)):
         return []
     stated = np.flatnonzero(np.isfinite(np.array(model.scale)))  # rows of the Jacobian
@@ -308,19 +266,6 @@ def _unrest(scene: Description, model: _core.Model, state: _core.State) -> float
     terms = _core.Evaluator(model).terms(state.time, _stopped(model, state))
     accelerations = np.abs(terms["acceleration"]).reshape(-1, 6)[:, :3].max(axis=1)
     return float(max(a for body, a in zip(model.bodies, accelerations, strict=True) if body in joined))
-
-
-def _mean_jacobian(
-    model: _core.Model, start: _core.State, places: list[int], cylinders: dict[str, _core.HydraulicCylinder]
-) -> Array:
-    """The mean Jacobian of both sides of the valves' middle."""
-    found = []
-    for side in (-1.0, 1.0):
-        values = _stopped(model, start)
-        for place, one in zip(places, cylinders.values(), strict=True):
-            values[place] = side * (one.overlap + OPEN)
-        found.append(jacobian(model, state=values, time=start.time))
-    return np.asarray(0.5 * (found[0] + found[1]))
 
 
 def _told(name: str, one: _core.HydraulicCylinder, matrix: Array, rows: dict[str, int]) -> Iterator[str]:

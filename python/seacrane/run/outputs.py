@@ -81,14 +81,7 @@ def output_times(t_start: float, t_end: float, dt_out: float, *, first: float, v
             f"dt_out is {dt_out} s: more than {MOST_OUTPUTS:.0e} outputs until {t_end} s; make it longer"
         )
     count = int(np.floor((t_end - first) / dt_out * (1.0 + 1e-12))) + 1
-    _check_resolution(max(abs(first), abs(t_end)), dt_out)
-    _check_memory(count, values)
-    times = first + dt_out * np.arange(count)
-    return np.append(times, t_end) if t_end - times[-1] > 1e-9 * dt_out else np.minimum(times, t_end)
-
-
-def _check_resolution(last: float, dt_out: float) -> None:
-    """SceneError where output times up to `last` are beyond, or closer than, what doubles resolve."""
+    last = max(abs(first), abs(t_end))
     if last > FARTHEST_TIME:
         raise SceneError(
             f"t_end or the start time is {last:.6g} s, beyond {FARTHEST_TIME:.0e} s, where doubles no longer "
@@ -99,17 +92,14 @@ def _check_resolution(last: float, dt_out: float) -> None:
             f"dt_out is {dt_out} s, which time does not resolve at {last:.6g} s (it is exact to "
             f"{np.spacing(last):.2g} s); make it longer, or start nearer to 0"
         )
-
-
-def _check_memory(outputs: int, values: int) -> None:
-    """OutputMemoryError if `outputs` rows of `values` doubles, and their copies, exceed the memory."""
-    needed = COPIES * 8 * outputs * (values + 1)
-    memory = _physical_memory()
+    needed, memory = COPIES * 8 * count * (values + 1), _physical_memory()
     if needed > memory:
         raise OutputMemoryError(
-            f"outputs: {outputs} times {values} values need {needed:.3g} bytes, this computer has "
+            f"outputs: {count} times {values} values need {needed:.3g} bytes, this computer has "
             f"{memory:.3g}; make dt_out longer, or record fewer channels (channels=[...])"
         )
+    times = first + dt_out * np.arange(count)
+    return np.append(times, t_end) if t_end - times[-1] > 1e-9 * dt_out else np.minimum(times, t_end)
 
 
 def _physical_memory() -> float:

@@ -12,14 +12,13 @@ from seacrane import _core
 from seacrane.description.channels import FIXED, NAMED
 from seacrane.description.description import KINDS, LOADS, Some
 from seacrane.description.holding import decided
-from seacrane.description.loads import lines_of, named, on_winch, winch_of, winches_of
-from seacrane.description.pick import Pick
+from seacrane.description.loads import lines_of, named, winches_of
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.run.channel_names import derived_coords, missing_names
 from seacrane.run.commands import HOLE, Command, Move, check_command, targets
 from seacrane.run.stage import Contact, Level, Stage, of_contact
-from seacrane.scene.own_channels import picks
+from seacrane.scene.recorded import picks
 from seacrane.scene.scene import Scene
 
 TABLES = ("joints", "drivers", *LOADS)
@@ -39,7 +38,9 @@ def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
     if not stages:
         raise SceneError("stages: there are none; give at least one seacrane.Stage")
     contacts = [name for name, load in scene.loads.items() if isinstance(load, _core.Contact)]
-    stages = tuple(_with_gaps(stage, contacts) for stage in stages)
+    stages = tuple(
+        replace(one, until=tuple(of_contact(each, contacts) for each in one.conditions)) for one in stages
+    )
     seen: set[str] = set()
     absent, burst = waiting(stages), dict[str, str]()
     for stage in stages:
@@ -52,11 +53,6 @@ def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
             error.name = stage.name
             raise
     return stages
-
-
-def _with_gaps(stage: Stage, contacts: Collection[str]) -> Stage:
-    until = tuple(of_contact(one, contacts) for one in stage.conditions)
-    return stage if until == stage.conditions else replace(stage, until=until)
 
 
 def _check(scene: Scene, stage: Stage, absent: set[str], burst: dict[str, str]) -> None:
@@ -72,7 +68,7 @@ def _check(scene: Scene, stage: Stage, absent: set[str], burst: dict[str, str]) 
                 "one of them out"
             )
     check_limits(stage, there)
-    check_bounds(stage, there)
+    _check_bounds(stage, there)
     _check_names(stage, there)
 
 
@@ -126,14 +122,6 @@ def _check_names(stage: Stage, there: Scene) -> None:
                 )
 
 
-def place_of(stages: Sequence[Stage], first: str | None) -> int:
-    """The place of the stage to begin with; SceneError for a name that no stage has."""
-    names = [stage.name for stage in stages]
-    if first is not None and first not in names:
-        raise SceneError(f"first is {shown(first)}; the stages are {', '.join(names)}")
-    return 0 if first is None else names.index(first)
-
-
 def table_of(scene: Scene, what: str, name: str) -> str:
     """The table of a connection; a joint goes before what acts on it and bears its name.
 
@@ -165,27 +153,18 @@ def without(scene: Some, names: Collection[str]) -> Some:
                 continue
             for other in [key for key, one in elements.items() if name in named(one, "joint")]:
                 del elements[other]
-        if joint:
-            _forget(out, name)
-        for channel in [key for key, curves in picks(out).items() if _told_of(curves, name)]:
-            del out.channels[channel]
+        for key in [key for key, (on, _) in out.recorded.items() if joint and on == name]:
+            del out.recorded[key]
+        for key in [key for key, limit in out.ranges.items() if joint and limit.joint == name]:
+            del out.ranges[key]
+        for key, curves in picks(out).items():
+            if any(name == one for pick in curves for dim, one in pick.names.items() if dim in NAMED):
+                del out.channels[key]
     states = out.limit_states
     for one in missing_names(out, [state.channel for state in states.values()]) if names else ():
         for state in [key for key, state in states.items() if state.channel == one]:
             del states[state]
     return out
-
-
-def _told_of(curves: Iterable[Pick], name: str) -> bool:
-    """Whether one of the curves is of an element of this name."""
-    return any(name == one for pick in curves for dim, one in pick.names.items() if dim in NAMED)
-
-
-def _forget(scene: Any, joint: str) -> None:
-    for key in [key for key, (on, _) in scene.recorded.items() if on == joint]:
-        del scene.recorded[key]
-    for key in [key for key, limit in scene.ranges.items() if limit.joint == joint]:
-        del scene.ranges[key]
 
 
 def check_limits(stage: Stage, scene: Scene) -> None:
@@ -208,42 +187,21 @@ def check_limits(stage: Stage, scene: Scene) -> None:
             )
 
 
-def check_bounds(stage: Stage, scene: Scene) -> None:
-    """Raise SceneError for what no line or winch of the stage does, whatever it is commanded.
-
-    A line does not push, and a winch stops at its `minimum_length`. Commands stay within its `maximum_rate`.
-    What is lowered stops above the seabed.
-    """
-    lines = lines_of(scene.loads)
+def _check_bounds(stage: Stage, scene: Scene) -> None:
+    """Raise SceneError for what is met at once or never, and for rates beyond a winch's `maximum_rate`."""
     bottom = np.inf if scene.waves is None else scene.waves.depth
-    levels = [one for one in stage.conditions if isinstance(one, Level)]
-    for one in levels:
-        if one.above and one.channel == "line_tension" and one.value <= 0.0:
+    for one in stage.conditions:
+        if not isinstance(one, Level) or not one.above:
+            continue
+        if one.channel == "line_tension" and one.value <= 0.0:
             raise SceneError(
                 f"{stage.title}: would end at once: it waits for {one.text}, which every line has; "
                 "give a tension above 0 N for a line that is taut, or maximum=0 for one that is slack"
             )
-        if one.above and one.channel == "immersed_depth" and one.value > bottom:
+        if one.channel == "immersed_depth" and one.value > bottom:
             raise SceneError(
                 f"{stage.title}: waits for {one.text}, and the sea is {bottom:g} m deep; wait for "
                 "less, or give the sea the depth of the place (SeaState)"
-            )
-    for one in levels if len(stage.conditions) == 1 else ():
-        line = lines.get(dict(one.names).get("line", ""))
-        if one.above or line is None:
-            continue
-        if one.channel == "line_tension" and one.value < 0.0:
-            raise SceneError(
-                f"{stage.title}: would never end: it waits for {one.text}, and a line does not push; "
-                "slack is a tension below 0"
-            )
-        wound = on_winch(lines, line)
-        if one.channel != "line_unstretched_length" or wound is None:
-            continue
-        if one.value < line.share * wound.minimum_length:
-            raise SceneError(
-                f"{stage.title}: would never end: it waits for {one.text}, and the winch stops at its "
-                f"minimum_length of {wound.minimum_length:g} m; wait for more, or give it a smaller one"
             )
     winches = winches_of(scene.loads)
     for name, value in stage.commands.items():
@@ -265,49 +223,3 @@ def _check_rate(stage: Stage, name: str, line: _core.Line, command: Command) -> 
             f"{stage.title}: command {name!r} reaches {fastest:.6g} m/s, beyond the winch's maximum_rate of "
             f"{line.maximum_rate:g} m/s; command less, or give a larger maximum_rate"
         )
-
-
-def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: float) -> None:
-    """Raise SceneError for a length of line that no command of the stage leads to.
-
-    Parameters
-    ----------
-    lengths : dict of str to float
-        Unstretched, by line, m, as the stage begins.
-    begin : s.
-    """
-    lines = lines_of(scene.loads)
-    for condition in stage.conditions:
-        if not isinstance(condition, Level) or condition.channel != "line_unstretched_length":
-            continue
-        name = dict(condition.names).get("line", "")
-        if len(stage.conditions) > 1 or name not in lines:
-            continue  # another condition may end it; a line that is not there is told by its channel
-        wound = on_winch(lines, lines[name])
-        if wound is not None and (wound.tension_gain > 0.0 or wound.drum_inertia > 0.0):
-            continue  # its tension, motor or brake may lead it there
-        assert stage.maximum_duration is not None
-        share = lines[name].share
-        reached = _reached(wound or lines[name], lengths[name] / share, begin, stage.maximum_duration)
-        least, most = (share * length for length in reached)
-        if float(condition.excess(np.array([least, most])).max()) >= -1e-9 * lengths[name]:
-            continue
-        what = f"{name}.length" if wound is None else f"{winch_of(wound)}.rate"
-        raise SceneError(
-            f"{stage.title}: would never end: it waits for {condition.text}, and line {name!r} goes from "
-            f"{lengths[name]:.6g} m to {least:.6g} m at the least and {most:.6g} m at the most within its "
-            f"maximum_duration of {stage.maximum_duration:g} s. Command {what!r} towards it, or give more"
-        )
-
-
-def _reached(line: _core.Line, length: float, begin: float, longest: float) -> tuple[float, float]:
-    """The least and the most length that a stage's commands lead to; a lag only delays them."""
-    time = np.linspace(begin, begin + longest, SAMPLES)
-    if not line.winch:
-        lengths = line.length.evaluate(time)[:, 0]
-        return float(lengths.min()), float(lengths.max())
-    rate = np.clip(line.rate.evaluate(time)[:, 0], -line.maximum_rate, line.maximum_rate)
-    paid = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(time))])
-    slack = line.lag * float(np.abs(rate).max())  # what the drum goes on by while its rate dies out
-    least = max(line.minimum_length, length + float(paid.min()) - slack)
-    return least, length + float(paid.max()) + slack

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,52 +19,35 @@ from seacrane.description.once import forgetting
 from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
-from seacrane.description.wet_parts import immersed_parts
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import finite_of, number_of
 from seacrane.inputs.keywords import named
-from seacrane.result.about import About, plain_stats
-from seacrane.result.events import Event
+from seacrane.result.about import About, Event, plain_stats
 from seacrane.result.result import Result
-from seacrane.result.traces import Extremes, as_arrays
+from seacrane.result.traces import as_arrays
 from seacrane.run.carried_state import carried, changed_inputs, steered
 from seacrane.run.channel_names import (
     all_names,
+    followed,
+    limited_channels,
     recorded_channels,
     require_limited_channels,
     require_names,
+    wanted_extremes,
     with_sources,
 )
-from seacrane.run.derived import named_channels, own_values
-from seacrane.run.extremes import derived_extremes, followed, followed_extremes, wanted_extremes
-from seacrane.run.line_rungs import (
-    COMPILED,
-    LineRung,
-    all_elastic,
-    as_told,
-    line_rungs,
-    warn_of_quasi_static,
-)
+from seacrane.run.derived import derived_extremes, followed_extremes, named_channels, own_values
+from seacrane.run.line_rungs import COMPILED, all_elastic, line_rungs, struck, warn_of_quasi_static
 from seacrane.run.method import REST, Method, Shorthand, Start, core_options, settled, start_state, stepped
 from seacrane.run.modes import Modes
 from seacrane.run.outputs import Outputs, output_times
-from seacrane.run.stats import (
-    about_of,
-    boiled,
-    fallen_through,
-    lasting_stats,
-    require_plain,
-    ruptures,
-    settings_in_sea,
-    settings_of,
-)
+from seacrane.run.stats import about_of, event_findings, lasting_stats, ruptures, sea_settings, settings_of
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import NOT_FINITE, Finding, as_text, not_finite, tried
 from seacrane.validity.implausible import warn_of_description
 from seacrane.validity.left_range import findings
 from seacrane.validity.line_checks import bound_findings
-from seacrane.warnings import LineRungWarning
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -137,27 +120,35 @@ class Run:
         self.method, self.outputs = settled(method, outputs, shorthand)
         self.t_end = finite_of("t_end", t_end, "s")
         scene = with_holds(scene)
-        self._given = scene.copy() if automatic(scene) else scene
+        given = self._given = scene.copy() if automatic(scene) else scene
         self._given_start, self._capacity, self._controlled = start_state(scene, start), capacity, controlled
         self.described, begins = start is None, start is None or (isinstance(start, str) and start == REST)
-        self.rungs = self._chosen_rungs(model)
-        self._step(model)
+        if model is None:
+            known = integrator(self.method.integrator)
+            self.rungs = line_rungs(
+                given, known, end=self.t_end, start=self._given_start, controlled=controlled
+            )
+        else:
+            self.rungs = all_elastic(automatic(given), COMPILED)
+        scene = with_rungs(given, {name: rung.name for name, rung in self.rungs.items()})
+        self.scene, self.model, self.formulation = stepped(scene, model, self.method)
+        self.start = self._started()
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
-        begin, end, described = self.start.time, self.t_end, self.described
-        self._warned = dict(self.scene.warned)
-        with keeping(self._warned):
-            check_references(self.scene, self.model, start=begin, end=end, described=described)
-            warn_of_description(self.scene, start=begin, end=end, described=described, begins=begins)
-            if begin == 0.0:
-                warn_of_quasi_static(self._given, self.model, end=end)
+        self._check(begins=begins)
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
         require_limited_channels(self.scene, self.model)
         require_names(self.scene, self.outputs.channels or ())
         self._own_modes = Modes(self.model, list(self.scene.bodies), [self.start])
         self.start_modes: Modes | None = None
-        self._lasting = _Lasting.of(self)
+        self._coords, self._about = all_names(self.scene, self.model), about_of(self.scene)
+        self._lasting = lasting_stats(self.scene, self.model, self.formulation, self.method)
+        self._hold()
         self._prepare()
-        self._require_plain_stats()
+        try:  # what a result could not hold is refused now, not when the run is over
+            plain_stats(self.stats())
+            self.about.to_attributes()
+        except ValueError as error:
+            raise SceneError(f"scene {self.scene.name!r}: {error}") from error
 
     def in_sea(self, waves: Waves) -> Run:
         """A run of the same scene in another sea, by the same method, with the same outputs.
@@ -190,7 +181,7 @@ class Run:
         out._given = given
         out.model = compiled_in_sea(out.scene, self.model)
         out.start = out._started()
-        out.settings = settings_in_sea(self.settings, out.scene)
+        out.settings = sea_settings(out.scene, self.settings)
         out.start_modes = self.start_modes or self._own_modes
         out._prepare()
         return out
@@ -202,74 +193,64 @@ class Run:
         """
         out = copy(self)
         out._given_start, out._capacity = start, capacity
-        out.t_end = number_of("t_end", t_end)
-        out.described = False
+        out.t_end, out.described = number_of("t_end", t_end), False
         out.start = out._started()
         out.settings = {**self.settings, "t_end": out.t_end}
         out._own_modes, out.start_modes = Modes(out.model, list(out.scene.bodies), [out.start]), None
-        inputs = frozenset(steered(out.scene, out.model, out.start.inputs))
-        out._lasting = replace(self._lasting, options=_options(out, self._lasting.followed), steered=inputs)
+        out._hold()
         out._prepare()
         return out
 
+    def _check(self, *, begins: bool) -> None:
+        """What the description most likely does not mean; see `begins` of `warn_of_description`."""
+        begin, end, described = self.start.time, self.t_end, self.described
+        self._warned = dict(self.scene.warned)
+        with keeping(self._warned):
+            check_references(self.scene, self.model, start=begin, end=end, described=described)
+            warn_of_description(self.scene, start=begin, end=end, described=described, begins=begins)
+            if begin == 0.0:
+                warn_of_quasi_static(self._given, self.model, end=end)
+
+    def _hold(self) -> None:
+        """What holds from the start to the end, in any sea."""
+        scene, model, outputs = self.scene, self.model, self.outputs
+        asked = None if outputs.channels is None else tuple(outputs.channels)
+        channels = recorded_channels(scene, model, asked)
+        self._followed = followed(scene, channels, asked)  # made anew at every step, of what
+        self._steered = frozenset(steered(scene, model, self.start.inputs))
+        times = output_times(
+            self.start.time, self.t_end, outputs.dt_out, first=self.first,
+            values=model.channel_values(channels) if self._capacity is None else 0,
+        )  # fmt: skip
+        self._options = core_options(
+            self.method, self.formulation, channels=channels, output_times=times,
+            extremes=wanted_extremes(scene, channels, asked), trail=set().union(*self._followed.values()),
+            capacity=self._capacity,
+        )  # fmt: skip
+
     def _prepare(self) -> None:
         """What changes while it runs."""
-        self.core = self._simulation()
+        self.core = _core.Simulation(model=self.model, start=self.start, options=self._options)
         if self.scene.waves is not None:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self.interrupted = False
-        self.steered = set(self._lasting.steered)
+        self.steered = set(self._steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.lanes: dict[str, Any] = {}  # how it was stepped beside others, where that was asked for
 
-    def _simulation(self) -> _core.Simulation:
-        return _core.Simulation(model=self.model, start=self.start, options=self._lasting.options)
-
-    def _chosen_rungs(self, model: _core.Model | None) -> Mapping[str, LineRung]:
-        if model is not None:
-            return all_elastic(automatic(self._given), COMPILED)
-        return line_rungs(
-            self._given, integrator(self.method.integrator), end=self.t_end, start=self._given_start,
-            controlled=self._controlled,
-        )  # fmt: skip
-
-    def _step(self, model: _core.Model | None) -> None:
-        """What is stepped, from where, with the rungs that its lines have."""
-        scene = with_rungs(self._given, {name: rung.name for name, rung in self.rungs.items()})
-        self.scene, self.model, self.formulation = stepped(scene, model, self.method)
-        self.start = self._started()
-
     def _started(self) -> _core.State:
-        """The state at the start."""
+        """The state at the start; one of the model but for what rungs of lines add is carried over."""
         if self._given_start is None:
             return _core.initial_state(self.model)
-        if self._differs_by_rungs(self._given_start):
+        differ = {name for name, *_ in self.model.load_states} ^ self._given_start.load_states.keys()
+        if differ and differ <= {f"{name}.strain_rate" for name in self.rungs}:
             return carried(self._given_start, compiled(self._given, merge=True), self.model)
         return self._given_start
-
-    def _differs_by_rungs(self, start: _core.State) -> bool:
-        """Whether a state holds what the model has but for what the rungs of lines add."""
-        own = {f"{name}.strain_rate" for name in self.rungs}
-        there = {name for name, *_ in self.model.load_states}
-        return bool(there ^ start.load_states.keys()) and there ^ start.load_states.keys() <= own
 
     @property
     def settled(self) -> list[str]:
         """Lines that rung "auto" made quasi-static."""
         return [name for name, rung in self.rungs.items() if rung.name == QUASI_STATIC]
-
-    def _struck(self) -> list[Finding]:
-        """Whether water struck what hangs on a line that "auto" settled, as it had not as the run began."""
-        parts = {f"{name}.touch": name for name in immersed_parts(self.scene)} if self.settled else {}
-        for time, name, *_ in self.core.events():
-            if name in parts and time > self.start.time:
-                lines = ", ".join(map(repr, self.settled))
-                text = (
-                    f"immersed part {parts[name]!r}: met water at t = {time:.6g} s, and slam is fast; 'auto' "
-                    f"had made {lines} quasi-static, whose peaks are then too small. Give rung='elastic'"
-                )
-                return [(LineRungWarning, text)]
-        return []
 
     def __repr__(self) -> str:
         method = f"{self.formulation}, {self.method.integrator}"
@@ -283,8 +264,7 @@ class Run:
         LineSlackError
             Where a line of rung "quasi-static", also one that "auto" made so, cannot go on.
         """
-        reached = self.core.advance(float(t_end), progress)
-        if not reached:
+        if not self.core.advance(float(t_end), progress):
             self.interrupted = True
         return not self.interrupted
 
@@ -302,15 +282,13 @@ class Run:
 
     def measure(self) -> dict[str, Array]:
         """All channels at the present instant, by the names of a result."""
-        arrays = self.core.snapshot()
-        named = self.named(arrays, set(self.outputs.channels or ()))
+        named = self.named(self.core.snapshot(), set(self.outputs.channels or ()))
         return {name: values[0] for name, values in named.items()}
 
     def named(self, arrays: Mapping[str, Array], asked: Collection[str] | None = None) -> dict[str, Array]:
         """Channels of the core by the names of a result; of those that cost much the ones asked for."""
         scene, known = self.scene, {name: values for name, values in arrays.items() if name != "time"}
-        wanted = None if asked is None else with_sources(scene, asked)
-        out = named_channels(scene, known, wanted)
+        out = named_channels(scene, known, None if asked is None else with_sources(scene, asked))
         if scene.channels and (asked is None or OWN in asked):
             own = own_values(scene, out, all_names(scene, self.model), len(arrays["time"]))
             out |= {} if own is None else {OWN: own}
@@ -322,7 +300,7 @@ class Run:
         if asked is not None and not DERIVED.keys() & set(asked):
             return {name: values for name, values in arrays.items() if name in asked}
         if asked is None:
-            limited = {state.channel for state in self.scene.limit_states.values()}
+            limited = limited_channels(self.scene)
             kept = {name for name in DERIVED if DERIVED[name].by_default or name in limited}
             kept |= {*arrays.keys() - {"time"}, *with_sources(self.scene, [OWN])}
         else:
@@ -355,18 +333,16 @@ class Run:
 
     def stats(self) -> dict[str, Any]:
         """Version, method, counters so far, and warnings of the description: `Result.stats`."""
-        return self._stats({"simulated_s": self.core.time - self.start.time, **self.core.statistics()})
-
-    def _stats(self, counted: Mapping[str, Any]) -> dict[str, Any]:
-        told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
+        rungs = "\n".join(f"{name}: {rung.name}: {rung.reason}" for name, rung in self.rungs.items())
         warned = {"described": "\n".join(self._warned)} if self._warned else {}
         sea = {} if self.scene.waves is None else self.scene.waves.provenance.stats()
-        return {**told, **self._lasting.stats, **counted, **sea, **warned, **self.lanes}
+        counted = {"simulated_s": self.core.time - self.start.time, **self.core.statistics()}
+        return {"line_rungs": rungs or None, **self._lasting, **counted, **sea, **warned, **self.lanes}
 
     @property
     def about(self) -> About:
         """What is structured: `Result.about`."""
-        return replace(self._lasting.about, settings=self.settings)
+        return replace(self._about, settings=self.settings)
 
     def result(self) -> Result:
         """What has been recorded so far, with what is out of range in its stats."""
@@ -389,89 +365,22 @@ class Run:
             channels = tried("making derived channels", lambda: self.wanted(arrays), recorded, found)
             found += findings(scene, arrays["time"], channels, stats, self.steered, described=self.described)
             reached = [(time, name) for time, name, *_ in self.core.events()]
-            for what, look in (
-                ("looking at oil", lambda: list(boiled(scene, met, channels))),
-                ("looking at seats", lambda: list(fallen_through(scene, met))),
-                ("looking at bounds", lambda: list(bound_findings(scene, reached))),
-            ):
-                found += tried(what, look, [], found)
-            found += self.slow + self._struck()
+            found += tried("looking at events", lambda: [*event_findings(scene, met, channels)], [], found)
+            found += tried("looking at bounds", lambda: list(bound_findings(scene, reached)), [], found)
+            found += self.slow + struck(scene, self.settled, reached, self.start.time)
             if not self.interrupted and (wrong := not_finite(channels)):
                 stats[NOT_FINITE] = ", ".join(wrong)
                 found += wrong.values()
             if found:
                 stats["validity"] = as_text(found)
+            reach = {**extremes, **derived_extremes(scene, arrays, extremes, channels)}
+            if self._followed and len(arrays["time"]):
+                outputs = {**channels, "time": arrays["time"]}
+                reach |= followed_extremes(self.core.trail(), outputs, self._followed, self.named)
+            kept = {name: both for name, both in reach.items() if name in channels}
             result = Result.from_arrays(
-                time=arrays["time"], coords=self._lasting.coords, events=met, stats=stats, about=self.about,
-                arrays={**channels, **as_arrays(self._reached(arrays, extremes, channels))},
-                interrupted=self.interrupted, state=self.last_state() if most is None else None,
-                scene=forgetting(scene.copy(notes={})),
+                time=arrays["time"], coords=self._coords, events=met, stats=stats,
+                arrays={**channels, **as_arrays(kept)}, about=self.about, interrupted=self.interrupted,
+                state=self.last_state() if most is None else None, scene=forgetting(scene.copy(notes={})),
             )  # fmt: skip
         return result, found
-
-    def _reached(
-        self, arrays: Mapping[str, Array], extremes: Extremes, channels: Mapping[str, Array]
-    ) -> dict[str, tuple[Array, Array]]:
-        """Least and largest values of the channels, as far as the core has kept them."""
-        derived = derived_extremes(self.scene, arrays, extremes, channels)
-        if self._lasting.followed and len(arrays["time"]):
-            outputs = {**channels, "time": arrays["time"]}
-            derived |= followed_extremes(self.core.trail(), outputs, self._lasting.followed, self.named)
-        return {name: both for name, both in {**extremes, **derived}.items() if name in channels}
-
-    def _require_plain_stats(self) -> None:
-        """What a result could not hold is refused now, not when the run is over."""
-        try:
-            plain_stats(self._stats({}))
-            require_plain(self.scene)
-            About(settings=self.settings).to_attributes()
-        except ValueError as error:
-            raise SceneError(f"scene {self.scene.name!r}: {error}") from error
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Lasting:
-    """What holds for a run from its start to its end, and for those of the same scene in other seas.
-
-    Attributes
-    ----------
-    options : Of the core.
-    coords : Names along the dimensions of channels.
-    followed : Channels that are made anew at every step, and of what.
-    steered : Actuators whose inputs are not zero at the start.
-    stats : Of `lasting_stats`.
-    about : Of the scene; the settings differ by sea.
-    """
-
-    options: _core.RunOptions
-    coords: Mapping[str, Sequence[str]]
-    followed: Mapping[str, set[str]]
-    steered: frozenset[str]
-    stats: Mapping[str, Any]
-    about: About
-
-    @classmethod
-    def of(cls, run: Run) -> _Lasting:
-        scene, model = run.scene, run.model
-        asked = None if run.outputs.channels is None else tuple(run.outputs.channels)
-        made_of = followed(scene, recorded_channels(scene, model, asked), asked)
-        return cls(
-            options=_options(run, made_of), followed=made_of, coords=all_names(scene, model),
-            steered=frozenset(steered(scene, model, run.start.inputs)),
-            stats=lasting_stats(scene, model, run.formulation, run.method), about=about_of(scene),
-        )  # fmt: skip
-
-
-def _options(run: Run, followed: Mapping[str, set[str]]) -> _core.RunOptions:
-    """How the core steps a run, and what it records; `followed`: see `_Lasting`."""
-    model, method, outputs, capacity = run.model, run.method, run.outputs, run._capacity
-    asked = None if outputs.channels is None else tuple(outputs.channels)
-    channels = recorded_channels(run.scene, model, asked)
-    times = output_times(
-        run.start.time, run.t_end, outputs.dt_out, first=run.first,
-        values=model.channel_values(channels) if capacity is None else 0,
-    )  # fmt: skip
-    return core_options(
-        method, run.formulation, channels=channels, times=times, capacity=capacity,
-        extremes=wanted_extremes(run.scene, channels, asked), trail=set().union(*followed.values()),
-    )  # fmt: skip

@@ -56,60 +56,15 @@ def checked_controllers(controllers: Any) -> list[SampledController]:
     return given
 
 
-def _inputs_of(controller: SampledController, run: Run) -> Inputs:
-    """The inputs it returns; SimulationError when it raises, or returns something else."""
-    now = run.core.time
-    try:
-        inputs = controller.function(now, run.measure())
-    except (Exception, SystemExit) as error:  # sys.exit() would take the outputs along
-        raise SimulationError(
-            f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}"
-        ) from error
-    if not isinstance(inputs, Mapping):
-        raise SimulationError(f"controller: returned {inputs!r} at t = {now:.6g} s; return {{input: value}}")
-    return inputs
-
-
-def _require_alone(
-    inputs: Inputs, controller: SampledController, setters: dict[str, SampledController]
-) -> None:
-    """Note who sets each input; SimulationError where another controller of the run has set it before."""
-    for name in inputs:
-        other = setters.setdefault(name, controller)
-        if other is not controller:
-            raise SimulationError(
-                f"controller: {_called(controller)} sets input {name!r}, which {_called(other)} sets too: "
-                "the last would win; let one controller return their sum, or give each an actuator of its own"
-            )
-
-
 def _called(controller: SampledController) -> str:
     return repr(getattr(controller.function, "__qualname__", controller.function))
-
-
-def _next_call(controller: SampledController, now: float, start: float) -> float:
-    """When it is due after `now`, s."""
-    with np.errstate(over="ignore"):
-        after = start + controller.period * (np.round((now - start) / controller.period) + 1.0)
-    if not after > now:
-        raise SceneError(
-            f"controller: period is {controller.period} s, below the resolution of time; make it longer"
-        )
-    return float(after)
 
 
 class Calls:
     """Which controllers are due when, and what they set.
 
-    Parameters
-    ----------
-    controllers : sequence of SampledController
-    begin : float
-        Time from which their periods count, s.
-    start : float, optional
-        Of the run, s: none is called before; default: `begin`.
-    kept : callable, optional
-        What of the inputs that they return is set in a run; default: all.
+    Their periods count from `begin` (s), and none is called before the `start` of the run. `kept` tells what
+    of the inputs that they return is set in a run; default: all.
     """
 
     def __init__(
@@ -141,8 +96,14 @@ class Calls:
         now = run.core.time
         if now >= run.t_end or not self.controllers:
             return
+        due = [i for i, time in enumerate(self._due) if time <= now]
         if now not in self._made:
-            self._ask(run, now, interrupts)
+            made: dict[str, Any] = {}
+            for i in due:
+                made.update(self._returned(self.controllers[i], run, interrupts))
+                self._due[i] = self._next_call(self.controllers[i], now)
+            if made:
+                self._made[now] = made
         inputs = self._made.get(now, {})
         if inputs:
             run.set_inputs(inputs if self._kept is None else self._kept(run, inputs))
@@ -153,14 +114,37 @@ class Calls:
         """The time of the next call after `now`, s; infinity without controllers."""
         return min([*self._due, *(time for time in self._made if time > now)], default=float("inf"))
 
-    def _ask(self, run: Run, now: float, interrupts: Interrupts) -> None:
-        called: dict[str, Any] = {}
-        for i, controller in enumerate(self.controllers):
-            if self._due[i] <= now:
-                with interrupts.at_once():
-                    inputs = _inputs_of(controller, run)
-                _require_alone(inputs, controller, self._setters)
-                called.update(inputs)
-                self._due[i] = _next_call(controller, now, self._begin)
-        if called:
-            self._made[now] = called
+    def _returned(self, controller: SampledController, run: Run, interrupts: Interrupts) -> Inputs:
+        """The inputs it returns, which no other one sets; SimulationError when it raises, or for others."""
+        now = run.core.time
+        try:
+            with interrupts.at_once():
+                inputs = controller.function(now, run.measure())
+        except (Exception, SystemExit) as error:  # sys.exit() would take the outputs along
+            raise SimulationError(
+                f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}"
+            ) from error
+        if not isinstance(inputs, Mapping):
+            raise SimulationError(
+                f"controller: returned {inputs!r} at t = {now:.6g} s; return {{input: value}}"
+            )
+        for name in inputs:
+            other = self._setters.setdefault(name, controller)
+            if other is not controller:
+                raise SimulationError(
+                    f"controller: {_called(controller)} sets input {name!r}, which {_called(other)} sets "
+                    "too: the last would win; let one controller return their sum, or give each an actuator "
+                    "of its own"
+                )
+        return inputs
+
+    def _next_call(self, controller: SampledController, now: float) -> float:
+        """When it is due after `now`, s."""
+        with np.errstate(over="ignore"):
+            calls = np.round((now - self._begin) / controller.period) + 1.0
+            after = float(self._begin + controller.period * calls)
+        if not after > now:
+            raise SceneError(
+                f"controller: period is {controller.period} s, below the resolution of time; make it longer"
+            )
+        return after

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -65,15 +66,20 @@ class Stage:
 
     def __post_init__(self) -> None:
         name_of("stage", self.name)
-        self._set("until", _conditions(self.title, self.until))
-        for key in ("duration", "maximum_duration"):
-            value = getattr(self, key)
-            self._set(key, None if value is None else positive_of(f"{self.title}: {key}", value, "s"))
+        until = tuple(self.until) if isinstance(self.until, Iterable) else (self.until,)
+        for one in until:
+            if not isinstance(one, (Level, Contact)):
+                raise SceneError(f"{self.title}: until is {shown(one)}; give conditions that Until makes")
         if not isinstance(self.commands, Mapping):
             raise SceneError(f"{self.title}: commands is {shown(self.commands)}; give {{name: command}}")
-        self._set("commands", MappingProxyType(dict(self.commands)))
+        checked: dict[str, Any] = {"until": until, "commands": MappingProxyType(dict(self.commands))}
+        for key in ("duration", "maximum_duration"):
+            value = getattr(self, key)
+            checked[key] = None if value is None else positive_of(f"{self.title}: {key}", value, "s")
         for key in ("connect", "release"):
-            self._set(key, tuple(texts_of(f"{self.title}: {key}", getattr(self, key))))
+            checked[key] = tuple(texts_of(f"{self.title}: {key}", getattr(self, key)))
+        for key, value in checked.items():
+            object.__setattr__(self, key, value)
         self._check_end()
 
     @property
@@ -86,9 +92,6 @@ class Stage:
         """`until` as a tuple."""
         assert isinstance(self.until, tuple)
         return self.until
-
-    def _set(self, key: str, value: Any) -> None:
-        object.__setattr__(self, key, value)
 
     def _check_end(self) -> None:
         if self.duration is None and not self.until:
@@ -109,37 +112,17 @@ class Stage:
             raise SceneError(f"{self.title}: maximum_duration goes with until; leave it out")
 
     def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled itself
-        return _made, (vars(self) | {"commands": dict(self.commands)},)
-
-
-def _made(parts: dict[str, Any]) -> Stage:
-    return Stage(**parts)
-
-
-def _conditions(what: str, given: Any) -> tuple[Condition, ...]:
-    conditions = tuple(given) if isinstance(given, Iterable) else (given,)
-    for one in conditions:
-        if not isinstance(one, (Level, Contact)):
-            raise SceneError(f"{what}: until is {shown(one)}; give conditions that Until makes")
-    return conditions
+        return partial(Stage, **vars(self) | {"commands": dict(self.commands)}), ()
 
 
 @dataclass(frozen=True)
 class Level:
-    """A channel above or below a value; made by `Until`.
-
-    Attributes
-    ----------
-    names : tuple of (str, str)
-        Dimension and name that pick one series of the channel.
-    value : In the channel's unit.
-    above : Whether it is met at and above the value, else at and below it.
-    """
+    """A channel above or below a value; made by `Until`."""
 
     channel: str
-    names: tuple[tuple[str, str], ...]
-    value: float
-    above: bool
+    names: tuple[tuple[str, str], ...]  # dimension and name that pick one series of the channel
+    value: float  # in the channel's unit
+    above: bool  # met at and above the value, else at and below it
 
     @property
     def text(self) -> str:
@@ -174,15 +157,9 @@ class Level:
 
 @dataclass(frozen=True)
 class Contact:
-    """A limit that holds, or holds no more; made by `Until`.
+    """A limit that holds, or holds no more; made by `Until`."""
 
-    Attributes
-    ----------
-    limit : Name of the wire, stop or seat; with ".minimum" or ".maximum" where a stop has both. Or of a
-        contact.
-    """
-
-    limit: str
+    limit: str  # a wire, stop, seat or contact; with ".minimum" or ".maximum" where a stop has both
     holds: bool
 
     @property

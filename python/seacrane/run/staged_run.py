@@ -12,12 +12,12 @@ from seacrane.description.compilation import compiled_in_sea
 from seacrane.description.description import LOADS
 from seacrane.description.given import in_calm_water
 from seacrane.description.holding import decided
-from seacrane.description.loads import length_at, lines_of
+from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.caller import keeping, silently
 from seacrane.inputs.checked import number_of
-from seacrane.result.about import StageSpan
-from seacrane.result.events import Event
+from seacrane.inputs.shown import shown
+from seacrane.result.about import Event, StageSpan
 from seacrane.result.result import Result
 from seacrane.run.carried_state import carried
 from seacrane.run.carry import (
@@ -34,11 +34,11 @@ from seacrane.run.carry import (
 from seacrane.run.channel_names import all_names, require_channels
 from seacrane.run.commands import commanded
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.joined import Piece, counted, counters, joined
+from seacrane.run.joined import Piece, counted, joined
 from seacrane.run.locate import Course, to_its_end
 from seacrane.run.method import REST, Method, Shorthand, Start, core_options, settled, start_state, stepped
 from seacrane.run.outputs import Outputs
-from seacrane.run.plan import check_lengths, check_limits, checked_stages, place_of, waiting, without
+from seacrane.run.plan import check_limits, checked_stages, waiting, without
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import Calls, SampledController, checked_controllers
 from seacrane.run.stage import Level, Stage
@@ -99,7 +99,10 @@ class StagedRun:
         self.method, self.outputs = settled(method, outputs, shorthand)
         scene = decided(scene)
         every = checked_stages(scene, stages)
-        count = place_of(every, first)
+        names = [stage.name for stage in every]
+        if first is not None and first not in names:
+            raise SceneError(f"first is {shown(first)}; the stages are {', '.join(names)}")
+        count = 0 if first is None else names.index(first)
         self.stages, self._given, self._whole = every[count:], scene, scene.copy()
         begin: Start = REST if start is None and first is not None else start
         if count:
@@ -119,7 +122,12 @@ class StagedRun:
         if not self._shares or self._alike.model is None:
             time = begin.time if isinstance(begin, _core.State) else 0.0
             self._warn_of_description(time, start, begins=first is None)
-        self.model = compiled_there(self.scene) if count else self._first_model()
+        if count:
+            self.model = compiled_there(self.scene)
+        elif self._shares and self._alike.model is not None:
+            self.model = compiled_in_sea(self.scene, self._alike.model)
+        else:
+            self.model = self._alike.model = self.scene.compile()
         begin = start_state(self.scene, begin)
         self.state = _core.initial_state(self.model) if begin is None else begin
         self._described = begin is None
@@ -133,7 +141,6 @@ class StagedRun:
         self._open: tuple[Run, dict[str, Any]] | None = None
         self._found, self._before = list(before), tuple(before)
         self._spans: list[StageSpan] = []
-        self._seen: tuple[str, Run | None] | None = None  # see `_like`
         self.begun: dict[str, Begin] = {}
         self.interrupted = False
 
@@ -167,13 +174,7 @@ class StagedRun:
         return not self._over
 
     def carried_to(self, count: int) -> There:
-        """Carry out so many stages, and tell where that leads.
-
-        Raises
-        ------
-        SceneError
-            For one that fails.
-        """
+        """Carry out so many stages, and tell where that leads; SceneError for one that fails."""
         first = self.stages[count].name
         for stage in self.stages[:count]:
             try:
@@ -196,14 +197,9 @@ class StagedRun:
         return self.interrupted or len(self._spans) == len(self.stages)
 
     def runs(self, interrupts: Interrupts) -> Iterator[Run]:
-        """Carry out all stages that are left, as `advance` does.
+        """Carry out all stages that are left, as `advance` does; KeyboardInterrupt where Ctrl-C stopped it.
 
         Each run is told before it is stepped, so that it can be stepped beside those of other lifts.
-
-        Raises
-        ------
-        KeyboardInterrupt
-            Where Ctrl-C stopped it.
         """
         while not self._over:
             yield from self.carry_out(interrupts)
@@ -214,25 +210,36 @@ class StagedRun:
         """The runs of the next stage, each before it is stepped; none where none is left."""
         if self._over:
             return
-        stage = self.stages[len(self._spans)]
-        begin = self.state.time
-        gone = self._absent - waiting(self.stages[len(self._spans) :])
-        self.begun[stage.name] = Begin(without(self._whole, gone), self.state)
+        stage, begin = self.stages[len(self._spans)], self.state.time
+        later = waiting(self.stages[len(self._spans) :])
+        self.begun[stage.name] = Begin(without(self._whole, self._absent - later), self.state)
         try:
             self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
             self._connect(stage)
-            self._command(stage)
-            start = self._checked_start(stage)
-            with _named(stage):
-                course = self._course(stage, interrupts)
-                ended = yield from to_its_end(course, stage, start)
+            # The run of the same stage of an alike lift that began at the same time, in this sea.
+            known = self._alike.runs.get(self._key(stage)) if self._shares else None
+            like = None if known is None or self.scene.waves is None else known.in_sea(self.scene.waves)
+            if stage.commands:
+                self._whole = commanded(self._whole, stage.title, stage.commands, begin)
+                self.scene = without(self._whole, self._absent)
+                self.model = compiled_there(self.scene) if like is None else like.model
+            check_limits(stage, self.scene)
+            try:
+                course = self._course(stage, interrupts, like)
+                ended = yield from to_its_end(course, stage, self.state)
+            except SceneError as error:
+                error.args = (f"{stage.title}: {error}", *error.args[1:])
+                raise
             if not self._pieces:  # met at once, or stopped before anything was stepped
-                course.stand(self.state)
+                run = course.run(self.state, self.state.time)
+                self._began(run)
+                self._done(run)
         except GeneratorExit:  # nobody asks for the rest
             self.interrupted = True
             raise
         except BaseException as error:
-            self._spans.append(StageSpan(name=stage.name, start=begin, end=self._now(), ended_by=""))
+            now = self.state.time if self._open is None else self._open[0].core.time
+            self._spans.append(StageSpan(name=stage.name, start=begin, end=now, ended_by=""))
             self.interrupted = True
             with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
                 error.result = self._result_of_an_error()  # type: ignore[attr-defined]
@@ -260,9 +267,6 @@ class StagedRun:
         """Warn, at the user's line, of what was out of range in the stages, each kind once."""
         warn_of({kind: (kind, text) for kind, text in reversed(self._found)}.values())
 
-    def _now(self) -> float:
-        return self.state.time if self._open is None else self._open[0].core.time
-
     def _result_of_an_error(self) -> Result | None:
         if self._open is not None and self._open[0].core.recorded:
             self._open[0].interrupted = True
@@ -275,13 +279,12 @@ class StagedRun:
         if record is None:
             return dict.fromkeys(COUNTED_ON, 0.0)
         _, model, formulation = stepped(self.scene, self.model, self.method)
-        options = core_options(self.method, formulation, channels=set(), times=[])
+        options = core_options(self.method, formulation, channels=set(), output_times=[])
         core = _core.Simulation(model=model, start=self.state, options=options)
         now = counted(self.scene, model, core.snapshot())
-        known = {"energy_balance": 0.0, "impact_loss": record.impact_loss}
-        return {name: now.get(name, value) for name, value in known.items()}
-
-    # Connections, one after the other.
+        return {"energy_balance": 0.0, "impact_loss": record.impact_loss} | {
+            name: value for name, value in now.items() if name in COUNTED_ON
+        }
 
     def _connect(self, stage: Stage) -> None:
         for name in stage.release:
@@ -292,11 +295,9 @@ class StagedRun:
             if name in self._whole.joints:
                 self._shares = False
                 self._absent |= lifted_seats(self.scene, self.state)
-                self._whole = redescribed(self._whole, self._measured(), self.state)
+                still = self._still(self.scene, self.model, self.state)
+                self._whole = redescribed(self._whole, still.measure(), self.state)
             self._change(stage, name, "connection")
-
-    def _measured(self) -> Any:
-        return self._still(self.scene, self.model, self.state).measure()
 
     def _still(self, scene: Scene, model: _core.Model, state: _core.State) -> Run:
         """A run that stands at a state: on its joints, with the limits that hold there."""
@@ -311,8 +312,7 @@ class StagedRun:
             speed = self._check_gap(stage, name, model, start)
         before = _core.Evaluator(self.model).energy(start.time, self.state.values)
         run = self._still(scene, model, start)
-        met = run.events()
-        state = run.state
+        met, state = run.events(), run.state
         if kind == "connection" and name in lines_of(scene.loads):
             warn_of_connected(stage.title, scene, name, run.measure(), start.time)
         if kind == "connection" and isinstance(scene.loads.get(name), _core.Contact):
@@ -335,24 +335,7 @@ class StagedRun:
             )
         return float(rate)
 
-    # Commands and the run itself.
-
-    def _command(self, stage: Stage) -> None:
-        if not stage.commands:
-            return
-        self._whole = commanded(self._whole, stage.title, stage.commands, self.state.time)
-        self.scene = without(self._whole, self._absent)
-        like = self._like(stage)
-        self.model = compiled_there(self.scene) if like is None else like.model
-
-    def _checked_start(self, stage: Stage) -> _core.State:
-        check_limits(stage, self.scene)
-        begin, lengths = self.state.time, dict(self.state.load_states)
-        own = {name: length_at(line, begin, lengths) for name, line in lines_of(self.scene.loads).items()}
-        check_lengths(stage, self.scene, own, begin)
-        return self.state
-
-    def _course(self, stage: Stage, interrupts: Interrupts) -> Course:
+    def _course(self, stage: Stage, interrupts: Interrupts, like: Run | None) -> Course:
         wanted = self._channels()
         if wanted is not None:
             looked_at = [c.channel for c in stage.conditions if isinstance(c, Level)]
@@ -361,36 +344,24 @@ class StagedRun:
         course = Course(
             scene=self.scene, model=self.model, method=self.method, outputs=outputs, first=self._first,
             interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
-            first_run=self._like(stage),
+            first_run=like,
         )  # fmt: skip
-        if self._shares and course.first_run is None and len(self._alike.runs) < MOST_RUNS:
+        if self._shares and like is None and len(self._alike.runs) < MOST_RUNS:
             longest = stage.duration or stage.maximum_duration or 0.0
             known = course.run(self.state, self.state.time + longest, capacity=1)
             if not known.rungs:
                 self._alike.runs[self._key(stage)] = known
         return course
 
-    def _first_model(self) -> _core.Model:
-        if self._shares and self._alike.model is not None:
-            return compiled_in_sea(self.scene, self._alike.model)
-        self._alike.model = self.scene.compile()
-        return self._alike.model
-
     def _key(self, stage: Stage) -> Key:
         return stage.name, self.state.time, frozenset(self._absent)
 
-    def _like(self, stage: Stage) -> Run | None:
-        """The run of the same stage of an alike lift that began at the same time, in this sea."""
-        if self._seen is None or self._seen[0] != stage.name:
-            waves = self.scene.waves if self._shares else None
-            known = None if waves is None else self._alike.runs.get(self._key(stage))
-            self._seen = (stage.name, None if known is None or waves is None else known.in_sea(waves))
-        return self._seen[1]
-
     def _kept(self, run: Run, inputs: Mapping[str, Any]) -> dict[str, Any]:
         """Inputs without those of elements that are absent in this stage."""
-        gone = _loads(self._given) - _loads(run.scene)
-        return {name: value for name, value in inputs.items() if name.rpartition(".")[0] not in gone}
+        every, there = (
+            {name for table in LOADS for name in getattr(scene, table)} for scene in (self._given, run.scene)
+        )
+        return {name: value for name, value in inputs.items() if name.rpartition(".")[0] not in every - there}
 
     def _channels(self) -> list[str] | None:
         """Channels that were asked for, as far as this stage has them."""
@@ -406,15 +377,17 @@ class StagedRun:
 
     def _began(self, run: Run) -> None:
         run.described = self._described and not self._pieces
-        self._open = (run, counters(run))
+        self._open = (run, counted(run.scene, run.model, run.core.snapshot()))
 
     def _done(self, run: Run) -> None:
         """Keep what a run recorded, and go on from where it stopped."""
         assert self._open is not None
         result, found = run.judged_result()
-        end = counters(run)
-        names, lost = all_names(run.scene, run.model), sum(e.energy_lost for e in self._changes)
-        piece = Piece(result, names, self._open[1], end, self._reached, float(lost), self._changes)
+        piece = Piece(
+            result=result, names=all_names(run.scene, run.model), start=self._open[1],
+            end=counted(run.scene, run.model, run.core.snapshot()), reached=self._reached,
+            lost=float(sum(event.energy_lost for event in self._changes)), before=self._changes,
+        )  # fmt: skip
         self._pieces.append(piece)
         self._changes, self._open = [], None
         self._found += [one for one in found if one not in self._found]
@@ -422,17 +395,3 @@ class StagedRun:
         if state is not None:
             self.state = state
             self._reached = self._counted()
-
-
-@contextlib.contextmanager
-def _named(stage: Stage) -> Iterator[None]:
-    """What a scene refuses inside names the stage."""
-    try:
-        yield
-    except SceneError as error:
-        error.args = (f"{stage.title}: {error}", *error.args[1:])
-        raise
-
-
-def _loads(scene: Scene) -> set[str]:
-    return {name for table in LOADS for name in getattr(scene, table)}

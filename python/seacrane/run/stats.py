@@ -16,17 +16,16 @@ from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
 from seacrane.description.suspension import hung_loads, static_weights
 from seacrane.inputs.plain_data import plain_data, plain_notes
-from seacrane.result.about import About
-from seacrane.result.events import Event
+from seacrane.result.about import About, Event
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import Finding
 from seacrane.version import __version__
 from seacrane.warnings import BoilingOilWarning, ThroughSeatWarning
 
 OPTIONAL = ("dt", "maximum_step", "spectral_radius", "energy_limit")
 Channels = Mapping[str, NDArray[np.float64]]
-Finding = tuple[type[Warning], str]
 SIDES = {"vapour": "full", "vapour_rod": "rod"}  # by what its event is called
 VOIDS = "hydraulic_void"
 
@@ -47,12 +46,6 @@ def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) ->
     }
 
 
-def settings_in_sea(settings: Mapping[str, Any], scene: Scene) -> dict[str, Any]:
-    """The settings of a run in another sea, on the same vessels, from those in the first one."""
-    others = {word: value for word, value in settings.items() if word not in SEA_SETTINGS}
-    return others | sea_settings(scene)
-
-
 @once
 def about_of(scene: Scene) -> About:
     """What a result notes of a scene; of its settings nothing."""
@@ -61,12 +54,6 @@ def about_of(scene: Scene) -> About:
         cranes=plain_data("cranes", [*scene.roles.values()]), hung=hung_notes(scene),
         hanging_weight=static_weights(scene),
     )  # fmt: skip
-
-
-@once
-def require_plain(scene: Scene) -> None:
-    """ValueError or TypeError where a file could not hold what is noted of a scene."""
-    about_of(scene).to_attributes()
 
 
 @once
@@ -111,61 +98,59 @@ def origin_settings(scene: Description) -> Mapping[str, Any]:
             found.setdefault("wave_phase", {})[body] = hull.phase
         if hull.drift is not None:
             found.setdefault("drift", {})[body] = "newman"
-    told = {key: one for key, by_body in found.items() if (one := _one(by_body)) is not None}
-    return dict(plain_data(f"scene {scene.name!r}: provenance", told)) | sea_settings(scene)
+    told: dict[str, Any] = {}
+    for key, by_body in found.items():
+        first, *others = by_body.values()
+        if any(other != first for other in others):
+            told[key] = by_body
+        elif first is not None:
+            told[key] = first
+    return sea_settings(scene, plain_data(f"scene {scene.name!r}: provenance", told))
 
 
-def sea_settings(scene: Description) -> dict[str, Any]:
-    """The settings of its sea alone; raises as `origin_settings`."""
+def sea_settings(scene: Description, others: Mapping[str, Any]) -> dict[str, Any]:
+    """Settings with those of the scene's sea in the place of another's; raises as `origin_settings`."""
+    out = {word: value for word, value in others.items() if word not in SEA_SETTINGS}
     if scene.waves is None:
-        return {}
+        return out
     told = {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}
-    return dict(plain_data(f"scene {scene.name!r}: provenance", told))
+    return out | dict(plain_data(f"scene {scene.name!r}: provenance", told))
 
 
-def _one(by_body: dict[str, Any]) -> Any:
-    """The value of all bodies, or the mapping where they differ."""
-    first, *others = by_body.values()
-    return first if all(other == first for other in others) else by_body
+def event_findings(scene: Description, events: Sequence[Event], channels: Channels) -> Iterator[Finding]:
+    """Every chamber that reached its vapour pressure, and every seat that what left it went through, once.
 
-
-def boiled(scene: Description, events: Sequence[Event], channels: Channels) -> Iterator[Finding]:
-    """Every chamber that reached its vapour pressure, and how large the void grew where that was recorded."""
-    cylinders = hydraulic_cylinders(scene)
-    for number, (name, one) in enumerate(cylinders.items()):
+    How large the void grew is told where it was recorded.
+    """
+    times: dict[tuple[str, bool], list[float]] = {}
+    for event in events:
+        times.setdefault((event.name, event.kind == "through"), []).append(event.time)
+    for number, (name, one) in enumerate(hydraulic_cylinders(scene).items()):
         for chamber, (bound, side) in enumerate(SIDES.items()):
-            times = [event.time for event in events if event.name == f"{name}.{bound}"]
-            if not times:
+            if (f"{name}.{bound}", False) not in times:
                 continue
-            often = f", and {len(times) - 1} time(s) more" if len(times) > 1 else ""
+            first, *again = times[f"{name}.{bound}", False]
+            often = f", and {len(again)} time(s) more" if again else ""
             size = ""
             if VOIDS in channels:
                 size = f", of up to {1e3 * channels[VOIDS][:, number, chamber].max():.3g} l"
             yield (
                 BoilingOilWarning,
-                f"hydraulic cylinder {name!r}: the oil of its {side} side boils at t = {times[0]:.6g} s"
+                f"hydraulic cylinder {name!r}: the oil of its {side} side boils at t = {first:.6g} s"
                 f"{often}: a void opens{size}, at the vapour pressure of {one.vapour_pressure:.4g} Pa, and "
                 "holds no load. Give makeup_flow or a higher tank_pressure, or move slower; refuse_void=True "
                 "ends a run here",
             )
-
-
-def fallen_through(scene: Description, events: Sequence[Event]) -> list[Finding]:
-    """Seats that what left them went through, each once."""
-    found: list[Finding] = []
-    for name in dict.fromkeys(event.name for event in events if event.kind == "through"):
-        times = [event.time for event in events if event.kind == "through" and event.name == name]
+    for name in [name for name, through in times if through]:
+        first, *again = times[name, True]
         load = scene.joints[scene.loads[name].joint].second
-        found.append(
-            (
-                ThroughSeatWarning,
-                f"seat {name!r}: {load!r} had left it, and goes below its plane at t = {times[0]:.6g} s"
-                f"{f' and {len(times) - 1} more time(s)' if len(times) > 1 else ''}: it would hit the deck "
-                "there, and a seat that let go holds nothing, so that loads from then on are too small. Lift "
-                "faster or at a better moment, or take the run as failed; see docs/events.md",
-            )
+        yield (
+            ThroughSeatWarning,
+            f"seat {name!r}: {load!r} had left it, and goes below its plane at t = {first:.6g} s"
+            f"{f' and {len(again)} more time(s)' if again else ''}: it would hit the deck "
+            "there, and a seat that let go holds nothing, so that loads from then on are too small. Lift "
+            "faster or at a better moment, or take the run as failed; see docs/events.md",
         )
-    return found
 
 
 def ruptures(scene: Description, start: float, now: float) -> list[Event]:

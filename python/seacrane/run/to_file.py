@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -15,14 +15,14 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.state import state_from_bytes, state_to_bytes
-from seacrane.result.about import About, checked_stats
-from seacrane.result.kept_scene import NOT_KEPT, KeptScene
+from seacrane.result.about import NOT_KEPT, About, KeptScene, checked_stats
 from seacrane.result.partial_file import Piece
 from seacrane.result.result import Result
-from seacrane.result.stream import ANOTHER_SCENE, DIGEST, Left, ResultFile, difference, rows_of_piece
+from seacrane.result.result_file import rows_of_piece
+from seacrane.result.stream import ANOTHER_SCENE, DIGEST, Left, ResultFile, difference
 from seacrane.run.advance import drive
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.method import REST, Method, Start
+from seacrane.run.method import REST, Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import Calls, SampledController
@@ -102,10 +102,19 @@ def run_to_file(
             left = file.left() if resume else None
             if left is None and not overwrite:
                 file.require_no_partial()
-            digest = scene_digest(scene)
-            run = _begun(scene, t_end, method, outputs, digest, left, start)
+            digest, begin = scene_digest(scene), start
+            if left is not None:
+                _refuse(left, ANOTHER_SCENE if left.piece.stats.get(DIGEST) != digest else "")
+                begin = state_from_bytes(left.piece.state, left.source)
+            run = Run(
+                scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=begin,
+                outputs_from=None if left is None else left.first,
+            )  # fmt: skip
             writer = _Writer(run, digest, file, every)
-            writer.begin(left, overwrite=overwrite, unlike=_unlike(scene, controllers))
+            unlike = "this scene has C functions, which cannot be compared" if scene.function_forces else ""
+            if controllers:
+                unlike = "this run has controllers, whose code cannot be compared"
+            writer.begin(left, overwrite=overwrite, unlike=unlike)
             try:
                 drive(
                     run, Calls(controllers, run.start.time), interrupts, progress=progress, watch=writer.look
@@ -119,32 +128,8 @@ def run_to_file(
             file.release()
     warn_of(writer.found)
     return StreamedResult(
-        path=where, outputs=file.outputs, stats=file.stats, about=file.about, interrupted=run.interrupted
-    )
-
-
-def _unlike(scene: Scene, controllers: Sequence[SampledController]) -> str:
-    """Why nobody can tell whether another run is the same."""
-    if controllers:
-        return "this run has controllers, whose code cannot be compared"
-    if scene.function_forces:
-        return "this scene has C functions, which cannot be compared"
-    return ""
-
-
-def _begun(
-    scene: Scene, t_end: float, method: Method, outputs: Outputs, digest: str, left: Left | None,
-    start: Literal["rest"] | None,
-) -> Run:  # fmt: skip
-    """The run, from its start or from where one that was stopped left it."""
-    begin: Start = start
-    if left is not None:
-        if left.piece.stats.get(DIGEST) != digest:
-            _refuse(left, ANOTHER_SCENE)
-        begin = state_from_bytes(left.piece.state, left.source)
-    return Run(
-        scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=begin,
-        outputs_from=None if left is None else left.first,
+        path=where, outputs=file.outputs, stats=file.told.stats, about=file.told.about,
+        interrupted=run.interrupted,
     )  # fmt: skip
 
 
@@ -157,28 +142,22 @@ def _refuse(left: Left, reason: str) -> None:
 
 
 class _Writer:
-    """Moves the outputs of a run from memory to its file, and judges them on the way.
+    """Moves the outputs of a run from memory to its file, and notes what was out of range in them.
 
-    Attributes
-    ----------
-    found : list of Finding
-        What was out of range so far: of each object the first that was found.
+    Of each object the first that was `found`.
     """
 
     def __init__(self, run: Run, digest: str, file: ResultFile, every: float) -> None:
         self.found: list[Finding] = []
-        self._run, self._file, self._every = run, file, every
-        self._digest = digest
-        file.scene, self._lacks = KeptScene.of(run.scene).written()
+        self._run, self._file, self._every, self._digest = run, file, every, digest
+        self._scene, self._lacks = KeptScene(run.scene).written()
         self._nothing = run.wanted(run.core.channels(0))
         self._rows = rows_of_piece(sum(int(np.prod(one.shape[1:])) for one in self._nothing.values()))
         self._due = run.start.time + every
 
     def begin(self, left: Left | None, *, overwrite: bool, unlike: str) -> None:
         """Begin the file, or continue it; FileFormatError or FileExistsError where it is of another run."""
-        new = Piece(
-            arrays=self._nothing, coords={}, stats=checked_stats(self._stats()), about=self._run.about
-        )
+        new = Piece(arrays=self._nothing, coords={}, stats=self._stats(), about=self._run.about)
         if left is not None:
             _refuse(left, difference(left.piece, new))
         if not (overwrite or (left is not None and not left.end)):
@@ -210,26 +189,26 @@ class _Writer:
         with run.core:
             count = run.core.recorded
             result, found = run.judged_result(count) if count else (None, run.slow)
-            self._find(found)
+            first: dict[tuple[type[Warning], str], Finding] = {}
+            for category, message in (*self.found, *found):
+                first.setdefault((category, message.partition(":")[0]), (category, message))
+            self.found = list(first.values())
             state = run.last_state()
-            self._file.append(
-                result, stats=checked_stats(self._stats()), about=run.about, events=run.events(),
-                interrupted=interrupted, state=b"" if state is None else state_to_bytes(state),
+            piece = Piece(
+                arrays={} if result is None else {"time": result.time, **result.arrays},
+                coords={} if result is None else result.coords, stats=self._stats(), about=run.about,
+                events=run.events(), interrupted=interrupted, scene=self._scene,
+                state=b"" if state is None else state_to_bytes(state),
             )  # fmt: skip
+            self._file.append(piece)
             run.core.drop(count)
         self._due = run.core.time + self._every
-
-    def _find(self, found: list[Finding]) -> None:
-        first: dict[tuple[type[Warning], str], Finding] = {}
-        for category, message in (*self.found, *found):
-            first.setdefault((category, message.partition(":")[0]), (category, message))
-        self.found = list(first.values())
 
     def _stats(self) -> dict[str, Any]:
         """As `Run.stats`, with the scene, and with what has been out of range."""
         validity = {"validity": as_text(self.found)} if self.found else {}
         lacks = {NOT_KEPT: self._lacks} if self._lacks else {}
-        return {**self._run.stats(), DIGEST: self._digest, **lacks, **validity}
+        return checked_stats({**self._run.stats(), DIGEST: self._digest, **lacks, **validity})
 
 
 def require_free(path: Path, *, overwrite: bool) -> None:

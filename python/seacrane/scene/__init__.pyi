@@ -8,7 +8,10 @@ from seacrane.scene.wind_current import gust_curve as gust_curve
 from seacrane._core import Frame as Frame
 from seacrane._core import Point as Point
 from seacrane.scene.wind_current import FlowCoefficients as FlowCoefficients
-from seacrane.scene.hoist import Slings as Slings
+from seacrane.scene.hung_load import Slings as Slings
+from seacrane.scene.line_fluid import Seabed as Seabed
+from seacrane.scene.line_fluid import Wire as Wire
+from seacrane.scene.lines import Sheaves as Sheaves
 from seacrane.scene.mooring import MooringSpring as MooringSpring
 from seacrane.scene.mooring import mooring_matrix as mooring_matrix
 from seacrane.scene.motion_history import MotionHistory as MotionHistory

@@ -47,24 +47,12 @@ FOOT: Vector = (33.0, 10.0, 10.0)
 
 
 def add_crane(
-    scene: Description,
-    crane: Crane | None = None,
-    *,
-    base: str = "vessel",
-    foot: Vector = FOOT,
-    slew: float = 0.0,
-    s1: float = 0.0,
-    s2: float = 0.0,
-    coordinates: Mapping[str, float] | None = None,
-    payload: Payload | None = None,
-    payload_mass: float | None = None,
-    damping: bool = True,
-    held: bool | None = None,
-    hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
-    design_factor: float = 1.0,
-    stiffness: float | None = None,
-    prefix: str = "",
-) -> CraneRoles:
+    scene: Description, crane: Crane | None = None, *, base: str = "vessel", foot: Vector = FOOT,
+    slew: float = 0.0, s1: float = 0.0, s2: float = 0.0, coordinates: Mapping[str, float] | None = None,
+    payload: Payload | None = None, payload_mass: float | None = None, damping: bool = True,
+    held: bool | None = None, hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
+    design_factor: float = 1.0, stiffness: float | None = None, prefix: str = "",
+) -> CraneRoles:  # fmt: skip
     """Add a crane, and a payload at rest; its coordinates are recorded and keep the data file's ranges.
 
     Parameters
@@ -153,7 +141,7 @@ def add_crane(
     for one in joints:
         frame.add_joint(one, prefix + one.name, names[one.first], names[one.second])
     for joint, (low, high) in parts.ranges.items():
-        add_range(scene, joint=prefix + joint, minimum=low, maximum=high)
+        add_range(scene, prefix + joint, joint=prefix + joint, minimum=low, maximum=high)
     for body_name, meshes in parts.meshes.items():
         for mesh in meshes:
             _draw(scene, mesh, names[body_name], prefix, parts)
@@ -244,10 +232,13 @@ class _Frame:
         add_joint(self.scene, kind=joint.kind, name=name, first=first, second=second, **used)
 
     def in_body(self, name: str, point: Array) -> tuple[str, Vector]:
-        """A point of the base's frame in the coordinates of a body of the scene."""
-        body = self.scene.bodies[name]
-        at = self.origin + self.to_inertial @ point
-        x, y, z = (rotation_matrix(body.quaternion).T @ (at - body.position)).tolist()
+        """A point of the base's frame in the coordinates of a body, which may be a base that is not there."""
+        at = point
+        if name in self.scene.bodies:
+            body = self.scene.bodies[name]
+            inertial = self.origin + self.to_inertial @ point
+            at = rotation_matrix(body.quaternion).T @ (inertial - body.position)
+        x, y, z = at.tolist()
         return name, (x, y, z)
 
     def add_lean(
@@ -255,7 +246,7 @@ class _Frame:
     ) -> None:
         """The spring that holds a crane up, and its load, kg: vertical, as far out as the tip."""
         first, second = (
-            self._block(names[body], at)
+            self.in_body(names[body], at)
             for body, at in ((lean.first, lean.point + FAR * UP), (lean.second, lean.point))
         )
         add_spring(
@@ -266,13 +257,7 @@ class _Frame:
 
     def rope(self, rope: RopeData, prefix: str, names: Mapping[str, str]) -> LuffingRope:
         """With its blocks in the coordinates of the scene's bodies."""
-        ends = [self._block(names.get(body, names[""]), at) for body, at in (rope.first, rope.second)]
+        ends = [self.in_body(names.get(body, names[""]), at) for body, at in (rope.first, rope.second)]
         return LuffingRope(
             name=prefix + rope.name, falls=rope.falls, EA=rope.EA, first=ends[0], second=ends[1]
         )
-
-    def _block(self, name: str, at: Array) -> tuple[str, Vector]:
-        if name in self.scene.bodies:
-            return self.in_body(name, at)
-        x, y, z = at.tolist()
-        return name, (x, y, z)

@@ -37,6 +37,7 @@ from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.bodies import add_body
 from seacrane.scene.mooring import (
+    USUAL,
     Mooring,
     add_mooring_springs,
     chosen_mooring,
@@ -44,7 +45,6 @@ from seacrane.scene.mooring import (
     without_rounding,
 )
 
-MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (the paper's station keeping)
 MOORING_DAMPING = 0.1  # of critical
 MEMORY = ("by-motion", "per-pair", "convolution", "none")
 OF_GROUP = ("joint", "none")
@@ -56,7 +56,7 @@ FloatArray = NDArray[np.float64]
 
 
 def add_hydrodynamics(
-    scene: Description, *, body: str, name: str | None = None, **hydrodynamics: Any
+    scene: Description, *, body: str, name: str | None = None, slack_moment: Any = 0.0, **hydrodynamics: Any
 ) -> VesselHydrodynamics:
     """Linear hydrodynamics of a body about its origin; see `VesselHydrodynamics` for the arguments."""
     name = name_of("vessel", name, body)
@@ -64,7 +64,20 @@ def add_hydrodynamics(
     for key in hydrodynamics:
         if key not in (*known, "database"):
             raise SceneError.of(f"vessel {name!r}: {key}", f"is unknown; a vessel takes {', '.join(known)}")
+    pair = slack_moment if np.ndim(slack_moment) else (slack_moment, 0.0)
+    taken = shaped_of(f"vessel {name!r}: slack_moment", pair, (2,)) * scene.gravity
     element = VesselHydrodynamics(name=name, body=body, **hydrodynamics)
+    if taken.any():
+        restoring = np.array(element.restoring)
+        if not np.all((taken >= 0.0) & (taken < restoring[[3, 4], [3, 4]])):
+            raise SceneError.of(
+                f"vessel {name!r}: slack_moment",
+                f"is {shown(slack_moment)} kg m; give rho i of the tanks, from 0 to below what its restoring "
+                "holds; 1 t m is 1000 kg m",
+            )
+        restoring[[3, 4], [3, 4]] -= taken
+        element = VesselHydrodynamics(**{**element.__getstate__(), "restoring": restoring})
+        scene.provenance[name] = VesselProvenance(slack_tanks=(float(taken[0]), float(taken[1])))
     return insert("vessel", scene.vessels, element)
 
 
@@ -79,8 +92,7 @@ def add_group(scene: Description, *, name: str, **matrices: Any) -> _core.GroupH
 def add_hull(
     scene: Description, database: HydroDatabase, *, name: str = "vessel", position: Any = (0.0, 0.0, 0.0),
     heading_deg: float = 0.0, memory: str = "by-motion", kinematics: str = "yaw_following",
-    mooring: Any = None, mooring_period: float | None = MOORING_PERIOD,
-    mooring_damping: float = MOORING_DAMPING,
+    mooring: Any = USUAL, mooring_damping: float = MOORING_DAMPING, slack_moment: Any = 0.0,
 ) -> VesselHydrodynamics:  # fmt: skip
     """A hull that floats by itself, as `Scene.add_vessel` describes it."""
     if memory not in MEMORY:
@@ -93,11 +105,13 @@ def add_hull(
     added = _put_afloat(
         scene, database, parameters, name=name, pose=(place, float(heading)),
         memory=[] if memory == "none" else _core_memory(parameters.memory), kinematics=kinematics,
-        mooring=mooring, mooring_period=mooring_period, mooring_damping=mooring_damping,
+        mooring=mooring, mooring_damping=mooring_damping, slack_moment=slack_moment,
     )  # fmt: skip
+    motion = getattr(parameters.memory, "motion", None) if memory == "by-motion" else None
     band = (float(database.omega[0]), float(database.omega[-1]))
-    scene.provenance[name] = VesselProvenance(
-        database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory),
+    scene.provenance[name] = replace(
+        scene.provenance.get(name, VesselProvenance()), database=database.name, omega=band, memory=memory,
+        memory_error=None if motion is None else motion.error.worst,
         free_surface=free_surface(database, parameters.memory.additional_stiffness),
     )  # fmt: skip
     return added
@@ -105,8 +119,7 @@ def add_hull(
 
 def _put_afloat(
     scene: Description, database: HydroDatabase, parameters: VesselParameters, *, name: str,
-    pose: tuple[FloatArray, float], memory: Any, kinematics: str, mooring: Any,
-    mooring_period: float | None, mooring_damping: float,
+    pose: tuple[FloatArray, float], mooring: Any, mooring_damping: float, **others: Any,
 ) -> VesselHydrodynamics:  # fmt: skip
     """A body with the parameters of a database, and its hydrodynamics; `pose`: position (3,), m, yaw, rad."""
     place, half = pose[0], 0.5 * pose[1]
@@ -115,9 +128,7 @@ def _put_afloat(
         center_of_mass=parameters.center_of_mass, position=place,
         quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
     )  # fmt: skip
-    held = chosen_mooring(
-        f"vessel {name!r}", database, mooring, mooring_period, usual=mooring_period == MOORING_PERIOD
-    )
+    held = chosen_mooring(f"vessel {name!r}", database, mooring)
     heavy = _horizontal_inertia(parameters)
     restoring = without_rounding(following_yaw(parameters.restoring))
     if isinstance(held, Mooring):
@@ -131,16 +142,8 @@ def _put_afloat(
     return add_hydrodynamics(
         scene, body=name, added_mass=parameters.added_mass, linear_damping=parameters.linear_damping,
         quadratic_damping=parameters.quadratic_damping, restoring=restoring, mooring_stiffness=stiffness,
-        mooring_damping=damping, memory=memory, kinematics=kinematics, database=database,
+        mooring_damping=damping, database=database, **others,
     )  # fmt: skip
-
-
-def _memory_error(parameters: VesselParameters, memory: str) -> float | None:
-    """What a memory fitted by motion changes of the motions; None of others."""
-    model = parameters.memory
-    if memory != "by-motion" or not isinstance(model, MemoryModel) or model.motion is None:
-        return None
-    return model.motion.error.worst
 
 
 def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
@@ -151,13 +154,9 @@ def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
 
 
 def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, float] | None:
-    """N m/rad that additional causes (roll tanks) take from C44: as used, least and most of all fits.
+    """N m/rad that additional causes (roll tanks) take from C44: as used (6, 6), least and most of all fits.
 
     A table of matrices by frequency does not tell a static stiffness: it is what a fit extends them to.
-
-    Parameters
-    ----------
-    used : (6, 6) `additional_stiffness` of the model that a vessel has.
     """
     if not database.additional:
         return None
@@ -175,7 +174,7 @@ def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, f
 def add_hulls(
     scene: Description, group: HydroGroup, *, names: Sequence[str] | None = None,
     position: Any = (0.0, 0.0, 0.0), heading_deg: float = 0.0, memory: str = "joint",
-    mooring_period: float | None = MOORING_PERIOD, mooring_damping: float = MOORING_DAMPING,
+    mooring: float | None = USUAL, mooring_damping: float = MOORING_DAMPING,
 ) -> tuple[VesselHydrodynamics, ...]:  # fmt: skip
     """Hulls that feel each other's motions and waves, as `Scene.add_vessel` describes them."""
     if memory not in OF_GROUP:
@@ -205,7 +204,7 @@ def add_hulls(
             _put_afloat(
                 scene, database, parameters, name=name,
                 pose=(place + turn @ body.position, heading + body.heading), memory=[],
-                kinematics="yaw_following", mooring=None, mooring_period=mooring_period,
+                kinematics="yaw_following", mooring=mooring,
                 mooring_damping=mooring_damping,
             )
         )  # fmt: skip
@@ -246,15 +245,11 @@ def _memory_of(database: HydroDatabase, kind: str) -> MemoryModel | RetardationM
     if kind == "convolution":
         return retardation_functions(database=database)
     own = database.memory
-    if own is not None and _is_of(own, kind):
-        return own
+    if own is not None:
+        joint = all(is_energy_form(block) for block in own.blocks if block.cause == RADIATION)
+        if own.motion is not None if kind == "by-motion" else own.motion is None and not joint:
+            return own
     return fit_memory(database=database, kind=kind)
-
-
-def _is_of(model: MemoryModel, kind: str) -> bool:
-    """Whether a fitted model is of a kind, as `fit_memory` takes it; other joint models are of none."""
-    joint = all(is_energy_form(block) for block in model.blocks if block.cause == RADIATION)
-    return model.motion is not None if kind == "by-motion" else model.motion is None and not joint
 
 
 def _core_memory(

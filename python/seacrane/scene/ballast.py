@@ -85,14 +85,9 @@ class Ballast(Answer):
 
 
 def add_ballast(
-    scene: Description,
-    *,
-    vessel: str | None = None,
-    heel_deg: float | None = 0.0,
-    trim_deg: float | None = 0.0,
-    tanks: Mapping[str, Tank] | None = None,
-    name: str = "ballast",
-) -> Ballast:
+    scene: Description, *, vessel: str | None = None, heel_deg: float | None = 0.0,
+    trim_deg: float | None = 0.0, tanks: Mapping[str, Tank] | None = None, name: str = "ballast",
+) -> Ballast:  # fmt: skip
     """Add the ballast with which a vessel rests at a heel and a trim, in calm water and the pose described.
 
     Without tanks, one upward force carries the weight of all bodies on the vessel: ballast that was taken out
@@ -266,10 +261,7 @@ class _Tanks:
 
 
 def _fitted(
-    scene: Description,
-    vessel: _core.VesselHydrodynamics,
-    target: Mapping[str, float],
-    kind: _Force | _Tanks,
+    scene: Description, vessel: _core.VesselHydrodynamics, target: Mapping[str, float], kind: _Force | _Tanks
 ) -> tuple[Array, dict[str, float]]:
     """The unknowns with which no moment is left at the target, and roll and pitch there, by a chord method.
 

@@ -23,47 +23,30 @@ from seacrane.inputs.mesh_files import MOST_TRIANGLES, READERS
 from seacrane.inputs.node import Node
 from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import told_by
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int64]
 LARGEST, FARTHEST = 1000.0, 1e5  # m: of a mesh, and from the body's origin
 
 
+@told_by(_core.Body)
 def add_body(
-    scene: Description,
-    name: str,
-    *,
-    mass: float,
-    inertia: Any = None,
-    center_of_mass: Any = (0.0, 0.0, 0.0),
-    position: Any = (0.0, 0.0, 0.0),
-    quaternion: Any = (1.0, 0.0, 0.0, 0.0),
-    velocity: Any = (0.0, 0.0, 0.0),
-    angular_velocity: Any = (0.0, 0.0, 0.0),
-    gravity: bool = True,
-    size: Any = None,
-    below: str | None = None,
-    drop: float = 0.0,
-) -> _core.Body:
+    scene: Description, name: str, *, mass: float, inertia: Any = None,
+    center_of_mass: Any = (0.0, 0.0, 0.0), position: Any = (0.0, 0.0, 0.0),
+    quaternion: Any = (1.0, 0.0, 0.0, 0.0), velocity: Any = (0.0, 0.0, 0.0),
+    angular_velocity: Any = (0.0, 0.0, 0.0), gravity: bool = True, size: Any = None,
+    below: str | None = None, drop: float = 0.0,
+) -> _core.Body:  # fmt: skip
     """Add a rigid body.
 
     Parameters
     ----------
-    mass : float
-        kg.
     inertia : array_like, shape (3,) or (3, 3), optional
         About the centre of mass in body axes, kg m2; three values are the diagonal. Default: that of a solid
         box of `size`, ``mass / 12 * (y**2 + z**2, z**2 + x**2, x**2 + y**2)``.
-    center_of_mass : array_like, shape (3,)
-        From the body origin in body axes, m.
-    position, quaternion : array_like
-        Start pose of the body origin in the inertial frame; quaternion (w, x, y, z), body to inertial.
-    velocity, angular_velocity : array_like, shape (3,)
-        Of the body origin at the start, inertial axes, m/s and rad/s.
     gravity : bool
         Whether weight acts on it. The body of a vessel never gets weight: its restoring carries it.
-    size : array_like, shape (3,), optional
-        Edges (x, y, z) of the box that it is, m, about its centre of mass along body axes.
     below : str, optional
         In place of a position, a point such as "tip", as `place_of` takes it: the top of the box, or the
         origin of a body without a size, is straight below it.
@@ -161,27 +144,14 @@ class Mesh:
     def _content(self) -> tuple[str, str, bytes, bytes]:
         return self.name, self.body, self.vertices.tobytes(), self.faces.tobytes()
 
-    def __copy__(self) -> Mesh:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Mesh:
-        return self
-
     def __reduce__(self) -> tuple[Any, ...]:  # arrays come back from a pickle writeable
         return partial(Mesh, name=self.name, body=self.body, vertices=self.vertices, faces=self.faces), ()
 
 
 def add_mesh(
-    scene: Description,
-    body: str,
-    *,
-    file: str | os.PathLike[str] | None = None,
-    vertices: Any = None,
-    faces: Any = None,
-    scale: float = 1.0,
-    frame: _core.Frame | None = None,
-    name: str | None = None,
-) -> Mesh:
+    scene: Description, body: str, *, file: str | os.PathLike[str] | None = None, vertices: Any = None,
+    faces: Any = None, scale: float = 1.0, frame: _core.Frame | None = None, name: str | None = None,
+) -> Mesh:  # fmt: skip
     """Draw a body by a mesh, in place of what is drawn otherwise; its motion does not change.
 
     The scene holds the triangles themselves: files of scenes and results need the mesh's file no more. A mesh
@@ -216,8 +186,13 @@ def add_mesh(
     require(scene, "mesh", "body", body)
     what = f"mesh {name_of('mesh', name, body)!r}"
     points, triangles = _given(what, file, vertices, faces)
-    points = _placed(what, points, triangles, scale, frame)
-    mesh = _mesh(scene, name or body, body, points, triangles)
+    factor = number_of(f"{what}: scale", scale)
+    if not (np.isfinite(factor) and factor > 0.0):
+        raise SceneError.of(f"{what}: scale", f"is {factor:g}; give a positive number, such as 1e-3 for mm")
+    if frame is not None and not isinstance(frame, _core.Frame):
+        raise SceneError.of(f"{what}: frame", f"is {shown(frame)}; give a seacrane.Frame")
+    frame = _core.Frame() if frame is None else frame
+    mesh = _mesh(scene, name or body, body, points, triangles, factor, frame)
     return insert("mesh", scene.meshes, mesh)
 
 
@@ -250,30 +225,22 @@ def _from_arrays(what: str, vertices: Any, faces: Any) -> tuple[Array, Faces]:
     return points, corners
 
 
-def _placed(what: str, points: Array, faces: Faces, scale: Any, frame: Any) -> Array:
-    """Points in body coordinates, m."""
-    factor = number_of(f"{what}: scale", scale)
-    if not (np.isfinite(factor) and factor > 0.0):
-        raise SceneError.of(f"{what}: scale", f"is {factor:g}; give a positive number, such as 1e-3 for mm")
-    if frame is not None and not isinstance(frame, _core.Frame):
-        raise SceneError.of(f"{what}: frame", f"is {shown(frame)}; give a seacrane.Frame")
+def _mesh(
+    scene: Description, name: str, body: str, points: Array, faces: Any, factor: float, frame: _core.Frame
+) -> Mesh:
+    """The mesh in body coordinates, m, once it is one that can be drawn."""
+    what = f"mesh {name!r}"
     if not np.isfinite(points).all():
         raise SceneError(f"{what}: vertices hold a coordinate that is not finite; repair it")
     with np.errstate(over="ignore"):
         size = float(factor * np.ptp(points, axis=0).max())
+        points = np.asarray((factor * points) @ np.asarray(frame.axes).T + np.asarray(frame.point))
     if size > LARGEST:
         raise SceneError(
             f"{what}: is {size:.4g} m large, above {LARGEST:g} m; if it is in mm give scale="
             f"{1e-3 * factor:g}, else draw a part of it"
         )
-    frame = _core.Frame() if frame is None else frame
-    return np.asarray((factor * points) @ np.asarray(frame.axes).T + np.asarray(frame.point))
-
-
-def _mesh(scene: Description, name: str, body: str, points: Array, faces: Any) -> Mesh:
-    """The mesh, once it is one that can be drawn."""
-    what = f"mesh {name!r}"
-    if not np.isfinite(points).all() or np.abs(points).max() > FARTHEST:
+    if np.abs(points).max() > FARTHEST:
         raise SceneError(
             f"{what}: has a vertex more than {FARTHEST:g} m from its body; check scale and frame"
         )
@@ -309,9 +276,7 @@ def mesh_from_node(node: Node, scene: Description) -> None:
         node.at("body").fail("give a body of the scene")
     with node.scene_errors():
         name = name_of("mesh", node.at("name").text())
-        if len(points) and np.isfinite(points).all():
-            points = _placed(f"mesh {name!r}", points, faces, 1.0, None)
-        insert("mesh", scene.meshes, _mesh(scene, name, body, points, faces))
+        insert("mesh", scene.meshes, _mesh(scene, name, body, points, faces, 1.0, _core.Frame()))
 
 
 def _bytes(node: Node) -> bytes:

@@ -12,12 +12,12 @@ from seacrane.description.loads import named
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.own_channels import picks
+from seacrane.scene.recorded import picks
 
 UNNAMED = ("roles", "provenance", "ratings", "lift_factors")  # tables by the names of other elements
 REFERRING: Mapping[str, tuple[tuple[str, str], ...]] = {  # who names one, and in which word
-    "bodies": (("meshes", "body"), ("clearances", "body"), ("relatives", "axes")),
-    "points": (("clearances", "points"), ("relatives", "point"), ("relatives", "to")),
+    "bodies": (("meshes", "body"), ("clearances", "body")),
+    "points": (("clearances", "points"),),
     "joints": (("ranges", "joint"),),
     "vessels": (("groups", "vessels"),),
 }
@@ -79,8 +79,8 @@ def remove_element(scene: Description, name: str, /, *, kind: str | None = None)
     ----------
     name : str
     kind : str, optional
-        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance", "relative",
-        "channel" or "mesh"; needed where elements of several kinds have this name.
+        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance", "channel"
+        or "mesh"; needed where elements of several kinds have this name.
 
     Raises
     ------

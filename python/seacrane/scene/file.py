@@ -38,20 +38,10 @@ from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import arguments, notes_from_node, plain_data, value_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole
+from seacrane.scene import recorded
 from seacrane.scene.afloat import add_group, add_hydrodynamics
 from seacrane.scene.bodies import add_body, mesh_from_node, mesh_to_data
 from seacrane.scene.lift_factors import LiftFactors, Rating, add_lift_factors, note_rating, rating_of
-from seacrane.scene.own_channels import OwnChannel, add_channel
-from seacrane.scene.recorded import (
-    Clearance,
-    Relative,
-    add_clearance,
-    add_limit_state,
-    add_point,
-    add_range,
-    add_relative,
-    record_coordinate,
-)
 from seacrane.scene.roles import add_roles
 
 LARGEST_FILE = 32 * 2**20  # bytes
@@ -93,10 +83,6 @@ def _no_constant(name: str) -> Any:
     raise ValueError(f"{name} is not a number; give a finite one")
 
 
-def _add_rating(scene: Description, **entries: Any) -> None:
-    note_rating(scene, rating_of(**entries))
-
-
 _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what it holds, and how it is added
     "bodies": (_core.Body, add_body),
     "joints": (_core.Joint, add_joint),
@@ -107,14 +93,13 @@ _ADD: Mapping[str, tuple[type, Callable[..., Any]]] = {  # of each table: what i
     "force_tables": (_core.ForceTable, add_load),
     "vessels": (VesselHydrodynamics, add_hydrodynamics),
     "groups": (_core.GroupHydrodynamics, add_group),
-    "points": (_core.Point, add_point),
+    "points": (_core.Point, recorded.add_point),
     "loads": (object, add_load),  # of any kind
-    "ranges": (Range, add_range),
-    "limit_states": (LimitState, add_limit_state),
-    "clearances": (Clearance, add_clearance),
-    "relatives": (Relative, add_relative),
-    "channels": (OwnChannel, add_channel),
-    "ratings": (Rating, _add_rating),
+    "ranges": (Range, recorded.add_range),
+    "limit_states": (LimitState, recorded.add_limit_state),
+    "clearances": (recorded.Clearance, recorded.add_clearance),
+    "channels": (recorded.OwnChannel, recorded.add_channel),
+    "ratings": (Rating, lambda scene, **entries: note_rating(scene, rating_of(**entries))),
     "lift_factors": (LiftFactors, add_lift_factors),
 }
 
@@ -174,8 +159,8 @@ def scene_digest(scene: Description) -> str:
     """SHA-256 of what a scene describes: equal for scenes that move alike.
 
     Notes, provenance, databases, limit states, clearances, ratings, lift factors and meshes do not count,
-    and of C functions only their names. Relatives and channels of one's own do: a file goes on with those
-    that it has begun with.
+    and of C functions only their names. Channels of one's own do: a file goes on with those that it has begun
+    with.
     """
     data = _elements(scene.copy(**{key: {} for key in UNMOVING}))
     for roles in data["roles"]:
@@ -194,7 +179,7 @@ def _scene(root: Node, scene: Some) -> Some:
     scene.waves = value_of(root.at("waves"), Waves | None)
     for name, (joint, coordinate) in _by_name(root, "recorded", tuple[str, str]).items():
         with root.at("recorded").at(name).scene_errors():
-            record_coordinate(scene, joint, coordinate=coordinate, name=name)
+            recorded.record_coordinate(scene, joint, coordinate=coordinate, name=name)
     for node in root.at("roles").items():
         entries = arguments(CraneRoles, node)
         with node.scene_errors():
@@ -221,19 +206,16 @@ def _elements(scene: Description) -> dict[str, Any]:
     """All but the databases of its vessels, on which no motion depends."""
     held = vars(scene) | {key: float(getattr(scene, key)) for key in SETTINGS}
     held |= {key: [*held[key].values()] for key in (*_ADD, "roles")}
-    made = {
-        "loads": [{"kind": kind_of(one), **_load_entries(one)} for one in held["loads"]],
+    loads = [(kind_of(one), plain_data("load", one)) for one in held["loads"]]
+    made = {  # an entry "kind" of a load's own goes by the kind's name
+        "loads": [{"kind": kind} | {kind if key == "kind" else key: one for key, one in load.items()}
+                  for kind, load in loads],
         "joints": [{**plain_data("joint", one), "parameters": one.parameters} for one in held["joints"]],
         "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
-    }
+    }  # fmt: skip
     what = f"scene {scene.name!r}"
     plain = {key: made[key] if key in made else plain_data(f"{what}: {key}", held[key]) for key in _FIELDS}
     return {"format": FORMAT, "version": FILE_VERSION, **plain}
-
-
-def _load_entries(load: Any) -> dict[str, Any]:
-    """Of a load; an entry "kind" of its own goes by the kind's name."""
-    return {kind_of(load) if key == "kind" else key: one for key, one in plain_data("load", load).items()}
 
 
 def _add(scene: Description, kind: str, node: Node) -> None:

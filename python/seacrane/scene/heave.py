@@ -21,7 +21,7 @@ from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, text_of
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.inputs.values import flat, value
+from seacrane.inputs.values import flat, told_by, value
 
 NO_BOUND = 1e7  # m, m/s: a bound here or beyond is none
 UP = (0.0, 0.0, 1.0)
@@ -66,22 +66,12 @@ class Stops:
 VALUES: dict[str, type[Any]] = {"drive": Drive, "gas": Gas, "stops": Stops}
 
 
+@told_by(_core.HeaveCompensator)
 def add_heave_compensation(
-    scene: Description,
-    name: str,
-    *,
-    body: str,
-    point: Any = ORIGIN,
-    winch: str | None = None,
-    actuator: str | None = None,
-    ratio: float | None = None,
-    direction: Any = UP,
-    gain: float = 1.0,
-    high_pass: float = 0.03,
-    lag: float = 0.0,
-    lag_order: float = 1,
-    drive: Drive | None = None,
-) -> _core.HeaveCompensator:
+    scene: Description, name: str, *, body: str, point: Any = ORIGIN, winch: str | None = None,
+    actuator: str | None = None, ratio: float | None = None, direction: Any = UP, gain: float = 1.0,
+    high_pass: float = 0.03, lag: float = 0.0, lag_order: float = 1, drive: Drive | None = None,
+) -> _core.HeaveCompensator:  # fmt: skip
     """Let a winch or an actuator take the motion of a point away: active heave compensation.
 
     The motion of the point along the direction, behind a high-pass filter, a lag and a drive, is the stroke,
@@ -94,22 +84,12 @@ def add_heave_compensation(
     body, point : str, array_like
         The point whose motion is measured, m, in coordinates of the body. For an actuator, a point that the
         actuator does not move itself: the tip as a point of the vessel.
-    winch : str, optional
-        The line whose winch follows.
     actuator : str, optional
         The actuator or the hydraulic cylinder that follows, in place of a winch.
     ratio : float, optional
         Of what follows to the stroke. Default: of a winch the rope for each metre of the load, such as 2 on
         two falls; of an actuator its coordinate for each metre that the crane's tip goes down, in the
         described pose.
-    direction : array_like, shape (3,)
-        Along which the motion is measured, inertial axes; default: up.
-    gain : float
-        Of the stroke to the motion.
-    high_pass : float
-        Hz, corner of the filter, of first order; 0: none.
-    lag : float
-        s, of the measured motion.
     lag_order : {1, 2}
         Of the lag: 1 / (1 + T p), or 1 / (1 + T p + T^2 p^2 / 3), nearer to a pure delay.
     drive : Drive, optional
@@ -160,22 +140,12 @@ def _ratio(scene: Description, what: str, winch: str | None, actuator: str | Non
     return ratio
 
 
+@told_by(_core.GasSpring)
 def add_gas_spring(
-    scene: Description,
-    name: str,
-    *,
-    first: str,
-    second: str,
-    area: float,
-    gas: Gas,
-    first_point: Any = ORIGIN,
-    second_point: Any = ORIGIN,
-    length: float | None = None,
-    pushes: bool = False,
-    damping: float = 0.0,
-    quadratic_damping: float = 0.0,
-    stops: Stops | None = None,
-) -> _core.GasSpring:
+    scene: Description, name: str, *, first: str, second: str, area: float, gas: Gas,
+    first_point: Any = ORIGIN, second_point: Any = ORIGIN, length: float | None = None, pushes: bool = False,
+    damping: float = 0.0, quadratic_damping: float = 0.0, stops: Stops | None = None,
+) -> _core.GasSpring:  # fmt: skip
     """Join two points by a cylinder on a gas accumulator: passive heave compensation.
 
     Its tension is p area, with p V^exponent constant; lengthening compresses the gas. About the length it has
@@ -184,22 +154,10 @@ def add_gas_spring(
 
     Parameters
     ----------
-    first, second : str
-        Bodies; "ground" is one too.
-    area : float
-        Of the piston, m2.
     gas : Gas
         Its pressure and volume at the length, or the force and the stiffness that it has there.
-    first_point, second_point : array_like, shape (3,)
-        m, in coordinates of the bodies.
     length : float, optional
         m, at which the gas is told; default: the distance of the points as described.
-    pushes : bool
-        Whether it pushes: shortening compresses the gas.
-    damping : float
-        N s/m, of the oil.
-    quadratic_damping : float
-        N s2/m2, likewise.
     stops : Stops, optional
         Lengths at which it is stopped. Default: none.
 

@@ -20,7 +20,7 @@ from seacrane.inputs.checked import positive_of, shaped_of, texts_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.one_thread import one_thread
 from seacrane.scene.bodies import add_body
-from seacrane.scene.line_fluid import Fluid, Seabed
+from seacrane.scene.line_fluid import Seabed, Wire
 
 Array = NDArray[np.float64]
 LARGEST_ERROR = 1e-12  # of the chain's length
@@ -170,29 +170,31 @@ class _End:
 
 
 def chain_of_segments(
-    scene: Description, name: str, bodies: Any, points: Any, *, EA: float | None, length: Any,
-    mass_per_length: float, segments: int, damping_ratio: float, rung: str, settling: float, fluid: Fluid,
-    seabed: Seabed | Mapping[str, Any] | None,
+    scene: Description, name: str, bodies: Any, points: Any, wire: Wire, *, EA: float | None, length: Any,
+    damping_ratio: float, rung: str, settling: float,
 ) -> list[_core.Line]:  # fmt: skip
-    """A line with mass between two points: equal elastic segments with point masses between them.
+    """A line with mass between two points, in its rest shape; keywords as of `Scene.add_line`.
 
-    Adds the lines and bodies "<name>.1", "<name>.2", ... from the first end on, segments and one body less;
-    half a segment's mass sits at either end, on bodies "<name>.first" and "<name>.last" that are welded to
-    what is not the ground. It starts in its rest shape. Keywords as of `Scene.add_line`; `rung` is that of
-    every segment. With a curve for its length the masses stay at equal shares of it, and what they gain and
-    what moves past them is "<name>.1 winding", ...; so they do on a winch (`on_a_winch`).
+    Lines and bodies are "<name>.1", ... from the first end on; half a segment's mass sits at either end, on
+    bodies "<name>.first" and "<name>.last" that are welded to what is not the ground. With a curve for its
+    length the masses stay at equal shares of it, and what moves past them is "<name>.1 winding", ...
     """
     what = f"line {name!r}"
     first, last = _ends(scene, what, bodies, points)
-    count = _count(what, segments)
+    count = wire.segments
+    if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 1 <= count <= MOST_SEGMENTS:
+        raise SceneError.of(
+            f"{what}: segments", f"is {count!r}; give a whole number from 1 to {MOST_SEGMENTS}"
+        )
     span = float(np.linalg.norm(last.place - first.place))
     wound = length if isinstance(length, _core.Curve) else None
     given = float(wound.evaluate([0.0])[0, 0]) if wound is not None else length
     whole = positive_of(f"{what}: length", span if given is None else given)
-    step, mass = whole / count, positive_of(f"{what}: mass_per_length", mass_per_length) * whole / count
-    fluid = fluid.checked(what, wound=wound is not None)
-    weight = mass * scene.gravity - fluid.displaced(step, scene.gravity)
-    bed = None if seabed is None else Seabed.of(what, seabed)
+    per_length = positive_of(f"{what}: mass_per_length", wire.mass_per_length)
+    step, mass = whole / count, per_length * whole / count
+    wire = wire.checked(what, wound=wound is not None)
+    weight = mass * scene.gravity - wire.displaced(step, scene.gravity)
+    bed = cast(Seabed | None, wire.seabed)
     if bed is not None:
         _require_over(what, bed, (first, last), weight / step, wound=wound is not None)
     chain = Chain(
@@ -202,7 +204,7 @@ def chain_of_segments(
         bed_stiffness=1.0 if bed is None else bed.stiffness * step,
     )  # fmt: skip
     lengths = step if wound is None else scaled(wound, 1.0 / count)
-    places = _at_rest(what, chain, first.place, last.place, partial(fluid.lifts, gravity=scene.gravity))
+    places = _at_rest(what, chain, first.place, last.place, partial(wire.lifts, gravity=scene.gravity))
     inertia = np.full(3, mass * (GYRATION * step) ** 2)
     for i, place in enumerate(places, start=1):
         velocity = first.velocity + (last.velocity - first.velocity) * (i / count)
@@ -217,10 +219,10 @@ def chain_of_segments(
             length=lengths, damping_ratio=damping_ratio, mass=mass, rung=rung, settling=settling,
         )  # fmt: skip
         lines.append(put_load(scene, segment))
-        if fluid.diameter > 0.0:
-            put_load(scene, fluid.along(f"{name}.{i}", (one, two), lengths))
+        if wire.diameter > 0.0:
+            put_load(scene, wire.along(f"{name}.{i}", (one, two), lengths))
         if wound is not None:
-            put_load(scene, _winding(segment, mass_per_length, (i, count)))
+            put_load(scene, _winding(segment, per_length, (i, count)))
     if bed is not None:
         shares = [0.5, *[1.0] * (count - 1), 0.5]
         for node, place, share in zip(path, [first.place, *places, last.place], shares, strict=True):
@@ -319,6 +321,8 @@ def _ends(scene: Description, what: str, bodies: Any, points: Any) -> tuple[_End
     if names[0] == names[1]:
         raise SceneError(f"{what}: both ends are on {names[0]!r}; name two bodies")
     rows = shaped_of(f"{what}: points", points, (2, 3))
+    if not np.all(np.isfinite(rows)):
+        raise SceneError.of(f"{what}: points", f"holds {rows.tolist()}; give finite numbers")
     first, last = (_end(scene, what, *end) for end in zip(names, rows, strict=True))
     if not np.any(last.place - first.place):
         raise SceneError.of(f"{what}: points", f"are both at {first.place.tolist()} m; give two places")
@@ -326,8 +330,6 @@ def _ends(scene: Description, what: str, bodies: Any, points: Any) -> tuple[_End
 
 
 def _end(scene: Description, what: str, name: str, point: Array) -> _End:
-    if not np.all(np.isfinite(point)):
-        raise SceneError.of(f"{what}: points", f"holds {point.tolist()}; give finite numbers")
     if name == GROUND:
         return _End(body=name, point=point, place=point, velocity=np.zeros(3))
     body = scene.bodies[require(scene, what, "bodies", name)]
@@ -364,11 +366,3 @@ def _shape(what: str, chain: Chain) -> Array:
             "are not one above the other, or gravity",
         )
     return np.arange(1, chain.count)[:, None] / chain.count * chain.span
-
-
-def _count(what: str, segments: Any) -> int:
-    if isinstance(segments, bool) or not isinstance(segments, (int, np.integer)):
-        raise SceneError.of(f"{what}: segments", f"is {segments!r}; give a whole number")
-    if not 1 <= segments <= MOST_SEGMENTS:
-        raise SceneError.of(f"{what}: segments", f"is {segments}; give 1 to {MOST_SEGMENTS}")
-    return int(segments)

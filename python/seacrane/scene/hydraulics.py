@@ -22,34 +22,20 @@ from seacrane.description.hydraulic_cylinders import (
 )
 from seacrane.description.places import ORIGIN
 from seacrane.errors import SceneError
+from seacrane.inputs.values import told_by
 from seacrane.scene.edit import replace_element
 
 
+@told_by(_core.HydraulicCylinder)
 def add_hydraulic_cylinder(
-    scene: Description,
-    name: str,
-    *,
-    first: str,
-    second: str,
-    full_area: float,
-    rod_side_area: float,
-    retracted_length: float,
-    stroke: float,
-    first_point: Any = ORIGIN,
-    second_point: Any = ORIGIN,
-    chamber: of.Chamber | None = None,
-    rod_chamber: of.Chamber | None = None,
-    oil: of.Oil | None = None,
-    pump: of.Pump | None = None,
-    valve: of.Valve | None = None,
-    command: _core.Curve | float | None = None,
-    reference: _core.Curve | float | None = None,
-    relief: of.Relief | None = None,
-    counterbalance: of.Counterbalance | None = None,
-    accumulator: of.Accumulator | None = None,
-    piston: of.Piston | None = None,
-    rupture: of.Rupture | None = None,
-) -> _core.HydraulicCylinder:
+    scene: Description, name: str, *, first: str, second: str, full_area: float, rod_side_area: float,
+    retracted_length: float, stroke: float, first_point: Any = ORIGIN, second_point: Any = ORIGIN,
+    chamber: of.Chamber | None = None, rod_chamber: of.Chamber | None = None, oil: of.Oil | None = None,
+    pump: of.Pump | None = None, valve: of.Valve | None = None, command: _core.Curve | float | None = None,
+    reference: _core.Curve | float | None = None, relief: of.Relief | None = None,
+    counterbalance: of.Counterbalance | None = None, accumulator: of.Accumulator | None = None,
+    piston: of.Piston | None = None, rupture: of.Rupture | None = None,
+) -> _core.HydraulicCylinder:  # fmt: skip
     """Join two points by a hydraulic cylinder: pressures of both chambers, valves, pump, leakage, friction.
 
     Its states are "<name>.pressure", "<name>.pressure_rod", "<name>.spool" and, of an accumulator,
@@ -59,14 +45,6 @@ def add_hydraulic_cylinder(
 
     Parameters
     ----------
-    first, second : str
-        Bodies; "ground" is one too.
-    full_area, rod_side_area : float
-        Of the piston, m2; of the rod side less the rod.
-    retracted_length, stroke : float
-        m, between the points at stroke 0; largest.
-    first_point, second_point : array_like, shape (3,)
-        m, in coordinates of the bodies.
     chamber, rod_chamber : Chamber, optional
         Start pressures and hoses of the full side and of the rod side. A cylinder whose pressures are not
         given is added after what it carries, or see `hold_pressures`.
@@ -84,7 +62,7 @@ def add_hydraulic_cylinder(
         does not fit is said by `Scene.compile`.
     """
     keywords = {key: value for key, value in locals().items() if key != "scene"}
-    return place_cylinder(scene, keywords, lambda: _forces(scene, what_of(keywords), [keywords])[name])
+    return place_cylinder(scene, keywords, lambda: holding_forces(scene, what_of(keywords), [keywords])[name])
 
 
 def hold_pressures(scene: Description) -> dict[str, _core.HydraulicCylinder]:
@@ -109,23 +87,26 @@ def hold_pressures(scene: Description) -> dict[str, _core.HydraulicCylinder]:
         raise SceneError(
             f"scene {scene.name!r}: has no hydraulic cylinder whose pressures would hold it; add one first"
         )
-    for name, force in _forces(scene, f"scene {scene.name!r}", []).items():
+    for name, force in holding_forces(scene, f"scene {scene.name!r}", []).items():
         full, rod = holding_pressures(cylinders[name], force)
         replace_element(scene, name, kind="load", pressure=full, pressure_rod=rod)
     return hydraulic_cylinders(scene)
 
 
-def _forces(scene: Description, what: str, more: list[dict[str, Any]]) -> dict[str, float]:
+def holding_forces(
+    scene: Description, what: str, more: list[dict[str, Any]], *, free: str = ""
+) -> dict[str, float]:
     """Forces (N, positive pushes) of cylinders, by name, that hold the scene at rest as described.
 
     Rods of fixed length take their places; vessels, actuated coordinates and the drives of cranes are held,
-    and waves left out. `more`: keywords of cylinders that the scene does not have.
+    and waves left out. `more`: names and ends of cylinders, or ropes, that the scene does not have; `free`: a
+    hinge that one of them holds.
     """
     cylinders = [*more, *map(ends_of, hydraulic_cylinders(scene).values())]
     held = locked_at_rest(without_cylinders(let_go(scene)))
     for one in cylinders:
         add_rod(held, one)
-    _hold_cranes(held, {frozenset((one["first"], one["second"])) for one in cylinders})
+    _hold_cranes(held, {frozenset((one["first"], one["second"])) for one in cylinders}, free)
     model = compile_scene(held)
     evaluator = _core.Evaluator(model)
     state = np.array(model.initial_state)
@@ -141,11 +122,13 @@ def _forces(scene: Description, what: str, more: list[dict[str, Any]]) -> dict[s
     return rod_forces(held, model, start)
 
 
-def _hold_cranes(scene: Description, tied: set[frozenset[str]]) -> None:
+def _hold_cranes(scene: Description, tied: set[frozenset[str]], free: str) -> None:
     """Drivers for what nothing holds of the drives of cranes; `tied`: bodies that cylinders join."""
-    driven = {driver.joint for driver in scene.drivers.values()}
+    driven = {free, *(driver.joint for driver in scene.drivers.values())}
     for roles in scene.roles.values():
-        for name in (*([roles.slew[0]] if roles.slew else []), *roles.cylinders.values()):
+        slews = [] if roles.slew is None else [roles.slew[0]]
+        luffs = [joint for joint, _ in roles.luffs.values() if free]
+        for name in (*slews, *luffs, *roles.cylinders.values()):
             if name not in scene.joints or name in driven:
                 continue
             joint = scene.joints[name]

@@ -15,6 +15,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, name_of, positive_of, shaped_of, text_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import made_of, told_by
 from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.mesh_part import from_mesh
 from seacrane.water.openings import Opening
@@ -30,6 +31,7 @@ AIR = ("free", "vented", "shut")
 IN_LID = 1e-9  # of the height, as in the engine
 
 
+@told_by(_core.ImmersedPart)
 def add_immersed(
     scene: Description, body: str, *, parts: Sequence[Part | Mapping[str, Any]],
     density: float = SEA_WATER, wave_factor: float = 1.0, name: str | None = None,
@@ -50,8 +52,6 @@ def add_immersed(
         `seacrane.water.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, what
         `seacrane.water.from_mesh` makes, or tables {"kind": "box", ...} with their entries; of the kind
         "mesh" those of `from_mesh`.
-    density : float
-        kg/m3, of the water.
     wave_factor : float
         By which the waves of the sea are multiplied at the parts: what a hull beside makes of them. Before a
         wall it is 2, in a lee below 1. Beside a ship 1 is a `ScatteredWavesWarning`.
@@ -136,6 +136,7 @@ def _check_place(what: str, body: _core.Body, part: Part) -> None:
         )
 
 
+@told_by(_core.EntrappedWater)
 def add_entrapped_water(
     scene: Description, body: str, *, area: float, height: float,
     openings: Sequence[Opening | Mapping[str, Any]], point: Any = (0.0, 0.0, 0.0),
@@ -155,36 +156,16 @@ def add_entrapped_water(
     ----------
     body : str
         Name of the body. Its mass and weight are without the water.
-    area : float
-        m2, of its section.
-    height : float
-        m, from its bottom to its top.
     openings : sequence
         `seacrane.water.Opening`, or tables {"point": ..., "area": ...}; 12 at most.
-    point : array_like, shape (3,)
-        Centre of its bottom, m, body coordinates.
     air : str, optional
         Above the water: "vented", which comes and goes by the openings alone, against their resistance;
         "free", against none; or "shut", whose mass stays while no opening lets air through, and which expands
         and is compressed. Default: "vented" with an opening in the lid; without one, it is asked for.
-    exponent : float, optional
-        Of air that is shut in, p V^exponent stays: 1 (slow) to 1.4 (quick).
-    air_pressure : float
-        Pa, absolute, of air that is shut in, at the start.
-    discharge_coefficient : float
-        C_d of the openings, above 0 to 1: 0.6 of a sharp edge.
-    initial : float
-        m3 of water in it at the start.
-    density : float
-        kg/m3, of the water.
     wave_factor : float
         By which the waves of the sea are multiplied at the openings, as of `add_immersed`.
     name : str, optional
         Default: "water in <body>".
-
-    Returns
-    -------
-    EntrappedWater
 
     Raises
     ------
@@ -208,8 +189,12 @@ def add_entrapped_water(
     holes = _openings(what, openings)
     bottom, tall = shaped_of(f"{what}: point", point, (3,)), positive_of(f"{what}: height", height, "m")
     kept = _air(what, air, [np.asarray(hole.point, dtype=float)[2] - bottom[2] for hole in holes], tall)
+    if (kept == "shut") == (exponent is None):
+        asked = "give exponent, 1 (slow) to 1.4 (quick)" if exponent is None else "leave exponent out"
+        raise SceneError.of(f"{what}: air", f"is {kept!r}, and exponent is {shown(exponent)}; {asked}")
     element = _core.EntrappedWater(
-        name=label, body=body, point=bottom, air=kept, exponent=_exponent(what, kept, exponent),
+        name=label, body=body, point=bottom, air=kept,
+        exponent=0.0 if exponent is None else finite_of(f"{what}: exponent", exponent),
         area=area, height=tall, air_pressure=air_pressure, initial=initial, wave_factor=wave_factor,
         opening_points=np.array([np.asarray(hole.point, dtype=float) for hole in holes]),
         opening_areas=[float(hole.area) for hole in holes],
@@ -222,18 +207,7 @@ def add_entrapped_water(
 def _openings(what: str, given: Any) -> list[Opening]:
     if isinstance(given, Mapping | str) or not isinstance(given, Sequence) or not given:
         raise SceneError.of(f"{what}: openings", f"is {shown(given)}; give a list of seacrane.water.Opening")
-    return [_opening(what, one) for one in given]
-
-
-def _opening(what: str, given: Any) -> Opening:
-    if isinstance(given, Opening):
-        return given
-    if not isinstance(given, Mapping):
-        raise SceneError.of(f"{what}: openings", f"holds {shown(given)}; give seacrane.water.Opening")
-    try:
-        return Opening(**given)
-    except TypeError as error:
-        raise SceneError(f"{what}: {error}") from None
+    return [made_of(what, "openings", Opening, one) for one in given]
 
 
 def _air(what: str, given: str | None, heights: list[float], top: float) -> str:
@@ -243,13 +217,6 @@ def _air(what: str, given: str | None, heights: list[float], top: float) -> str:
     if given not in AIR:
         raise SceneError.of(f"{what}: air", f"is {shown(given)}; give one of {', '.join(AIR)}")
     return given
-
-
-def _exponent(what: str, air: str, given: float | None) -> float:
-    if (air == "shut") == (given is None):
-        asked = "give exponent, 1 (slow) to 1.4 (quick)" if given is None else "leave exponent out"
-        raise SceneError.of(f"{what}: air", f"is {air!r}, and exponent is {shown(given)}; {asked}")
-    return 0.0 if given is None else finite_of(f"{what}: exponent", given)
 
 
 def _check_upright(what: str, body: _core.Body) -> None:

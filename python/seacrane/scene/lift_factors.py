@@ -31,13 +31,7 @@ class Rating:
 
 
 def rating_of(name: str, breaking_load: float | None, safety_factor: float | None) -> Rating | None:
-    """What a line breaks at; None where no breaking load is given.
-
-    Raises
-    ------
-    SceneError
-        For a breaking load that is not positive, and a safety factor below 1 or without one.
-    """
+    """What a line breaks at; None without a breaking load. SceneError for a factor below 1, or alone."""
     what = f"line {name!r}"
     if breaking_load is None:
         if safety_factor is not None:
@@ -88,19 +82,12 @@ NUMBERS = tuple(one.name for one in fields(LiftFactors) if one.name not in ("nam
 
 
 def add_lift_factors(
-    scene: Description,
-    load: str = "load",
-    *,
-    weight_contingency: float = 1.0,
-    center_of_gravity: ArrayLike = (0.0, 0.0, 0.0),
-    skew_load: ArrayLike = 1.0,
-    dynamic_factor: float | None = None,
-    sling_safety_factor: float | None = None,
-    shackle_safety_factor: float | None = None,
-    shackle_breaking_load: float | None = None,
-    alpha: float = 1.0,
-    sources: Mapping[str, str] | None = None,
-) -> LiftFactors:
+    scene: Description, load: str = "load", *, weight_contingency: float = 1.0,
+    center_of_gravity: ArrayLike = (0.0, 0.0, 0.0), skew_load: ArrayLike = 1.0,
+    dynamic_factor: float | None = None, sling_safety_factor: float | None = None,
+    shackle_safety_factor: float | None = None, shackle_breaking_load: float | None = None,
+    alpha: float = 1.0, sources: Mapping[str, str] | None = None,
+) -> LiftFactors:  # fmt: skip
     """State what a lift is calculated with beside its scene: `lift_sheet` and the report print its sheet.
 
     None of them moves anything. No standard's numbers are here: take those of the edition that the project is
@@ -129,10 +116,6 @@ def add_lift_factors(
     sources : mapping of str to str, optional
         By these names, such as ``{"skew_load": "DNV-ST-N001, the edition and its table"}``.
 
-    Returns
-    -------
-    LiftFactors
-
     Raises
     ------
     SceneError
@@ -141,15 +124,14 @@ def add_lift_factors(
     given: dict[str, Any] = {key: one for key, one in locals().items() if key not in ("scene", "load")}
     what = f"lift factors of {load!r}"
     require(scene, "lift factors", "load", load)
-    for key in AT_LEAST_ONE:
-        _factor(what, key, given[key])
+    skews = vector_of(f"{what}: skew_load", np.atleast_1d(np.asarray(skew_load, dtype=object)))
+    for key, value in (*((key, given[key]) for key in AT_LEAST_ONE), *(("skew_load", one) for one in skews)):
+        if value is not None and not 1.0 <= number_of(f"{what}: {key}", value) <= LARGEST:
+            raise SceneError.of(f"{what}: {key}", f"is {value:g}; give a factor from 1 to {LARGEST:g}")
     if shackle_breaking_load is not None:
         positive_of(f"{what}: shackle_breaking_load", shackle_breaking_load, "N")
     if not 0.0 < number_of(f"{what}: alpha", alpha) <= 1.0:
         raise SceneError.of(f"{what}: alpha", f"is {alpha:g}; give operational over design Hs, above 0 to 1")
-    skews = vector_of(f"{what}: skew_load", np.atleast_1d(np.asarray(skew_load, dtype=object)))
-    for skew in skews:
-        _factor(what, "skew_load", skew)
     x, y, z = np.abs(shaped_of(f"{what}: center_of_gravity", center_of_gravity, (3,))).tolist()
     if not all(map(math.isfinite, (x, y, z))):
         raise SceneError.of(
@@ -158,11 +140,6 @@ def add_lift_factors(
     given |= {"center_of_gravity": (x, y, z), "skew_load": tuple(skews), "alpha": float(alpha)}
     factors = LiftFactors(name=load, **given | {"sources": _sources(what, sources or {})})
     return insert("lift factors", scene.lift_factors, factors)
-
-
-def _factor(what: str, key: str, value: Any) -> None:
-    if value is not None and not 1.0 <= number_of(f"{what}: {key}", value) <= LARGEST:
-        raise SceneError.of(f"{what}: {key}", f"is {value:g}; give a factor from 1 to {LARGEST:g}")
 
 
 def _sources(what: str, given: Any) -> dict[str, str]:

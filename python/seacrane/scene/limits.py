@@ -23,6 +23,7 @@ from seacrane.inputs.checked import name_of, not_negative_of, positive_of, rows_
 from seacrane.inputs.frames import axes_along, rotation_matrix
 from seacrane.inputs.keywords import taken
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import told_by
 from seacrane.warnings import SeabedWarning
 
 CLOSE = 1e-6  # m
@@ -51,16 +52,11 @@ def _limit(
 def add_wire(
     scene: Description, joint: str, restitution: float, sticking_speed: float, name: str | None
 ) -> _core.Limit:
-    """Let a distance joint pull only: it goes slack when its tension would turn negative, and snatches.
-
-    Slack, its ends move freely within its length. Stretched again, an impact keeps momentum, in the mass
-    metric, over all joints: M (v+ - v-) = D^T Lambda; the rate of its length turns to -restitution times what
-    it was. It starts slack if its points are described closer than its length, by more than 1e-6 of it, or
-    approach each other.
-    """
+    """Let a distance joint pull only: it goes slack where its tension would turn negative, and snatches."""
     return _limit(scene, "wire", joint, name, restitution=restitution, sticking_speed=sticking_speed)
 
 
+@told_by(_core.Limit, _core.SoftStop)
 def add_stop(
     scene: Description, joint: str, *, coordinate: str | None = None, minimum: float | None = None,
     maximum: float | None = None, restitution: float | None = None, sticking_speed: float | None = None,
@@ -90,12 +86,6 @@ def add_stop(
         m or rad; leave out the one that is not there. A rigid angle needs both, between -pi and pi.
     restitution : float
         0 (default: it stays at the bound) to 1 (no energy is lost).
-    sticking_speed : float
-        m/s or rad/s; slower impacts do not rebound, so that rebounds come to an end; default 1e-3.
-    stiffness : float
-        N/m or N m/rad; default: rigid.
-    damping : float
-        s/m or s/rad, with a stiffness; default 0.
     name : str, optional
         Default: the joint's; with a stiffness the joint's, and "soft stop".
 
@@ -144,15 +134,11 @@ def _require_above(scene: Description, joint: _core.Joint) -> None:
         )
 
 
+@told_by(_core.Friction)
 def add_friction(
-    scene: Description,
-    joint: str,
-    *,
-    load: float,
-    speed: float,
-    coordinate: str | None = None,
+    scene: Description, joint: str, *, load: float, speed: float, coordinate: str | None = None,
     name: str | None = None,
-) -> _core.Friction:
+) -> _core.Friction:  # fmt: skip
     """Add dry friction on a joint coordinate: -load tanh(rate / speed).
 
     Coulomb friction, made smooth: within 1e-4 of it where the coordinate is faster than 5 times `speed`. It
@@ -161,12 +147,6 @@ def add_friction(
 
     Parameters
     ----------
-    joint, coordinate
-        As `add_stop`.
-    load : float
-        N or N m.
-    speed : float
-        m/s or rad/s.
     name : str, optional
         Default: the joint's, and "friction".
 
@@ -180,6 +160,7 @@ def add_friction(
     return put_load(scene, friction)
 
 
+@told_by(_core.Contact)
 def add_contact(
     scene: Description, body: str, *, points: Any, on: str, surface: str = "plane",
     place: Any = (0.0, 0.0, 0.0), axis: Any = (0.0, 0.0, 1.0), size: Any = None, edge: float | None = None,
@@ -196,23 +177,17 @@ def add_contact(
 
     Parameters
     ----------
-    body : str
-        Whose points they are.
     points : array_like, shape (n, 3)
         Feet, corners or bumpers, m, coordinates of `body`; 64 at most.
     on : str
         Whose surface it is: another body, "ground", or "seabed", a level plane of the ground.
     surface : str
         "plane": all below it is inside; "box", "post" (a round bar), "pipe" (a round wall, hollow).
-    place : array_like, shape (3,)
-        A point of a plane, else the middle of the surface, m, coordinates of `on`.
     axis : array_like, shape (3,)
         Away from a plane, up in a box, along a post or a pipe; coordinates of `on`.
     size : array_like, optional
         m. Of a box its edges along x, y and `axis`; of a post its diameter and length; of a pipe its inner
         and outer diameter and its length. A plane has none.
-    edge : float, optional
-        Radius of its edges, m: 0.05, or half of its least thickness where that is less.
     stiffness : float, optional
         Of each point, N/m. Default: the weight of `body` and of what is welded to it by now, shared by its
         points, sinks by 1 cm.
@@ -229,10 +204,6 @@ def add_contact(
         m, of the seabed below z = 0.
     name : str, optional
         Default: "<body> on <on>".
-
-    Returns
-    -------
-    Contact
 
     Raises
     ------

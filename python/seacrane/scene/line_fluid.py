@@ -1,11 +1,11 @@
-"""What a line with mass is in, air, a fluid that flows, or the sea, and the seabed under it."""
+"""What a line with mass is, and is in: air, a fluid that flows, or the sea, and the seabed under it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, not_negative_of, number_of, positive_of, text_of
-from seacrane.inputs.shown import shown
+from seacrane.inputs.keywords import named
+from seacrane.inputs.values import made_of
 from seacrane.scene.wind_current import AIR
 from seacrane.water.density import SEA_WATER, density_of
 
@@ -31,28 +32,60 @@ SOURCES = (
 OF_THE_SEA = {"drag_coefficient_along": SKIN_DRAG, "added_mass_coefficient": CIRCLE_ADDED_MASS}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Fluid:
-    """What a line with mass is in, and its coefficients there; `density` None: that of the medium."""
+@named
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Wire:
+    """What makes a line one with mass: elastic segments with masses between them, in air or in the sea.
 
-    medium: str
-    density: float | None
-    diameter: float
-    drag_coefficient: float
-    drag_coefficient_along: float
-    added_mass_coefficient: float
-    flow: ArrayLike
+    Attributes
+    ----------
+    mass_per_length : float
+        kg/m.
+    segments : int
+        From 1 to 1000. The fastest mode is 2 segments / length sqrt(EA / mass_per_length), 1/s.
+    diameter : float
+        m, for what air or water does to it; 0 (default): nothing in air, refused in the sea.
+    drag_coefficient : float
+        Across the line. Default 1.2, a cylinder (DNV-RP-C205).
+    drag_coefficient_along : float
+        In the sea, along the line on its skin, pi diameter length. Default 0.01 (unverified). In air there
+        is none.
+    added_mass_coefficient : float
+        In the sea: added mass across the line over the water that it displaces; there is none along it.
+        Default 1, a circle in ideal flow.
+    density : float or None
+        kg/m3, of the fluid; default: that of the medium, air or sea water.
+    flow : array_like, shape (3,)
+        Velocity of the air, or of a fluid that has drag alone, m/s, inertial axes.
+    medium : {"air", "sea"}
+        In the sea what is below the surface has buoyancy, added mass and drag in the water of `add_sea`, its
+        waves and current; still water without one.
+    seabed : Seabed, mapping of its keywords, or None
+        A level seabed on which its masses lie.
+    """
+
+    mass_per_length: float
+    segments: int = 20
+    diameter: float = 0.0
+    drag_coefficient: float = CYLINDER_DRAG
+    drag_coefficient_along: float = SKIN_DRAG
+    added_mass_coefficient: float = CIRCLE_ADDED_MASS
+    density: float | None = None
+    flow: ArrayLike = (0.0, 0.0, 0.0)
+    medium: Literal["air", "sea"] = "air"
+    seabed: Seabed | Mapping[str, Any] | None = None
 
     @property
     def in_sea(self) -> bool:
-        """Whether it is the water of the scene."""
+        """Whether it is in the water of the scene."""
         return self.medium == "sea"
 
-    def checked(self, what: str, *, wound: bool) -> Fluid:
-        """The same with a density in kg/m3."""
+    def checked(self, what: str, *, wound: bool) -> Wire:
+        """The same with a density in kg/m3, and with a Seabed."""
         if text_of(f"{what}: medium", self.medium) not in MEDIA:
             raise SceneError.of(f"{what}: medium", f"is {self.medium!r}; choose 'air' or 'sea'")
         number_of(f"{what}: diameter", self.diameter)
+        bed = None if self.seabed is None else made_of(what, "seabed", Seabed, self.seabed)
         if not self.in_sea:
             for name, usual in OF_THE_SEA.items():
                 if getattr(self, name) != usual:
@@ -64,11 +97,12 @@ class Fluid:
                     f"{what}: has drag in a fluid that flows steadily, which takes no length that changes; "
                     "leave out its diameter, or choose medium 'sea'"
                 )
-            return replace(self, density=AIR if self.density is None else self.density)
+            return replace(self, seabed=bed, density=AIR if self.density is None else self.density)
         if np.any(self.flow):
             raise SceneError(f"{what}: is in the sea and has a flow; give the current to add_sea")
         positive_of(f"{what}: diameter", self.diameter, "m")
-        return replace(self, density=density_of(what, SEA_WATER if self.density is None else self.density))
+        density = density_of(what, SEA_WATER if self.density is None else self.density)
+        return replace(self, seabed=bed, density=density)
 
     def source(self) -> str:
         """Where the coefficients are from."""
@@ -95,20 +129,15 @@ class Fluid:
         )  # fmt: skip
 
     @staticmethod
-    def of(around: Any) -> Fluid:
-        """That of a segment, from what `along` made for it; without a diameter that is nothing."""
-        still = np.zeros(3)
-        if around is None:
-            return Fluid(
-                medium="air", density=None, diameter=0.0, drag_coefficient=0.0, flow=still, **OF_THE_SEA
-            )
-        common = {"density": around.density, "diameter": around.diameter}
-        if isinstance(around, _core.SpanDrag):
-            return Fluid(
-                medium="air", drag_coefficient=around.coefficient, flow=around.flow, **common, **OF_THE_SEA
-            )
-        of_sea = {key: getattr(around, key) for key in ("drag_coefficient", *OF_THE_SEA)}
-        return Fluid(medium="sea", flow=still, **common, **of_sea)
+    def around(made: Any) -> dict[str, Any]:
+        """The keywords of what `along` made for a segment; without a diameter that is nothing."""
+        if made is None:
+            return {}
+        common = {"density": made.density, "diameter": made.diameter}
+        if isinstance(made, _core.SpanDrag):
+            return common | {"drag_coefficient": made.coefficient, "flow": made.flow}
+        keys = ("drag_coefficient", *OF_THE_SEA)
+        return common | {"medium": "sea"} | {key: getattr(made, key) for key in keys}
 
     def lifts(self, places: Array, segment: float, gravity: float) -> Array:
         """Buoyancy of each mass between segments of a length (m), (n - 1,) N; `places` (n + 1, 3), m.
@@ -135,6 +164,7 @@ class Fluid:
         return cast(float, self.density) * gravity * np.pi / 4.0 * self.diameter**2 * length
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Seabed:
     """A level seabed on which a line with mass lies: stiffness, damping and friction, no model of soil.
@@ -159,30 +189,12 @@ class Seabed:
     damping_ratio: float = 1.0
     give: float = 0.05
 
-    @staticmethod
-    def of(what: str, given: Seabed | Mapping[str, Any]) -> Seabed:
-        """The seabed of a line; SceneError for keywords that are not there, are missing, or out of range."""
-        if not isinstance(given, (Seabed, Mapping)):
-            raise SceneError.of(
-                f"{what}: seabed",
-                f"is {shown(given)}; give depth, stiffness and friction, such as "
-                "seabed={'depth': 50.0, 'stiffness': 25e3, 'friction': 0.5}",
-            )
-        keywords = given if isinstance(given, Mapping) else vars(given)
-        try:
-            bed = Seabed(**keywords)
-        except TypeError as error:
-            raise SceneError.of(
-                f"{what}: seabed",
-                f"has {', '.join(map(repr, keywords))}; it takes depth, stiffness, friction, "
-                "and damping_ratio and give, the first three always",
-            ) from error
-        finite_of(f"{what}: seabed depth", bed.depth, "m")
-        positive_of(f"{what}: seabed stiffness", bed.stiffness, "N/m2")
-        positive_of(f"{what}: seabed give", bed.give, "m")
+    def __post_init__(self) -> None:
+        finite_of("seabed: depth", self.depth, "m")
+        positive_of("seabed: stiffness", self.stiffness, "N/m2")
+        positive_of("seabed: give", self.give, "m")
         for name in ("friction", "damping_ratio"):
-            not_negative_of(f"{what}: seabed {name}", getattr(bed, name))
-        return bed
+            not_negative_of(f"seabed: {name}", getattr(self, name))
 
     def under(
         self, node: tuple[str, Array], place: Array, *, length: float, mass: float, weight: float

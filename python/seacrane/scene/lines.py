@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,80 +15,62 @@ from seacrane.description.elements import add_joint, put_load
 from seacrane.description.line_path import path_length
 from seacrane.description.loads import changed
 from seacrane.description.places import place_of
-from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung, StretchingRung
+from seacrane.description.rungs import AUTO, ELASTIC, QUASI_STATIC, RIGID, WITH_MASS, Rung
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of, vector_of
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import made_of, told_by, value
 from seacrane.scene.heavy_line import chain_of_segments
 from seacrane.scene.lift_factors import note_rating, rating_of
 from seacrane.scene.limits import STICKING_SPEED, add_wire
-from seacrane.scene.line_fluid import CIRCLE_ADDED_MASS, CYLINDER_DRAG, SKIN_DRAG, Fluid, Seabed
+from seacrane.scene.line_fluid import Wire
 
 STRETCHING = (QUASI_STATIC, ELASTIC, AUTO)
-RUNGS = (RIGID, *STRETCHING, WITH_MASS)
-TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every rung takes
+RUNGS = (RIGID, *STRETCHING)
+TAKEN_BY: Mapping[str, tuple[str, ...]] = {  # keywords that not every line takes
     **dict.fromkeys(("joint", "restitution", "sticking_speed"), (RIGID,)),
     **dict.fromkeys(("EA", "damping_ratio", "settling"), (*STRETCHING, WITH_MASS)),
-    **dict.fromkeys(
-        ("tension_at_start", "mass", "radii", "axes", "turns", "efficiencies", "frictions", "slip_speed",
-         "strains", "tensions"), STRETCHING),
-    **dict.fromkeys(
-        ("mass_per_length", "segments", "segment_rung", "diameter", "drag_coefficient",
-         "drag_coefficient_along", "added_mass_coefficient", "density", "flow", "medium", "seabed"),
-        (WITH_MASS,)),
-}  # fmt: skip
+    **dict.fromkeys(("tension_at_start", "mass", "sheaves", "strains", "tensions"), STRETCHING),
+    "wire": (WITH_MASS,),
+}
 UNKNOWN_LENGTH = 1.0  # m, of a line that is made to be measured
 
 
+@value(_core.Line)
+class Sheaves:
+    """Sheaves at the points of a line's path, of which these are the centres; lines begin and end at points.
+
+    Besides its turns a line is wrapped by 0 to 264 degrees. Roller bearings have an efficiency of 0.98,
+    bushings of 0.96. With a coefficient mu tensions differ by exp(mu wrap).
+    """
+
+    radii: ArrayLike = ()  # m
+    axes: ArrayLike = ()
+    turns: ArrayLike = ()
+    efficiencies: ArrayLike = ()
+    frictions: ArrayLike = ()
+    slip_speed: float = 0.01  # m/s
+
+
+@told_by(_core.Line)
 def add_line(
-    scene: Description,
-    name: str | None = None,
-    first: str | None = None,
-    second: str | None = None,
-    *,
-    first_point: ArrayLike | None = None,
-    second_point: ArrayLike | None = None,
-    bodies: Sequence[str] | None = None,
-    points: ArrayLike | None = None,
-    joint: str | None = None,
-    EA: float | None = None,
-    length: _core.Curve | float | None = None,
-    tension_at_start: float | None = None,
-    rung: Rung = "elastic",
-    settling: float = 0.2,
-    damping_ratio: float = 0.02,
-    mass: float = 0.0,
-    radii: ArrayLike = (),
-    axes: ArrayLike = (),
-    turns: ArrayLike = (),
-    efficiencies: ArrayLike = (),
-    frictions: ArrayLike = (),
-    slip_speed: float = 0.01,
-    strains: ArrayLike = (),
-    tensions: ArrayLike = (),
-    restitution: float = 0.0,
-    sticking_speed: float = STICKING_SPEED,
-    mass_per_length: float = 0.0,
-    segments: int = 20,
-    segment_rung: StretchingRung = "elastic",
-    diameter: float = 0.0,
-    drag_coefficient: float = CYLINDER_DRAG,
-    drag_coefficient_along: float = SKIN_DRAG,
-    added_mass_coefficient: float = CIRCLE_ADDED_MASS,
-    density: float | None = None,
-    flow: ArrayLike = (0.0, 0.0, 0.0),
-    medium: Literal["air", "sea"] = "air",
-    seabed: Seabed | Mapping[str, Any] | None = None,
-    breaking_load: float | None = None,
-    safety_factor: float | None = None,
-) -> _core.Line | _core.Limit | list[_core.Line]:
+    scene: Description, name: str | None = None, first: str | None = None, second: str | None = None, *,
+    first_point: ArrayLike | None = None, second_point: ArrayLike | None = None,
+    bodies: Sequence[str] | None = None, points: ArrayLike | None = None, joint: str | None = None,
+    EA: float | None = None, length: _core.Curve | float | None = None,
+    tension_at_start: float | None = None, rung: Rung = "elastic", settling: float = 0.2,
+    damping_ratio: float = 0.02, mass: float = 0.0, sheaves: Sheaves | Mapping[str, Any] | None = None,
+    strains: ArrayLike = (), tensions: ArrayLike = (), restitution: float = 0.0,
+    sticking_speed: float = STICKING_SPEED, wire: Wire | Mapping[str, Any] | None = None,
+    breaking_load: float | None = None, safety_factor: float | None = None,
+) -> _core.Line | _core.Limit | list[_core.Line]:  # fmt: skip
     """A line, which pulls and never pushes: between two bodies, or over points and sheaves of several.
 
     What it is made of is its rung. "rigid": a length that is never exceeded; it snatches. "elastic": it
     stretches by its EA. "quasi-static": the stretch follows the tension, and a stiff line costs no more than
-    a soft one; it must stay taut. "auto": a run takes one of these two, and says why. "with mass": elastic
-    segments with masses between them. See docs/lines.md. A rod, which pushes too, is a joint of kind
-    "distance".
+    a soft one; it must stay taut. "auto": a run takes one of these two, and says why. A `Wire` makes it one
+    with mass: segments of that rung with masses between them. See docs/lines.md. A rod, which pushes too, is
+    a joint of kind "distance".
 
     Parameters
     ----------
@@ -112,7 +94,8 @@ def add_line(
         its first end; its rate must not jump.
     tension_at_start : float, optional
         N, that the line carries along its path as described, in place of a length; default: 0.
-    rung : {"rigid", "quasi-static", "elastic", "auto", "with mass"}
+    rung : {"rigid", "quasi-static", "elastic", "auto"}
+        With mass, not rigid; quasi-static: waves along the line settle within `settling`.
     settling : float
         s, in which the stretch of a quasi-static line follows: no mode of it is faster than 1 / settling.
     damping_ratio : float
@@ -122,19 +105,8 @@ def add_line(
         kg; default (0): that with which the line bounces at the start, as bodies are joined and whichever way
         its path is written: of a load on n falls its mass over n^2. `Scene.report` tells it, and the ratio
         that the bounce reaches.
-    radii : array_like, shape (n,), optional
-        Of the sheaves of which the points are the centres, m; 0: a point. Lines begin and end at points.
-    axes : array_like, shape (n, 3), optional
-        Of the sheaves, in coordinates of their bodies: the line runs about them by the right hand.
-    turns : array_like, shape (n,), optional
-        Whole turns on each sheave besides its wrap, which is between 0 and 264 degrees.
-    efficiencies : array_like, shape (n,), optional
-        Of each sheave or point, the smaller tension over the larger; 1: no friction. Roller bearings have
-        0.98, bushings 0.96.
-    frictions : array_like, shape (n,), optional
-        Coefficient mu of each sheave: tensions differ by exp(mu wrap).
-    slip_speed : float
-        m/s, of the rope over a sheave: friction acts with tanh of the rate over it.
+    sheaves : Sheaves or mapping, optional
+        At the points of the path, such as ``{"radii": [0, 0.4, 0], "efficiencies": [1, 0.98, 1]}``.
     strains, tensions : array_like, shape (m,), optional
         Of a shock cord, in place of EA, N: a monotone cubic spline runs through them; both start at 0 and
         increase. Beyond the last it goes on along its tangent.
@@ -142,33 +114,8 @@ def add_line(
         Rigid: 0 (default: it stays stretched after a snatch) to 1 (no energy is lost).
     sticking_speed : float
         Rigid, m/s; slower snatches do not rebound, so that rebounds come to an end.
-    mass_per_length : float
-        With mass, kg/m.
-    segments : int
-        With mass, from 1 to 1000. The fastest mode is 2 segments / length sqrt(EA / mass_per_length), 1/s.
-    segment_rung : {"elastic", "quasi-static", "auto"}
-        With mass, of each segment. Quasi-static: waves along the line settle within `settling`.
-    diameter : float
-        With mass, m, for what air or water does to it; 0 (default): nothing in air, refused in the sea.
-    drag_coefficient : float
-        With mass, across the line. Default 1.2, a cylinder (DNV-RP-C205).
-    drag_coefficient_along : float
-        With mass, in the sea, along the line on its skin, pi diameter length. Default 0.01 (unverified). In
-        air there is none.
-    added_mass_coefficient : float
-        With mass, in the sea: added mass across the line over the water that it displaces; there is none
-        along it. Default 1, a circle in ideal flow.
-    density : float
-        With mass, kg/m3, of the fluid; default: that of the medium, air or sea water.
-    flow : array_like, shape (3,)
-        With mass, velocity of the air, or of a fluid that has drag alone, m/s, inertial axes.
-    medium : {"air", "sea"}
-        With mass. In the sea what is below the surface has buoyancy, added mass and drag in the water of
-        `add_sea`, its waves and current; still water without one.
-    seabed : mapping or Seabed, optional
-        With mass, a level seabed on which its masses lie, no model of soil: `depth` below z = 0, m;
-        `stiffness` for each metre of line, N/m2; Coulomb's `friction`; and `damping_ratio` (1) where it has
-        sunk in at rest, `give` (0.05 m) before friction is full.
+    wire : Wire or mapping, optional
+        Of a line with mass, such as ``{"mass_per_length": 25, "segments": 10}``.
     breaking_load : float, optional
         Minimum breaking load of the rope, one fall, N: `lift_sheet` and the report compare the tension.
     safety_factor : float, optional
@@ -177,7 +124,7 @@ def add_line(
     Returns
     -------
     Line, Limit or list of Line
-        What the scene holds by its name: a line, of rung "rigid" a limit, of rung "with mass" its segments.
+        What the scene holds by its name: a line, of rung "rigid" a limit, with mass its segments.
 
     Raises
     ------
@@ -186,10 +133,10 @@ def add_line(
         that visits a point twice in a row; for values that are no numbers, or out of range; for a length
         beside a tension, or neither where a body of the path is not there yet.
     """
-    told = locals().copy()
+    given = {key: one for key, one in locals().items() if key in TAKEN_BY}
     name = name_of("line", joint if name is None and joint is not None else name)
     what = f"line {name!r}"
-    _check_rung(what, rung, {key: told[key] for key in TAKEN_BY})
+    _check_rung(what, rung, given)
     rating = rating_of(name, breaking_load, safety_factor)
     ends = first, second, first_point, second_point
     over: tuple[Any, Any] = (bodies, points)
@@ -204,16 +151,10 @@ def add_line(
         added = add_wire(scene, joint, restitution, sticking_speed, name)
     elif rung == RIGID:
         added = _wire(scene, what, name, *over, length, restitution, sticking_speed)
-    elif rung == WITH_MASS:
+    elif wire is not None:
         added = chain_of_segments(
-            scene, name, *over, EA=EA, length=length, mass_per_length=mass_per_length,
-            segments=segments, damping_ratio=damping_ratio, rung=segment_rung, settling=settling,
-            fluid=Fluid(
-                medium=medium, density=density, diameter=diameter, drag_coefficient=drag_coefficient,
-                drag_coefficient_along=drag_coefficient_along, flow=flow,
-                added_mass_coefficient=added_mass_coefficient,
-            ),
-            seabed=seabed,
+            scene, name, *over, made_of(what, "wire", Wire, wire), EA=EA, length=length,
+            damping_ratio=damping_ratio, rung=rung, settling=settling,
         )  # fmt: skip
     else:
         if length is not None and tension_at_start is not None:
@@ -221,8 +162,8 @@ def add_line(
         line = _core.Line(
             name=name, bodies=over[0], points=over[1], EA=_axial_stiffness(what, EA, strains, tensions),
             length=UNKNOWN_LENGTH if length is None else length, damping_ratio=damping_ratio, mass=mass,
-            rung=rung, settling=settling, radii=radii, axes=axes, turns=turns, efficiencies=efficiencies,
-            frictions=frictions, slip_speed=slip_speed, strains=strains, tensions=tensions,
+            rung=rung, settling=settling, strains=strains, tensions=tensions,
+            **({} if sheaves is None else vars(made_of(what, "sheaves", Sheaves, sheaves))),
         )  # fmt: skip
         if length is None:
             line = changed(line, length=starting_length(scene, line, tension_at_start))
@@ -235,16 +176,18 @@ def _check_rung(what: str, rung: str, given: Mapping[str, Any]) -> None:
     """Refuse a rung that there is not, and what it does not take."""
     if rung not in RUNGS:
         raise SceneError.of(f"{what}: rung", f"is {shown(rung)}; choose one of {', '.join(map(repr, RUNGS))}")
+    if given["wire"] is not None:
+        if rung == RIGID:
+            raise SceneError(f"{what}: rung 'rigid' takes no wire; leave it out, or choose another rung")
+        rung = WITH_MASS
     usual = inspect.signature(add_line).parameters
-    for keyword, value in given.items():
-        if rung in TAKEN_BY[keyword] or _alike(value, usual[keyword].default):
+    for keyword, one in given.items():
+        default = usual[keyword].default
+        left = one is default or (isinstance(one, type(default)) and bool(one == default))
+        if left or rung in TAKEN_BY[keyword]:
             continue
         others = " or ".join(map(repr, TAKEN_BY[keyword]))
-        raise SceneError(f"{what}: rung {rung!r} takes no {keyword}; leave it out, or choose rung {others}")
-
-
-def _alike(value: Any, usual: Any) -> bool:
-    return value is usual or (isinstance(value, type(usual)) and bool(value == usual))
+        raise SceneError(f"{what}: a line {rung!r} takes no {keyword}; leave it out, or choose {others}")
 
 
 def _refuse_second(what: str, has: str, *given: Any) -> None:
@@ -299,21 +242,17 @@ def path_between(
     scene: Description, what: str, bodies: tuple[Any, Any], points: tuple[ArrayLike | None, ArrayLike | None]
 ) -> tuple[list[str], list[ArrayLike]]:
     """The bodies of both ends and a point on each, by default the one of `hung_from`."""
-    for role, body in zip(("first", "second"), bodies, strict=True):
+    names, places = [], []
+    for role, body, point in zip(("first", "second"), bodies, points, strict=True):
         if body is None:
             raise SceneError(f"{what}: has no {role}; name the body of that end, which may be 'ground'")
-    names = [text_of(f"{what}: {role}", body) for role, body in zip(("first", "second"), bodies, strict=True)]
-    places = [
-        hung_from(scene, body) if point is None else point for body, point in zip(names, points, strict=True)
-    ]
+        names.append(text_of(f"{what}: {role}", body))
+        places.append(hung_from(scene, names[-1]) if point is None else point)
     return names, places
 
 
 def hung_from(scene: Description, body: str) -> tuple[float, float, float]:
-    """Where a line is tied to a body unless a point is given, in its coordinates, m.
-
-    That is the top centre of a body that has a size, else its origin.
-    """
+    """Where a line is tied by default, body coordinates, m: the top centre of a size, else the origin."""
     described = scene.bodies.get(body)
     if described is None or not np.any(described.size):
         return (0.0, 0.0, 0.0)
@@ -322,13 +261,7 @@ def hung_from(scene: Description, body: str) -> tuple[float, float, float]:
 
 
 def starting_length(scene: Description, line: _core.Line, tension: float | None) -> float:
-    """The unstretched length at which a line carries a tension (N) along its path as described, m.
-
-    Parameters
-    ----------
-    line : Its own length does not count.
-    tension : 0 or None: the length is that of the path.
-    """
+    """Unstretched length, m, with which a line carries a tension (N; None: 0) along its path as described."""
     what = f"line {line.name!r}"
     pull = 0.0 if tension is None else number_of(f"{what}: tension_at_start", tension)
     if not (np.isfinite(pull) and pull >= 0.0):

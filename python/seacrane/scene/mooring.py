@@ -27,7 +27,7 @@ SMALL = 1e-9  # of the diagonals: rounding
 SYMMETRIC = 1e-6
 FAR = 1e6  # m, of the ends of springs: so far that they keep their directions
 IN_PLANE = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
-USUAL = "the usual period of 200 s"
+USUAL = 200.0  # s, of surge, sway and yaw (the paper's station keeping)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -172,13 +172,7 @@ def mooring_matrix(springs: Sequence[MooringSpring]) -> Array:
 
 
 def mooring_of(what: str, given: Any) -> Mooring:
-    """A mooring by its matrix or its springs; `what` names the vessel in errors.
-
-    Raises
-    ------
-    SceneError
-        Neither of them, a matrix that is not symmetric or pushes away, or one that no springs have.
-    """
+    """A mooring by its matrix or its springs. SceneError for what is neither, or pushes the vessel away."""
     if isinstance(given, Sequence) and all(isinstance(one, MooringSpring) for one in given):
         return Mooring(
             matrix=mooring_matrix(given), horizontal=np.zeros(3), floating=np.zeros((3, 3)),
@@ -203,22 +197,18 @@ def mooring_of(what: str, given: Any) -> Mooring:
     return parts
 
 
-def chosen_mooring(
-    what: str, database: HydroDatabase, mooring: Any, period: float | None, *, usual: bool
-) -> Mooring | float | None:
+def chosen_mooring(what: str, database: HydroDatabase, mooring: Any) -> Mooring | float | None:
     """The one mooring of a vessel, as `add_vessel` takes it: parts, a natural period (s), or None for none.
 
-    The restoring of the database may hold one of its own; `usual`: nobody gave the period. Raises SceneError
-    for two moorings: `mooring` beside a period, or either beside the database's own.
+    The restoring of the database may hold one of its own; raises SceneError for a second one.
     """
-    if mooring is not None and not usual:
-        raise SceneError(f"{what}: mooring and mooring_period are both given; leave mooring_period out")
+    number = np.ndim(mooring) == 0 and not isinstance(mooring, str)
     own = own_mooring(database)
     if own is not None:
-        return _own(what, database, own, given=mooring is not None or not (usual or period is None))
+        return _own(what, database, own, given=mooring is not None and not (number and mooring == USUAL))
     if mooring is None:
-        return period
-    if np.ndim(mooring) > 0 or isinstance(mooring, str):
+        return None
+    if not number:
         return mooring_of(what, mooring)
     if not number_of(f"{what}: mooring", mooring) > 0.0:
         raise SceneError.of(f"{what}: mooring", f"is a period of {mooring:g} s; give a positive one")
@@ -237,7 +227,8 @@ def _own(what: str, database: HydroDatabase, own: Array, *, given: bool) -> Moor
             "database.without_mooring()"
         )
     warn_caller(
-        f"{held}: it is used, in place of {USUAL}. Take database.without_mooring() for another one",
+        f"{held}: it is used, in place of the usual period of {USUAL:g} s. Take database.without_mooring() "
+        "for another one",
         OwnMooringWarning,
     )
     what = f"{what}, by its database"

@@ -120,20 +120,14 @@ class MotionHistory:
             array.setflags(write=False)
             object.__setattr__(self, key, array)
         text_of("motion history: record", self.record)
-        self._warn_of_degrees()
-        self._warn_of_heave()
+        self._warn_of_units()
         self._warn_of_noise()
 
     @classmethod
     def load(
-        cls,
-        path: str | PathLike[str],
-        *,
-        zero: Sequence[str] = (),
-        negated: Sequence[str] = (),
-        columns: Mapping[str, str] | None = None,
-        **reading: Any,
-    ) -> MotionHistory:
+        cls, path: str | PathLike[str], *, zero: Sequence[str] = (), negated: Sequence[str] = (),
+        columns: Mapping[str, str] | None = None, **reading: Any,
+    ) -> MotionHistory:  # fmt: skip
         """Read the record of a motion sensor: a text file of columns with units, such as "roll [deg]".
 
         Its first sample is at 0. A column of heading is taken as yaw: from its mean, against the compass.
@@ -197,22 +191,19 @@ class MotionHistory:
         told += [f"{', '.join(still)} zero"] * bool(still)
         return cls(time=series.time - series.time[0], motion=motion, record="; ".join(told))
 
-    def _warn_of_degrees(self) -> None:
-        largest = np.abs(self.motion[:, 3:5]).max(axis=0)
-        worst = int(largest.argmax())
+    def _warn_of_units(self) -> None:
+        largest = np.abs(self.motion).max(axis=0)
+        worst = 3 + int(largest[3:5].argmax())
         if largest[worst] > LARGEST_ANGLE:
             warn_caller(
-                f"motion history: {MOTIONS[3 + worst]} reaches {largest[worst]:.4g} rad, "
+                f"motion history: {MOTIONS[worst]} reaches {largest[worst]:.4g} rad, "
                 f"{np.degrees(largest[worst]):.4g} deg; angles are radians: if these are degrees, give "
                 "numpy.radians of roll, pitch and yaw",
                 AngleUnitWarning,
             )
-
-    def _warn_of_heave(self) -> None:
-        largest = float(np.abs(self.motion[:, 2]).max())
-        if largest > LARGEST_HEAVE:
+        if largest[2] > LARGEST_HEAVE:
             warn_caller(
-                f"motion history: heave reaches {largest:.4g} m, and no ship heaves by more than "
+                f"motion history: heave reaches {largest[2]:.4g} m, and no ship heaves by more than "
                 f"{LARGEST_HEAVE:g} m; surge, sway and heave are metres from rest: cm or mm for m, or a "
                 "height above another place?",
                 UnitWarning,
@@ -246,10 +237,7 @@ class MotionHistory:
     def curves(self, ramp: float) -> tuple[_core.Curve, ...]:
         """Splines through the samples, of each motion; from rest over `ramp` (s) where it is not zero.
 
-        Raises
-        ------
-        SceneError
-            For samples so far apart that the spline swings out between them.
+        Raises SceneError for samples so far apart that the spline swings out between them.
         """
         values = self.motion * ramp_of(self.time, ramp)[:, None]
         curves = tuple(spline_curve(times=self.time, values=column) for column in values.T)

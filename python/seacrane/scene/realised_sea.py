@@ -99,7 +99,12 @@ def _not_stopped(waves: _core.WaveComponents, current: Current | None) -> NDArra
 def _one_system(given: Mapping[str, Any], depth: float) -> tuple[SeaState, SeaProvenance]:
     """The sea of plain arguments, and what it was made from."""
     hs, tp = (number_of(f"sea: {key}", given[key]) for key in ("hs", "tp"))
-    _warn_of_period(tp)
+    least, most = USUAL_PERIODS
+    if tp > 0.0 and not least <= tp <= most:
+        warn_caller(
+            f"sea: tp is {tp:.6g} s, and seas have {least:g} to {most:g} s: a slip in its unit? Give it in s",
+            UnitWarning,
+        )
     density = spectrum_named(given["spectrum"], hs, tp, given["gamma"])
     spreading, direction = given["spreading"], given["direction_deg"]
     if spreading is not None and not isinstance(spreading, Spreading):
@@ -110,15 +115,6 @@ def _one_system(given: Mapping[str, Any], depth: float) -> tuple[SeaState, SeaPr
         spreading=None if spreading is None else {"kind": spreading.kind, "exponent": spreading.exponent},
     )  # fmt: skip
     return SeaState(systems=[system], seed=given["seed"], depth=depth), made_from
-
-
-def _warn_of_period(tp: float) -> None:
-    least, most = USUAL_PERIODS
-    if tp > 0.0 and not least <= tp <= most:
-        warn_caller(
-            f"sea: tp is {tp:.6g} s, and seas have {least:g} to {most:g} s: a slip in its unit? Give it in s",
-            UnitWarning,
-        )
 
 
 def spectrum_named(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:

@@ -4,24 +4,158 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.channels import CHANNELS, COUNTED_ON, FIXED, OWN, unit_of
 from seacrane.description.description import GROUND, Description, coordinate_of, insert, require
+from seacrane.description.expression import (
+    UNITS,
+    Curve,
+    Dimension,
+    Number,
+    Program,
+    dimension_of,
+    parsed,
+    unit_text,
+    worked_out,
+)
 from seacrane.description.limit_state import LimitState, Range
-from seacrane.description.pick import pick_of
+from seacrane.description.pick import Pick, pick_of
+from seacrane.description.places import ANGLES, MOTION, POSE
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, number_of, shaped_of, texts_of
+from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of
+from seacrane.inputs.keywords import taken
+from seacrane.inputs.plain_data import DERIVED
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import told_by
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 SLACK = "slack"  # in place of a channel: the margin that marine operations are planned with
 SLACK_MARGIN = 0.1  # of the static tension: 10 % as DNV-RP-N103 is quoted to ask for; unverified
+KINDS: Mapping[str, tuple[str, ...]] = {  # of channels of one's own: what they are made of
+    "joint": ("joint", "coordinate", "minimum", "maximum"),
+    "points": ("points", "body", "center", "size"),
+    "expression": ("expression",),
+}
+PLACES = {"points": ("point_", "point"), "bodies": ("", "body")}  # how channels begin, and their dimension
+
+
+@told_by(_core.Point)
+def add_point(scene: Description, name: str, *, body: str, point: Any = (0.0, 0.0, 0.0)) -> _core.Point:
+    """Record the motion of a point of a body: channels point_position, point_velocity, point_acceleration.
+
+    Parameters
+    ----------
+    name : str
+        Of the point along the dimension "point" of these channels.
+    point : array_like, shape (3,)
+        In the coordinates of the body, m; default: the origin of the body.
+
+    Raises
+    ------
+    SceneError
+        For a duplicate name or a value that is not three numbers; the body is checked at compile().
+    """
+    return insert("point", scene.points, _core.Point(name=name, body=body, point=point))
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnChannel:
+    """An expression of curves that results hold under a name, as ``own[name]``.
+
+    Attributes
+    ----------
+    unit : SI, by the units of its curves.
+    """
+
+    name: str
+    expression: str
+    unit: str = field(metadata=DERIVED)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Clearance:
+    """A box on a body, and the points whose distance from it is recorded."""
+
+    name: str
+    points: tuple[str, ...]
+    body: str = GROUND
+    center: Vector = (0.0, 0.0, 0.0)
+    size: Vector = (0.0, 0.0, 0.0)
+
+
+def add_channel(
+    scene: Description, name: str | None = None, *, expression: str | None = None, joint: str | None = None,
+    coordinate: str | None = None, minimum: float | None = None, maximum: float | None = None,
+    points: str | Sequence[str] | None = None, body: str | None = None, center: Any = None, size: Any = None,
+) -> OwnChannel | Clearance | str:  # fmt: skip
+    """Record an expression of other channels, a joint's coordinate, or the distance of points from a box.
+
+    An expression, recorded as ``own[name]``, has curves ("hook_load[main]", "roll"), named points and bodies
+    by axis ("tip.z", "load.z", of a body its centre of mass), their speeds ("tip.vz"), both also along the
+    axes of a body and from its origin ("corner.z in barge", "corner.vz in barge": as who stands on it sees
+    them), numbers with a unit ("3 m", "10 deg"; without one pure), + - * /, parentheses, sqrt, abs, hypot,
+    atan2, min and max. What is added or compared has one unit; atan2 gives rad. No code is run. The channels
+    that it needs are recorded by themselves.
+
+    Parameters
+    ----------
+    name : str
+        Along the dimension "expression" of the channel own, "joint_coordinate" of the channels coordinate
+        and coordinate_rate (default: the joint's), or "gap" of the channel clearance.
+    expression : str
+        Such as "tip.z - load.z".
+    joint, coordinate : str
+        Whose coordinate is recorded, and which; default: its usual one.
+    minimum, maximum : float
+        Where the coordinate is meant to stay, m or rad; no load keeps it there (`add_stop` does). A
+        reference that leaves it is refused when a run starts, a motion that does is warned of after the run
+        (OutsideRangeWarning). A crane has the strokes of its data file.
+    points : str or sequence of str
+        Named by `add_point`: the distance of the nearest from a box, negative inside.
+    body : str
+        That carries the box; default: the ground.
+    center, size : array_like, shape (3,)
+        Of the box, m, coordinates of the body and along its axes; without a size it is a point.
+
+    Raises
+    ------
+    SceneError
+        For a text that is none, a joint, channel, point or body that is not there, units that do not fit, and
+        bounds or a box that make no sense. A name along a channel that the scene does not have is refused
+        when a run starts.
+    """
+    of = "joint" if joint is not None else "points" if points is not None else "expression"
+    given = taken(
+        "channel", f"channel by {of}", KINDS[of], expression=expression, joint=joint, coordinate=coordinate,
+        minimum=minimum, maximum=maximum, points=points, body=body, center=center, size=size,
+    )  # fmt: skip
+    if joint is not None:
+        label = record_coordinate(scene, joint, coordinate=coordinate, name=name)
+        if minimum is not None or maximum is not None:
+            add_range(scene, label, joint=joint, coordinate=coordinate, minimum=minimum, maximum=maximum)
+        return label
+    if points is not None:
+        return add_clearance(scene, name_of("channel", name), **given)
+    label = name_of("channel", name)
+    what = f"channel {label!r}"
+    text = text_of(f"{what}: expression", expression)
+
+    def leaf(step: Number | Curve) -> Dimension:
+        if isinstance(step, Number):
+            return step.dimension
+        return _dimension(scene, what, picked(scene, what, step))
+
+    found = worked_out(parsed(what, text), leaf, lambda call, values: dimension_of(what, call, values))
+    channel = OwnChannel(name=label, expression=text, unit=unit_text(found))
+    return insert("channel", scene.channels, channel)
 
 
 def record_coordinate(
@@ -38,42 +172,11 @@ def record_coordinate(
     return name
 
 
-def add_point(scene: Description, name: str, *, body: str, point: Any = (0.0, 0.0, 0.0)) -> _core.Point:
-    """Record the motion of a point of a body: channels point_position, point_velocity, point_acceleration.
-
-    Parameters
-    ----------
-    name : str
-        Of the point along the dimension "point" of these channels.
-    body : str
-        Body that carries it.
-    point : array_like, shape (3,)
-        In the coordinates of the body, m; default: the origin of the body.
-
-    Raises
-    ------
-    SceneError
-        For a duplicate name or a value that is not three numbers; the body is checked at compile().
-    """
-    return insert("point", scene.points, _core.Point(name=name, body=body, point=point))
-
-
 def add_range(
-    scene: Description,
-    joint: str,
-    *,
-    minimum: float,
-    maximum: float,
-    coordinate: str | None = None,
-    name: str | None = None,
+    scene: Description, name: str, *, joint: str, coordinate: str | None = None, minimum: Any, maximum: Any
 ) -> Range:
-    """Tell where a joint coordinate is meant to stay, m or rad; it exerts no load (`add_stop` does).
-
-    A reference that leaves it is refused when a run starts, a motion that does is warned of after the run
-    (OutsideRangeWarning). A crane adds the strokes of its data file.
-    """
+    """Where a joint coordinate is meant to stay, m or rad."""
     coordinate = coordinate_of(scene, "range", joint, coordinate)
-    name = name_of("range", name, joint)
     low = number_of(f"range {name!r}: minimum", minimum)
     high = number_of(f"range {name!r}: maximum", maximum)
     if not low < high:
@@ -84,64 +187,23 @@ def add_range(
     return insert("range", scene.ranges, element)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Clearance:
-    """A box on a body, and the points whose distance from it is recorded, as of `Scene.add_clearance`."""
-
-    name: str
-    points: tuple[str, ...]
-    body: str
-    center: Vector
-    size: Vector
-
-
-def add_clearance(
-    scene: Description,
-    name: str,
-    *,
-    points: str | Sequence[str],
-    body: str = GROUND,
-    center: Any = (0.0, 0.0, 0.0),
-    size: Any = (0.0, 0.0, 0.0),
-) -> Clearance:
-    """Record the distance of points from a box on another body: the channel clearance, negative inside.
-
-    Parameters
-    ----------
-    name : str
-        Along the dimension "gap" of the channel.
-    points : str or sequence of str
-        Named by `add_point`; of several the nearest counts.
-    body : str
-        That carries the box; default: the ground.
-    center : array_like, shape (3,)
-        Of the box, coordinates of the body, m.
-    size : array_like, shape (3,)
-        Of the box, along the axes of the body, m; default: none, the distance from a point.
-
-    Raises
-    ------
-    SceneError
-        For points or a body that are not there, or a size that is negative.
-    """
-    what = f"clearance {name_of('clearance', name)!r}"
+def add_clearance(scene: Description, name: str, *, points: str | Sequence[str], **box: Any) -> Clearance:
+    """The distance of points from a box on a body, as `add_channel` describes it."""
+    what = f"clearance {name!r}"
     names = tuple(texts_of(f"{what}: points", [points] if isinstance(points, str) else points))
     if not names:
         raise SceneError(f"{what}: has no points; name at least one of add_point")
     for point in names:
         require(scene, what, "points", point, "points")
-    require(scene, what, "body", body, ground=True)
-    place, extent = (
-        shaped_of(f"{what}: {key}", value, (3,)) for key, value in (("center", center), ("size", size))
-    )
-    if not np.all(np.isfinite(place)):
-        raise SceneError.of(f"{what}: center", f"is {place.tolist()}; give three finite numbers, m")
-    if not (np.all(np.isfinite(extent)) and np.all(extent >= 0.0)):
-        raise SceneError.of(
-            f"{what}: size", f"is {extent.tolist()} m; give three numbers that are not negative"
-        )
-    element = Clearance(name=name, points=names, body=body, center=_vector(place), size=_vector(extent))
-    return insert("clearance", scene.clearances, element)
+    require(scene, what, "body", box.get("body", GROUND), ground=True)
+    for key, least in (("center", -math.inf), ("size", 0.0)):
+        if key in box:
+            numbers = shaped_of(f"{what}: {key}", box[key], (3,))
+            if not np.all(np.isfinite(numbers) & (numbers >= least)):
+                told = "finite numbers" if key == "center" else "numbers that are not negative"
+                raise SceneError.of(f"{what}: {key}", f"is {numbers.tolist()} m; give three {told}")
+            box[key] = tuple(numbers.tolist())
+    return insert("clearance", scene.clearances, Clearance(name=name, points=names, **box))
 
 
 def distance_from_box(points: Array, size: Vector) -> Array:
@@ -151,60 +213,85 @@ def distance_from_box(points: Array, size: Vector) -> Array:
     return np.asarray(outside + np.minimum(beyond.max(axis=-1), 0.0))
 
 
-def _vector(values: Array) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
+def programs(scene: Description) -> dict[str, Program]:
+    """The program of every channel of one's own."""
+    return {name: parsed(f"channel {name!r}", one.expression) for name, one in scene.channels.items()}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Relative:
-    """Two points whose relative position and velocity are recorded, as of `Scene.add_relative`."""
+def picks(scene: Description) -> dict[str, list[Pick]]:
+    """The curves that every channel of one's own is made of."""
+    found: dict[str, list[Pick]] = {}
+    for name, program in programs(scene).items():
+        curves = [step for step in program if isinstance(step, Curve)]
+        found[name] = [picked(scene, f"channel {name!r}", curve) for curve in curves]
+        for one in (curve for curve in curves if curve.along):
+            for channel in MOTION if one.is_rate else POSE:
+                others = {dim: FIXED[dim][0] for dim in CHANNELS[channel].dims[2:]}
+                found[name].append(Pick(channel=channel, names={"body": one.along} | others))
+    return found
 
-    name: str
-    point: str
-    to: str
-    axes: str
+
+def picked(scene: Description, what: str, curve: Curve) -> Pick:
+    """A curve of an expression as a selector; SceneError where the scene has no such place or channel."""
+    if not curve.axis:
+        pick = pick_of(what, curve.text)
+    else:
+        there = [key for key in PLACES if curve.text in getattr(scene, key)]
+        if len(there) != 1:
+            raise SceneError(f"{what}: {_which(scene, curve, several=len(there) > 1)}")
+        if curve.along:
+            require(scene, what, "axes", curve.along)
+        channel, dim = PLACES[there[0]]
+        channel += "velocity" if curve.is_rate else "position"
+        pick = Pick(channel=channel, names={dim: curve.text, "axis": curve.axis[-1]})
+    if pick.parts:
+        raise SceneError.of(f"{what}: {pick}", f"is of a part of a run; leave {pick.parts} out")
+    if pick.channel == OWN:
+        raise SceneError.of(f"{what}: {pick}", "is a channel of your own too; write its expression here")
+    if CHANNELS[pick.channel].turns or pick.channel in COUNTED_ON:
+        raise SceneError(
+            f"{what}: {pick.channel} counts on over a whole run, which an expression does not; take another"
+        )
+    return pick
 
 
-def add_relative(scene: Description, name: str, *, point: str, to: str, axes: str = GROUND) -> Relative:
-    """Record where a point is over another: the channels relative_position and relative_velocity.
+def _which(scene: Description, curve: Curve, *, several: bool) -> str:
+    if several:
+        return (
+            f"{shown(curve.text)} is a point and a body; write "
+            f"point_position[{curve.text}, {curve.axis}] or position[{curve.text}, {curve.axis}]"
+        )
+    near = get_close_matches(curve.text, [*scene.points, *scene.bodies], n=1)
+    fix = f"did you mean {near[0]!r}?" if near else "add_point or add_body it first"
+    return f"there is no point or body {shown(curve.text)}; {fix}"
 
-    The velocity is the rate of the position as it is told: along axes that turn, without their turning.
-    Height and speed of a load over a deck are the z of its lowest point over a point of the deck, along the
-    axes of the body that has the deck.
 
-    Parameters
-    ----------
-    name : str
-        Along the dimension "pair" of the channels.
-    point : str
-        Named by `add_point`.
-    to : str
-        The point, named likewise, from which it is looked at.
-    axes : str
-        A body along whose axes it is told; default: the inertial frame.
+def _dimension(scene: Description, what: str, pick: Pick) -> Dimension:
+    unit = unit_of(pick.channel, pick.names.values())
+    straight, _, angular = unit.partition(" or ")
+    if angular and (coordinate := _coordinate(scene, pick)):
+        unit = angular if coordinate in ANGLES else straight
+    if unit not in UNITS:
+        raise SceneError.of(
+            f"{what}: {pick}", f"is in {unit}, which says not what it is; name a curve of one unit"
+        )
+    return UNITS[unit][1]
 
-    Raises
-    ------
-    SceneError
-        For a point or a body that is not there.
-    """
-    what = f"relative {name_of('relative', name)!r}"
-    for key, one in (("point", point), ("to", to)):
-        require(scene, what, key, one, "points")
-    require(scene, what, "axes", axes, ground=True)
-    return insert("relative", scene.relatives, Relative(name=name, point=point, to=to, axes=axes))
+
+def _coordinate(scene: Description, pick: Pick) -> str:
+    """The coordinate of a joint that a curve is of; no text where it is of none that is known."""
+    if name := pick.names.get("joint_coordinate"):
+        return scene.recorded[name][1] if name in scene.recorded else ""
+    for dim, table in (("actuator", scene.actuators), ("driver", scene.drivers)):
+        if pick.names.get(dim) in table:
+            return str(table[pick.names[dim]].coordinate)
+    return ""
 
 
 def add_limit_state(
-    scene: Description,
-    channel: str,
-    *,
-    maximum: float | None = None,
-    minimum: float | None = None,
-    names: Mapping[str, str] | None = None,
-    name: str | None = None,
-) -> LimitState:
+    scene: Description, channel: str, *, maximum: float | None = None, minimum: float | None = None,
+    names: Mapping[str, str] | None = None, name: str | None = None,
+) -> LimitState:  # fmt: skip
     """State what a channel may reach: every result then tells its utilisation, `Result.utilisation`.
 
     It exerts no load. The channel is recorded even where it is none of the usual ones.

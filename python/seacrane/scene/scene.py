@@ -23,7 +23,6 @@ from seacrane.scene import (
     lift_factors,
     limits,
     lines,
-    own_channels,
     recorded,
     rigging,
     roles,
@@ -86,35 +85,30 @@ class Scene(Description):
         bodies, by kind: wind, lines, springs, oil, friction and the rest.
         `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
-    recorded, ranges, limit_states, clearances, relatives, channels, ratings, lift_factors, roles,
-    provenance, meshes, notes
+    recorded, ranges, limit_states, clearances, channels, ratings, lift_factors, roles, provenance, meshes,
+    notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
-        which distances, relative motions and expressions are recorded, the parts of cranes, where vessels
-        come from, what bodies are drawn by, and the user's own notes.
+        which distances and expressions are recorded, the parts of cranes, where vessels come from, what
+        bodies are drawn by, and the user's own notes.
     """
 
     add_body = bodies.add_body
     add_joint = elements.add_joint
     add_driver = elements.add_driver
     add_actuator = elements.add_actuator
-    add_range = recorded.add_range
     add_point = recorded.add_point
     add_limit_state = recorded.add_limit_state
     add_lift_factors = lift_factors.add_lift_factors
-    add_clearance = recorded.add_clearance
-    add_relative = recorded.add_relative
-    add_channel = own_channels.add_channel
+    add_channel = recorded.add_channel
     add_force = elements.add_force
     add_spring = elements.add_spring
     add_load = elements.add_load
 
     add_pendulum_damping = wind_current.add_pendulum_damping
-    add_air_drag = wind_current.add_air_drag
 
     add_stop = limits.add_stop
     add_line = lines.add_line
     add_winch = rigging.add_winch
-    add_bridle = rigging.add_bridle
     add_friction = limits.add_friction
     add_contact = limits.add_contact
     add_heave_compensation = heave.add_heave_compensation
@@ -123,7 +117,6 @@ class Scene(Description):
     hold_pressures = hydraulics.hold_pressures
 
     add_vessel = vessel.add_vessel
-    add_slack_tank = vessel.add_slack_tank
     add_immersed = immersed.add_immersed
     add_entrapped_water = immersed.add_entrapped_water
     add_sea = sea.add_sea
@@ -135,7 +128,6 @@ class Scene(Description):
     add_crane = add_crane
     add_roles = roles.add_roles
     add_hoist = hoist.add_hoist
-    add_luffing_rope = roles.add_luffing_rope
     add_mesh = bodies.add_mesh
 
     place_of = places.place_of
@@ -182,20 +174,15 @@ for _name, _method in list(vars(Scene).items()):
         setattr(Scene, _name, heard(_method))
 
 
-def rows(scene: Description) -> list[tuple[str, list[str]]]:
-    """Kinds of element and the elements of each."""
+def as_table(scene: Description) -> Table:
+    """Kinds of element, their number and the names of each."""
     found = [(kind, list(names)) for kind, names in elements_of(scene)]
     found.append(("points", [f"{name} ({at.body})" for name, at in scene.points.items()]))
     found.append(("recorded", [f"{name} ({joint} {c})" for name, (joint, c) in scene.recorded.items()]))
     bounds = {name: f"{one.minimum + 0.0:g} to {one.maximum + 0.0:g}" for name, one in scene.ranges.items()}
     found.append(("ranges", [f"{name} ({bound})" for name, bound in bounds.items()]))
-    others = ("limit_states", "clearances", "relatives", "channels", "lift_factors", "meshes")
+    others = ("limit_states", "clearances", "channels", "lift_factors", "meshes")
     found += [(key.replace("_", " "), list(getattr(scene, key))) for key in others]
-    return [(kind, names) for kind, names in found if names]
-
-
-def as_table(scene: Description) -> Table:
-    """Kind, number and names."""
-    held = [(kind, len(names), ", ".join(names)) for kind, names in rows(scene)]
+    held = [(kind, len(names), ", ".join(names)) for kind, names in found if names]
     title = f"Scene {scene.name!r}, gravity {scene.gravity:g} m/s2"
     return table_of(("", "number", "names"), held, title=title, remarks=() if held else ["empty"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -11,61 +11,36 @@ from numpy.typing import NDArray
 from seacrane.description.databases import database_of, source_of
 from seacrane.description.description import Description
 from seacrane.description.given import given_vessels
-from seacrane.description.provenance import SeaProvenance
 from seacrane.description.vessel_hydrodynamics import Source
 from seacrane.description.waves import STRETCHING, HullLoads, Waves, flowing_water
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase
-from seacrane.hydro.data.data_warnings import warn_of_waves_below_band
-from seacrane.hydro.data.excitation import force_at
-from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.long_waves import warn_of_long_waves
-from seacrane.inputs.caller import tell, warn_caller
+from seacrane.inputs.caller import tell
 from seacrane.inputs.checked import flag_of, number_of, shaped_of, text_of
-from seacrane.inputs.frames import MOTIONS, heading_of
+from seacrane.inputs.frames import heading_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.given_vessel import force_of_components, put_into_sea
-from seacrane.scene.position import slow_below, with_actual_position, with_drift
 from seacrane.scene.realised_sea import COMPONENTS, realised_sea
+from seacrane.scene.sea_loads import slow_below, with_actual_position, with_drift, with_shares
+from seacrane.scene.vessel import force_of_components, put_into_sea
 from seacrane.sea import Current, SeaState, Spreading
 from seacrane.sea.dispersion import wavenumber
-from seacrane.warnings import WavesWithoutLoadWarning
 
-MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
 MOST_COMPONENTS = 50_000  # whose loads take some seconds to make; 30 hours do not repeat with as many
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
-END = 0.8  # of the highest frequency: the slope of the forces is fitted from there on
-FEWEST = 3  # frequencies of that fit
-AT_ONCE = 256  # headings, to bound the memory it takes
-SLIGHT = 1e-3  # of the variance that the same waves would give a load from its worst heading
 LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of a sea and of a database
 
 
 def add_sea(
-    scene: Description,
-    *,
-    vessel: str | None = "vessel",
-    hs: float | None = None,
-    tp: float | None = None,
-    gamma: float | Literal["dnv"] | None = None,
-    spectrum: str | None = None,
-    direction_deg: float | None = None,
-    spreading: float | Spreading | None = None,
-    seed: int | None = None,
-    count: int | None = None,
-    sea: SeaState | None = None,
-    position: Any = None,
-    heading_deg: float | None = None,
-    relative_bound: float | None = None,
-    evaluation: str | None = None,
-    phase: Literal["mean", "slow", "actual"] = "mean",
-    cutoff: float | None = None,
-    drift: bool = False,
-    current: Current | None = None,
-    stretching: str | None = None,
-) -> Waves | None:
+    scene: Description, *, vessel: str | None = "vessel", hs: float | None = None, tp: float | None = None,
+    gamma: float | Literal["dnv"] | None = None, spectrum: str | None = None,
+    direction_deg: float | None = None, spreading: float | Spreading | None = None, seed: int | None = None,
+    count: int | None = None, sea: SeaState | None = None, position: Any = None,
+    heading_deg: float | None = None, relative_bound: float | None = None, evaluation: str | None = None,
+    phase: Literal["mean", "slow", "actual"] = "mean", cutoff: float | None = None, drift: bool = False,
+    current: Current | None = None, stretching: str | None = None,
+) -> Waves | None:  # fmt: skip
     """Add a sea and its force-RAO loads on a vessel, or put one more vessel into the sea that is there.
 
     A scene has one sea, with phases from the origin of the inertial frame. For every further vessel call it
@@ -165,12 +140,20 @@ def add_sea(
         raise SceneError.of("sea: current", f"is {shown(current)}; give a seacrane.sea.Current")
     if sea is not None and given:
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
-    if sea is None and (given or scene.waves is None) and number_of("sea: hs", _known(hs)) == 0.0:
+    new = sea is None and (given or scene.waves is None)
+    if new and hs is None:
+        raise SceneError.of(
+            "sea: hs",
+            "is None; give the significant wave height in m (0: still water), or sea=SeaState(...); "
+            "leave out all that describes a sea to put a vessel into the one that is there",
+        )
+    if new and number_of("sea: hs", hs) == 0.0:
         depth = float("inf") if vessel not in scene.bodies else _depth_of(source_of(scene, str(vessel)))
         scene.waves = None if current is None else flowing_water(current, depth, stretching or STRETCHING[0])
         return scene.waves
-    if vessel is not None:
-        _require_vessel(scene, vessel)
+    if vessel is not None and vessel not in scene.bodies:
+        known = ", ".join(repr(one.body) for one in scene.vessels.values()) or "none"
+        raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
     if scene.waves is None and sea is None:
         _tell_assumed(given)
     database = None if vessel is None else source_of(scene, vessel)
@@ -196,7 +179,7 @@ def add_sea(
     warn_of_long_waves(database)
     transfer = force_of_components(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
-    provenance = _with_shares(waves, database, vessel, hull)
+    provenance = with_shares(waves, database, vessel, hull)
     waves = replace(waves, hulls={**waves.hulls, vessel: hull}, provenance=provenance)
     if drift:
         waves = with_drift(scene, waves, vessel)
@@ -218,17 +201,6 @@ def as_put(scene: Description, waves: Waves, vessel: str) -> dict[str, Any]:
         "heading_deg": None if as_at_start else float(np.degrees(hull.heading)),
         "drift": hull.drift is not None,
     }  # fmt: skip
-
-
-def _known(hs: Any) -> Any:
-    """The height of a sea; SceneError where it is not given."""
-    if hs is None:
-        raise SceneError.of(
-            "sea: hs",
-            "is None; give the significant wave height in m (0: still water), or sea=SeaState(...); "
-            "leave out all that describes a sea to put a vessel into the one that is there",
-        )
-    return hs
 
 
 def _tell_assumed(given: dict[str, Any]) -> None:
@@ -290,12 +262,6 @@ def _require_few(sea: SeaState | None, given: dict[str, Any]) -> None:
         )
 
 
-def _require_vessel(scene: Description, vessel: str) -> None:
-    if vessel not in scene.bodies:
-        known = ", ".join(repr(one.body) for one in scene.vessels.values()) or "none"
-        raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
-
-
 def _evaluated(waves: Waves, **given: Any) -> Waves:
     """With the settings given; vessels of one sea share them."""
     given = {name: value for name, value in given.items() if value is not None}
@@ -325,102 +291,6 @@ def _pose(
             f"sea: loads of {vessel!r} are taken at x, y, heading {x}, {y}, {heading}; give finite ones"
         )
     return (float(x), float(y)), heading
-
-
-def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLoads) -> SeaProvenance:
-    """The sea's provenance, with what of it puts no load on a vessel; of several the largest."""
-    left_out = without_load(
-        database, omega=waves.omega, amplitude=waves.amplitude, direction=waves.direction - hull.heading,
-        force=hull.transfer,
-    )  # fmt: skip
-    if left_out.variance > MOST_WITHOUT_LOAD:
-        warn_caller(
-            f"waves on {vessel!r}: those above {database.omega[-1]:.4g} rad/s, where database "
-            f"{database.name!r} ends, put no load on it: {left_out.energy:.2%} of the energy of the waves, "
-            f"and about {left_out.variance:.1%} of the variance of its {left_out.load} load. Compute the "
-            "database to higher frequencies, or take its motions in this sea for too small",
-            WavesWithoutLoadWarning,
-        )
-    energy = waves.amplitude**2
-    low = 0.0 if database.trusted_band is None else database.trusted_band[0]
-    below = float(energy[waves.omega < low].sum() / energy.sum()) if energy.any() else 0.0
-    warn_of_waves_below_band(database, below, f"waves on {vessel!r}")
-    known = waves.provenance
-    return replace(
-        known,
-        wave_energy_without_load=max(left_out.energy, known.wave_energy_without_load or 0.0),
-        load_variance_without_load=max(left_out.variance, known.load_variance_without_load or 0.0),
-    )
-
-
-@dataclass(frozen=True, kw_only=True)
-class WithoutLoad:
-    """How much of a sea is above the band of a database, and so puts no load on its vessel.
-
-    Attributes
-    ----------
-    energy : Share of the energy of the waves.
-    variance : float
-        Largest share of the variance of a load; what is left out is estimated from the slope of the forces
-        at the end of the band.
-    load : Which load that is.
-    """
-
-    energy: float
-    variance: float
-    load: str
-
-
-def without_load(
-    database: HydroData, *, omega: FloatArray, amplitude: FloatArray, direction: FloatArray,
-    force: ComplexArray,
-) -> WithoutLoad:  # fmt: skip
-    """What the components of a sea above the band would add.
-
-    Forces there are taken to continue as the power of the frequency that they follow at the end of the band
-    (least squares through its last fifth), and never to grow. Loads that are next to none at these headings
-    (roll in a head sea) are not judged.
-
-    Parameters
-    ----------
-    omega, amplitude, direction : (n,) rad/s, m, rad relative to the vessel.
-    force : (n, 6) on the vessel per amplitude, none above the band; N/m and N m/m.
-    """
-    energy = 0.5 * amplitude**2
-    above = omega > database.omega[-1] * (1.0 + 1e-9)
-    if not np.any(above):
-        return WithoutLoad(energy=0.0, variance=0.0, load=MOTIONS[0])
-    carried = energy @ np.abs(force) ** 2
-    missing = energy[above] @ _tail(database, omega[above], direction[above]) ** 2
-    whole = carried + missing
-    judged = whole > SLIGHT * (energy[~above] @ _worst_heading(database, omega[~above]) ** 2)
-    share = np.where(judged, missing / np.where(judged, whole, 1.0), 0.0)
-    worst = int(share.argmax())
-    return WithoutLoad(
-        energy=float(energy[above].sum() / energy.sum()), variance=float(share[worst]), load=MOTIONS[worst]
-    )
-
-
-def _worst_heading(database: HydroData, omega: FloatArray) -> FloatArray:
-    """Largest magnitudes (n, 6) over all headings."""
-    largest = np.abs(database.force).max(axis=0)
-    return np.stack([np.interp(omega, database.omega, column) for column in largest.T], axis=1)
-
-
-def _tail(database: HydroData, omega: FloatArray, direction: FloatArray) -> FloatArray:
-    """Magnitudes (n, 6) of the forces above the band."""
-    end = database.omega[database.omega >= END * database.omega[-1]]
-    end = end if end.size >= FEWEST else database.omega[-FEWEST:]
-    heading, of_component = np.unique(direction, return_inverse=True)
-    parts = np.array_split(heading, -(-heading.size // AT_ONCE))
-    force = np.abs(np.concatenate([force_at(database, end[None, :], part[:, None]) for part in parts]))
-    least = 1e-9 * np.abs(database.force).max(axis=(0, 1)) + 1e-300
-    level, x = np.log(np.maximum(force, least)), np.log(end / database.omega[-1])
-    spread = x - x.mean()
-    slope = np.einsum("k,hkd->hd", spread, level) / np.sum(spread**2)
-    last = level.mean(axis=1) - slope * x.mean()
-    growth = np.minimum(slope, 0.0)[of_component] * np.log(omega / database.omega[-1])[:, None]
-    return np.asarray(np.exp(last[of_component] + growth))
 
 
 def require_depth(waves: Waves, database: Source, vessel: str) -> None:

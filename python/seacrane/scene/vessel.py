@@ -7,21 +7,38 @@ from dataclasses import replace
 from typing import Any, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
+from seacrane import _core
+from seacrane.analysis.inverse import SIX, hold_vessel
+from seacrane.analysis.linear_system import linear_model
+from seacrane.description.curves import curves_of_sum
+from seacrane.description.databases import source_of
 from seacrane.description.description import Description
-from seacrane.description.given import given_vessels
 from seacrane.description.provenance import VesselProvenance
-from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
+from seacrane.description.vessel_hydrodynamics import Source, VesselHydrodynamics
+from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, HydroGroup
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of
 from seacrane.inputs.keywords import named
+from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.afloat import MOORING_DAMPING, MOORING_PERIOD, add_hull, add_hulls, add_hydrodynamics
-from seacrane.scene.given_vessel import DURATION, RAMP, add_given
+from seacrane.scene.afloat import MOORING_DAMPING, add_hull, add_hulls, add_hydrodynamics
+from seacrane.scene.bodies import add_body
+from seacrane.scene.mooring import USUAL
 from seacrane.scene.motion_history import MotionHistory
+from seacrane.warnings import OutsideRaosWarning
 
+LIGHT = 1.0  # kg and kg m2 of the body that stands for the ship: what drives it carries what is on board
+RAMP = 20.0  # s
+DURATION = 600.0  # s
+MOST_OUTSIDE = 0.02  # of the energy of the waves
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+AT_ONCE = 4096  # components whose transfer is interpolated together, to bound the memory it takes
 Vessels = tuple[VesselHydrodynamics, ...]
 
 
@@ -29,8 +46,8 @@ Vessels = tuple[VesselHydrodynamics, ...]
 def add_vessel(
     scene: Description, what: HydroDatabase, *, name: str = "vessel", position: Any = (0.0, 0.0, 0.0),
     heading_deg: float = 0.0, memory: str = "by-motion", kinematics: str = "yaw_following",
-    mooring: Any = None, mooring_period: float | None = MOORING_PERIOD,
-    mooring_damping: float = MOORING_DAMPING,
+    mooring: Any = USUAL, mooring_damping: float = MOORING_DAMPING,
+    slack_moment: float | tuple[float, float] = 0.0,
 ) -> VesselHydrodynamics: ...  # fmt: skip
 
 
@@ -38,7 +55,7 @@ def add_vessel(
 def add_vessel(
     scene: Description, what: HydroGroup, *, names: Sequence[str] | None = None,
     position: Any = (0.0, 0.0, 0.0), heading_deg: float = 0.0, memory: str = "joint",
-    mooring_period: float | None = MOORING_PERIOD, mooring_damping: float = MOORING_DAMPING,
+    mooring: float | None = USUAL, mooring_damping: float = MOORING_DAMPING,
 ) -> Vessels: ...  # fmt: skip
 
 
@@ -99,26 +116,26 @@ def add_vessel(
     heading_deg : float
         At the start, of the hull's or the group's x axis, deg from +x towards +y; default 0.
     memory : str, or list of StateSpaceBlock, or RetardationFunctions
-        With a database, "by-motion" (default): fluid memory as one passive state-space model per group of
-        coupled motions, the smallest that leaves the motions within 1 % of the database's own. "per-pair":
-        the paper's, one model per pair of motions, eqs (28)-(31), judged by R2. "convolution": the reference,
-        without a fit: the database's retardation functions convolved with the history of the motion, see
-        `seacrane.hydro.retardation_functions`; the steps land on its samples. "none": without radiation
-        damping, as the paper does for comparison. The database's own fitted memory is used where it is of the
-        kind asked for; else one is fitted here, once for each database. Of a group: "joint" (default), one
-        passive model of all motions, or "none". With matrices: the models themselves.
+        With a database, "by-motion" (default): one passive state-space model per group of coupled motions,
+        the smallest that leaves the motions within 1 % of the database's own. "per-pair": the paper's, eqs
+        (28)-(31), judged by R2. "convolution": the reference, `seacrane.hydro.retardation_functions` with the
+        history of the motion; the steps land on its samples. "none": without radiation damping. The
+        database's own memory is used where it is of that kind; else one is fitted here, once for each. Of a
+        group: "joint" (default), one passive model of all motions, or "none". With matrices: the models.
     kinematics : str
         Of one hull: "yaw_following" (default) or "paper", eqs (17)-(31).
-    mooring : float, array_like of shape (6, 6), or list of MooringSpring, optional
-        Of one hull, in place of `mooring_period`: a natural period (s); or a stiffness matrix about the
-        reference point, vessel's axes, N/m to N m/rad; or horizontal springs. It holds the pose of the start.
-        Default: by `mooring_period`, or the stiffness of surge, sway and yaw that the database's own
-        restoring holds, with an `OwnMooringWarning`.
-    mooring_period : float or None
-        Natural period (s) of soft linear station keeping of each hull in surge, sway and yaw; default 200 s;
-        None: no mooring.
+    mooring : float, array_like of shape (6, 6), list of MooringSpring, or None
+        Of each hull: natural period (s) of soft linear station keeping in surge, sway and yaw; default 200 s.
+        Of one hull also a stiffness matrix about the reference point, vessel's axes, N/m to N m/rad, or
+        horizontal springs; it holds the pose of the start. None: no mooring. The stiffness that the
+        database's own restoring holds takes its place, with an `OwnMooringWarning`.
     mooring_damping : float
         Its damping as a fraction of critical; default 0.1. With matrices: (3,), N s/m and N m s/rad.
+    slack_moment : float or (float, float)
+        Of one hull, or of matrices: free-surface moment of slack tanks, kg m, the density of what is in a
+        tank times the second moment of its surface about the longitudinal axis, l b^3 / 12 of a rectangle;
+        and about the transverse one. C44 (C55) becomes less by g times it, and GM by it over the
+        displacement: `statics` tells GM with and without. No weight is added. 1 t m is 1000.
     ramp : float
         s, over which a given motion grows from rest to its full size; default 20 s, 0: full from the start,
         where all that is on board must be described.
@@ -159,7 +176,11 @@ def add_vessel(
             raise SceneError("vessel: has a motion and a hull or body; what a motion leads takes neither")
         return named(add_given, "add_vessel(motion=)", owners=1)(scene, motion, **keywords)
     if body is not None and (what is None or (isinstance(what, HydroDatabase) and {*keywords} - {"name"})):
-        return add_hydrodynamics(scene, body=body, database=what, **_buoyant(keywords))
+        restoring = np.asarray(keywords.get("restoring", 0.0))
+        held = restoring.shape == (6, 6) and bool(
+            restoring[2, 2] > 0.0
+        )  # in heave, or it only has water about it
+        return add_hydrodynamics(scene, body=body, database=what, **{"floats": held} | keywords)
     if body is not None:
         raise SceneError(f"vessel: body {body!r} is given beside a database, which brings its own; use name=")
     if isinstance(what, HydroGroup):
@@ -172,64 +193,148 @@ def add_vessel(
     )
 
 
-def _buoyant(hydrodynamics: dict[str, Any]) -> dict[str, Any]:
-    """With `floats`: what nothing brings back in heave does not float, it only has water about it."""
-    restoring = np.asarray(hydrodynamics.get("restoring", 0.0))
-    held = restoring.shape == (6, 6) and bool(restoring[2, 2] > 0.0)
-    return {"floats": held} | hydrodynamics
-
-
-def add_slack_tank(
-    scene: Description, *, moment: float, trim_moment: float = 0.0, vessel: str | None = None
-) -> VesselHydrodynamics:
-    """Take the free surface of a slack tank from a vessel's stability, by its moment.
-
-    C44 becomes less by g moment, and GM by moment over the displacement. The tank's weight is not added: it
-    is that of the database's condition. Several tanks add up; `statics` tells GM with and without them.
-
-    Parameters
-    ----------
-    moment : float
-        Free-surface moment rho i, kg m: the density of what is in the tank times the second moment of its
-        surface about the longitudinal axis, l b^3 / 12 of a rectangle. 1 t m is 1000.
-    trim_moment : float
-        Likewise about the transverse axis, for C55.
-    vessel : str, optional
-        Default: the only one.
-
-    Returns
-    -------
-    VesselHydrodynamics
-        In the place of the one before.
-
-    Raises
-    ------
-    SceneError
-        For a moment below zero or above what the vessel's restoring holds, and a vessel that is not there.
-    """
-    given = given_vessels(scene)
-    floating = {name: one for name, one in scene.vessels.items() if one.body not in given}
-    chosen = {name: one for name, one in floating.items() if vessel in (None, one.body)}
-    if len(chosen) != 1:
-        known = ", ".join(repr(one.body) for one in floating.values()) or "none"
+def add_given(
+    scene: Description, motion: Any, *, name: str = "vessel", position: Any = (0.0, 0.0, 0.0),
+    heading_deg: float = 0.0, ramp: float = RAMP, duration: float = DURATION, size: Any = None,
+) -> VesselHydrodynamics:  # fmt: skip
+    """A ship whose motion is given, as `Scene.add_vessel` describes it."""
+    what = f"vessel {name_of('vessel', name)!r}"
+    history = motion if isinstance(motion, MotionHistory) else None
+    source = motion if isinstance(motion, Source) else None
+    kind = "raos" if source is not None else "rest" if history is None else "history"
+    if kind == "rest" and not (isinstance(motion, str) and motion == kind):
         raise SceneError.of(
-            "slack tank: vessel", f"is {vessel!r}, and the vessels afloat are {known}; name one of them"
+            f"{what}: motion",
+            f"is {shown(motion)}; give a HydroDatabase or MotionRaos, a MotionHistory, or 'rest'",
         )
-    name, afloat = next(iter(chosen.items()))
-    restoring = np.array(afloat.restoring)
-    taken = []
-    for key, value, motion in (("moment", moment, 3), ("trim_moment", trim_moment, 4)):
-        taken.append(scene.gravity * number_of(f"slack tank: {key}", value))
-        if not 0.0 <= taken[-1] < max(restoring[motion, motion], 1e-300):
-            raise SceneError.of(
-                f"slack tank: {key}",
-                f"is {value:g} kg m, and the restoring of vessel {name!r} is that of "
-                f"{restoring[motion, motion] / scene.gravity:.6g} kg m; give a moment from 0 to below that",
+    grown = not_negative_of(f"{what}: ramp", ramp, "s")
+    lasting = positive_of(f"{what}: duration", duration, "s")
+    outline = _size_of(what, motion, size)
+    place = shaped_of(f"{what}: position", position, (3,))
+    heading = direction_of(f"{what}: heading_deg", heading_deg)
+    if not np.isfinite([*place, heading]).all():
+        raise SceneError(f"{what}: stands at {place.tolist()} m, {heading} deg; give finite numbers")
+    half = 0.5 * np.radians(heading)
+    add_body(
+        scene, name=name, mass=LIGHT, inertia=(LIGHT, LIGHT, LIGHT), position=place,
+        quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
+    )  # fmt: skip
+    added = add_hydrodynamics(scene, body=name, database=source)
+    still = _core.Curve.constant(value=0.0)
+    curves = (still,) * 6 if history is None else history.curves(grown)
+    hold_vessel(scene, name, dict(zip(SIX, curves, strict=True)))
+    if history is not None:
+        lasting = float(history.time[-1])
+    scene.provenance[name] = VesselProvenance(
+        database=motion.name if isinstance(motion, HydroDatabase) else None, motion=kind,
+        ramp=None if kind == "rest" else grown, duration=None if kind == "rest" else lasting, size=outline,
+        record=None if history is None else history.record or None,
+    )  # fmt: skip
+    return added
+
+
+def put_into_sea(
+    scene: Description, waves: Waves, *, vessel: str, place: tuple[float, float], heading: float,
+) -> Waves:  # fmt: skip
+    """The sea with a given ship in it, which it does not load; one that follows RAOs is set moving."""
+    known, source = scene.provenance[vessel], source_of(scene, vessel)
+    if known.motion == "raos":
+        if source is None:
+            raise SceneError(
+                f"sea: vessel {vessel!r} has no RAOs; give it those that it was added with: "
+                f"scene.replace({vessel!r}, kind='vessel', database=raos)"
             )
-    restoring[[3, 4], [3, 4]] -= taken
-    changed = VesselHydrodynamics(**{**afloat.__getstate__(), "restoring": restoring})
-    scene.vessels[name] = changed
-    source = scene.provenance.get(name, VesselProvenance())
-    before = source.slack_tanks or (0.0, 0.0)
-    scene.provenance[name] = replace(source, slack_tanks=(before[0] + taken[0], before[1] + taken[1]))
-    return changed
+        amplitude = motion_of_components(source, waves, place=place, heading=heading, gravity=scene.gravity)
+        curves = curves_of_sum(
+            np.asarray(waves.omega, dtype=float), amplitude, ramp=known.ramp or 0.0,
+            duration=known.duration or DURATION,
+        )  # fmt: skip
+        for motion, curve in zip(SIX, curves, strict=True):
+            driver = scene.drivers[f"{vessel}.motion.{motion}"]
+            scene.drivers[driver.name] = _core.Driver(
+                name=driver.name, joint=driver.joint, coordinate=driver.coordinate, curve=curve
+            )
+    unloaded = HullLoads(
+        transfer=np.zeros((np.size(waves.omega), 6), dtype=complex), position=place, heading=heading
+    )
+    return replace(waves, hulls={**waves.hulls, vessel: unloaded})
+
+
+def _size_of(what: str, motion: Any, size: Any) -> tuple[float, float, float] | None:
+    if size is None and isinstance(motion, HydroDatabase):
+        return motion.length, motion.breadth, motion.draught
+    if size is None:
+        return None
+    length, breadth, draught = (float(one) for one in shaped_of(f"{what}: size", size, (3,)))
+    if not (np.isfinite([length, breadth, draught]).all() and min(length, breadth, draught) > 0.0):
+        raise SceneError.of(
+            f"{what}: size", f"is {shown(size)}; give positive length, breadth and draught, m"
+        )
+    return length, breadth, draught
+
+
+def raos_of(database: HydroDatabase) -> MotionRaos:
+    """The displacement RAOs that a database's own file holds.
+
+    Raises SceneError for a database of a ship under way.
+    """
+    if database.speed != 0.0:
+        raise SceneError(
+            f"database {database.name!r}: its motions are those at {database.speed:g} m/s, and a given ship "
+            "keeps its place; give one of zero speed"
+        )
+    return MotionRaos(
+        omega=database.omega, heading=database.heading, values=database.motion_rao, depth=database.depth,
+        symmetric=database.port_starboard_symmetric, name=database.name, g=database.g,
+    )  # fmt: skip
+
+
+def motion_of_components(
+    source: HydroDatabase | MotionRaos, waves: Waves, *, place: tuple[float, float], heading: float,
+    gravity: float,
+) -> Complex:  # fmt: skip
+    """Complex amplitude (n, 6) of the motion in each component: m and rad, sum Re of them exp(i omega t).
+
+    In axes of the ship at rest, at a place (x, y), m, and a heading, rad. A database without motions of its
+    own has those of the linear model of the ship alone, floating as `Scene.add_vessel` describes it.
+    """
+    sea = waves.components()
+    omega, direction = np.array(sea.omega), np.array(sea.direction)
+    along = np.cos(direction) * place[0] + np.sin(direction) * place[1]
+    wave = np.array(sea.amplitude) * np.exp(1j * (np.array(sea.phase) - np.array(sea.wavenumber) * along))
+    if isinstance(source, HydroDatabase) and source.motion_rao is None:
+        return np.asarray(wave[:, None] * linear_motion(source, omega, direction - heading, gravity=gravity))
+    table = raos_of(source) if isinstance(source, HydroDatabase) else source
+    _warn_of_outside(table, omega, np.array(sea.amplitude))
+    return np.asarray(wave[:, None] * table.at(omega, direction - heading))
+
+
+def linear_motion(database: HydroDatabase, omega: Array, heading: Array, *, gravity: float) -> Complex:
+    """Motions (n, 6) per metre of wave of a ship alone, floating as `Scene.add_vessel` describes it."""
+    alone = Description(name="ship alone", gravity=gravity)
+    add_hull(alone, database)
+    linear = linear_model(alone)
+    x = linear.response(omega=omega, force=force_of_components(database, omega, heading))
+    return np.asarray(x @ linear.output(body="vessel").T)
+
+
+def _warn_of_outside(table: MotionRaos, omega: Array, amplitude: Array) -> None:
+    outside = (omega < table.omega[0] * (1.0 - 1e-9)) | (omega > table.omega[-1] * (1.0 + 1e-9))
+    energy = amplitude**2
+    share = float(energy[outside].sum() / max(energy.sum(), np.finfo(float).tiny))
+    if share > MOST_OUTSIDE:
+        warn_caller(
+            f"RAOs {table.name!r}: {share:.1%} of the energy of the waves is outside their "
+            f"{table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s: below it those of the lowest are taken, "
+            "above it none; give a table of the frequencies of the sea",
+            OutsideRaosWarning,
+        )
+
+
+def force_of_components(database: HydroDatabase, omega: Array, heading: Array) -> NDArray[np.complex128]:
+    """N/m and N m/m, (n, 6), at frequencies (n,), rad/s, and headings (n,), rad, relative to the vessel."""
+    rows = [
+        database.force_at(omega[i : i + AT_ONCE], heading[i : i + AT_ONCE], outside="limits")
+        for i in range(0, omega.size, AT_ONCE)
+    ]
+    return np.concatenate(rows).astype(complex).reshape(-1, 6)

@@ -13,12 +13,14 @@ from seacrane.crane.parts import BOX_DRAG, SWING_RATIO
 from seacrane.description.curves import spline_curve
 from seacrane.description.description import Description, require
 from seacrane.description.elements import put_load
+from seacrane.description.places import ORIGIN
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of, text_of, vector_of
+from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of, vector_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
+from seacrane.inputs.values import told_by
 from seacrane.warnings import DoubleCountedDampingWarning
 from seacrane.water.density import SEA_WATER
 
@@ -144,71 +146,76 @@ class FlowCoefficients:
         return angle, np.concatenate([rows, rows[mirrored] * PORT_STARBOARD])
 
 
+@told_by(_core.FlowForce)
 def add_wind(
-    scene: Description,
-    coefficients: FlowCoefficients,
-    *,
-    speed: float | _core.Curve,
-    direction_deg: float,
-    frontal_area: float,
-    lateral_area: float,
-    length: float,
-    body: str = "vessel",
-    point: Any = (0.0, 0.0, 0.0),
-    density: float = AIR,
-    name: str = "wind",
-) -> _core.FlowForce:
-    """Add wind on a body by coefficients (DNV-RP-C205; OCIMF, Mooring Equipment Guidelines).
+    scene: Description, coefficients: FlowCoefficients | None = None, *, frontal_area: float,
+    lateral_area: float, drag_coefficient: float | None = None, length: float | None = None,
+    speed: float | _core.Curve | None = None, direction_deg: float | None = None, body: str = "vessel",
+    point: Any = None, density: float = AIR, name: str | None = None,
+) -> _core.FlowForce:  # fmt: skip
+    """Add wind on a body by coefficients (DNV-RP-C205; OCIMF, Mooring Equipment Guidelines), or one of drag.
 
     F_x = density / 2 C_x frontal_area V^2, F_y = density / 2 C_y lateral_area V^2, N = density / 2 C_n
     lateral_area length V^2, V the horizontal wind relative to `point` of the moving body, C at the angle of V
     in axes that follow its yaw. Heel follows from the height of `point`.
 
+    Without coefficients it is density / 2 drag_coefficient |V| (frontal_area V_x, lateral_area V_y): the drag
+    of the air on a body that moves through it, still air by default. Vertical motion has none.
+
     Parameters
     ----------
+    frontal_area, lateral_area : float
+        m2, as the coefficients define them; else seen along the body's x axis and along its y axis.
+    drag_coefficient : float
+        In the place of coefficients; 0 is no drag. Default 1.05: a cube with a face to the flow (Hoerner
+        1965).
+    length : float
+        m, as the coefficients define it. They need it, a speed and a direction.
     speed : float or Curve
         m/s at the height that the coefficients refer to; a curve for gusts, see `gust_curve`.
     direction_deg : float
         Where the wind blows *to*, deg from +x towards +y, as for waves.
-    frontal_area, lateral_area, length : float
-        m2, m2, m, as the coefficients define them.
-    body, name : str
-        A scene may hold several, with different names.
     point : array_like, shape (3,)
-        Where the load acts, m, body coordinates; N is about it.
-    density : float
-        kg/m3.
+        Where the load acts, m, body coordinates; N is about it. Default: the origin; of a drag the centre of
+        mass.
+    name : str
+        Default: "wind"; of a drag the body's and " drag".
 
     Raises
     ------
     SceneError
         For wrong values; what only the whole scene shows comes with `Scene.compile`.
     """
-    angle, rows = coefficients.full_circle()
-    way = direction_of(f"flow force {name_of('flow force', name)!r}: direction_deg", direction_deg)
+    label = name_of("flow force", name, f"{body} drag" if coefficients is None else "wind")
+    what = f"flow force {label!r}"
+    if coefficients is None:
+        dragged = scene.bodies[require(scene, what, "body", body)]
+        point = dragged.center_of_mass if point is None else point
+        coefficient = BOX_DRAG if drag_coefficient is None else drag_coefficient
+        coefficient = not_negative_of(f"{what}: drag_coefficient", coefficient)
+        angle = np.linspace(0.0, 2.0 * np.pi, KNOTS, endpoint=False)
+        rows = coefficient * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(KNOTS)])
+    elif drag_coefficient is not None or None in (length, speed, direction_deg):
+        raise SceneError(
+            f"{what}: has coefficients; give their length, speed and direction_deg, and no drag_coefficient"
+        )
+    else:
+        angle, rows = coefficients.full_circle()
+    way = direction_of(f"{what}: direction_deg", direction_deg or 0.0)
     element = _core.FlowForce(
-        name=name, body=body, point=point, density=density, speed=speed, direction=float(np.radians(way)),
-        frontal_area=frontal_area, lateral_area=lateral_area, length=length, angles=angle.tolist(),
-        coefficients=rows,
+        name=label, body=body, point=ORIGIN if point is None else point, density=density,
+        speed=0.0 if speed is None else speed, direction=float(np.radians(way)), frontal_area=frontal_area,
+        lateral_area=lateral_area, length=length or 0.0, angles=angle.tolist(), coefficients=rows,
     )  # fmt: skip
     return put_load(scene, element)
 
 
 def add_current(
-    scene: Description,
-    coefficients: FlowCoefficients,
-    *,
-    speed: float | _core.Curve | None = None,
-    direction_deg: float | None = None,
-    frontal_area: float,
-    lateral_area: float,
-    length: float,
-    body: str = "vessel",
-    point: Any = (0.0, 0.0, 0.0),
-    density: float = SEA_WATER,
-    name: str = "current",
+    scene: Description, coefficients: FlowCoefficients, *, speed: float | _core.Curve | None = None,
+    direction_deg: float | None = None, frontal_area: float, lateral_area: float, length: float,
+    body: str = "vessel", point: Any = (0.0, 0.0, 0.0), density: float = SEA_WATER, name: str = "current",
     draught: float = 0.0,
-) -> _core.FlowForce:
+) -> _core.FlowForce:  # fmt: skip
     """Add current on a vessel by coefficients: `add_wind` with water, areas below the waterline.
 
     The velocity relative to the water is that of `point`, so the load also damps surge and sway; a turning
@@ -268,69 +275,11 @@ def _flow_of(
     return of_sea.mean(not_negative_of(f"{what}: draught", draught, "m"))
 
 
-def add_air_drag(
-    scene: Description,
-    body: str,
-    *,
-    frontal_area: float,
-    lateral_area: float,
-    drag_coefficient: float = BOX_DRAG,
-    speed: _core.Curve | float = 0.0,
-    direction_deg: float = 0.0,
-    point: Any = None,
-    density: float = AIR,
-    name: str = "",
-) -> _core.FlowForce:
-    """Drag of the air on a body that moves through it, still air by default.
-
-    Of the horizontal velocity V of the air relative to `point`, in axes that follow the body's yaw:
-    density / 2 drag_coefficient |V| (frontal_area V_x, lateral_area V_y). Vertical motion has no drag.
-
-    Parameters
-    ----------
-    frontal_area, lateral_area : float
-        Seen along the body's x axis and along its y axis, m2.
-    drag_coefficient : float
-        0 is no drag. Default 1.05: a cube with a face to the flow (Hoerner 1965).
-    speed, direction_deg : float or Curve, float
-        Of a wind, m/s, and where it blows *to*, deg from +x towards +y. Leave it out where `add_wind` has it.
-    point : array_like, shape (3,)
-        Where it acts, m, body coordinates; default: the centre of mass.
-    density : float
-        kg/m3.
-    name : str
-        Default: the body's and " drag".
-
-    Raises
-    ------
-    SceneError
-        For a body that is not there, or values that are none; the rest comes with `Scene.compile`.
-    """
-    what = f"air drag {text_of('air drag: name', name, f'{body} drag')!r}"
-    dragged = scene.bodies[require(scene, what, "body", body)]
-    angles = np.linspace(0.0, 2.0 * np.pi, KNOTS, endpoint=False)
-    coefficient = not_negative_of(f"{what}: drag_coefficient", drag_coefficient)
-    rows = coefficient * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(KNOTS)])
-    way = direction_of(f"{what}: direction_deg", direction_deg)
-    element = _core.FlowForce(
-        name=name or f"{body} drag", body=body, point=dragged.center_of_mass if point is None else point,
-        density=density, speed=speed, direction=float(np.radians(way)), frontal_area=frontal_area,
-        lateral_area=lateral_area, length=0.0, angles=angles.tolist(), coefficients=rows,
-    )  # fmt: skip
-    return put_load(scene, element)
-
-
+@told_by(_core.PendulumDamping)
 def add_pendulum_damping(
-    scene: Description,
-    name: str,
-    *,
-    first: str,
-    second: str,
-    first_point: Any = (0.0, 0.0, 0.0),
-    second_point: Any = None,
-    ratio: float = SWING_RATIO,
-    mass: float = 0.0,
-) -> _core.PendulumDamping:
+    scene: Description, name: str, *, first: str, second: str, first_point: Any = (0.0, 0.0, 0.0),
+    second_point: Any = None, ratio: float = SWING_RATIO, mass: float = 0.0,
+) -> _core.PendulumDamping:  # fmt: skip
     """Damping of a load's swing below the point where it hangs, as a ratio of critical.
 
     -2 ratio mass sqrt(g / L) times the velocity of the load across the line of length L from `first_point` to
@@ -339,16 +288,12 @@ def add_pendulum_damping(
 
     Parameters
     ----------
-    first : str
-        Body that the load hangs from; "ground" is one too.
     second : str
         The load.
     first_point, second_point : array_like, shape (3,)
         In coordinates of these bodies, m. Default of the second: the load's centre of mass.
     ratio : float
         Of critical damping; 0 is none. Default 0.005: an estimate.
-    mass : float
-        kg, that swings; default (0): that of the load.
 
     Raises
     ------
@@ -375,4 +320,4 @@ def damp_load(
         )
     x, y, z = map(float, size)
     if drag > 0.0 and max(x, y, z) > 0.0:
-        add_air_drag(scene, body, frontal_area=y * z, lateral_area=x * z, drag_coefficient=drag)
+        add_wind(scene, body=body, frontal_area=y * z, lateral_area=x * z, drag_coefficient=drag)

@@ -49,8 +49,8 @@ def given_by_raos() -> Scene:
     scene.add_joint(kind="distance", name="wire", first="barge", second="load", **rod)
     scene.add_point(name="edge", body="barge", point=(30.0, 10.0, 3.0))
     scene.add_point(name="below", body="load", point=(0, 0, -1.0))
-    scene.add_relative(name="over the edge", point="below", to="edge", axes="barge")
-    scene.add_clearance(name="deck", points="below", body="barge", center=(0, 0, 0), size=(90, 18, 10))
+    scene.add_channel("over the edge", expression="below.z in barge - edge.z in barge")
+    scene.add_channel("deck", points="below", body="barge", center=(0, 0, 0), size=(90, 18, 10))
     scene.add_channel(name="drop", expression="edge.z - below.z")
     return scene
 
@@ -71,7 +71,7 @@ def given_by_a_record() -> Scene:
 @case(by("dopri5"), by("rk4", "redundant", dt=0.05), t_end=6.0, dt_out=0.2)
 def moored_by_lines() -> Scene:
     scene = Scene(name="moored", gravity=G)
-    scene.add_vessel(shipped_database(), mooring_period=None, memory="none")
+    scene.add_vessel(shipped_database(), mooring=None, memory="none")
     for x, y in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
         ends = {
             "bodies": ["ground", "vessel"],
@@ -99,7 +99,7 @@ def two_ships_in_one_sea() -> Scene:
 def group_in_one_water() -> Scene:
     """Two barges that feel each other's motions and waves."""
     scene = Scene(name="group", gravity=9.81)
-    scene.add_vessel(two_barges(lid_damping=0.01), mooring_period=60.0)
+    scene.add_vessel(two_barges(lid_damping=0.01), mooring=60.0)
     for vessel in scene.vessels:
         scene.add_sea(vessel=vessel, hs=1.0, tp=8.0, direction_deg=-120.0, seed=1, count=40)
     return scene

@@ -57,7 +57,7 @@ def luffing_rope() -> Scene:
     load = Payload(mass=60e3, size=(4.0, 4.0, 3.0), link_length=20.0)
     crane = load_crane("lattice_boom_100t")
     scene.add_crane(crane, base="ground", coordinates={"boom": 0.8}, payload=load, held=True)
-    scene.add_luffing_rope(rate=ramp(-1.0), lag=0.3)
+    scene.add_winch("luffing rope", rate=ramp(-1.0), lag=0.3)
     return scene
 
 

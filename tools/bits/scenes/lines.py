@@ -60,8 +60,10 @@ def sheaves() -> Scene:
     scene.add_line(
         name="hoist", bodies=["ground", "arm", "cleat", "load", "cleat"], EA=3e6, length=14.75,
         points=[(0.0, 0.0, 0.0), (-0.5, 0.0, 0.8), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.9, 0.2, 0.1)],
-        radii=[0, 0.2, 0.25, 0.2, 0], efficiencies=[1, 0.98, 1, 0.96, 1], frictions=[0, 0, 0.03, 0, 0],
-        axes=[(0, 0, 0), (0.0, 1.0, 0.1), (0.1, 1.0, 0.1), (0.2, -1.0, 0.1), (0, 0, 0)], slip_speed=0.05,
+        sheaves={"radii": [0, 0.2, 0.25, 0.2, 0], "efficiencies": [1, 0.98, 1, 0.96, 1],
+        "frictions": [0, 0, 0.03, 0, 0],
+        "axes": [(0, 0, 0), (0.0, 1.0, 0.1), (0.1, 1.0, 0.1), (0.2, -1.0, 0.1), (0, 0, 0)],
+        "slip_speed": 0.05},
     )  # fmt: skip
     scene.add_winch(line="hoist", **WINCH)
     cord = {"strains": [0.0, 0.1, 0.3, 0.8], "tensions": [0.0, 300.0, 700.0, 3000.0], "length": 5.0}
@@ -75,8 +77,7 @@ def quasi_static() -> Scene:
     scene = arm()
     scene.add_line(
         name="hoist", bodies=["ground", "cleat", "load", "cleat"], EA=3e8, tension_at_start=7.3e3,
-        points=[(0.0, 0.0, 2.0), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.4, 0.2, 0.1)],
-        rung="quasi-static",
+        points=[(0.0, 0.0, 2.0), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.4, 0.2, 0.1)], rung="quasi-static",
     )  # fmt: skip
     scene.add_winch(line="hoist", rate=ramp(-0.1, last=1.7), lag=0.15)
     return scene
@@ -89,7 +90,9 @@ def slings_that_go_slack() -> Scene:
     scene.add_body(name="hook", mass=500.0, inertia=(50.0,) * 3, position=(0, 0, -12.0))
     scene.add_line(name="wire", bodies=["ground", "hook"], points=np.zeros((2, 3)), EA=5e6, length=11.8)
     corners = [(x, y, 0.5) for x in (-2.0, 2.0) for y in (-1.5, 1.5)]
-    scene.add_bridle(name="sling", hook="hook", load="load", points=corners, EA=[3e6])
+    for i, corner in enumerate(corners, start=1):
+        ends = {"bodies": ["hook", "load"], "points": [(0, 0, 0), corner]}
+        scene.add_line(f"sling {i}", **ends, EA=3e6, mass=2e3)
     return scene
 
 
@@ -99,23 +102,22 @@ def with_mass_in_wind() -> Scene:
     scene = heaving()
     scene.add_body(name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(4.0, 0.0, -15.0))
     scene.add_line(
-        name="wire", rung="with mass", bodies=["ship", "load"], points=np.zeros((2, 3)), EA=2e5, length=15.4,
-        mass_per_length=10.0, segments=4, damping_ratio=0.05, diameter=0.3, flow=(12.0, 3.0, 0.0),
+        name="wire", bodies=["ship", "load"], points=np.zeros((2, 3)), EA=2e5, length=15.4,
+        wire={"mass_per_length": 10.0, "segments": 4, "diameter": 0.3, "flow": (12.0, 3.0, 0.0)},
+        damping_ratio=0.05,
     )  # fmt: skip
     return scene
 
 
-def wet(scene: Scene, **line: Any) -> Scene:
+def wet(scene: Scene, length: Any) -> Scene:
     """A load on a line with mass through the surface."""
     scene.add_body(
         name="load", mass=400.0, inertia=(90.0, 80.0, 70.0), position=(8.0, 1.0, -3.0),
         velocity=(-1.0, 2.0, 1.0), angular_velocity=(0.4, -0.3, 0.6),
     )  # fmt: skip
-    given = {"EA": 2e5, "mass_per_length": 40.0, "diameter": 0.25, "segments": 4, "medium": "sea"} | line
-    scene.add_line(
-        "wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4),
-        rung="with mass", **given,
-    )  # fmt: skip
+    wire = {"mass_per_length": 40.0, "diameter": 0.25, "segments": 4, "medium": "sea"}
+    scene.add_line("wire", "ground", "load", first_point=(0.0, 0.0, 5.0), second_point=(0.1, -0.2, 0.4),
+                   EA=2e5, length=length, wire=wire)  # fmt: skip
     return scene
 
 
@@ -148,7 +150,7 @@ def chain_on_the_seabed() -> Scene:
     scene.add_driver(joint="guide", curve=waving(1.0, 1.2))
     bed = {"depth": 30.0, "stiffness": 5e4, "friction": 0.6, "damping_ratio": 0.4, "give": 0.05}
     scene.add_line(
-        name="chain", rung="with mass", bodies=["ground", "end"], points=[(0, 0, -30.0), (0, 0, 0)], EA=1e7,
-        length=75.0, mass_per_length=60.0, segments=6, damping_ratio=0.1, seabed=bed,
+        name="chain", bodies=["ground", "end"], points=[(0, 0, -30.0), (0, 0, 0)], EA=1e7, length=75.0,
+        wire={"mass_per_length": 60.0, "segments": 6, "seabed": bed}, damping_ratio=0.1,
     )  # fmt: skip
     return scene

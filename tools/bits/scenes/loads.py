@@ -83,7 +83,7 @@ def flow_force() -> Scene:
     gust = gust_curve(mean_speed=12, duration=10, seed=3)
     scene.add_wind(coefficients=HULL_IN_FLOW, speed=gust, direction_deg=60, point=(0, 0, 0.5), **areas)
     scene.add_current(coefficients=HULL_IN_FLOW, speed=0.5, direction_deg=-20, **areas)
-    scene.add_air_drag(body="load", frontal_area=2, lateral_area=3, drag_coefficient=0.8, name="air")
+    scene.add_wind(body="load", frontal_area=2, lateral_area=3, drag_coefficient=0.8, name="air")
     return scene
 
 

@@ -1,22 +1,37 @@
-"""Slow wave drift of a vessel, and wave loads at its actual or slow position and heading."""
+"""What a sea loads a vessel with: its slow drift, loads at its actual place, and what its database lacks."""
 
 from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
-from seacrane.description.waves import ByHeading, Waves
+from seacrane.description.provenance import SeaProvenance
+from seacrane.description.waves import ByHeading, HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
-from seacrane.hydro.data.excitation import with_limits
+from seacrane.hydro.data.data_warnings import warn_of_waves_below_band
+from seacrane.hydro.data.excitation import force_at, with_limits
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
+from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.frames import MOTIONS
 from seacrane.validity.hull_range import peak_frequency
+from seacrane.warnings import WavesWithoutLoadWarning
 
 Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
+END = 0.8  # of the highest frequency: the slope of the forces is fitted from there on
+FEWEST = 3  # frequencies of that fit
+AT_ONCE = 256  # headings, to bound the memory it takes
+SLIGHT = 1e-3  # of the variance that the same waves would give a load from its worst heading
 SLOW_SHARE = 0.2  # of the peak frequency: motions below are slow
 
 
@@ -123,3 +138,89 @@ def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
     weights = spline_weights(database.omega, np.clip(omega, database.omega[0], database.omega[-1]))
     values = np.stack([weights @ at_heading for at_heading in table])
     return ByHeading(heading=heading, values=with_limits(database, omega, values))
+
+
+def with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLoads) -> SeaProvenance:
+    """The sea's provenance, with what of it puts no load on a vessel; of several the largest."""
+    left_out = without_load(
+        database, omega=waves.omega, amplitude=waves.amplitude, direction=waves.direction - hull.heading,
+        force=hull.transfer,
+    )  # fmt: skip
+    if left_out.variance > MOST_WITHOUT_LOAD:
+        warn_caller(
+            f"waves on {vessel!r}: those above {database.omega[-1]:.4g} rad/s, where database "
+            f"{database.name!r} ends, put no load on it: {left_out.energy:.2%} of the energy of the waves, "
+            f"and about {left_out.variance:.1%} of the variance of its {left_out.load} load. Compute the "
+            "database to higher frequencies, or take its motions in this sea for too small",
+            WavesWithoutLoadWarning,
+        )
+    energy = waves.amplitude**2
+    low = 0.0 if database.trusted_band is None else database.trusted_band[0]
+    below = float(energy[waves.omega < low].sum() / energy.sum()) if energy.any() else 0.0
+    warn_of_waves_below_band(database, below, f"waves on {vessel!r}")
+    known = waves.provenance
+    return replace(
+        known,
+        wave_energy_without_load=max(left_out.energy, known.wave_energy_without_load or 0.0),
+        load_variance_without_load=max(left_out.variance, known.load_variance_without_load or 0.0),
+    )
+
+
+class WithoutLoad(NamedTuple):
+    """How much of a sea is above the band of a database, and so puts no load on its vessel."""
+
+    energy: float  # share of that of the waves
+    variance: float  # largest share of that of a load, estimated from the slope of the forces
+    load: str  # which one that is
+
+
+def without_load(
+    database: HydroData, *, omega: Array, amplitude: Array, direction: Array,
+    force: ComplexArray,
+) -> WithoutLoad:  # fmt: skip
+    """What the components of a sea above the band would add.
+
+    Forces there are taken to continue as the power of the frequency that they follow at the end of the band
+    (least squares through its last fifth), and never to grow. Loads that are next to none at these headings
+    (roll in a head sea) are not judged.
+
+    Parameters
+    ----------
+    omega, amplitude, direction : (n,) rad/s, m, rad relative to the vessel.
+    force : (n, 6) on the vessel per amplitude, none above the band; N/m and N m/m.
+    """
+    energy = 0.5 * amplitude**2
+    above = omega > database.omega[-1] * (1.0 + 1e-9)
+    if not np.any(above):
+        return WithoutLoad(energy=0.0, variance=0.0, load=MOTIONS[0])
+    carried = energy @ np.abs(force) ** 2
+    missing = energy[above] @ _tail(database, omega[above], direction[above]) ** 2
+    whole = carried + missing
+    judged = whole > SLIGHT * (energy[~above] @ _worst_heading(database, omega[~above]) ** 2)
+    share = np.where(judged, missing / np.where(judged, whole, 1.0), 0.0)
+    worst = int(share.argmax())
+    return WithoutLoad(
+        energy=float(energy[above].sum() / energy.sum()), variance=float(share[worst]), load=MOTIONS[worst]
+    )
+
+
+def _worst_heading(database: HydroData, omega: Array) -> Array:
+    """Largest magnitudes (n, 6) over all headings."""
+    largest = np.abs(database.force).max(axis=0)
+    return np.stack([np.interp(omega, database.omega, column) for column in largest.T], axis=1)
+
+
+def _tail(database: HydroData, omega: Array, direction: Array) -> Array:
+    """Magnitudes (n, 6) of the forces above the band."""
+    end = database.omega[database.omega >= END * database.omega[-1]]
+    end = end if end.size >= FEWEST else database.omega[-FEWEST:]
+    heading, of_component = np.unique(direction, return_inverse=True)
+    parts = np.array_split(heading, -(-heading.size // AT_ONCE))
+    force = np.abs(np.concatenate([force_at(database, end[None, :], part[:, None]) for part in parts]))
+    least = 1e-9 * np.abs(database.force).max(axis=(0, 1)) + 1e-300
+    level, x = np.log(np.maximum(force, least)), np.log(end / database.omega[-1])
+    spread = x - x.mean()
+    slope = np.einsum("k,hkd->hd", spread, level) / np.sum(spread**2)
+    last = level.mean(axis=1) - slope * x.mean()
+    growth = np.minimum(slope, 0.0)[of_component] * np.log(omega / database.omega[-1])[:, None]
+    return np.asarray(np.exp(last[of_component] + growth))
