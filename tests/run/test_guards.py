@@ -170,7 +170,7 @@ def test_a_link_that_pushes_warns_once(tmp_path: Path) -> None:
     assert f"{-result['tension'].min():.4g} N" in str(caught[0].message)
     loaded = Result.load(result.save(tmp_path / "thrown.nc"))
     assert loaded.stats["validity"] == result.stats["validity"]
-    assert "link &#x27;wire&#x27;: pushes with " in report(loaded).html
+    assert "link &#39;wire&#39;: pushes with " in report(loaded).html
 
 
 def test_an_angle_that_passes_half_a_turn_warns() -> None:
