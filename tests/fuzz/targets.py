@@ -24,10 +24,9 @@ from seacrane.crane.urdf import read_urdf
 from seacrane.errors import FileFormatError, SceneError, SimulationError
 from seacrane.hydro import Hull, HydroDatabase
 from seacrane.hydro.readers import bemio, capytaine, nemoh, nemoh_files, orcaflex, veres, wamit
-from seacrane.inputs.hdf5_structure import Structure
 from seacrane.inputs.mesh_files import read_gltf
 from seacrane.inputs.netcdf_limits import LARGEST_DATABASE as LARGEST
-from seacrane.inputs.netcdf_limits import NETCDF_ERRORS
+from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, arrays_in
 from seacrane.inputs.state import load_state
 from seacrane.result import Result
 from seacrane.statistics import MeasuredSeries
@@ -50,8 +49,7 @@ class Target:
     mutate: Callable[[bytes, random.Random], bytes] | None = mutate_text
     beside: str | None = None
     refusals: tuple[type[Exception], ...] = (FileFormatError,)
-    netcdf: bool = False
-    unfolds: bool = False  # compressed arrays, of which the file says how large they are
+    netcdf: bool = False  # with compressed arrays, of which the file says how large they are
 
     def place(self, folder: Path) -> None:
         """The files that stand beside a case."""
@@ -69,7 +67,7 @@ class Target:
         elif not build(case, path):
             return "no case"
         try:
-            unfolded = (lambda: announced(path)) if self.unfolds else None
+            unfolded = (lambda: announced(path)) if self.netcdf else None
             with bounded(path.stat().st_size, unfolded):
                 value = self.read(path)
         except self.refusals as error:
@@ -84,12 +82,11 @@ class Target:
 
 def announced(path: Path) -> int:
     """Bytes of the arrays of a NetCDF file, as far as they are not refused for their size."""
-    structure = Structure(path, LARGEST, "")
     try:
-        structure.check()
+        taken = sum(size for _, _, size in arrays_in(path))
     except (FileFormatError, *NETCDF_ERRORS):
         return 0
-    return structure.arrays
+    return taken if taken <= LARGEST else 0
 
 
 def require_finite(place: str, value: Any) -> None:
@@ -211,7 +208,6 @@ def _under(folder: str, names: str) -> tuple[str, ...]:
     return tuple(f"{folder}/{name}.py" for name in names.split())
 
 
-_NETCDF = _under("inputs", "netcdf_limits hdf5_structure")
 _SCENE = ("scene/file.py", *_under("inputs", "node plain_data"))
 _HYDRO = "hydro/readers"
 _ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
@@ -219,7 +215,7 @@ _VERES = _under(_HYDRO, "veres veres_files text_records")
 _WAMIT = _under(_HYDRO, "wamit wamit_listing wamit_tables text_records")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
 _RECORDED = (*_under("series", "series_file reading mending"), "scene/motion_history.py")
-_LIFT = _under("lift", "document text_lines check_keys study")
+_LIFT = _under("lift", "document check_keys")
 _JOINTED = _under("crane", "load_crane")
 _URDF = _under("crane", "urdf")
 _SHAPE, _SEEN = (FileFormatError, ValueError), (FileFormatError, SceneError)
@@ -233,13 +229,10 @@ def _set_targets(name: str, files: str, read: Reader, modules: tuple[str, ...]) 
     return [Target(f"{name}-{kinds[file]}", reader, file, read, modules, beside=name) for file in kinds]
 
 
-def _netcdf_targets(name: str, file: str, read: Reader, *modules: str) -> list[Target]:
-    """Files written from mutated specifications, and files mutated byte by byte."""
+def _netcdf(name: str, file: str, read: Reader, *modules: str) -> Target:
+    """Files written from mutated specifications: damage of bytes is answered by HDF5's own checks."""
     reader = name.removesuffix("-group")
-    return [
-        Target(name, reader, file, read, (*modules, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
-        Target(f"{name}-bytes", reader, file, read, (*modules, *_NETCDF), None, unfolds=True),
-    ]
+    return Target(name, reader, file, read, modules, mutate_json, netcdf=True)
 
 
 _VERES_FILES = "box.re7 box.re8 box.re1 box.re2 box.hyd"
@@ -275,13 +268,13 @@ _ALL = [
     Target("series", "series", "mru.csv", _series, _RECORDED, refusals=_SEEN),
     Target("motion-record", "series", "mru.csv", _motion_record, _RECORDED, refusals=_SEEN),
     Target("state", "state", "run.state", _state, ("inputs/state.py",)),
-    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py"),
-    *_netcdf_targets("mafredo", "ship.dhyd", _of_mafredo, f"{_HYDRO}/orcaflex.py"),
-    *_netcdf_targets("capytaine", "ship.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
-    *_netcdf_targets("bemio", "ship.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
-    *_netcdf_targets("capytaine-group", "pair.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
-    *_netcdf_targets("bemio-group", "pair.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
-    *_netcdf_targets("result", "run.nc", _result, "result/result_file.py"),
+    _netcdf("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py"),
+    _netcdf("mafredo", "ship.dhyd", _of_mafredo, f"{_HYDRO}/orcaflex.py"),
+    _netcdf("capytaine", "ship.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
+    _netcdf("bemio", "ship.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
+    _netcdf("capytaine-group", "pair.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
+    _netcdf("bemio-group", "pair.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
+    _netcdf("result", "run.nc", _result, "result/result_file.py"),
 ]  # fmt: skip
 TARGETS = {target.name: target for target in _ALL}
 

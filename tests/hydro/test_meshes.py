@@ -198,20 +198,14 @@ def changed(**changes: Any) -> dict[str, Any]:
 
 
 DAMAGED = "damaged or truncated"
-LARGE = {"byteLength": 3000, "uri": "data:;base64," + 4000 * "A"}
-WIDE = {"buffers": [LARGE], "bufferViews": 999 * [{"buffer": 0, "byteLength": 3000}]}
 HOSTILE: list[tuple[Any, str]] = [
-    (changed(asset={"version": "1.0"}), "no glTF 2.0"), ("[" * 100_000, DAMAGED),
+    (changed(asset={"version": "1.0"}), "only GLTF 2"), ("[" * 100_000, DAMAGED),
     (changed(extensionsRequired=["KHR_draco_mesh_compression"]), "KHR_draco_mesh_compression"),
-    (changed(accessors__0__componentType=5120), DAMAGED), (changed(accessors__0__count=9), DAMAGED),
-    (changed(buffers__0__uri="/etc/passwd"), "buffer in another file"),
-    (changed(bufferViews__1__byteOffset=-8), DAMAGED), (changed(bufferViews__0__byteStride=1), "overlap"),
-    (changed(accessors__1__count=35), DAMAGED), (changed(nodes__0__children=[0]), "below two others"),
-    (changed(meshes__0__primitives__0__mode=5), "strip"), (changed(nodes__0__mesh=-1), "no triangles"),
-    (changed(accessors__1__count=30_000_000), "10000000 triangles, above 200000"),
+    (changed(accessors__0__count=9), DAMAGED), (changed(buffers__0__uri="/etc/passwd"), "another file"),
+    (changed(bufferViews__1__byteOffset=-8), DAMAGED), (changed(accessors__1__count=35), DAMAGED),
+    (changed(meshes__0__primitives__0__mode=6), "fan"), (changed(nodes__0__mesh=-1), "no triangles"),
+    (changed(accessors__1__count=30_000_000), DAMAGED), (changed(accessors__0__sparse={}), "sparse"),
     (changed(nodes=[{"mesh": 0}] * 19_000, scenes__0__nodes=[*range(19_000)]), "228000 triangles, above"),
-    (changed(nodes=[{}] * 30_000, scenes__0__nodes=[]), "20000 nodes"), (changed(**WIDE), "share"),
-    (changed(accessors__0__sparse={}), "sparse"), (changed(accessors__1__componentType=5126), DAMAGED),
 ]  # fmt: skip
 
 

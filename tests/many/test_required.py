@@ -13,7 +13,7 @@ from ensemble_studies import drifting_hull
 import seacrane as sc
 from seacrane import needs
 from seacrane.hydro import two_barges
-from seacrane.needs import Choice, Loss, choices_of, in_one_piece, missing_from
+from seacrane.needs import Choice, Loss, choices_of, missing_from
 from seacrane.needs.required import least_of
 from seacrane.scene import Pump, Valve
 from seacrane.scene.file import scene_digest
@@ -160,7 +160,7 @@ def test_what_does_not_run_is_a_row_with_its_reason() -> None:
     found = sc.required(beside_a_given_ship(), keep=keep, t_end=2.0, repeats=1)
     row = found.row("line wire rigid")
     assert not row.stable and "'pull' is gone: no channel 'line_tension'" in row.message
-    assert found.row("parts in water in one piece each").stable
+    assert found.row("no waves on parts in water").stable
     scene = slung()
     stiff, *others = choices_of(scene)
     made = stiff.made(scene)
@@ -193,29 +193,6 @@ def test_fewer_waves_keep_their_loads_over_the_heading_and_drift_is_left_out_or_
     (more,) = [choice for choice in missing_from(calm) if choice.of == "slow drift of vessel"]
     assert scene_digest(less.made(drifting())) == scene_digest(calm)
     assert scene_digest(more.made(calm)) == scene_digest(drifting())
-
-
-def test_one_piece_has_the_water_of_its_strips() -> None:
-    scene = wet()
-    (whole,) = [load for load in in_one_piece(scene).loads.values() if type(load).__name__ == "ImmersedPart"]
-    strips = [load for load in scene.loads.values() if type(load).__name__ == "ImmersedPart"]
-    assert len(strips) == 3 and not whole.row
-    np.testing.assert_allclose(whole.size, (6.0, 4.0, 1.0))
-    np.testing.assert_allclose(whole.drag, 3.0 * np.asarray(strips[0].drag))
-    np.testing.assert_allclose(whole.added_masses, 3.0 * np.asarray(strips[0].added_masses))
-    np.testing.assert_allclose(whole.point, (0.0, 0.0, 0.0), atol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("segments", "around"),
-    [(1, {}), (2, {"medium": "air", "diameter": 0.0}), (7, {"drag_coefficient_along": 0.02})],
-)
-def test_a_line_in_other_segments_is_as_described_with_them(segments: int, around: dict[str, Any]) -> None:
-    found, described = needs.with_segments(heavy(**around), "hoist", segments), heavy(segments, **around)
-    for table in ("loads", "bodies", "joints"):
-        assert {*getattr(found, table)} == {*getattr(described, table)}
-    run, right = (sc.simulate(scene, 1.0)["hook_load"] for scene in (found, described))
-    np.testing.assert_allclose(run, right, rtol=1e-12)
 
 
 @pytest.mark.slow("fits memories")

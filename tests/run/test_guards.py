@@ -112,7 +112,7 @@ def pendulum() -> Scene:
     return scene
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.validity.left_range.FullTurnWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.FullTurnWarning")
 def test_energy_limit_stops_by_name_and_keeps_the_outputs() -> None:
     settings = {"t_end": 20.0, "integrator": "semi-implicit-euler", "dt": 0.02}
     free = simulate(pendulum(), **settings)
@@ -170,7 +170,7 @@ def test_a_link_that_pushes_warns_once(tmp_path: Path) -> None:
     assert f"{-result['tension'].min():.4g} N" in str(caught[0].message)
     loaded = Result.load(result.save(tmp_path / "thrown.nc"))
     assert loaded.stats["validity"] == result.stats["validity"]
-    assert "link &#x27;wire&#x27;: pushes with " in report(loaded).html
+    assert "link &#39;wire&#39;: pushes with " in report(loaded).html
 
 
 def test_an_angle_that_passes_half_a_turn_warns() -> None:

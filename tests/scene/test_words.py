@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 import seacrane
+from seacrane.lift.inner_keys import RANGE
 from seacrane.lift.keys import Key
-from seacrane.lift.study_keys import RANGE
 from seacrane.lift.tables import TABLES
 
 

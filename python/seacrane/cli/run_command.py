@@ -104,7 +104,7 @@ def trade(arguments: argparse.Namespace) -> int:
     folder = output_folder(arguments.out)
     from seacrane import accuracy
     from seacrane.needs import required
-    from seacrane.needs.bench import usual
+    from seacrane.needs.required import usual
     from seacrane.run.outputs import Outputs
 
     outputs = Outputs(dt_out=(source.outputs or Outputs()).dt_out)

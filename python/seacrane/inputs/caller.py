@@ -6,12 +6,13 @@ import inspect
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from functools import wraps
 from multiprocessing import parent_process
-from typing import Any
+from typing import Any, TypeVar
 
+Some = TypeVar("Some")
 PACKAGE = __name__.partition(".")[0]
 Said = tuple[str, type[Warning], bool]  # a message, its category, and whether it was no silent one
 _TOLD: set[str] = set()
@@ -44,47 +45,38 @@ def tell(assumption: str) -> None:
 
 
 @contextmanager
-def untold() -> Iterator[None]:
+def _with(variable: ContextVar[Some], value: Some) -> Iterator[None]:
+    before = variable.set(value)
+    try:
+        yield
+    finally:
+        variable.reset(before)
+
+
+def untold() -> AbstractContextManager[None]:
     """Inside, nothing is told: what a file leaves out is in its schema."""
-    before = _TELLING.set(False)
-    try:
-        yield
-    finally:
-        _TELLING.reset(before)
+    return _with(_TELLING, False)
 
 
-@contextmanager
-def keeping(told: dict[str, None]) -> Iterator[None]:
+def keeping(told: dict[str, None]) -> AbstractContextManager[None]:
     """Keep the messages of all warnings given inside, in their order, whether Python shows them or not."""
-    before = _LISTENING.set((*_LISTENING.get(), told))
-    try:
-        yield
-    finally:
-        _LISTENING.reset(before)
+    return _with(_LISTENING, (*_LISTENING.get(), told))
 
 
-@contextmanager
-def silently(category: type[Warning] = Warning) -> Iterator[None]:
+def silently(category: type[Warning] = Warning) -> AbstractContextManager[None]:
     """Inside, warnings of a category are not shown: they were given before. Who listens hears them.
 
     Unlike `warnings.catch_warnings`, which is of the process, this is of the thread that runs it.
     """
-    before = _SILENCES.set((*_SILENCES.get(), category))
-    try:
-        yield
-    finally:
-        _SILENCES.reset(before)
+    return _with(_SILENCES, (*_SILENCES.get(), category))
 
 
 @contextmanager
 def recorded() -> Iterator[list[Said]]:
     """The warnings that are given inside, to be given again by `say_again`."""
     said: list[Said] = []
-    before = _RECORDING.set((*_RECORDING.get(), (said, len(_SILENCES.get()))))
-    try:
+    with _with(_RECORDING, (*_RECORDING.get(), (said, len(_SILENCES.get())))):
         yield said
-    finally:
-        _RECORDING.reset(before)
 
 
 def say_again(said: Iterable[Said]) -> None:

@@ -28,7 +28,8 @@ from seacrane._core import (
 
 __all__ = [
     "curve_of", "finite_of", "flag_of", "is_finite", "matrix_of", "name_of", "not_negative_of", "number_of",
-    "numbers_of", "positive_of", "require_unmasked", "rows_of", "shaped_of", "text_of", "texts_of", "vector_of",
+    "numbers_of", "positive_of", "require_unmasked", "rows_of", "shaped_of", "text_of", "texts_of",
+    "vector_of",
 ]  # fmt: skip
 FEW = 2000  # numbers, which are looked at one by one sooner than they are added
 

@@ -23,34 +23,24 @@ AXES_NOTE = (
 def rotation_matrix(quaternion: Any) -> Array:
     """Body-to-inertial matrices (..., 3, 3) of quaternions (..., 4), scalar first."""
     q = np.asarray(quaternion, dtype=float)
-    if q.shape == (4,):
-        return _rotation_of_one(*q.tolist())
+    if q.shape == (4,):  # without the cost of arrays
+        w, x, y, z = q.tolist()
+        size = math.sqrt(w * w + x * x + y * y + z * z)
+        return np.array(_rows(w / size, x / size, y / size, z / size)) if size else np.full((3, 3), np.nan)
     q = q / np.sqrt((q * q).sum(axis=-1, keepdims=True))
-    w, x, y, z = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
-    matrix: Array = np.empty((*w.shape, 3, 3))
-    for at, row in enumerate(
-        (
-            (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-        )
-    ):
+    matrix: Array = np.empty((*q.shape[:-1], 3, 3))
+    for at, row in enumerate(_rows(q[..., 0], q[..., 1], q[..., 2], q[..., 3])):
         for beside, values in enumerate(row):
             matrix[..., at, beside] = values
     return matrix
 
 
-def _rotation_of_one(w: float, x: float, y: float, z: float) -> Array:
-    """As `rotation_matrix`, to the bit, without the cost of its arrays."""
-    size = math.sqrt(w * w + x * x + y * y + z * z)
-    if size == 0.0:
-        return np.full((3, 3), np.nan)
-    w, x, y, z = w / size, x / size, y / size, z / size
-    return np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ])  # fmt: skip
+def _rows(w: Any, x: Any, y: Any, z: Any) -> Any:
+    return (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
 
 
 def cross(first: Array, second: Array) -> Array:

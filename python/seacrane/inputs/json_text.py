@@ -14,16 +14,9 @@ SMALL = 2**20  # bytes that they may take in any document
 
 
 def json_of(data: bytes, place: str, **hooks: Any) -> Any:
-    """The document in some bytes.
+    """The document in some bytes, by `json.loads` and its hooks; `place` is where they are, for messages.
 
-    Parameters
-    ----------
-    place : Where they are, for messages.
-    **hooks
-        Of `json.loads`; what they raise as ValueError is told.
-
-    Raises FileFormatError with line and column for what is no JSON; for what is nested too deeply, or is
-    nothing but brackets.
+    Raises FileFormatError, with line and column, for what is no JSON, nested too deeply, or only brackets.
     """
     taken = LIST * data.count(b"[") + OBJECT * data.count(b"{") + TEXT * data.count(b'"') // 2
     if taken > LOOSEST * len(data) + SMALL:

@@ -21,9 +21,12 @@ _SUFFIXES = {
     ".yaml": "YAML, as of an OrcaFlex model (load_database)",
     ".stl": "a surface (Hull.from_stl)",
 }
-_LIFT, _CRANE = "a lift in TOML (Lift.load, seacrane run)", "a crane in TOML (load_crane)"
+_LINES = {  # of TOML texts, which say themselves what they are of
+    rb"(?m)^\s*format\s*=\s*[\"']seacrane lift[\"']": "a lift in TOML (Lift.load, seacrane run)",
+    rb"(?m)^\s*schema\s*=\s*\d": "a crane in TOML (load_crane)",
+}
 _TOML = "TOML, as of a crane (load_crane) or a lift (Lift.load, seacrane run)"
-_LINES = 200  # that are looked at for what a text says of itself
+_LONGEST = 20_000  # bytes that are looked at
 
 
 def looks_like(path: Path, data: bytes) -> str:
@@ -38,14 +41,9 @@ def looks_like(path: Path, data: bytes) -> str:
     text = data.lstrip()
     if text.startswith(b"{"):
         return "JSON, as of a scene (Scene.load)"
-    return _by_lines(path, text.split(b"\n", _LINES)[:_LINES])
-
-
-def _by_lines(path: Path, lines: list[bytes]) -> str:
-    if any(re.match(rb'\s*format\s*=\s*["\']seacrane lift["\']', line) for line in lines):
-        return _LIFT
-    if any(re.match(rb"\s*schema\s*=\s*\d", line) for line in lines):
-        return _CRANE
+    for line, kind in _LINES.items():
+        if re.search(line, text[:_LONGEST]):
+            return kind
     if path.suffix.lower() == ".toml":
         return _TOML
-    return "a JSON list" if lines[0].startswith(b"[") else "something else"
+    return "a JSON list" if text.startswith(b"[") else "something else"

@@ -25,13 +25,8 @@ FloatArray = NDArray[np.float64]
 STL_HEADER, STL_RECORD, MOST_SOLIDS = 84, 50, 1000  # bytes
 MOST_TRIANGLES = 200_000  # of all meshes of a body together: pages stay a few MB
 VERTEX = re.compile(rb"vertex(?:[ \t]+\S+){3}[ \t\r]*\n")
-MAGIC, LARGEST_TEXT, MOST_NODES = b"glTF", 32 * 2**20, 20_000
-TRIANGLES, OTHER_SURFACES = 4, (5, 6)
-OF_A_NODE = ("mesh", "children", "matrix", "translation", "rotation", "scale")
-SHARED = 16  # times its size that parts of a model may have together
-OF_DATA = ("count", "byteOffset", "byteLength", "byteStride")
-WIDTH = {5121: 1, 5123: 2, 5125: 4, 5126: 12}  # bytes of indices and of three coordinates
-NOTHING = {"componentType": 5126, "type": "SCALAR", "count": 0}
+MAGIC = b"glTF"
+TRIANGLES, FAN = 4, 6  # modes
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # of glTF's y up
 
 
@@ -83,18 +78,10 @@ def read_stl(path: str | PathLike[str], *, most: int | None = None) -> FloatArra
 
 
 def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
-    """Triangles of the scene of a glTF model, in m, turned from y up to z up: x stays, y becomes z.
+    """Triangles of a glTF model (.glb, or .gltf with its buffers inside), in m, z up: x stays, y becomes z.
 
-    Parameters
-    ----------
-    path : path-like
-        .glb, or .gltf with its buffers inside.
-    most : Triangles that it may have.
-
-    Raises
-    ------
-    FileFormatError
-        Missing, truncated, malformed, too large, or with parts that are not read; or without trimesh.
+    FileFormatError for what is missing, truncated, malformed, of more than `most` triangles, or has parts
+    that are not read; or without trimesh.
     """
     source, content = _content(path, "decimate the mesh in the program that made it")
     with _refusing(source):
@@ -106,16 +93,9 @@ def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
             if (version, size) != (2, len(content)):
                 raise ValueError(f"version {version}, {size} bytes, of which {len(content)} are there")
             begin, end = 20, 20 + text_size
-        document = _needed(source, content[begin:end], most)
-        if sum(one["byteLength"] for one in document["bufferViews"]) > SHARED * len(content):
-            raise ValueError("too many parts share a buffer")
-        text = json.dumps(document).encode()
-        if begin:
-            size = begin + len(text) + len(content) - end
-            text = struct.pack("<4sIII4s", MAGIC, 2, size, len(text), b"JSON") + text + content[end:]
+        _require_plain(source, json.loads(content[begin:end]))
         load = gltf.load_glb if begin else gltf.load_gltf
-        loaded = load(BytesIO(text), skip_materials=True)
-        parts = list(_placed(loaded))
+        parts = list(_placed(load(BytesIO(content), skip_materials=True)))
         _require_few(source, sum(len(faces) for _, _, faces in parts), most)
         with np.errstate(over="ignore", invalid="ignore"):
             soup = [(points @ turn[:3, :3].T + turn[:3, 3])[faces] @ Z_UP.T for turn, points, faces in parts]
@@ -167,71 +147,18 @@ def _checked(source: Path, soup: list[FloatArray]) -> FloatArray:
     return triangles
 
 
-def _needed(source: Path, text: bytes, most: int) -> dict[str, Any]:
-    """What triangles need of a glTF document: numbers that are no more than they can be, nodes as a tree."""
-    if len(text) > LARGEST_TEXT:
-        raise FileFormatError(f"{source}: has more than {LARGEST_TEXT} bytes of text; export the mesh alone")
-    document = json.loads(text)
-    if not document["asset"]["version"].startswith("2."):
-        raise FileFormatError(f"{source}: is no glTF 2.0 model; export it as one")
+def _require_plain(source: Path, document: Any) -> None:
+    """Refuse what trimesh would pass over, or take for something else."""
     if document.get("extensionsRequired"):
         needed = shown(document["extensionsRequired"])
         raise FileFormatError(f"{source}: needs the extensions {needed}; export it without compression")
-    buffers, views = document["buffers"], document["bufferViews"]
-    if not all(one.get("uri", "data:").startswith("data:") for one in buffers):
+    if not all(one.get("uri", "data:").startswith("data:") for one in document["buffers"]):
         raise FileFormatError(f"{source}: has a buffer in another file; export it as .glb")
-    meshes = [{"primitives": list(_surfaces(source, one["primitives"]))} for one in document["meshes"]]
-    surfaces = [one for mesh in meshes for one in mesh["primitives"]]
-    places = [one["attributes"]["POSITION"] for one in surfaces]
-    corners = [one.get("indices", place) for one, place in zip(surfaces, places, strict=True)]
-    accessors, used = document["accessors"], {*places, *corners}
-    for one in (*views, *(accessors[i] for i in used)):
-        if min(one.get(key, 0) for key in OF_DATA) < 0 or "sparse" in one:
-            raise ValueError("a number is below zero, or numbers are sparse")
-    for one in (accessors[i] for i in used):
-        width = WIDTH[one["componentType"]]
-        if views[one["bufferView"]].get("byteStride", width) < width:
-            raise ValueError("numbers overlap")
-    points = sum(accessors[i]["count"] for i in used)
-    _require_few(source, max(sum(accessors[i]["count"] for i in corners), points // 2) // 3, most)
-    return {
-        "buffers": buffers,
-        "bufferViews": views,
-        "accessors": [one if i in used else NOTHING for i, one in enumerate(accessors)],
-        "meshes": meshes,
-        **_tree(source, document, meshes),
-    }
-
-
-def _surfaces(source: Path, primitives: Any) -> Iterator[dict[str, Any]]:
-    """Triangles without what they are painted with; lines and points are left out."""
-    for one in primitives:
-        mode = one.get("mode", TRIANGLES)
-        if mode in OTHER_SURFACES:
-            raise FileFormatError(f"{source}: has a strip or fan; export separate triangles")
-        if mode == TRIANGLES:
-            indices = {"indices": one["indices"]} if "indices" in one else {}
-            yield {"attributes": {"POSITION": one["attributes"]["POSITION"]}, **indices}
-
-
-def _tree(source: Path, document: Any, meshes: list[Any]) -> dict[str, Any]:
-    """The nodes of the scene; one for each mesh where there is no scene."""
-    if "scenes" not in document:
-        nodes: list[Any] = [{"mesh": i} for i, _ in enumerate(meshes)]
-        scene: Any = {"nodes": list(range(len(nodes)))}
-    else:
-        nodes = [{key: one[key] for key in OF_A_NODE if key in one} for one in document["nodes"]]
-        scene = document["scenes"][document.get("scene", 0)]
-    below = [*scene["nodes"], *(child for one in nodes for child in one.get("children", ()))]
-    if len(nodes) > MOST_NODES or len(set(below)) < len(below):
-        raise FileFormatError(
-            f"{source}: has more than {MOST_NODES} nodes, or one below two others; export the mesh alone"
-        )
-    nodes = [
-        {key: value for key, value in one.items() if key != "mesh" or meshes[value]["primitives"]}
-        for one in nodes
-    ]
-    return {"nodes": nodes, "scenes": [{"nodes": scene["nodes"]}]}
+    if any("sparse" in one or "bufferView" not in one for one in document["accessors"]):
+        raise FileFormatError(f"{source}: has numbers that are sparse; export it without morphing")
+    surfaces = [one for mesh in document["meshes"] for one in mesh["primitives"]]
+    if any(one.get("mode", TRIANGLES) == FAN for one in surfaces):
+        raise FileFormatError(f"{source}: has a fan; export separate triangles")
 
 
 def _placed(loaded: dict[str, Any]) -> Iterator[tuple[FloatArray, FloatArray, NDArray[np.intp]]]:
@@ -239,14 +166,9 @@ def _placed(loaded: dict[str, Any]) -> Iterator[tuple[FloatArray, FloatArray, ND
     place = {loaded["base_frame"]: np.eye(4)}
     for node in loaded["graph"]:
         place[node["frame_to"]] = place[node["frame_from"]] @ node["matrix"]
-        if "geometry" in node:
-            surface = loaded["geometry"][node["geometry"]]
-            points, faces = surface["vertices"], surface["faces"]
-            if points.dtype != np.float32 or points.shape[1:] != (3,) or faces.dtype.kind not in "ui":
-                raise ValueError("vertices or indices have another type than glTF's")
-            if len(faces) and not 0 <= faces.min() <= faces.max() < len(points):
-                raise ValueError("indices are none of its vertices")
-            yield place[node["frame_to"]], points.astype(float), faces
+        surface = loaded["geometry"].get(node.get("geometry"), {})
+        if "faces" in surface:  # else lines or points
+            yield place[node["frame_to"]], surface["vertices"].astype(float), surface["faces"]
 
 
 READERS = {".stl": read_stl, ".glb": read_gltf, ".gltf": read_gltf}

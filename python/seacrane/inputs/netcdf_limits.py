@@ -1,9 +1,12 @@
-"""The one place where NetCDF and HDF5 files are opened for reading: only once what they hold is looked at."""
+"""The one place where NetCDF and HDF5 files are opened for reading: once their arrays are known to fit."""
 
 from __future__ import annotations
 
 import contextlib
 import math
+import mmap
+import re
+import struct
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,42 +15,26 @@ from seacrane.errors import FileFormatError
 from seacrane.inputs.whole_file import size_of
 
 LARGEST_DATABASE = 512 * 2**20  # bytes; 1,000 frequencies x 72 headings take 20 MiB
+LOOSEST, NAMES = 2, 256 * 2**20  # a file may have this times the bytes of its arrays, or so many bytes
 CDF5 = b"CDF\x05"  # classic, with counts of 64 bits
 TOO_LARGE = "no hydrodynamic database is: write it again with fewer frequencies or headings"
+HEAP, HEAP_HEADER = b"GCOL\x01\0\0\0", 16  # mark and bytes of the head of an HDF5 heap, of texts
+PIECE = struct.Struct("<H6xQ")  # index and size of a piece of a heap
 # What the libraries raise for a damaged file, and NumPy for contents of another kind than expected.
 NETCDF_ERRORS = (OSError, RuntimeError, LookupError, AttributeError, TypeError, ValueError, ArithmeticError)
+Arrays = Iterator[tuple[str, tuple[int, ...], int]]  # name, shape, and bytes in memory
 
 
 @contextlib.contextmanager
 def open_netcdf(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARGE) -> Iterator[Any]:
     """A `netCDF4.Dataset` open for reading, whose arrays come as they are (not masked).
 
-    Parameters
-    ----------
-    largest : int
-        Bytes that all arrays together may take in memory: a compressed or unwritten array takes a few bytes
-        in the file, whatever size it is of.
-    fix : What the message asks for where they take more.
-
-    Raises
-    ------
-    FileFormatError
-        Before any array is read: for larger arrays, and for what `hdf5_structure` refuses.
-    OSError, RuntimeError, ...
-        What the libraries raise for a damaged file, one of `NETCDF_ERRORS`; for a device or a pipe.
+    Raises FileFormatError, which asks for `fix`, before any array is read, where all together would take
+    more than `largest` bytes in memory, and for damaged heaps; one of `NETCDF_ERRORS` for other damage.
     """
-    import h5py
     import netCDF4
 
-    from seacrane.inputs.hdf5_structure import Structure
-
-    size_of(path)
-    if h5py.is_hdf5(path):
-        Structure(path, largest, fix).check()
-    elif (kind := _first_bytes(path)) == CDF5:
-        raise FileFormatError(f"{path}: is a NetCDF file of the kind CDF-5; write it as NetCDF-4")
-    elif kind.startswith(b"CDF"):
-        _check_classic(path, largest, fix)
+    _require_fit(path, largest, fix)
     with netCDF4.Dataset(path, "r") as file:
         file.set_auto_mask(False)
         yield file
@@ -58,33 +45,73 @@ def open_hdf5(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARGE)
     """An `h5py.File` open for reading; parameters and errors as `open_netcdf`."""
     import h5py
 
-    from seacrane.inputs.hdf5_structure import Structure
-
-    size_of(path)
-    Structure(path, largest, fix).check()
+    _require_fit(path, largest, fix)
     with h5py.File(path, "r") as file:
         yield file
 
 
-def _first_bytes(path: Path) -> bytes:
+def _require_fit(path: Path, largest: int, fix: str) -> None:
+    size, total = size_of(path), 0
+    if size > max(LOOSEST * largest, NAMES):
+        raise FileFormatError(
+            f"{path}: has {size / 2**20:.6g} MiB, for arrays of at most {largest / 2**20:g} MiB; {fix}"
+        )
+    for name, shape, taken in arrays_in(path):
+        total += taken
+        if total > largest:
+            raise FileFormatError(
+                f"{path}: {name[:80]} has shape {shape}; with it the file's arrays take "
+                f"{total / 2**20:.6g} MiB, above {largest / 2**20:g} MiB; {fix}"
+            )
+
+
+def arrays_in(path: Path) -> Arrays:
+    """The arrays that a file announces; raises FileFormatError, or one of `NETCDF_ERRORS`."""
+    import h5py
+
+    if h5py.is_hdf5(path):
+        _require_sound_heaps(path)
+        yield from _in_hdf5(path)
+        return
     with path.open("rb") as file:
-        return file.read(len(CDF5))
+        kind = file.read(len(CDF5))
+    if kind == CDF5:
+        raise FileFormatError(f"{path}: is a NetCDF file of the kind CDF-5; write it as NetCDF-4")
+    if kind.startswith(b"CDF"):
+        yield from _in_classic(path)
 
 
-def _check_classic(path: Path, largest: int, fix: str) -> None:
-    """The classic format has no links and no compression, but its header may announce what is not there.
+def _in_hdf5(path: Path) -> Arrays:
+    """Each array once; HDF5 unfolds a chunk as a whole."""
+    import h5py
 
-    SciPy reads the header in Python, as far as the file goes; the C library takes memory for all that the
-    header counts, and ends the process where there is none.
-    """
+    found: list[tuple[str, Any]] = []
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, one: found.append((name, one)))
+        for name, one in found:
+            if isinstance(one, h5py.Dataset) and one.shape is not None:
+                count = max(math.prod(one.shape), math.prod(one.chunks or ()))
+                yield name, one.shape, one.dtype.itemsize * count
+
+
+def _in_classic(path: Path) -> Arrays:
+    """By SciPy, in Python: the C library takes memory for all that is counted, and may end the process."""
     from scipy.io import netcdf_file
 
-    from seacrane.inputs.hdf5_structure import too_large
-
-    total = 0
     with contextlib.closing(netcdf_file(path, "r", mmap=True)) as file:
         shapes = {name: (each.itemsize(), each.shape) for name, each in file.variables.items()}
-    for name, (size, shape) in shapes.items():
-        total += size * math.prod(shape)
-        if total > largest:
-            raise too_large(path, name, shape, total, largest, fix)
+    yield from ((name, shape, size * math.prod(shape)) for name, (size, shape) in shapes.items())
+
+
+def _require_sound_heaps(path: Path) -> None:
+    """HDF5 reads for ever where the pieces of a heap, each of which has its length, do not end in it."""
+    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        for start in [found.start() for found in re.finditer(HEAP, data)]:
+            at = start + HEAP_HEADER
+            end = start + int.from_bytes(data[start + len(HEAP) : at], "little")
+            while at + PIECE.size <= end:
+                index, size = PIECE.unpack_from(data, at) if at + PIECE.size <= len(data) else (1, end)
+                length = PIECE.size + -(-size // 8) * 8 if index else size  # 0 is the free piece
+                at += length if length >= PIECE.size else end
+            if at > end:
+                raise FileFormatError(f"{path}: has a damaged heap at byte {start}; write the file again")

@@ -9,26 +9,16 @@ HEAD = 1024  # bytes within which a file says who made it
 
 
 def check_replaceable(path: Path, overwrite: bool | None, *, mark: str) -> None:
-    """Refuse to replace what is not ours, or anything where `overwrite` says so.
+    """FileExistsError where a file is to stay: every one without `overwrite`, none with it.
 
-    Parameters
-    ----------
-    path : Target; nothing need be there.
-    overwrite : bool or None
-        None: only a file in whose first kB the mark stands is replaced. True: any. False: none.
-    mark : What files of this kind begin with.
-
-    Raises FileExistsError if there is a file that is to stay.
+    `overwrite` None: only a file in whose first kB the mark of our own stands may be replaced.
     """
     if overwrite or not path.exists():
         return
     if overwrite is None:
-        if path.is_file() and mark.encode() in _head(path):
-            return
+        if path.is_file():
+            with path.open("rb") as file:
+                if mark.encode() in file.read(HEAD):
+                    return
         raise FileExistsError(f"{path} is there and not of seacrane; give another name, or overwrite=True")
     raise FileExistsError(f"{path} is there already; give another name, or overwrite=True")
-
-
-def _head(path: Path) -> bytes:
-    with path.open("rb") as file:
-        return file.read(HEAD)

@@ -23,28 +23,14 @@ def claim(number: int) -> bool:
 
     A file system or a platform that cannot lock counts as free.
     """
-    fcntl = _module("fcntl")
-    return _claim_by_range(number) if fcntl is None else _claim_by_file(number, fcntl)
-
-
-def _claim_by_file(number: int, fcntl: ModuleType) -> bool:
+    fcntl, msvcrt = _module("fcntl"), _module("msvcrt")
     try:
-        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except OSError:
-        pass  # a file system that cannot lock
-    return True
-
-
-def _claim_by_range(number: int) -> bool:
-    msvcrt = _module("msvcrt")
-    if msvcrt is None:
-        return True
-    os.lseek(number, LOCKED_BYTE, os.SEEK_SET)
-    try:
-        msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
-    except PermissionError:
+        if fcntl is not None:
+            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        elif msvcrt is not None:
+            os.lseek(number, LOCKED_BYTE, os.SEEK_SET)
+            msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
+    except (BlockingIOError, PermissionError):
         return False
     except OSError:
         pass  # a file system that cannot lock

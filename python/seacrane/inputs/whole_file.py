@@ -15,17 +15,8 @@ LARGEST_TABLE = 128 * 2**20  # bytes; VERES files of ten speeds take a few dozen
 def read_whole(path: Path, largest: int = LARGEST_TABLE, fix: str = "export less into one file") -> bytes:
     """The bytes of a file.
 
-    Parameters
-    ----------
-    largest : Bytes that a file of this kind may have.
-    fix : What the message asks for where it has more.
-
-    Raises
-    ------
-    FileFormatError
-        If the file is larger.
-    OSError
-        If it cannot be read, or is a device or a pipe, which may have no end.
+    Raises FileFormatError, which asks for `fix`, where it has more than the `largest` of its kind, and
+    OSError where it cannot be read, or is a device or a pipe, which may have no end.
     """
     size = size_of(path)
     if size > largest:

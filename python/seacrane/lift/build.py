@@ -1,4 +1,4 @@
-"""A scene from the tables of a lift: each table makes its call, in the order of the tables."""
+"""A scene and its stages from the tables of a lift: each table makes its call, in the order of the tables."""
 
 from __future__ import annotations
 
@@ -12,19 +12,23 @@ from seacrane._core import Curve
 from seacrane.analysis.inverse import reflected_inertia, tuned_gains
 from seacrane.analysis.quasi_static import feed_forward
 from seacrane.analysis.weight_balance import Balance, balance, balance_by_force
+from seacrane.description.description import coordinate_of
+from seacrane.description.holding import with_holds
+from seacrane.description.places import ANGLES
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import untold
-from seacrane.lift.calls import Caller, Keywords, keywords
+from seacrane.lift.calls import Caller, Keywords, by_name, keywords, require_unit, require_unit_of_channel
 from seacrane.lift.check_keys import Entry, only, plain, titled
+from seacrane.lift.document import Place
+from seacrane.lift.inner_keys import COMMANDS, STAGE, UNTIL, WAITS
 from seacrane.lift.keys import Key
-from seacrane.lift.text_lines import Place
+from seacrane.run.commands import HOLE, Command, Move, targets
+from seacrane.run.plan import checked_stages
+from seacrane.run.stage import Condition, Stage, Until
 from seacrane.scene.scene import Scene
 
-LAST = ("heave_compensation",)  # what refers to commands
-NO_CALLS = (
-    "scene", "run", "method", "outputs", "ballast", "balance", "control", "command", "stage", "study",
-    "notes", *LAST,
-)  # fmt: skip
+NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "stage", "study")
+LATER = ("command", "heave_compensation", "ballast", "notes")  # in this order, after what they act on
 GAINS = ("stiffness", "damping")
 Made = TypeVar("Made")
 MOST_TIMES = 10_000  # each takes a rest state
@@ -47,11 +51,7 @@ class SceneBuild:
         self.entries, self.caller = entries, Caller()
 
     def scene(self) -> Scene:
-        """The scene that the tables describe, with every command controlled.
-
-        Raises FileFormatError with the line of the table that the scene refuses, or of the key where that is
-        known.
-        """
+        """The scene, with every command controlled; FileFormatError with the line of what it refuses."""
         scene, start = self._started()
         commands = [entry for entry in self.entries if entry.table.name == "command"]
         control = only(self.entries, "control")
@@ -61,42 +61,26 @@ class SceneBuild:
             self._control(scene, control, commands, start)
         return scene
 
-    @untold()
     def _started(self, *, at_rest: bool = False) -> tuple[Scene, Balance | None]:
         """The scene with its commands not yet controlled, and what balances it where [balance] says so."""
         scene = made(self.entries, "scene", Scene)
         for entry in _in_order(self.entries):
-            if entry.table.name not in NO_CALLS:
-                with refused_at(entry):
-                    self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
-        for entry in self.entries:
-            if entry.table.name == "command":
-                with refused_at(entry):
-                    given = keywords(entry.table.keys, entry.values, scene)
-                    scene.add_actuator(**{key: value for key, value in given.items() if key != "reference"})
-        for entry in self.entries:
-            if entry.table.name in LAST:
-                with refused_at(entry):
-                    self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
-        for entry in self.entries:
-            if entry.table.name == "notes":
-                scene.notes.update(plain(entry.values))
-        return scene, self._ballasted(scene, at_rest=at_rest)
-
-    def _ballasted(self, scene: Scene, *, at_rest: bool) -> Balance | None:
-        """Add ballast, once drives hold the scene; what [balance] balances."""
+            with untold(), refused_at(entry):
+                match entry.table.name:
+                    case "command":
+                        given = keywords(entry.table.keys, entry.values, scene)
+                        scene.add_actuator(**{key: one for key, one in given.items() if key != "reference"})
+                    case "notes":
+                        scene.notes.update(plain(entry.values))
+                    case _:
+                        self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
         balanced = only(self.entries, "balance")
-        for entry in self.entries:
-            if entry.table.name != "ballast":
-                continue
-            if balanced is not None:
-                balanced.fail("[balance] stands beside [ballast]; leave one out")
-            with refused_at(entry):
-                self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
         if balanced is None:
-            return None
+            return scene, None
+        if only(self.entries, "ballast"):
+            balanced.fail("[balance] stands beside [ballast]; leave one out")
         with refused_at(balanced):
-            return balance_by_force(scene, body=balanced.values["vessel"])
+            return scene, balance_by_force(scene, body=balanced.values["vessel"])
 
     def _control(
         self, scene: Scene, control: Entry, commands: Sequence[Entry], start: Balance | None
@@ -110,7 +94,11 @@ class SceneBuild:
             settings = keywords(control.table.keys, control.values)
             tuned_at = settings.pop("tuned_at", None)
             tuning = scene if tuned_at is None else self._tuning(tuned_at, given)
-            gains = gains_of(tuning, settings)
+            for key in ("natural_frequency", "damping_ratio"):
+                if not settings[key] > 0.0:
+                    raise SceneError.of(key, f"is {settings[key]:g}; give a number above zero")
+            inertia, omega = reflected_inertia(tuning), 2.0 * np.pi * settings["natural_frequency"]
+            gains = tuned_gains(inertia, natural_frequency=omega, damping_ratio=settings["damping_ratio"])
             loads = feed_forward_of(
                 scene, start, references, settings, at_rest=lambda: self._started(at_rest=True)[0]
             )
@@ -133,11 +121,16 @@ class SceneBuild:
 
 
 def _in_order(entries: Sequence[Entry]) -> list[Entry]:
-    """Bodies that are placed below a crane's tip follow the cranes; all else is as the tables are."""
-    later = [entry for entry in entries if entry.table.name == "body" and "below" in entry.values]
-    rest = [entry for entry in entries if entry not in later]
+    """Those that make calls; bodies that are placed below a crane's tip follow the cranes."""
+    calls = [entry for entry in entries if entry.table.name not in NO_CALLS]
+    below = [entry for entry in calls if entry.table.name == "body" and "below" in entry.values]
+    later = sorted(
+        (entry for entry in calls if entry.table.name in LATER),
+        key=lambda entry: LATER.index(entry.table.name),
+    )
+    rest = [entry for entry in calls if entry not in [*below, *later]]
     last = max((i for i, entry in enumerate(rest) if entry.table.name == "crane"), default=-1) + 1
-    return [*rest[:last], *later, *rest[last:]]
+    return [*rest[:last], *below, *rest[last:], *later]
 
 
 @contextlib.contextmanager
@@ -155,12 +148,7 @@ def refused_at(entry: Entry, *inside: str | int) -> Iterator[None]:
 
 
 def _about(keys: Iterable[Key], values: Mapping[str, Any], about: Sequence[str]) -> Place:
-    """The place in a table of the key that an error is about; none where it has no such key.
-
-    Parameters
-    ----------
-    about : Of the error: an element's parts, and last the keyword.
-    """
+    """The place in a table of the key that an error is about: an element's parts, and last the keyword."""
     for key in keys:
         for spelling in key.spellings:
             if spelling not in values or not about:
@@ -178,18 +166,6 @@ def _curve(value: float | Curve) -> Curve:
     return value if isinstance(value, Curve) else Curve.constant(value=value)
 
 
-def gains_of(tuning: Scene, settings: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
-    """Stiffness and damping of every actuator of a scene, by [control]."""
-    for key in ("natural_frequency", "damping_ratio"):
-        if not settings[key] > 0.0:
-            raise SceneError.of(key, f"is {settings[key]:g}; give a number above zero")
-    return tuned_gains(
-        reflected_inertia(tuning),
-        natural_frequency=2.0 * np.pi * settings["natural_frequency"],
-        damping_ratio=settings["damping_ratio"],
-    )
-
-
 def feed_forward_of(
     scene: Scene,
     start: Balance | None,
@@ -198,15 +174,9 @@ def feed_forward_of(
     *,
     at_rest: Callable[[], Scene],
 ) -> dict[str, Curve]:
-    """Loads that hold the coordinates at rest, by [control].
+    """Loads that hold the coordinates at rest, by the settings of [control]; `references` are by command.
 
-    Parameters
-    ----------
-    start : Of the scene, where it is known.
-    references : mapping of str to Curve
-        By command.
-    settings : Keywords of [control].
-    at_rest : Makes the scene without waves and fluid memory.
+    `start` balances the scene, where it is known; `at_rest` makes it without waves and fluid memory.
     """
     kind = settings.get("feed_forward", "references")
     if kind != "references":
@@ -243,3 +213,112 @@ def times_of(parts: Sequence[Mapping[str, float]]) -> list[float]:
             )
         times += (begin + every * np.arange(1, count + 1)).tolist()
     return times
+
+
+LIMITED = {
+    "tension": "line_tension", "length": "line_unstretched_length", "depth": "immersed_depth",
+    "clear": "contact_least_gap",
+}  # fmt: skip
+WAYS = ("to", "by", "value", "curve")
+OF_LOADS = {
+    "rate": "m/s", "tension": "N", "brake": "1", "length": "m", "command": "1", "reference": "m", HOLE: "m2",
+}  # fmt: skip
+
+
+def stages_of(entries: Iterable[Entry]) -> tuple[Stage, ...]:
+    """The stages, as far as they make sense by themselves.
+
+    Raises FileFormatError with the line of the table.
+    """
+    made = []
+    for entry in _tables(entries):
+        with refused_at(entry):
+            made.append(_stage(entry))
+    return tuple(made)
+
+
+def check_stages(entries: Sequence[Entry], scene: Scene, stages: Any) -> None:
+    """Raise FileFormatError for stages that do not fit the scene or one another."""
+    if not stages:
+        return
+    for entry in _tables(entries):
+        with refused_at(entry):
+            for command in entry.values.get("commands", ()):
+                _require_unit_of_target(scene, command)
+    try:
+        checked_stages(scene, stages)
+    except SceneError as error:
+        tables = _tables(entries)
+        next((one for one in tables if one.values["name"] == error.name), tables[0]).fail(str(error))
+
+
+def _tables(entries: Iterable[Entry]) -> list[Entry]:
+    return [entry for entry in entries if entry.table.name == "stage"]
+
+
+def _stage(entry: Entry) -> Stage:
+    given = keywords(STAGE, entry.values)
+    tables = zip(entry.values.get("until", ()), given.get("until", ()), strict=True)
+    given["until"] = [_condition(table, values) for table, values in tables]
+    commands = by_name("commands", given.get("commands", ()))
+    given["commands"] = {name: _command(name, values) for name, values in commands.items()}
+    return Stage(**given)
+
+
+def _condition(table: Mapping[str, Any], values: Keywords) -> Condition:
+    """A table as it is written, and as keywords."""
+    kinds = [name for name in WAITS if name in values]
+    if len(kinds) != 1:
+        raise SceneError(f"until: has {' and '.join(kinds) or 'nothing to wait for'}; give one of "
+                         f"{', '.join(WAITS)}")  # fmt: skip
+    kind, names = kinds[0], values.get("names", {})
+    if kind != "channel" and "names" in values:
+        raise SceneError(f"until: names goes with channel; leave it out beside {kind}")
+    bounds = {key: values[key] for key in ("minimum", "maximum") if key in values}
+    made: Callable[..., Condition] = getattr(Until, kind)
+    if kind in ("contact", "release"):
+        if bounds:
+            raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")
+        return made(values[kind])
+    require_unit_of_channel(UNTIL, table, LIMITED.get(kind, str(values[kind])), names)
+    if kind == "clear" and bounds.keys() != {"minimum"}:
+        raise SceneError("until: clear needs a minimum, in m, and no maximum; give minimum_m")
+    return made(values[kind], **bounds, **names)
+
+
+def _command(name: str, values: Mapping[str, Any]) -> Command:
+    ways = [way for way in WAYS if way in values]
+    if len(ways) != 1:
+        told = " and ".join(ways) or "no value"
+        raise SceneError(f"commands: {name!r} has {told}; give one of {', '.join(WAYS)}")
+    (way,) = ways
+    moves = way in ("to", "by")
+    if moves != ("over" in values):
+        fix = "give over_s, the time that the move takes" if moves else f"leave over_s out beside {way}"
+        raise SceneError(f"commands: {name!r} {'has no' if moves else 'has an'} over_s; {fix}")
+    if moves:
+        return Move(over=values["over"], **{way: values[way]})
+    command: Command = values[way]
+    return command
+
+
+def _require_unit_of_target(scene: Scene, table: Mapping[str, Any]) -> None:
+    """Refuse metres of an angle, and the like."""
+    name = table["name"]
+    if name not in targets(scene):
+        return  # the check of all stages says so, with what there is
+    ways = [key for key in COMMANDS if key.name in WAYS]
+    require_unit(ways, table, _unit(scene, name), f"command {name!r}")
+
+
+def _unit(scene: Scene, name: str) -> str:
+    scene = with_holds(scene)
+    target = targets(scene)[name]
+    if target.kind == "load":
+        return OF_LOADS[target.attribute]
+    table = scene.actuators if target.kind == "actuator" else scene.drivers
+    element = table[target.element]
+    angular = coordinate_of(scene, target.kind, element.joint, element.coordinate) in ANGLES
+    if target.attribute == "feed_forward":
+        return "N m" if angular else "N"
+    return "rad" if angular else "m"

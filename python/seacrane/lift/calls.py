@@ -10,7 +10,7 @@ import numpy as np
 from seacrane import _core
 from seacrane._core import Curve
 from seacrane.analysis.tanks import Tank
-from seacrane.crane import Crane, Payload, load_crane
+from seacrane.crane import Payload, load_crane
 from seacrane.description import hydraulic_cylinders
 from seacrane.description.channels import CHANNELS, OWN, unit_of
 from seacrane.description.curves import spline_curve
@@ -20,9 +20,9 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
+from seacrane.lift.inner_keys import COORDINATE, CURVES, SHIPPED
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
-from seacrane.lift.tables import CURVES, LEFT, Table
-from seacrane.lift.vessel_keys import SHIPPED
+from seacrane.lift.tables import LEFT, Table
 from seacrane.scene import heave
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
@@ -49,21 +49,17 @@ _MADE: Mapping[str, Callable[..., Any]] = {
     "tip": lambda body, point: (body, point),
     "history": MotionHistory,
     "raos": lambda **table: _raos(**table),
+    "mooring_springs": MooringSpring,
+    "systems": lambda **table: _system(table),
     **hydraulic_cylinders.VALUES,
     **heave.VALUES,
 }
 
 
 def keywords(keys: Iterable[Key], values: Mapping[str, Any], scene: Scene | None = None) -> Keywords:
-    """A checked table as keywords of the API.
+    """A checked table, by spelling, as keywords of the API.
 
-    Parameters
-    ----------
-    keys : That the table may have.
-    values : By spelling.
-    scene : Whose joints decide between the units of a displacement and of an angle.
-
-    Raises SceneError for a unit that the joint's coordinate has not, or a value that makes no sense.
+    SceneError for a value that makes no sense, or a unit that the coordinate of a joint of `scene` has not.
     """
     found = {}
     for key in keys:
@@ -71,7 +67,7 @@ def keywords(keys: Iterable[Key], values: Mapping[str, Any], scene: Scene | None
             if spelling not in values:
                 continue
             if scene is not None and EITHER in key.unit:
-                _require_unit(scene, key, spelling, values)
+                _require_unit_of_joint(scene, key, values)
             found[key.name] = _converted(key, values[spelling], unit)
     return found
 
@@ -82,7 +78,7 @@ def _converted(key: Key, value: Any, unit: str) -> Any:
             inside = keywords(key.keys, value)
             return _MADE[key.name](**inside) if key.name in _MADE else inside
         case "tables":
-            return [keywords(key.keys, one) for one in value]
+            return [_MADE.get(key.name, dict)(**keywords(key.keys, one)) for one in value]
         case "curve":
             return curve_from(value, unit)
         case "number":
@@ -92,37 +88,38 @@ def _converted(key: Key, value: Any, unit: str) -> Any:
     return value
 
 
-def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, Any]) -> None:
+def _require_unit_of_joint(scene: Scene, key: Key, values: Mapping[str, Any]) -> None:
     """Refuse N/m of an angle, and the like."""
     joint = values.get("joint")
-    if joint not in scene.joints:
-        return  # the call says so
-    coordinate = coordinate_of(scene, key.name, joint, values.get("coordinate"))
-    straight = key.unit.split(EITHER)[0]
-    angular = key.spellings[spelling] != straight
-    if angular != (coordinate in ANGLES):
-        right = [one for one, unit in key.spellings.items() if (unit != straight) != angular]
-        kinds = ("an angle", "a displacement")
-        raise SceneError.of(
-            spelling,
-            f"is of {kinds[not angular]}, and {coordinate!r} of joint {joint!r} is "
-            f"{kinds[angular]}; give {' or '.join(right)}",
-        )
+    if joint in scene.joints:  # else the call says so
+        coordinate = coordinate_of(scene, key.name, joint, values.get("coordinate"))
+        own = key.unit.split(EITHER)[coordinate in ANGLES]
+        require_unit([key], values, own, f"{key.name} along {coordinate!r} of joint {joint!r}")
+
+
+def require_unit(
+    keys: Iterable[Key], values: Mapping[str, Any], own: str, what: str, otherwise: str = ""
+) -> None:
+    """Refuse values in another unit than its own, or one of several.
+
+    `what` is meant; `otherwise`: the fix where no key is in it.
+    """
+    units = {*own.split(EITHER)}
+    for key in keys:
+        right = [one for one, unit in key.spellings.items() if {unit, RADIANS.get(unit)} & units]
+        for spelling, unit in key.spellings.items():
+            if spelling in values and unit and spelling not in right:
+                fix = f"give {' or '.join(right)}" if right else otherwise
+                raise SceneError.of(spelling, f"is given, and {what} is in {own}; {fix}")
 
 
 def require_unit_of_channel(
     keys: Iterable[Key], values: Mapping[str, Any], channel: str, names: Mapping[str, str], unit: str = ""
 ) -> None:
     """Refuse a limit in another unit than that of the channel, as far as that is known here."""
-    if channel not in CHANNELS and not unit:
-        return  # the run says so
-    own = (unit or unit_of(channel, list(names.values()))).split(EITHER)
-    for key in keys:
-        for spelling, unit in key.spellings.items():
-            if spelling in values and unit and not {unit, RADIANS.get(unit)} & set(own):
-                right = [one for one, u in key.spellings.items() if {u, RADIANS.get(u)} & set(own)]
-                fix = f"give {' or '.join(right)}" if right else "name one of its curves in channel"
-                raise SceneError(f"{spelling}: channel {channel!r} is in {EITHER.join(own)}; {fix}")
+    if channel in CHANNELS or unit:  # else the run says so
+        own = unit or unit_of(channel, list(names.values()))
+        require_unit(keys, values, own, f"channel {channel!r}", "name one of its curves in channel")
 
 
 def _unit_of_own(scene: Scene, channel: str, names: Mapping[str, str]) -> str:
@@ -154,10 +151,11 @@ class Caller:
             case "crane":
                 self.crane(scene, table, values, {})
             case "ballast":
-                left = {key: None for key, value in given.items() if value in LEFT}
-                scene.add_ballast(**given | _tanks(given) | left)
-            case "joint":
-                scene.add_joint(**given)
+                given |= {key: None for key, value in given.items() if value in LEFT}
+                if "tanks" in given:
+                    tanks = by_name("ballast: tanks", given["tanks"])
+                    given["tanks"] = {name: Tank(**tank) for name, tank in tanks.items()}
+                scene.add_ballast(**given)
             case "roles":
                 if "areas" in given:
                     rows = given["areas"]
@@ -173,7 +171,9 @@ class Caller:
         file = given.pop("crane", None)
         crane = load_crane() if file is None else load_crane(file)
         if "coordinates" in given:
-            _require_units(crane, values.get("coordinates", ()))
+            for row in values.get("coordinates", ()):
+                unit = "m" if crane.data.led_by(str(row["name"])).kind == "prismatic" else "rad"
+                require_unit(COORDINATE, row, unit, f"coordinate {row['name']!r}")
             given["coordinates"] = {row["name"]: row["value"] for row in given["coordinates"]}
         scene.add_crane(crane, **given)
 
@@ -199,7 +199,7 @@ class Caller:
             period = given.pop("mooring_period")
             given["mooring"] = None if period == float("inf") else period
         if "mooring_springs" in given:
-            given["mooring"] = [MooringSpring(**row) for row in given.pop("mooring_springs")]
+            given["mooring"] = given.pop("mooring_springs")
         if at_rest:  # neither fluid memory nor kinematics matter
             given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
         scene.add_vessel(source, **given)
@@ -224,7 +224,7 @@ class Caller:
         if systems is not None:
             of_state = {key: given.pop(key) for key in (*SEA_OF_SYSTEMS, "seed") if key in given}
             depth = ({} if database is None else {"depth": database.depth}) | of_state
-            given["sea"] = SeaState(systems=[_system(one) for one in systems], **depth)
+            given["sea"] = SeaState(systems=systems, **depth)
         for key in SEA_OF_SYSTEMS:
             if key in given:
                 text = "is given without systems, whose sea is as deep as the database"
@@ -232,31 +232,24 @@ class Caller:
         scene.add_sea(**given)
 
 
-def _tanks(given: Keywords) -> Keywords:
-    """Tanks by their names; nothing where there are none."""
-    if "tanks" not in given:
-        return {}
-    tanks: dict[str, Tank] = {}
-    for table in given["tanks"]:
-        name = table["name"]
-        if name in tanks:
-            raise SceneError.of("ballast: tanks", f"has {name!r} twice; names of tanks must differ")
-        tanks[name] = Tank(**{key: value for key, value in table.items() if key != "name"})
-    return {"tanks": tanks}
+def by_name(what: str, rows: Iterable[Keywords]) -> dict[str, Keywords]:
+    """Tables of a list by their names, without these; SceneError where two have one name."""
+    found: dict[str, Keywords] = {}
+    for row in rows:
+        if row["name"] in found:
+            raise SceneError.of(what, f"has {row['name']!r} twice; names must differ")
+        found[row["name"]] = {key: value for key, value in row.items() if key != "name"}
+    return found
 
 
 def _raos(headings: list[Keywords], **table: Any) -> MotionRaos:
     """From amplitudes and phases, heading by heading."""
     for one in headings:
-        if np.shape(one["amplitude"]) != np.shape(one["phase"]):
+        rows = [len(one[key]) for key in ("amplitude", "phase")]
+        if rows != 2 * [len(table["omega"])]:
             raise SceneError(
-                f"raos: amplitude has shape {np.shape(one['amplitude'])} and phase {np.shape(one['phase'])} "
-                f"at heading {one['heading']:.6g} rad; give one phase for each amplitude"
-            )
-        if len(one["amplitude"]) != len(table["omega"]):
-            raise SceneError(
-                f"raos: amplitude has {len(one['amplitude'])} rows at heading {one['heading']:.6g} rad, and "
-                f"omega {len(table['omega'])} values; give one row for each frequency"
+                f"raos: amplitude has {rows[0]} rows and phase {rows[1]} at heading {one['heading']:.6g} "
+                f"rad, and omega {len(table['omega'])} values; give one row for each frequency"
             )
     values = [np.array(one["amplitude"]) * np.exp(1j * np.array(one["phase"])) for one in headings]
     return MotionRaos(heading=[one["heading"] for one in headings], values=values, **table)
@@ -272,25 +265,10 @@ def _system(given: Keywords) -> WaveSystem:
     return WaveSystem(spectrum=spectrum, **given)
 
 
-def _require_units(crane: Crane, rows: Iterable[Mapping[str, Any]]) -> None:
-    """Refuse metres of an angle, and degrees of a stroke."""
-    for row in rows:
-        kind = crane.data.led_by(str(row["name"])).kind
-        if ("value_m" in row) != (kind == "prismatic"):
-            right = "value_m" if kind == "prismatic" else "value_deg or value_rad"
-            raise SceneError(f"crane: coordinate {row['name']!r} is of a {kind} joint; give {right}")
-
-
 def curve_from(given: Any, unit: str) -> float | Curve:
-    """A curve in SI from what a file holds; a number stays one.
+    """A curve in SI from what a file holds, checked: a number, which stays one, a piece, or several.
 
-    Parameters
-    ----------
-    given : float, mapping, or tuple of mapping
-        Checked.
-    unit : Of its values.
-
-    Raises SceneError for a curve that makes no sense.
+    SceneError for a curve that makes no sense.
     """
     scale = into_si(unit)
     if isinstance(given, float):
@@ -312,10 +290,10 @@ def _piece(piece: Mapping[str, Any], scale: Scale) -> Curve:
     return _CURVE_OF[piece["kind"]](**arguments)
 
 
-def _harmonic(*, amplitude: float, period: float, **others: float) -> Curve:
+def _harmonic(*, period: float, **others: float) -> Curve:
     if not period > 0.0:
         raise SceneError(f"curve: period_s is {period:g}; give a period above zero")
-    return Curve.harmonic(amplitude=amplitude, omega=2.0 * np.pi / period, **others)
+    return Curve.harmonic(omega=2.0 * np.pi / period, **others)
 
 
 def _spline(*, times: Any, values: Any) -> Curve:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import operator
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -17,14 +18,13 @@ from seacrane.errors import SceneError
 from seacrane.inputs.node import Node
 from seacrane.inputs.plain_data import plain_notes
 from seacrane.inputs.shown import shown
-from seacrane.lift.document import Document, read_document
+from seacrane.lift.document import Document, Place, read_document
+from seacrane.lift.inner_keys import CURVES, FROM, LIFTS, RANGE
 from seacrane.lift.keys import Key
-from seacrane.lift.study_keys import LIFTS, RANGE
-from seacrane.lift.tables import CURVES, FROM, TABLES, Table
-from seacrane.lift.text_lines import Place
+from seacrane.lift.tables import TABLES, Table
 
 LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
-AS_NEAR = 0.1  # "see" is as near to "scene" as to "sea"
+ENDLESS = ("mooring_period", "depth")  # inf, for which TOML has a word, stands for none, or deep water
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
 Number = TypeVar("Number", int, float)
 BOUNDS: Mapping[str, tuple[Callable[[float, float], bool], str]] = {
@@ -177,7 +177,7 @@ class Checker:
         if key.type == "table":
             return self.table(path, key.keys, value)
         if key.type == "tables":
-            listed = enumerate(self._list(path, value))
+            listed = enumerate(self._node(path, value).values())
             return tuple(self.table((*path, i), key.keys, one) for i, one in listed)
         if key.type == "curve" and isinstance(value, Mapping | list):
             return self._curve(path, value, of_speed=key.unit == "m/s")
@@ -218,11 +218,6 @@ class Checker:
         where = titled(path[:-1]) if path[:-1] else "the file"
         return Node(value, f"{self.document.place(path)}: {short(str(path[-1]))} in {where}")
 
-    def _list(self, path: Place, value: Any) -> list[Any]:
-        if not isinstance(value, list):
-            self._node(path, value).fail("give a list of tables")
-        return value
-
     def _curve(self, path: Place, value: Any, *, of_speed: bool) -> Any:
         """One piece, or several with the time from which each after the first holds."""
         if isinstance(value, Mapping):
@@ -238,7 +233,7 @@ class Checker:
         kind = value.get("kind") if isinstance(value, Mapping) else None
         if kind not in kinds:
             self.document.fail(path, f"{titled(path)} has kind {shown(kind)}; give one of {', '.join(kinds)}")
-        word = Key(name="kind", type="text", choices=kinds, required=True)
+        word = Key("kind", "text", choices=kinds, required=True)
         return self.table(path, (word, *(() if first else (FROM,)), *CURVES[kind]), value)
 
     def _notes(self, path: Place, given: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -253,9 +248,16 @@ def _checked(node: Node, key: Key, bounds: Mapping[str, float], folder: Path) ->
     """A value that is no table."""
     match key.type:
         case "text":
-            return _chosen(node, key)
+            text = node.text()
+            if key.choices and text not in key.choices:
+                node.fail(nearest(text, key.choices))
+            return text
+        case "number" | "curve" if node.value in key.choices:
+            return node.value
+        case "number" | "curve" if node.value == math.inf and key.name in ENDLESS:
+            return math.inf
         case "number" | "curve":
-            return node.value if node.value in key.choices else _number(node, key, bounds)
+            return _bounded(node, bounds, node.number())
         case "whole":
             return _bounded(node, bounds, node.whole())
         case "flag":
@@ -265,15 +267,11 @@ def _checked(node: Node, key: Key, bounds: Mapping[str, float], folder: Path) ->
         case "texts":
             return tuple(item.text() for item in node.items())
         case "file":
-            return _file(node, key, folder)
+            path = node.text()
+            if not path or not path.isprintable():
+                node.fail("give the path of a file")
+            return path if path in key.choices else os.path.normpath(folder.absolute() / path)
     raise TypeError(f"no lift file holds a {key.type}")
-
-
-def _number(node: Node, key: Key, bounds: Mapping[str, float]) -> float:
-    """Infinity too, where it stands for none or for deep water; TOML has a word for it."""
-    if node.value == float("inf") and key.name in ("mooring_period", "depth"):
-        return float("inf")
-    return _bounded(node, bounds, node.number())
 
 
 def _bounded(node: Node, bounds: Mapping[str, float], number: Number) -> Number:
@@ -283,13 +281,6 @@ def _bounded(node: Node, bounds: Mapping[str, float], number: Number) -> Number:
             f"give one {' and '.join(f'{BOUNDS[word][1]} {bound:g}' for word, bound in bounds.items())}"
         )
     return number
-
-
-def _chosen(node: Node, key: Key) -> str:
-    text = node.text()
-    if key.choices and text not in key.choices:
-        node.fail(nearest(text, key.choices))
-    return text
 
 
 def _array(node: Node, key: Key, bounds: Mapping[str, float]) -> Any:
@@ -314,20 +305,9 @@ def _fixed(value: Any) -> Any:
     return tuple(map(_fixed, value)) if isinstance(value, list) else value
 
 
-def _file(node: Node, key: Key, folder: Path) -> str:
-    """A path from the folder of the lift file, or the name of what comes with the package."""
-    text = node.text()
-    if not text or not text.isprintable():
-        node.fail("give the path of a file")
-    return text if text in key.choices else os.path.normpath(folder.absolute() / text)
-
-
 def nearest(name: str, known: tuple[str, ...]) -> str:
     """What a message adds to an unknown name."""
-    asked = name[:LONGEST_NAME]
-    ratio = {one: difflib.SequenceMatcher(None, one, asked).ratio() for one in known}
-    near = [one for one in known if ratio[one] >= max([*ratio.values(), LEAST + AS_NEAR]) - AS_NEAR]
-    near = sorted(near, key=lambda one: (-ratio[one], abs(len(one) - len(asked))))[:MOST_NEAR]
+    near = difflib.get_close_matches(name[:LONGEST_NAME], known, MOST_NEAR, LEAST)
     return f"nearest: {' or '.join(near)}" if near else f"known are {', '.join(known)}"
 
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 from seacrane.errors import FileFormatError
 from seacrane.inputs.looks_like import looks_like
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole
-from seacrane.lift.text_lines import Place, lines_of
 
 FORMAT = "seacrane lift"
 VERSION = 2
@@ -23,23 +22,18 @@ _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_KEY = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}")
 _AT_LINE = re.compile(r"^(.*) \(at line (\d+), column (\d+)\)$", re.DOTALL)
 _AT_END = " (at end of document)"
+_BEGIN = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:#|\[\[?\s*[\w\"']|[\w\"'-][^\n=]{0,200}=)")
 _NO_LIFT = f'no lift file, which is TOML with format = "{FORMAT}" at its top (docs/lift-files.md)'
 _TOO_DEEP = "is nested too deeply to be a lift file"
 
 
 @dataclass(frozen=True)
 class Document:
-    """Tables of a file as they were parsed, and where their keys stand.
+    """Tables of a file as they were parsed, and where their keys stand."""
 
-    Attributes
-    ----------
-    source : Name of the file, as messages give it.
-    lines : Line by path; empty where the tables come from no file.
-    """
-
-    source: str
+    source: str  # name of the file, as messages give it
     data: Mapping[str, Any]
-    lines: Mapping[Place, int] = field(default_factory=dict)
+    lines: Mapping[Place, int] = field(default_factory=dict)  # none where the tables come from no file
 
     def place(self, path: Place) -> str:
         """The file and the line of a key or table, or of the nearest thing around it.
@@ -69,12 +63,7 @@ class Document:
 def read_document(path: Path) -> Document:
     """The document of a lift file.
 
-    Raises
-    ------
-    FileFormatError
-        With the line, for what is no TOML; and for what is TOML, or something else, but no lift.
-    OSError
-        If it cannot be read.
+    Raises FileFormatError, with the line, for what is no TOML, or no lift; OSError where it cannot be read.
     """
     name = path.name
     content = read_whole(path, LARGEST_FILE, "no lift file is; name tables by a scene in JSON (Scene.save)")
@@ -82,7 +71,7 @@ def read_document(path: Path) -> Document:
         text = _decoded(name, content)
         data = _parsed(name, text)
     except FileFormatError:
-        if _is_no_toml(content):
+        if not _BEGIN.match(content):
             raise FileFormatError(f"{name}: is {looks_like(path, content)}, {_NO_LIFT}") from None
         raise
     if data.get("format") != FORMAT:
@@ -92,11 +81,6 @@ def read_document(path: Path) -> Document:
         return Document(name, data, lines_of(text))
     except RecursionError as error:
         raise FileFormatError(f"{name}: {_TOO_DEEP}") from error
-
-
-def _is_no_toml(content: bytes) -> bool:
-    """Whether it does not even begin like TOML: with a comment, a table or a key."""
-    return not re.match(rb"(?:\xef\xbb\xbf)?\s*(?:#|\[\[?\s*[\w\"']|[\w\"'-][^\n=]{0,200}=)", content)
 
 
 def _decoded(name: str, content: bytes) -> str:
@@ -132,3 +116,136 @@ def _told(name: str, text: str, reason: str) -> str:
         end = text.rstrip("\n").count("\n") + 1
         return f"{name} line {end}: {reason.removesuffix(_AT_END)} at the end of the file"
     return f"{name}: {reason}"
+
+
+Place = tuple[str | int, ...]
+
+_TOKEN = re.compile(
+    r'''(?P<skip>[ \t\r]+|\#[^\n]*)
+      | (?P<line>\n)
+      | (?P<text>"""(?:[^\\]|\\.)*?"""(?:"{1,2})? | \'\'\'.*?\'\'\'(?:'{1,2})?
+               | "(?:[^"\\\n]|\\.)*" | '[^'\n]*')
+      | (?P<mark>[][{}=,.])
+      | (?P<bare>[^][{}=,.\s\#"']+)''',
+    re.VERBOSE | re.DOTALL,
+)
+
+
+class _Token(NamedTuple):
+    kind: str
+    text: str
+    line: int
+
+
+_END = _Token("end", "", 0)
+
+
+def lines_of(text: str) -> dict[Place, int]:
+    """Lines of all keys and tables of a text that `tomllib` has read without an error.
+
+    From 1 on, by the path of keys and places in lists, such as ("wire", 1, "joint"); the first of several.
+    """
+    return _Scanner(text).lines
+
+
+class _Scanner:
+    """Walks through a document that is known to be sound, one token after the other."""
+
+    def __init__(self, text: str) -> None:
+        self.tokens = _tokens(text)
+        self.now = next(self.tokens, _END)
+        self.lines: dict[Place, int] = {}
+        self.counts: dict[Place, int] = {}
+        table: Place = ()
+        while self.now is not _END:
+            if self.now.kind == "line":
+                self._pass()
+            elif self._is("["):
+                table = self._header()
+            else:
+                self._pair(table)
+
+    def _pass(self) -> _Token:
+        """The token at hand; the next one takes its place."""
+        passed, self.now = self.now, next(self.tokens, _END)
+        return passed
+
+    def _is(self, marks: str) -> bool:
+        return self.now.kind == "mark" and self.now.text in marks
+
+    def _header(self) -> Place:
+        """The header of a table, or of one more in a list of tables."""
+        line = self._pass().line
+        several = self._is("[")
+        if several:
+            self._pass()
+        path: Place = ()
+        *around, last = self._key("]")
+        for part in around:
+            path = self._latest((*path, part))
+        path = (*path, last)
+        if several:
+            self._pass()
+            self.lines.setdefault(path, line)
+            self.counts[path] = self.counts.get(path, 0) + 1
+        path = self._latest(path)
+        self.lines.setdefault(path, line)
+        return path
+
+    def _latest(self, path: Place) -> Place:
+        """The path itself, or its last table where it is a list of tables."""
+        return (*path, self.counts[path] - 1) if path in self.counts else path
+
+    def _key(self, end: str) -> list[str]:
+        """Parts of a dotted key up to the mark that ends it, which is passed."""
+        parts = []
+        while not self._is(end):
+            token = self._pass()
+            if token.kind != "mark":
+                parts.append(_unquoted(token))
+        self._pass()
+        return parts
+
+    def _pair(self, table: Place) -> None:
+        line, path = self.now.line, table
+        for part in self._key("="):
+            path = (*path, part)
+            self.lines.setdefault(path, line)
+        self._value(path)
+
+    def _value(self, path: Place) -> None:
+        if self._is("[{"):
+            self._several(path)
+            return
+        while self.now is not _END and self.now.kind != "line" and not self._is(",]}"):
+            self._pass()  # one value, perhaps of several tokens: 1.5
+
+    def _several(self, path: Place) -> None:
+        """A list, or a table on its line."""
+        opened, index = self._pass(), 0
+        if opened.text == "{":
+            self.lines.setdefault(path, opened.line)
+        while not self._is("]}"):
+            if self.now.kind == "line" or self._is(","):
+                index += self._pass().text == ","
+            elif opened.text == "{":
+                self._pair(path)
+            else:
+                self._value((*path, index))
+        self._pass()
+
+
+def _tokens(text: str) -> Iterator[_Token]:
+    line = 1
+    for match in _TOKEN.finditer(text):
+        kind = str(match.lastgroup)
+        if kind != "skip":
+            yield _Token(kind, match[0], line)
+        line += match[0].count("\n")
+
+
+def _unquoted(token: _Token) -> str:
+    """A part of a key as it is meant; quoted keys are rare, and their escapes rarer."""
+    if token.kind == "bare" or token.text[0] == "'":
+        return token.text.strip("'")
+    return next(iter(tomllib.loads(f"{token.text} = 0")))

@@ -24,37 +24,29 @@ MIXED = ", "  # between the units of an array of several: no suffix says them
 EITHER = " or "  # between the units of a displacement and an angle
 DEGREES = {"rad": "deg", "rad/s": "deg/s"}
 SECTIONS = ("Parameters", "Attributes")
+TYPES = {str: "text", float: "number", int: "whole", bool: "flag", Literal: "text"}
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Key:
     """A keyword of the API as a key of a file.
 
-    Attributes
-    ----------
-    name : The keyword.
-    type : text, texts, number, whole, flag, array, curve, file, table, tables or notes; or by dotted name
-        names (texts), limits (numbers), ranges or values.
-    unit : As in `FIELDS` of the core's classes.
-    shapes : tuple of tuple of int
-        That an array may have; -1: any length, (): a number alone.
-    text : What it is, for people.
-    choices : The texts that it may be; of a number or a file, those that stand for one.
-    bounds : What its numbers must be, in the words of JSON Schema and in `unit`.
-    keys : Of a table, or of each table in a list.
-    entry : What messages call it, where they call it otherwise.
+    `type`: text, texts, number, whole, flag, array, curve, file, table, tables or notes; or by dotted name
+    names (texts), limits (numbers), ranges or values. `shapes` of an array: -1 is any length, () a number
+    alone. `choices`: texts that it may be, or that stand for a number or a file. `bounds` are in the words of
+    JSON Schema and in `unit`. `entry`: what messages call it, where they call it otherwise.
     """
 
     name: str
     type: str
     unit: str = ""
-    shapes: tuple[tuple[int, ...], ...] = ()
-    required: bool = False
     text: str = ""
-    choices: tuple[str, ...] = ()
-    bounds: Mapping[str, float] = field(default_factory=dict)
-    keys: tuple[Key, ...] = ()
-    entry: str = ""
+    required: bool = field(default=False, kw_only=True)
+    shapes: tuple[tuple[int, ...], ...] = field(default=(), kw_only=True)
+    choices: tuple[str, ...] = field(default=(), kw_only=True)
+    bounds: Mapping[str, float] = field(default_factory=dict, kw_only=True)
+    keys: tuple[Key, ...] = field(default=(), kw_only=True)
+    entry: str = field(default="", kw_only=True)
 
     @property
     def units(self) -> tuple[str, ...]:
@@ -85,11 +77,7 @@ def suffix(unit: str) -> str:
 
 def into_si(unit: str) -> Callable[[Any], Any]:
     """From a file's unit to that of the API."""
-    return np.radians if unit.startswith("deg") else _as_it_is
-
-
-def _as_it_is(value: Any) -> Any:
-    return value
+    return np.radians if unit.startswith("deg") else lambda value: value
 
 
 def keys_of(
@@ -101,19 +89,10 @@ def keys_of(
     described: Any = None,
     entries: Mapping[str, str] | None = None,
 ) -> tuple[Key, ...]:
-    """The keywords of a call as keys.
+    """The keywords of a call as keys: types from its signature, texts from the docstring of `described`.
 
-    Parameters
-    ----------
-    call : A function or a dataclass; types come from its signature.
-    *classes : type
-        Of the core, whose FIELDS give type, shape, unit and text of the keywords of the same name.
-    more : mapping of str to mapping, optional
-        Attributes of `Key` by keyword, which neither knows.
-    without, only : collection of str
-        Keywords that a file does not hold, or those that it holds.
-    described : Whose docstring says what the keywords are; default: `call`.
-    entries : Names that FIELDS have for keywords, where they differ.
+    FIELDS of `classes` of the core give type, shape, unit and text of the keywords of the same name, or of
+    that in `entries`; `more` what neither knows, by keyword. A file holds `only` some, or is `without` some.
     """
     fields = {field.name: field for kind in classes for field in kind.FIELDS}  # type: ignore[attr-defined]
     other = entries or {}
@@ -132,14 +111,10 @@ def keys_of(
     return tuple(found)
 
 
-def fields_of(kind: type, *, without: Collection[str] = ()) -> tuple[Key, ...]:
-    """The FIELDS of a class of the core, or the parameters of a joint kind, as keys."""
-    return field_keys(field for field in kind.FIELDS if field.name not in without)  # type: ignore[attr-defined]
-
-
-def field_keys(fields: Iterable[Any]) -> tuple[Key, ...]:
-    """Entries of FIELDS as keys."""
-    return tuple(Key(name=field.name, required=field.required, **_of_field(field)) for field in fields)
+def field_keys(fields: Iterable[Any], *, without: Collection[str] = ()) -> tuple[Key, ...]:
+    """FIELDS of a class of the core, or the parameters of a joint kind, as keys."""
+    kept = (field for field in fields if field.name not in without)
+    return tuple(Key(name=field.name, required=field.required, **_of_field(field)) for field in kept)
 
 
 def _of_field(field: Any) -> dict[str, Any]:
@@ -148,9 +123,6 @@ def _of_field(field: Any) -> dict[str, Any]:
     shapes = (tuple(field.shape),) if field.type == "array" else ()
     told = {name: getattr(field, name) for name in ("type", "unit", "text", "bounds")}
     return told | {"shapes": shapes}
-
-
-TYPES = {str: "text", float: "number", int: "whole", bool: "flag", Literal: "text"}
 
 
 def _annotated(call: Any, annotation: Any) -> dict[str, Any]:

@@ -2,34 +2,124 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NoReturn
+
+import numpy as np
 
 from seacrane.accuracy.asked import EVENT_TIMES
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.accuracy.quantities import limits_of, quantities_of
+from seacrane.ensembles.growing import growth_of
+from seacrane.ensembles.kept import Kept, StageTime
+from seacrane.ensembles.members import MOST_MEMBERS, LatinHypercube, Members, members_of
+from seacrane.ensembles.study import checked_keep
+from seacrane.ensembles.targets import targets_of
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.keywords import named
-from seacrane.lift.build import SceneBuild, made, refused_at
+from seacrane.lift.build import SceneBuild, check_stages, made, refused_at, stages_of
+from seacrane.lift.calls import Keywords, keywords
 from seacrane.lift.check_keys import Entry, entries_of, only, plain, shipped_lift
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
+from seacrane.lift.inner_keys import LIFTS, STUDY
 from seacrane.lift.keys import Key
-from seacrane.lift.stages import check_stages, stages_of
-from seacrane.lift.study import Study, study_of
-from seacrane.lift.study_keys import LIFTS
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """What a [study] says."""
+
+    over: Any  # as `ensemble` takes it
+    members: Members
+    keep: Mapping[str, Kept | StageTime]
+    until: Mapping[str, float] | None
+    exposure: float | None  # of largest values, s; None: the length of a run
+    _entry: Entry
+
+    def fail_at(self, name: str, text: str) -> NoReturn:
+        """Raise a FileFormatError about what varies."""
+        self._entry.fail(text, *_table_of(self._entry.values), name)
+
+
+def study_of(entry: Entry) -> Study:
+    """The study of its table.
+
+    Raises FileFormatError with the line of what is wrong in it.
+    """
+    given = keywords(STUDY, entry.values)
+    if ("over" in given) == ("design" in given):
+        entry.fail("a study has either [study.over] or [study.design]; give one of them")
+    over = _over(entry, given)
+    with refused_at(entry, _table_of(given)[0]):
+        members = members_of(over)
+    keep = _keep(entry, given["keep"])
+    for name, share in given.get("until", {}).items():
+        with refused_at(entry, "until", name):
+            targets_of({name: share}, keep)
+    if "until" in given:
+        with refused_at(entry, "until"):
+            growth_of(members, None)
+    return Study(
+        over=over, members=members, keep=keep, until=given.get("until"), exposure=given.get("exposure"),
+        _entry=entry,
+    )  # fmt: skip
+
+
+def _table_of(given: Mapping[str, Any]) -> tuple[str, ...]:
+    return ("over",) if "over" in given else ("design", "ranges")
+
+
+def _over(entry: Entry, given: Keywords) -> Any:
+    """What varies, as `ensemble` takes it; ranges of values as they are."""
+    if "over" in given:
+        return {name: _values(entry, name, one) for name, one in given["over"].items()}
+    with refused_at(entry, "design"):
+        return LatinHypercube(**given["design"])
+
+
+def _values(entry: Entry, name: str, value: Any) -> Sequence[Any]:
+    """The values of a parameter."""
+    if not isinstance(value, Mapping):
+        return list(value)
+    first, count = value["first"], value["count"]
+    if "last" not in value:
+        if first != int(first):
+            entry.fail(f"first is {first:g} without last; give both, or a whole number", "over", name)
+        return range(int(first), int(first) + count)
+    if count > MOST_MEMBERS:
+        return range(count)  # refused by its number, before values are made
+    return [float(one) for one in np.linspace(first, value["last"], count)]
+
+
+def _keep(entry: Entry, tables: Sequence[Keywords]) -> dict[str, Kept | StageTime]:
+    """What each run leaves, by name; ``channel = "stage[lift].end"`` is a time of a stage."""
+    found: dict[str, Kept | StageTime] = {}
+    for place, table in enumerate(map(plain, tables)):
+        with refused_at(entry, "keep", place):
+            name = table.pop("name")
+            if name in found:
+                raise SceneError(f"name {name!r} is there twice")
+            time = StageTime.of_text(table["channel"]) if table.keys() == {"channel"} else None
+            found[name] = time or Kept(**table)
+            checked_keep(found)
+    if not found:
+        entry.fail("keep is empty; give [[study.keep]] for each of what runs leave", "keep")
+    return found
+
 
 WIDTH = 100  # characters of a line of keys; longer tables get a heading
 T_END = float(inspect.signature(simulate).parameters["t_end"].default)
@@ -177,8 +267,11 @@ class Lift:
         OSError
             If the file cannot be written.
         """
-        target = Path(path)
-        tables = _listed(_relative(entry, target.absolute().parent) for entry in self._entries)
+        target, folder = Path(path), Path(path).absolute().parent
+        tables = _listed(
+            (entry.table.name, _from_folder(entry.table.keys, plain(entry.values), folder))
+            for entry in self._entries
+        )
         try:
             data = toml_text(tables).encode("utf-8")
         except UnicodeEncodeError as error:
@@ -215,28 +308,18 @@ def _listed(tables: Iterable[tuple[str, dict[str, Any]]]) -> dict[str, Any]:
     return {name: one[0] if len(one) == 1 else one for name, one in found.items()}
 
 
-def _relative(entry: Entry, folder: Path) -> tuple[str, dict[str, Any]]:
-    """An entry's name and values, paths of files from a folder."""
-    return entry.table.name, _from_folder(entry.table.keys, plain(entry.values), folder)
-
-
 def _from_folder(keys: Iterable[Key], values: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """A table with its paths of files from a folder."""
     for key in keys:
         value = values.get(key.name)
         if key.type == "file" and value is not None and value not in key.choices:
-            values[key.name] = _path_from(folder, value)
+            with contextlib.suppress(ValueError):  # on another drive
+                values[key.name] = Path(os.path.relpath(value, folder)).as_posix()
         elif key.type in ("table", "tables"):
             for one in value if isinstance(value, list) else [value]:
                 if isinstance(one, dict):
                     _from_folder(key.keys, one, folder)
     return values
-
-
-def _path_from(folder: Path, path: str) -> str:
-    try:
-        return Path(os.path.relpath(path, folder)).as_posix()
-    except ValueError:  # on another drive
-        return path
 
 
 def toml_text(tables: Mapping[str, Any]) -> str:
@@ -264,19 +347,13 @@ def _section(title: str, heading: str, table: Mapping[str, Any]) -> Iterator[str
     below = {}
     for key, value in table.items():
         line = f"{_key(key)} = {toml_value(value)}"
-        rows = [f"    {toml_value(one)}," for one in value] if _is_tables(value) else []
-        if len(line) <= WIDTH or not (rows or isinstance(value, Mapping)):
-            yield line
-        elif rows and max(map(len, rows)) <= WIDTH:
-            yield from (f"{_key(key)} = [", *rows, "]")
-        else:
+        inside = isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
+        if len(line) > WIDTH and (inside or isinstance(value, Mapping)):
             below[key] = value
+        else:
+            yield line
     for key, value in below.items():
         yield from _sections(f"{heading}.{_key(key)}", value)
-
-
-def _is_tables(value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(one, Mapping) for one in value)
 
 
 def _key(name: str) -> str:

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from seacrane.lift.document import FORMAT, VERSION
+from seacrane.lift.inner_keys import CURVES, FROM, RANGE
 from seacrane.lift.keys import Key
-from seacrane.lift.study_keys import RANGE
-from seacrane.lift.tables import CURVES, FROM, TABLES, Table
+from seacrane.lift.tables import TABLES, Table
 
 Json = dict[str, Any]
 DRAFT = "http://json-schema.org/draft-07/schema#"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import os
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from numbers import Real
@@ -22,11 +23,10 @@ from seacrane.ensembles.study_folder import study_in
 from seacrane.ensembles.targets import Certainty, known, targets_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
-from seacrane.lift.lift import Lift
-from seacrane.lift.study import Study
+from seacrane.lift.lift import Lift, Study
 from seacrane.lift.study_run import FILE, MEMBERS
 from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet
-from seacrane.plotting.table import table_of
+from seacrane.plotting.table import format_value, table_of
 from seacrane.statistics.estimate import Estimate
 from seacrane.statistics.seeds import FEWEST, SeedExtremes, seed_extremes
 
@@ -42,32 +42,18 @@ UNITS = {"hs": "m", "tp": "s", "direction_deg": "deg", "gamma": "-", "seed": "-"
 
 @dataclass(frozen=True, kw_only=True)
 class Cell:
-    """What is kept under one name, for one combination of parameters.
+    """What is kept under one name, for one combination of parameters."""
 
-    Attributes
-    ----------
-    parameters : All but the seed.
-    failed : Seeds that failed: intervals would not hold for them.
-    values : (k,) Of the seeds, or of the one member; without those that failed or were not run.
-    sign : -1 for smallest values.
-    extremes : Of the values times the sign, where they are extremes of several seeds.
-    """
-
-    parameters: Mapping[str, Value]
-    values: Array
-    failed: int = 0
-    sign: float = 1.0
-    extremes: SeedExtremes | None = None
+    parameters: Mapping[str, Value]  # all but the seed
+    values: Array  # (k,) of the seeds, or of the one member; without those that failed or were not run
+    failed: int = 0  # seeds, for which intervals would not hold
+    sign: float = 1.0  # -1 for smallest values
+    extremes: SeedExtremes | None = None  # of the values times the sign, where there are several seeds
 
     @property
     def mean(self) -> float:
         """Over the seeds."""
         return float(self.values.mean()) if self.values.size else math.nan
-
-    @property
-    def scatter(self) -> float:
-        """Standard deviation over the seeds."""
-        return float(self.values.std(ddof=1)) if self.values.size > 1 else math.nan
 
     def numbers(self, name: str) -> list[float]:
         """Value, low and high end of "mpm" or "p90"."""
@@ -77,23 +63,23 @@ class Cell:
         ends = [math.nan] * 2 if self.failed else sorted([self.sign * found.low, self.sign * found.high])
         return [self.sign * found.value, *ends]
 
+    def row(self, *, over_seeds: bool, extremes: bool) -> list[Any]:
+        """Parameters and numbers."""
+        scatter = float(self.values.std(ddof=1)) if self.values.size > 1 else math.nan
+        numbers = [self.values.size, self.mean, scatter] if over_seeds else [self.mean]
+        more = [*self.numbers("mpm"), *self.numbers("p90")] if extremes else []
+        return [*self.parameters.values(), *numbers, *more]
+
 
 @dataclass(frozen=True, kw_only=True)
 class Told:
-    """A table about what is kept under one name.
-
-    Attributes
-    ----------
-    name, unit, what : `what` is a sentence.
-    over_seeds : Whether cells hold seeds.
-    exposure : Of extremes, s; None: of one lift in stages.
-    """
+    """A table about what is kept under one name."""
 
     name: str
     unit: str
-    what: str
-    over_seeds: bool
-    exposure: float | None
+    what: str  # a sentence
+    over_seeds: bool  # whether cells hold seeds
+    exposure: float | None  # of extremes, s; None: of one lift in stages
     cells: tuple[Cell, ...]
 
     @property
@@ -103,17 +89,15 @@ class Told:
 
     def head(self) -> list[str]:
         """Column names with units."""
-        unit = f" [{self.unit}]"
-        numbers = ["seeds", f"mean{unit}", f"scatter{unit}"] if self.over_seeds else [f"value{unit}"]
-        names = ["most probable", "low", "high", "P90", "low", "high"] if self.extremes else []
-        return [*self.cells[0].parameters, *numbers, *(f"{name}{unit}" for name in names)]
+        numbers = ["mean", "scatter"] if self.over_seeds else ["value"]
+        numbers += ["most probable", "low", "high", "P90", "low", "high"] if self.extremes else []
+        seeds = ["seeds"] if self.over_seeds else []
+        return [*self.cells[0].parameters, *seeds, *(f"{name} [{self.unit}]" for name in numbers)]
 
     def rows(self) -> Iterator[list[Any]]:
         """Numbers and texts of every cell."""
-        for cell in self.cells:
-            row: list[Any] = list(cell.parameters.values())
-            row += [cell.values.size, cell.mean, cell.scatter] if self.over_seeds else [cell.mean]
-            yield row + [number for name in ("mpm", "p90") if self.extremes for number in cell.numbers(name)]
+        extremes = self.extremes
+        return (cell.row(over_seeds=self.over_seeds, extremes=extremes) for cell in self.cells)
 
     def __str__(self) -> str:
         rows = list(self.rows())
@@ -129,43 +113,23 @@ class Told:
 
 @dataclass(frozen=True, kw_only=True)
 class ShownStudy:
-    """A study as far as it has been run.
+    """A study as far as it has been run: how many members were, its tables, and how certain `until` is."""
 
-    Attributes
-    ----------
-    members, failed, not_run : int
-        How many there are; with `until` so far, and those not run may not be needed.
-    not_told : What is kept and is no single number.
-    failures : Why members failed, each reason once.
-    certainty : Of the statistics that `until` names.
-    """
-
-    members: int
-    failed: int
-    not_run: int
+    counts: tuple[str, ...]
     tables: tuple[Told, ...]
-    not_told: tuple[str, ...]
-    failures: tuple[str, ...]
     certainty: tuple[Certainty, ...]
 
     def __str__(self) -> str:
-        counts = f"{self.members - self.not_run} of {self.members} members run, {self.failed} failed"
-        blocks = [counts, *(f"failed: {text}" for text in self.failures[:MOST_FAILURES])]
-        if self.not_told:
-            blocks.append(f"series, in the members alone: {', '.join(self.not_told)}")
         told = [f"{one}, asked for +-{100.0 * one.asked:.2g} %" for one in self.certainty]
-        return "\n\n".join(["\n".join(blocks), *map(str, self.tables), *(["\n".join(told)] if told else [])])
+        return "\n\n".join(
+            ["\n".join(self.counts), *map(str, self.tables), *(["\n".join(told)] if told else [])]
+        )
 
 
 def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
     """What is in the folder of a study.
 
-    Raises
-    ------
-    FileFormatError
-        If it is none, or damaged.
-    SceneError
-        If no member has been run.
+    Raises FileFormatError or SceneError where it is none, or damaged, or no member has been run.
     """
     path = Path(folder)
     study = Lift.load(path / FILE).study if (path / FILE).is_file() else None
@@ -174,19 +138,16 @@ def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
     done = Ensemble.load(path / MEMBERS)
     length = study_in(path / MEMBERS)["identity"]["t_end"]
     failure = done.dataset.failure.to_numpy()
-    left = int((failure == "not run").sum())
-    if left == failure.size:
+    run = failure.size - int((failure == NOT_RUN).sum())
+    if not run:
         raise SceneError(f"{path}: no member has been run yet; run `seacrane study` with it")
     scalar = [name for name in study.keep if name in done.dataset and _is_number(name, done)]
-    return ShownStudy(
-        members=failure.size,
-        failed=len(done.failures),
-        not_run=left,
-        tables=tuple(_told(name, study, done, length) for name in scalar),
-        not_told=tuple(name for name in study.keep if name not in scalar),
-        failures=tuple(dict.fromkeys(done.failures.values())),
-        certainty=tuple(_certainty(study, done)),
-    )
+    counts = [f"{run} of {failure.size} members run, {len(done.failures)} failed"]
+    counts += [f"failed: {text}" for text in [*dict.fromkeys(done.failures.values())][:MOST_FAILURES]]
+    if series := [name for name in study.keep if name not in scalar]:
+        counts.append(f"series, in the members alone: {', '.join(series)}")
+    tables = tuple(_told(name, study, done, length) for name in scalar)
+    return ShownStudy(counts=tuple(counts), tables=tables, certainty=tuple(_certainty(study, done)))
 
 
 def _certainty(study: Study, done: Ensemble) -> Iterator[Certainty]:
@@ -200,7 +161,13 @@ def _certainty(study: Study, done: Ensemble) -> Iterator[Certainty]:
             static = next(statics, ({}, np.zeros(1)))[1]
             failed = next(lost)[1].size
             if values.size or failed:
-                yield known(target, values, failed, static=_mean(static), parameters=parameters)
+                yield known(
+                    target,
+                    values,
+                    failed,
+                    static=float(static.mean()) if static.size else 0.0,
+                    parameters=parameters,
+                )
 
 
 def _failed(done: Ensemble) -> xarray.DataArray:
@@ -208,10 +175,6 @@ def _failed(done: Ensemble) -> xarray.DataArray:
     failure: xarray.DataArray = done.dataset.failure
     told = failure.to_numpy()
     return failure.copy(data=np.where((told == "") | (told == NOT_RUN), np.nan, 1.0))
-
-
-def _mean(values: Array) -> float:
-    return float(values.mean()) if values.size else 0.0
 
 
 def _kept(name: str, done: Ensemble) -> xarray.DataArray:
@@ -232,23 +195,22 @@ def _told(name: str, study: Study, done: Ensemble, length: float | None) -> Told
     sign = {"maximum": 1.0, "minimum": -1.0}.get(what.what) if seeds else None
     span = None if length is None else length - getattr(what, "after", 0.0)
     exposure = span if study.exposure is None else study.exposure
-    cells = tuple(
-        Cell(
-            parameters=parameters,
-            values=values,
-            failed=lost.size,
-            sign=sign or 1.0,
-            extremes=None if sign is None else _extremes(name, sign * values, span or 1.0, exposure or 1.0),
-        )
-        for (parameters, values), (_, lost) in zip(
-            _cells(variable, done), _cells(_failed(done), done), strict=True
-        )
-    )
+    cells = []
+    together = zip(_cells(variable, done), _cells(_failed(done), done), strict=True)
+    for (parameters, values), (_, lost) in together:
+        found = None if sign is None else _extremes(name, sign * values, span or 1.0, exposure or 1.0)
+        given: dict[str, Any] = {
+            "parameters": parameters,
+            "values": values,
+            "failed": lost.size,
+            "extremes": found,
+        }
+        cells.append(Cell(sign=sign or 1.0, **given))
     about = str(variable.attrs.get("long_name", what.channel if isinstance(what, Kept) else what))
     at = ", ".join(what.names.values()) if isinstance(what, Kept) else ""
     return Told(
         name=name, unit=str(variable.attrs.get("units", "-")), what=f"{about}{f' ({at})' if at else ''}",
-        over_seeds=seeds, exposure=exposure, cells=cells,
+        over_seeds=seeds, exposure=exposure, cells=tuple(cells),
     )  # fmt: skip
 
 
@@ -280,45 +242,39 @@ def _extremes(name: str, values: Array, span: float, exposure: float) -> SeedExt
 def study_sheets(shown: ShownStudy) -> Iterator[tuple[str, Sheet]]:
     """File names without ending, and the figures: one for each parameter with two values and more."""
     for told in shown.tables:
-        varied = [name for name in told.cells[0].parameters if _varies(told, name)]
-        for name in varied:
-            yield f"{told.name}-over-{_file_name(name)}", _over(told, name, varied)
+        for name in told.cells[0].parameters:
+            values = {cell.parameters[name] for cell in told.cells}
+            if len(values) > 1 and all(isinstance(value, Real) for value in values):
+                file = re.sub(r"[^\w.-]", "-", name)
+                yield f"{told.name}-over-{file}", _over(told, name)
         (only, *others) = told.cells
         if not others and only.extremes is not None:
             yield f"{told.name}-gumbel", only.extremes.sheet()
 
 
-def _file_name(name: str) -> str:
-    return "".join(letter if letter.isalnum() or letter in "._-" else "-" for letter in name)
-
-
-def _in_label(value: Value) -> str:
-    return f"{value:.5g}" if isinstance(value, float) else str(value)
-
-
-def _varies(told: Told, name: str) -> bool:
-    values = [cell.parameters[name] for cell in told.cells]
-    return all(isinstance(value, Real) for value in values) and len(set(values)) > 1
-
-
-def _over(told: Told, name: str, varied: list[str]) -> Sheet:
+def _over(told: Told, name: str) -> Sheet:
     """The table over one parameter; a curve for each combination of the others that differ."""
-    curves: dict[tuple[Any, ...], list[Cell]] = {}
+    others = [key for key in told.cells[0].parameters if key != name]
+    others = [key for key in others if len({cell.parameters[key] for cell in told.cells}) > 1]
+    curves: dict[str, list[Cell]] = {}
     for cell in told.cells:
-        rest = tuple(value for other, value in cell.parameters.items() if other != name)
-        curves.setdefault(rest, []).append(cell)
+        label = ", ".join(f"{key} {format_value(cell.parameters[key])}" for key in others)
+        curves.setdefault(label, []).append(cell)
     scattered = len(curves) > 1 and max(map(len, curves.values())) == 1
     if scattered:
-        curves = {(): list(told.cells)}
+        curves = {"": list(told.cells)}
     at = np.unique([float(cell.parameters[name]) for cell in told.cells])
-    others = [other for other in told.cells[0].parameters if other != name]
     lines: list[Line] = []
-    for colour, (rest, cells) in enumerate(list(curves.items())[:MOST_CURVES]):
-        pairs = zip(others, rest, strict=True) if rest else ()
-        label = ", ".join(
-            f"{other} {_in_label(value)}" for other, value in pairs if other in varied or len(curves) > 1
-        )
-        lines += _lines(told, cells, name, at, label, colour, "o" if scattered else "-o")
+    for colour, (label, cells) in enumerate(list(curves.items())[:MOST_CURVES]):
+        values = np.full((3, at.size), np.nan)
+        for cell in cells:
+            place = int(np.searchsorted(at, float(cell.parameters[name])))
+            values[:, place] = cell.numbers("mpm") if told.extremes else [cell.mean, np.nan, np.nan]
+        style = "o" if scattered else "-o"
+        lines.append(Line(label=label, values=values[0], style=style, colour=colour))
+        lines += [
+            Line(label="", values=one, style="--", colour=colour) for one in values[1:] if told.extremes
+        ]
     left = len(curves) - MOST_CURVES
     number = "most probable maximum, dashed: its 95 % interval" if told.extremes else "mean over seeds"
     return Sheet(
@@ -328,16 +284,3 @@ def _over(told: Told, name: str, varied: list[str]) -> Sheet:
         abscissa=at, abscissa_name=name, abscissa_unit=UNITS.get(name, "SI"),
         panels=(Panel(quantity=told.name, unit=told.unit, lines=tuple(lines)),),
     )  # fmt: skip
-
-
-def _lines(
-    told: Told, cells: list[Cell], name: str, at: Any, label: str, colour: int, style: str
-) -> list[Line]:
-    values = np.full((3, at.size), np.nan)
-    for cell in cells:
-        place = int(np.searchsorted(at, float(cell.parameters[name])))
-        values[:, place] = cell.numbers("mpm") if told.extremes else [cell.mean, np.nan, np.nan]
-    middle = Line(label=label, values=values[0], style=style, colour=colour)
-    if not told.extremes:
-        return [middle]
-    return [middle, *(Line(label="", values=one, style="--", colour=colour) for one in values[1:])]

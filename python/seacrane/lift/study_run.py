@@ -22,8 +22,7 @@ from seacrane.ensembles.study import Source, require_paths, stage_paths, with_va
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import is_draft
 from seacrane.lift.keys import Key
-from seacrane.lift.lift import Lift
-from seacrane.lift.study import Study
+from seacrane.lift.lift import Lift, Study
 from seacrane.lift.tables import TABLES
 from seacrane.scene.scene import Scene
 
@@ -42,14 +41,7 @@ def run_study(
     executor: Executor | None = None,
     progress: bool = False,
 ) -> Ensemble:
-    """Run the study of a lift file; what is in its folder is not run again.
-
-    Parameters
-    ----------
-    path : Of a lift file with a [study].
-    folder : Made if absent. It will hold the lift, complete, and the members as they come.
-    executor : concurrent.futures.Executor, optional
-    progress : Show a bar with the time left.
+    """Run the study of a lift file into a folder; what is there is not run again.
 
     Raises
     ------
@@ -124,12 +116,9 @@ def keys_in(tables: Tables) -> dict[str, KeyPlace]:
     Tables of which there are several are told apart by their names, or else by their number from 1 on; so
     are the parts of arrays, as in "crane.foot_m.2".
     """
-    named = ((name, given) for name, given in tables.items() if name not in OF_NO_SCENE)
-    return {
-        path: place
-        for name, given in named
-        for path, place in _inside(name, (name,), TABLES[name].keys, given)
-    }
+    named = [(name, given) for name, given in tables.items() if name not in OF_NO_SCENE]
+    inside = (_inside(name, (name,), TABLES[name].keys, given) for name, given in named)
+    return {path: place for places in inside for path, place in places}
 
 
 def _inside(
@@ -144,15 +133,12 @@ def _inside(
             here, inside, value = f"{path}.{spelling}", (*place, spelling), given.get(spelling)
             if key.type in ("table", "tables"):
                 yield from _inside(here, inside, key.keys, value) if value else ()
-            elif key.type == "array":
-                for number in range(len(value) if _of_numbers(value) else 0):
-                    yield f"{here}.{number + 1}", KeyPlace((*inside, number))
+            elif key.type == "array" and isinstance(value, list):
+                for number, part in enumerate(value):
+                    if not isinstance(part, list):
+                        yield f"{here}.{number + 1}", KeyPlace((*inside, number))
             elif key.type in SINGLE and not isinstance(value, list | dict):
                 yield here, KeyPlace(inside, tuple(one for one in key.spellings if one != spelling))
-
-
-def _of_numbers(value: Any) -> bool:
-    return isinstance(value, list) and not any(isinstance(one, list) for one in value)
 
 
 def with_keys(tables: Tables, places: Mapping[str, KeyPlace], values: Mapping[str, Value]) -> Tables:
@@ -171,17 +157,10 @@ def with_keys(tables: Tables, places: Mapping[str, KeyPlace], values: Mapping[st
 
 @dataclass(frozen=True)
 class LiftScenes:
-    """Makes the scenes of a study whose lift varies in its keys; what is derived from a key follows it.
+    """Makes the scenes of a study whose lift varies in its keys; what is derived from a key follows it."""
 
-    Attributes
-    ----------
-    tables : Of the lift.
-    places : mapping of str to KeyPlace
-        Of its keys that vary.
-    """
-
-    tables: Tables
-    places: Mapping[str, KeyPlace]
+    tables: Tables  # of the lift
+    places: Mapping[str, KeyPlace]  # of its keys that vary
 
     def __call__(self, **values: Value) -> Scene:
         """With values of keys, then of paths into the scene, then of words of its sea."""

@@ -2,24 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
 from seacrane import _core
-from seacrane.analysis.tanks import Tank
 from seacrane.crane.knuckle_boom import CYLINDERS
 from seacrane.crane.parts import Payload
 from seacrane.description import elements
-from seacrane.description.curves import spline_curve
 from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.inputs.values import entries_of
-from seacrane.lift.key_shapes import CHOSEN, DIRECTION, LENGTH, NUMBER, POINT, ROW, TIME
-from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
-from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
-from seacrane.lift.study_keys import STUDY
-from seacrane.lift.vessel_keys import part_keys, sea_keys, vessel_keys
+from seacrane.lift.inner_keys import (
+    CHANNEL_UNITS,
+    CHOSEN,
+    COORDINATE,
+    DIRECTION,
+    LENGTH,
+    NUMBER,
+    PISTON,
+    POINT,
+    ROW,
+    STAGE,
+    STUDY,
+    TANK,
+    TIME,
+    control_keys,
+    part_keys,
+    sea_keys,
+    vessel_keys,
+)
+from seacrane.lift.keys import Key, field_keys, keys_of, parameter_texts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
@@ -44,7 +57,6 @@ from seacrane.scene.ballast import add_ballast
 from seacrane.scene.hung_load import Slings
 from seacrane.scene.line_fluid import Seabed, Wire
 from seacrane.scene.scene import Scene
-from seacrane.scene.wind_current import gust_curve
 from seacrane.simulation import simulate
 from seacrane.water import Opening
 
@@ -55,34 +67,30 @@ START: dict[str, Any] = {
     "text": '"rest" finds the state at rest; default: as described.',
 }
 LIMITED = {"unit": CHANNEL_UNITS}
+FRAME = {"type": "table", "keys": field_keys(_core.Frame.FIELDS)}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """A table of a lift file.
-
-    Attributes
-    ----------
-    text : What it is, for people.
-    several : Whether there may be more than one, each as ``[[name]]``.
-    add : callable, optional
-        What is called with the scene and the keywords; default: the table needs more than one call.
-    """
+    """A table of a lift file."""
 
     name: str
-    text: str
+    text: str  # what it is, for people
     keys: tuple[Key, ...]
-    several: bool = True
-    add: Callable[..., Any] | None = None
+    several: bool = True  # whether there may be more than one, each as ``[[name]]``
+    add: Callable[..., Any] | None = None  # is called with the scene and the keywords; None: several calls
 
 
-def _call(name: str, add: Callable[..., Any], *classes: type, **more: Mapping[str, Any]) -> Table:
-    """A table that is one call of a method of `Scene`."""
-    keys = keys_of(add, *classes, more=CHOSEN | more)
-    return Table(name=name, text=_summary(add), keys=keys, add=add)
+def _call(
+    name: str, add: Callable[..., Any], *classes: type, several: bool = True, without: Collection[str] = (),
+    only: Collection[str] | None = None, described: Any = None, **more: Mapping[str, Any],
+) -> Table:  # fmt: skip
+    """A table that is one call, as of a method of `Scene`."""
+    keys = keys_of(add, *classes, more=CHOSEN | more, without=without, only=only, described=described)
+    return Table(name=name, text=_summary(add), keys=keys, add=add, several=several)
 
 
-def _values(element: type, kinds: Mapping[str, type], **more: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+def _values(element: type, kinds: Mapping[str, type], **more: Mapping[str, Any]) -> dict[str, Any]:
     """Keywords that are values of entries of an element, as tables within its own."""
     return {
         word: {"type": "table", "keys": keys_of(kind, element, entries=entries_of(word, kind), more=more)}
@@ -96,11 +104,10 @@ def _summary(call: Any) -> str:
 
 def _joint_keys() -> tuple[Key, ...]:
     """The keys of `add_joint`, and the parameters of all kinds of joints."""
-    frame = {"type": "table", "keys": fields_of(_core.Frame)}
     places = {key: POINT for key in ("point", "second_point")} | {
         key: DIRECTION for key in ("axis", "second_axis")
     }
-    keys = keys_of(elements.add_joint, more=CHOSEN | places | {"first_frame": frame, "second_frame": frame})
+    keys = keys_of(elements.add_joint, more=CHOSEN | places | {"first_frame": FRAME, "second_frame": FRAME})
     parameters = [field for kind in _core.joint_kinds().values() for field in kind.parameters]
     return (*keys, *(replace(key, required=False) for key in field_keys(parameters)))
 
@@ -108,25 +115,12 @@ def _joint_keys() -> tuple[Key, ...]:
 def _flow(name: str, add: Callable[..., Any]) -> Table:
     """Wind or current."""
     more = {"angle": ROW | {"unit": "rad"}, "x": ROW, "y": ROW, "yaw": ROW}
-    coefficients = keys_of(wind_current.FlowCoefficients, more=more)
-    table = _call(
-        name, add, _core.FlowForce, coefficients={"type": "table", "keys": coefficients}, draught=LENGTH
-    )
-    if add is wind_current.add_wind:
-        return table
-    texts = {key.name: key.text for key in keys_of(wind_current.add_wind, _core.FlowForce)}
-    return replace(table, keys=tuple(replace(key, text=texts.get(key.name, key.text)) for key in table.keys))
+    inside = {"type": "table", "keys": keys_of(wind_current.FlowCoefficients, more=more)}
+    draught = LENGTH | {"text": parameter_texts(add).get("draught", "")}
+    wind = wind_current.add_wind
+    return _call(name, add, _core.FlowForce, described=wind, coefficients=inside, draught=draught)
 
 
-TANK = (
-    Key(name="name", type="text", required=True, text="Differs from those of the other tanks."),
-    *keys_of(Tank, more={"point": POINT, "capacity": {"unit": "kg"}, "content": {"unit": "kg"}}),
-)
-PISTON = (
-    Key(name="cylinder", type="text", required=True, text="Its label."),
-    Key(name="full", type="number", unit="m2", required=True, text="Area of the full side."),
-    Key(name="rod_side", type="number", unit="m2", required=True, text="Area of the rod side."),
-)
 SLINGS = keys_of(
     Slings,
     more={
@@ -147,7 +141,7 @@ WIRE: dict[str, Any] = {
         "seabed": {"type": "table", "keys": SEABED},
     }),
 }  # fmt: skip
-CONTACT = {
+CONTACT: dict[str, Any] = {
     "points": ROW | {"unit": "m", "shapes": ((-1, 3),)},
     "surface": {"type": "text", "choices": limits.SURFACES},
     "place": POINT, "axis": DIRECTION, "size": ROW | {"unit": "m", "shapes": ((-1,),)}, "edge": LENGTH,
@@ -157,10 +151,6 @@ CONTACT = {
 FEET = tuple(
     replace(key, required=False)
     for key in keys_of(limits.add_contact, _core.Contact, more=CONTACT, only=hoist.FEET_KEYS)
-)
-COORDINATE = (
-    Key(name="name", type="text", required=True, text="Its label, such as boom."),
-    Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
 )
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
 POSE: dict[str, dict[str, Any]] = {
@@ -173,7 +163,7 @@ RAM = _call(
 )  # fmt: skip
 PLACED = ("name", "first", "second", "first_point", "second_point", "retracted_length", "stroke")
 OIL = tuple(replace(key, required=False) for key in RAM.keys if key.name not in PLACED)
-HYDRAULICS = tuple(Key(name=label, type="table", keys=OIL) for label in CYLINDERS)
+HYDRAULICS = tuple(Key(label, "table", keys=OIL) for label in CYLINDERS)
 CRANE = keys_of(
     add_crane,
     more=POSE
@@ -186,79 +176,15 @@ CRANE = keys_of(
         "hydraulics": {"type": "table", "keys": HYDRAULICS},
     },
 )
-TUNED_AT = tuple(key for key in CRANE if key.name in (*POSE, "payload"))
-TIMES = (
-    Key(name="until", type="number", unit="s", required=True, text="End of this part."),
-    Key(name="every", type="number", unit="s", required=True, text="Interval within it."),
-)
-CONTROL = (
-    Key(
-        name="natural_frequency", type="number", unit="Hz", required=True,
-        text="Of every commanded coordinate, with the inertia that its drive feels.",
-    ),
-    Key(name="damping_ratio", type="number", required=True, text="Of critical damping."),
-    Key(
-        name="tuned_at", type="table", keys=TUNED_AT,
-        text="Pose of the cranes, on a fixed base, at which that inertia is taken; default: the start.",
-    ),
-    Key(
-        name="feed_forward", type="text", choices=("references", "start", "none"),
-        text="Loads that hold them at rest: along their references (default), those of the start, or none.",
-    ),
-    Key(
-        name="times", type="tables", keys=TIMES,
-        text="At which the loads along the references are computed, from 0 s on, part after part.",
-    ),
-    Key(name="period", type="number", unit="s", text="Of references that swing for ever; as `feed_forward`."),
-)  # fmt: skip
+CONTROL = control_keys(tuple(key for key in CRANE if key.name in (*POSE, "payload")))
 COMMAND = keys_of(elements.add_actuator, _core.Actuator, only=("joint", "name", "coordinate", "reference"))
-FROM = Key(
-    name="from", type="number", unit="s", required=True, text="When it takes over from the piece before."
-)
-
-
-def _number(name: str, unit: str = "", *, required: bool = True, text: str = "") -> Key:
-    return Key(name=name, type="number", unit=unit, required=required, text=text)
-
-
-CURVES: Mapping[str, tuple[Key, ...]] = {
-    "constant": (_number("value"),),
-    "quintic": (
-        _number("start_time", "s"), _number("end_time", "s"),
-        _number("start", text="Value until start_time."), _number("end", text="Value from end_time on."),
-    ),
-    "harmonic": (
-        _number("amplitude"), _number("offset", required=False), _number("period", "s"),
-        _number("start_time", "s", required=False), _number("phase", "rad", required=False),
-    ),
-    "spline": keys_of(
-        spline_curve,
-        more={
-            "times": {"type": "array", "unit": "s", "shapes": ((-1,),)},
-            "values": {"type": "array", "shapes": ((-1,),)},
-        },
-    ),
-    "table": (
-        Key(name="times", type="array", unit="s", shapes=((-1,),), required=True, text="That increase."),
-        Key(name="values", type="array", shapes=((-1,),), required=True, text="At these times."),
-        Key(
-            name="between", type="text", choices=("linear", "cubic"),
-            text="Straight (default), or with continuous rate and acceleration, at rest at both ends.",
-        ),
-    ),
-    "gust": keys_of(
-        gust_curve, more={"mean_speed": {"unit": "m/s"}, "duration": TIME, "height": LENGTH}
-    ),
-}  # fmt: skip
-
 _ALL = (
-    Table(
-        name="scene", several=False, text="Name and settings of the scene.",
-        keys=keys_of(
-            Scene,
-            more=CHOSEN | {"gravity": {"unit": "m/s2"}, "baumgarte": {"unit": "1/s"}},
+    replace(
+        _call(
+            "scene", Scene, several=False, gravity={"unit": "m/s2"}, baumgarte={"unit": "1/s"},
             only=("name", "gravity", "orientation", "baumgarte", "length_scale"),
         ),
+        text="Name and settings of the scene.",
     ),
     Table(
         name="vessel", keys=vessel_keys(),
@@ -269,21 +195,18 @@ _ALL = (
         name="hydrodynamics", text="Hydrodynamics of a body by their matrices.",
         keys=tuple(
             replace(key, required=key.name == "body", choices=CHOSEN.get(key.name, {}).get("choices", ()))
-            for key in fields_of(_core.VesselHydrodynamics, without=("memory",))
+            for key in field_keys(_core.VesselHydrodynamics.FIELDS, without=("memory",))
         ),
         add=vessel.add_vessel,
     ),
     Table(name="sea", text=_summary(sea.add_sea), keys=sea_keys()),
     Table(name="crane", text=_summary(add_crane), keys=CRANE),
-    Table(name="joint", text=_summary(elements.add_joint), keys=_joint_keys()),
+    Table(name="joint", text=_summary(elements.add_joint), keys=_joint_keys(), add=elements.add_joint),
     _call("driver", elements.add_driver, _core.Driver),
     _call("actuator", elements.add_actuator, _core.Actuator),
-    Table(
-        name="force", text=_summary(elements.add_force), add=elements.add_force,
-        keys=keys_of(
-            elements.add_force, _core.ForceTable, _core.PointForce,
-            more={"force": {"shapes": ((3,), (-1, 6))}}, without=("parameters",),
-        ),
+    _call(
+        "force", elements.add_force, _core.ForceTable, _core.PointForce, without=("parameters",),
+        force={"shapes": ((3,), (-1, 6))},
     ),
     _call("spring", elements.add_spring, _core.Spring),
     _call(
@@ -292,21 +215,13 @@ _ALL = (
         sticking_speed={"unit": "m/s"}, breaking_load={"unit": "N"}, rung={"choices": lines.RUNGS},
         wire=WIRE, sheaves={"type": "table", "keys": keys_of(lines.Sheaves, _core.Line)},
     ),
-    Table(
-        name="roles", text=_summary(roles.add_roles),
-        keys=keys_of(
-            roles.add_roles,
-            more={
-                "cylinders": {"type": "names"},
-                "luffs": {"type": "names"},
-                "tip": {"type": "table", "keys": (
-                    Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
-                )},
-                "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
-                "areas": {"type": "tables", "keys": PISTON},
-            },
-            without=("ropes",),
-        ),
+    _call(
+        "roles", roles.add_roles, without=("ropes",),
+        cylinders={"type": "names"}, luffs={"type": "names"},
+        tip={"type": "table", "keys": (Key("body", "text", required=True),
+                                       Key("point", required=True, **POINT))},
+        capacity={"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
+        areas={"type": "tables", "keys": PISTON},
     ),
     _call(
         "hoist", hoist.add_hoist,
@@ -324,10 +239,7 @@ _ALL = (
         **_values(_core.GasSpring, heave.VALUES, force={"unit": "N"}, stiffness={"unit": "N/m"}),
     ),
     RAM,
-    Table(
-        name="hold_pressures", several=False, text=_summary(hydraulics.hold_pressures), keys=(),
-        add=hydraulics.hold_pressures,
-    ),
+    _call("hold_pressures", hydraulics.hold_pressures, several=False),
     _call(
         "immersed", immersed.add_immersed, _core.ImmersedPart,
         parts={"type": "tables", "keys": part_keys()},
@@ -363,7 +275,7 @@ _ALL = (
             replace(key, required=key.required or key.name == "file")
             for key in keys_of(
                 bodies.add_mesh,
-                more={"file": {"type": "file"}, "frame": {"type": "table", "keys": fields_of(_core.Frame)}},
+                more={"file": {"type": "file"}, "frame": FRAME},
                 without=("vertices", "faces"),
             )
         ),
@@ -371,14 +283,12 @@ _ALL = (
     Table(
         name="balance", several=False,
         text="A constant force on a vessel that carries the weight of all else at the start: its ballast.",
-        keys=(Key(name="vessel", type="text", required=True, text="Its body."),),
+        keys=(Key("vessel", "text", required=True, text="Its body."),),
     ),
-    Table(
-        name="ballast", text=_summary(add_ballast), add=add_ballast,
-        keys=keys_of(add_ballast, more={
-            "heel_deg": {"unit": "deg", "choices": LEFT}, "trim_deg": {"unit": "deg", "choices": LEFT},
-            "tanks": {"type": "tables", "keys": TANK, "text": "Without them one force."},
-        }),
+    _call(
+        "ballast", add_ballast,
+        heel_deg={"unit": "deg", "choices": LEFT}, trim_deg={"unit": "deg", "choices": LEFT},
+        tanks={"type": "tables", "keys": TANK, "text": "Without them one force."},
     ),
     Table(name="control", several=False, text="How commanded coordinates are controlled.", keys=CONTROL),
     Table(
@@ -397,21 +307,15 @@ _ALL = (
             only=("t_end", "start", "accuracy"),
         ),
     ),
-    Table(
-        name="method", several=False, text=_summary(Method),
-        keys=keys_of(Method, more=CHOSEN | {"dt": TIME, "maximum_step": TIME}),
-    ),
-    Table(
-        name="outputs", several=False, text=_summary(Outputs),
-        keys=keys_of(Outputs, more={"dt_out": TIME, "channels": {"type": "texts"}}),
-    ),
+    _call("method", Method, several=False, dt=TIME, maximum_step=TIME),
+    _call("outputs", Outputs, several=False, dt_out=TIME, channels={"type": "texts"}),
     Table(
         name="study", several=False, keys=STUDY,
         text="Many runs of the lift: what varies, what each leaves, and when it is enough.",
     ),
     Table(
         name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",
-        keys=(Key(name="*", type="notes"),),
+        keys=(Key("*", "notes"),),
     ),
 )  # fmt: skip
 TABLES: Mapping[str, Table] = MappingProxyType({table.name: table for table in _ALL})

@@ -3,12 +3,10 @@
 from seacrane.needs.required import required as required
 from seacrane.needs.answer import Requirements as Requirements
 from seacrane.needs.answer import Loss as Loss
-from seacrane.needs.choice import Choice as Choice
-from seacrane.needs.required import choices_of as choices_of
-from seacrane.needs.required import missing_from as missing_from
-from seacrane.needs.in_water import in_one_piece as in_one_piece
-from seacrane.needs.in_water import uncoupled as uncoupled
-from seacrane.needs.in_air import with_segments as with_segments
+from seacrane.needs.choices import Choice as Choice
+from seacrane.needs.choices import choices_of as choices_of
+from seacrane.needs.choices import missing_from as missing_from
+from seacrane.needs.choices import uncoupled as uncoupled
 from seacrane.accuracy.simpler_scenes import strongest as strongest
 from seacrane.accuracy.simpler_scenes import with_memory as with_memory
 from seacrane.accuracy.simpler_scenes import locked as locked

@@ -8,10 +8,8 @@ from dataclasses import dataclass, field
 from statistics import median
 from typing import Any
 
-from seacrane.needs.choice import Choice
+from seacrane.needs.choices import Choice
 from seacrane.plotting.table import Answer, Column, Table
-
-FAILED = "does not run"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +25,7 @@ class Loss:
         Evaluations of the equations of motion over those of the scene as it stands; NaN: not counted.
     changes : mapping of str to float
         Of each number, in its unit.
-    verdict, message : Empty, or that it does not run, and why.
+    message : Why it does not run; empty where it does.
     """
 
     name: str
@@ -37,13 +35,12 @@ class Loss:
     shares: tuple[float, ...] = ()
     evaluations: float = math.nan
     changes: Mapping[str, float] = field(default_factory=dict)
-    verdict: str = ""
     message: str = ""
 
     @property
     def stable(self) -> bool:
         """Whether it ran."""
-        return not self.verdict
+        return not self.message
 
     @property
     def share(self) -> float:
@@ -55,9 +52,12 @@ class Loss:
         """Half of their range: how well the share is known; NaN for one run."""
         return 0.5 * (max(self.shares) - min(self.shares)) if len(self.shares) > 1 else math.nan
 
-    def uses(self, limits: Mapping[str, float]) -> float:
-        """The largest share of a limit that its changes take."""
-        return max((abs(self.changes[n]) / limit for n, limit in limits.items() if limit > 0.0), default=0.0)
+    def used(self, name: str, limit: float, noise: float = 0.0) -> float:
+        """The share of a limit of one number that its change takes; 0 of a change within the noise."""
+        change = abs(self.changes[name])
+        if change <= noise:
+            return 0.0
+        return change / limit if limit > 0.0 else math.inf
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -136,7 +136,7 @@ class Requirements(Answer):
 
     def _table(self, rows: Sequence[Loss], *, whole: bool = False, **given: Any) -> Table:
         """Share of the cost and changes by choice; below the scene as it stands, with its numbers."""
-        cost = [_percent(row) if row.stable else FAILED for row in rows]
+        cost = [_percent(row) if row.stable else "does not run" for row in rows]
         columns = [
             Column(name="cost", values=[*([1.0] * whole), *(row.share for row in rows)],
                    read=("", [*(["100 %"] * whole), *cost]))

@@ -44,8 +44,7 @@ from seacrane.run.sampled_controller import Calls, SampledController, checked_co
 from seacrane.run.stage import Level, Stage
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import Finding, as_text, warn_of
-from seacrane.validity.contact_starts import check_contact_connected
-from seacrane.validity.implausible import warn_of_description
+from seacrane.validity.implausible import check_contact_connected, warn_of_description
 from seacrane.validity.line_checks import warn_of_connected
 
 if TYPE_CHECKING:

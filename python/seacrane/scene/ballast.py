@@ -24,7 +24,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import heel_and_trim, rotation_matrix
 from seacrane.plotting.table import Answer, Column, Table
-from seacrane.validity.unstable import warn_of_capsize
+from seacrane.validity.implausible import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
 
 Array = NDArray[np.float64]

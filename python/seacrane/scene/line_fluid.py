@@ -128,17 +128,6 @@ class Wire:
             added_mass_coefficient=self.added_mass_coefficient, **span,
         )  # fmt: skip
 
-    @staticmethod
-    def around(made: Any) -> dict[str, Any]:
-        """The keywords of what `along` made for a segment; without a diameter that is nothing."""
-        if made is None:
-            return {}
-        common = {"density": made.density, "diameter": made.diameter}
-        if isinstance(made, _core.SpanDrag):
-            return common | {"drag_coefficient": made.coefficient, "flow": made.flow}
-        keys = ("drag_coefficient", *OF_THE_SEA)
-        return common | {"medium": "sea"} | {key: getattr(made, key) for key in keys}
-
     def lifts(self, places: Array, segment: float, gravity: float) -> Array:
         """Buoyancy of each mass between segments of a length (m), (n - 1,) N; `places` (n + 1, 3), m.
 

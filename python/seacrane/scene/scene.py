@@ -33,7 +33,7 @@ from seacrane.scene import (
 from seacrane.scene.add_crane import add_crane
 from seacrane.scene.ballast import add_ballast
 from seacrane.scene.realised_sea import sea_at
-from seacrane.validity.unstable import warn_of_capsize
+from seacrane.validity.implausible import warn_of_capsize
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:

@@ -6,12 +6,14 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane.errors import SimulationError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import is_finite
 from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
+Array = NDArray[np.float64]
 Finding = tuple[type[Warning], str]
 Some = TypeVar("Some")
 
@@ -26,6 +28,13 @@ class Counted(Protocol):
 
 Judged = TypeVar("Judged", bound=Counted)
 NOT_FINITE = "not_finite"  # stat of a result: such channels
+
+
+def peak(values: Array, *, above: float | Array) -> list[tuple[float, int]]:
+    """Where values (n,) pass a bound the farthest: the value and its place; nothing where none does."""
+    beyond = values - above
+    at = int(np.argmax(beyond))
+    return [(float(values[at]), at)] if beyond[at] > 0.0 else []
 
 
 def as_text(found: Iterable[Finding]) -> str:

@@ -11,21 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
+from seacrane import _core, warnings
 from seacrane.description.given import given_vessels
 from seacrane.description.once import once
 from seacrane.hydro import HydroDatabase
-from seacrane.inputs.frames import heading_of, rotation_about_z
-from seacrane.validity.after_run import Finding
-from seacrane.warnings import (
-    CurrentInWavesWarning,
-    ForwardSpeedWarning,
-    MeanHeadingWarning,
-    MeanPositionWarning,
-    MooringTurnWarning,
-    NoWaveLoadsWarning,
-    RelativePlaceWarning,
-)
+from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix
+from seacrane.validity.after_run import Finding, peak
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -46,7 +37,9 @@ WAY_OUT = (
     "take them where the vessel slowly goes by phase='slow' in add_sea, where it is on the average by "
     "position and heading_deg there, or moor it stiffer"
 )
-CORNERS = 0.5 * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])  # of a rectangle, over length and breadth
+CORNERS = 0.5 * np.array(
+    [[1, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]]
+)  # of a rectangle, over length and breadth
 
 
 def motions(
@@ -64,54 +57,32 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
     waves, given = scene.waves, given_vessels(scene)
     for vessel, motion in motions(scene, channels):
         name, body = vessel.name, vessel.body
-        unloaded = waves is not None and body not in waves.hulls
-        others = ", ".join(map(repr, waves.hulls)) if waves is not None else ""
+        if waves is not None and body not in waves.hulls and given.get(body, "raos") == "raos":
+            others = ", ".join(map(repr, waves.hulls))
+            does = f"rests in the sea that {others} meets, and would follow its RAOs there"
+            if body not in given:
+                does = f"floats in the sea that loads {others}, and has no wave loads itself"
+            call = f"scene.add_sea(vessel={name!r})"
+            yield warnings.NoWaveLoadsWarning, f"vessel {name!r}: {does}; call {call}"
         if body in given:
-            if unloaded and given[body] == "raos":
-                yield (
-                    NoWaveLoadsWarning,
-                    f"vessel {name!r}: rests in the sea that {others} meets, and would follow its RAOs "
-                    f"there; call scene.add_sea(vessel={body!r})",
-                )
             continue
         yield from _moored(vessel, time, motion)
-        if unloaded:
-            yield (
-                NoWaveLoadsWarning,
-                f"vessel {name!r}: floats in the sea that loads {others}, and has no wave loads itself; call "
-                f"scene.add_sea(vessel={name!r})",
-            )
-        elif waves is not None:
-            hull, peak = waves.hulls[body], peak_of(scene)
+        if waves is not None and body in waves.hulls:
+            hull, sea = waves.hulls[body], peak_of(scene)
             if hull.force_by_heading is None:
-                yield from _posed(scene.bodies[body], name, hull, peak, time, motion)
-            yield from _under_way(peak, name, time, motion)
+                yield from _posed(scene.bodies[body], name, hull, sea, time, motion)
+            yield from _under_way(sea, name, time, motion)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Peak:
-    """Peak of a sea: frequency (rad/s) and wavenumber (1/m) of its densest energy, and the mean of e e^T
-    over the directions of travel e."""
+    """Peak of a sea: frequency (rad/s), period (s) and wavenumber (1/m) of its densest energy, and the mean
+    of e e^T over the directions of travel e."""
 
     omega: float
+    period: float
     wavenumber: float
     spread: Array
-
-    @classmethod
-    def of(cls, waves: Waves) -> Peak:
-        """By the components."""
-        components = waves.components()
-        omega = peak_frequency(waves)
-        nearest = int(np.argmin(np.abs(np.asarray(waves.omega) - omega)))
-        travel = np.stack([np.cos(components.direction), np.sin(components.direction)])
-        energy = np.asarray(components.amplitude) ** 2
-        spread = (travel * energy) @ travel.T / max(energy.sum(), TINY)
-        return cls(omega=omega, wavenumber=float(components.wavenumber[nearest]), spread=spread)
-
-    @property
-    def period(self) -> float:
-        """s."""
-        return 2.0 * np.pi / self.omega
 
     def phase(self, place: Array) -> Array:
         """Phase of waves at the peak, over displacements (n, 2), m: root mean square over directions, rad."""
@@ -122,7 +93,12 @@ class Peak:
 def peak_of(scene: Description) -> Peak:
     """The peak of the sea of a scene that has one."""
     assert scene.waves is not None
-    return Peak.of(scene.waves)
+    components, omega = scene.waves.components(), peak_frequency(scene.waves)
+    wavenumber = components.wavenumber[int(np.argmin(np.abs(np.asarray(scene.waves.omega) - omega)))]
+    travel = np.stack([np.cos(components.direction), np.sin(components.direction)])
+    energy = np.asarray(components.amplitude) ** 2
+    spread = (travel * energy) @ travel.T / max(energy.sum(), TINY)
+    return Peak(omega=omega, period=2.0 * np.pi / omega, wavenumber=float(wavenumber), spread=spread)
 
 
 def peak_frequency(waves: Waves) -> float:
@@ -150,52 +126,46 @@ def slowly(time: Array, values: Array, period: float) -> Array:
 
 
 def _posed(
-    start: _core.Body, name: str, hull: HullLoads, peak: Peak, time: Array, motion: Array
+    start: _core.Body, name: str, hull: HullLoads, sea: Peak, time: Array, motion: Array
 ) -> Iterator[Finding]:
     """How far the hull is, slowly, from the place and heading of its loads."""
     heading = heading_of(start.quaternion)
     place = motion[:, :2] @ rotation_about_z(heading)[:2, :2].T + (start.position[:2] - hull.position)
     turn = math.remainder(heading - hull.heading, 2.0 * np.pi)
     # A mean is never farther than what it is taken of.
-    near = peak.phase(place).max() <= LARGEST_PHASE
+    near = sea.phase(place).max() <= LARGEST_PHASE
     if near and np.abs(motion[:, 5]).max() + abs(turn) <= LARGEST_TURN:
         return
-    slow = slowly(time, np.column_stack([place, np.unwrap(motion[:, 5]) + turn]), peak.period)
-    far, turned = peak.phase(slow[:, :2]), np.abs(slow[:, 2])
-    if far.max() > LARGEST_PHASE:
-        at = int(far.argmax())
+    slow = slowly(time, np.column_stack([place, np.unwrap(motion[:, 5]) + turn]), sea.period)
+    for phase, at in peak(sea.phase(slow[:, :2]), above=LARGEST_PHASE):
         yield (
-            MeanPositionWarning,
+            warnings.MeanPositionWarning,
             f"vessel {name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are taken at t = "
-            f"{time[at]:.6g} s, {far[at]:.2g} rad of the phase of waves at the peak (limit {LARGEST_PHASE}): "
+            f"{time[at]:.6g} s, {phase:.2g} rad of the phase of waves at the peak (limit {LARGEST_PHASE}): "
             f"{WAY_OUT}",
         )
-    if turned.max() > LARGEST_TURN:
-        at = int(turned.argmax())
+    for turned, at in peak(np.abs(slow[:, 2]), above=LARGEST_TURN):
         yield (
-            MeanHeadingWarning,
-            f"vessel {name!r}: yaw reaches {np.degrees(turned[at]):.3g} deg from the heading at which its "
-            f"wave loads are taken, at t = {time[at]:.6g} s (limit {np.degrees(LARGEST_TURN):.0f}): the hull "
-            f"has left their direction; {WAY_OUT}",
+            warnings.MeanHeadingWarning,
+            f"vessel {name!r}: yaw reaches {np.degrees(turned):.3g} deg from the heading at which its wave "
+            f"loads are taken, at t = {time[at]:.6g} s (limit {np.degrees(LARGEST_TURN):.0f}): the hull has "
+            f"left their direction; {WAY_OUT}",
         )
 
 
-def _under_way(peak: Peak, name: str, time: Array, motion: Array) -> Iterator[Finding]:
+def _under_way(sea: Peak, name: str, time: Array, motion: Array) -> Iterator[Finding]:
     if time.size < 2:
         return
     rate = np.diff(motion[:, :2], axis=0) / np.diff(time)[:, None]
-    if peak.wavenumber * np.hypot(*rate.T).max() <= LARGEST_SHIFT * peak.omega:
+    fast = LARGEST_SHIFT * sea.omega / sea.wavenumber if sea.wavenumber else np.inf
+    if np.hypot(*rate.T).max() <= fast:
         return
-    speed = np.hypot(*slowly(time[1:], rate, peak.period).T)
-    at = int(speed.argmax())
-    shift = peak.wavenumber * speed[at] / peak.omega
-    if shift > LARGEST_SHIFT:
+    for speed, at in peak(np.hypot(*slowly(time[1:], rate, sea.period).T), above=fast):
         yield (
-            ForwardSpeedWarning,
-            f"vessel {name!r}: makes {speed[at]:.3g} m/s at t = {time[at + 1]:.6g} s, and its hydrodynamics "
-            f"are those of zero speed: waves are met up to {shift:.0%} faster or slower, and added mass, "
-            "damping and wave loads change with it, which the time domain does not know. Slow it down, or "
-            "moor it",
+            warnings.ForwardSpeedWarning,
+            f"vessel {name!r}: makes {speed:.3g} m/s at t = {time[at + 1]:.6g} s, and meets waves up to "
+            f"{sea.wavenumber * speed / sea.omega:.0%} faster or slower, with hydrodynamics of zero speed. "
+            "Slow it down, or moor it",
         )
 
 
@@ -203,11 +173,10 @@ def _moored(vessel: _core.VesselHydrodynamics, time: Array, motion: Array) -> It
     passed = np.abs(np.diff(motion[:, 5])) > np.pi
     if vessel.mooring_stiffness[2] != 0.0 and passed.any():
         yield (
-            MooringTurnWarning,
+            warnings.MooringTurnWarning,
             f"vessel {vessel.name!r}: passes half a turn from its rest at t = "
-            f"{time[int(np.argmax(passed)) + 1]:.6g} s, where its mooring in yaw, a spring of the angle to "
-            "the nearest whole turn, pulls the other way: it does not stop a turning vessel. Give it a "
-            "stiffer mooring, or look for what turns it",
+            f"{time[int(np.argmax(passed)) + 1]:.6g} s, from where its mooring in yaw pulls the other way. "
+            "Give it a stiffer mooring, or look for what turns it",
         )
 
 
@@ -216,11 +185,7 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
     waves = scene.waves
     if waves is None or not time.size:
         return
-    lengths = (
-        "with the wave lengths of still water, which are off by about twice that share; wave loads"
-        if waves.current is None
-        else "with its wave lengths on the current; wave loads"
-    )
+    lengths = "of still water" if waves.current is None else "on the current"
     for name, load in scene.loads.items():
         in_water = isinstance(load, _core.FlowForce) and load.density > LIGHTEST_WATER
         if not in_water or load.body not in waves.hulls:
@@ -230,48 +195,39 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
         shift = float(peak_of(scene).phase(flow)[0]) / peak_of(scene).omega
         if shift > LARGEST_SHIFT:
             yield (
-                CurrentInWavesWarning,
+                warnings.CurrentInWavesWarning,
                 f"current {name!r}: {speed:.3g} m/s on vessel {load.body!r} shift the frequency of waves at "
-                f"the peak by {shift:.0%} between the water and a fixed place. The sea is taken as a fixed "
-                f"observer sees it, {lengths}, added mass and damping are those without flow. Give the "
-                "spectrum as measured at a fixed place, and take motions in this current as an estimate",
+                f"the peak by {shift:.0%} between the water and a fixed place; wave lengths are those "
+                f"{lengths}, loads those without flow. Give the spectrum as measured at a fixed place, and "
+                "take motions in this current as an estimate",
             )
 
 
 def relative_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> Iterator[Finding]:
     """Pairs of a group whose mean relative place or heading is out of range."""
-    moved = {vessel.name: motion for vessel, motion in motions(scene, channels)}
-    for name, group in scene.groups.items():
-        for one, other in combinations(group.vessels, 2):
-            if {one, other} <= moved.keys():
-                yield from _of_pair(scene, name, (one, other), time, (moved[one], moved[other]))
-
-
-def _of_pair(
-    scene: Description, group: str, pair: tuple[str, str], time: Array, moved: tuple[Array, Array]
-) -> Iterator[Finding]:
-    if scene.waves is not None and time[-1] - time[0] < peak_of(scene).period:
+    moved, waves = {vessel.name: motion for vessel, motion in motions(scene, channels)}, scene.waves
+    if waves is not None and time[-1] - time[0] < peak_of(scene).period:
         return  # within one wave there is no mean
-    fast = _relative(scene, pair, moved)
-    if scene.waves is None:
-        slow = np.broadcast_to(fast.mean(axis=0), fast.shape)
-    else:
-        slow = slowly(time, fast, peak_of(scene).period)
-    gap = gap_between(scene, *pair)
-    far, turned = np.hypot(*slow[:, :2].T), np.abs(slow[:, 2])
-    if far.max() <= LARGEST_GAP_SHARE * gap and turned.max() <= LARGEST_RELATIVE_TURN:
-        return
-    at, turn = int(far.argmax()), int(turned.argmax())
-    place, swing = np.hypot(*(fast - slow)[:, :2].T).max(), np.degrees(np.abs(fast - slow)[:, 2].max())
-    yield (
-        RelativePlaceWarning,
-        f"group {group!r}: {pair[1]!r} leaves its place beside {pair[0]!r} by {far[at]:.3g} m on the average "
-        f"at t = {time[at]:.6g} s and its heading by {np.degrees(turned[turn]):.3g} deg (limits: "
-        f"{LARGEST_GAP_SHARE * gap:.3g} m, a tenth of the gap of {gap:.3g} m, and "
-        f"{np.degrees(LARGEST_RELATIVE_TURN):.0f} deg), about which they move by {place:.3g} m and "
-        f"{swing:.3g} deg with the waves: what they do to each other is that of the places in the group's "
-        "data. Moor them closer to these, or compute the group where they go",
-    )
+    pairs = [(name, pair) for name, group in scene.groups.items() for pair in combinations(group.vessels, 2)]
+    for name, (one, other) in pairs:
+        if not {one, other} <= moved.keys():
+            continue
+        fast = _relative(scene, (one, other), (moved[one], moved[other]))
+        mean = np.broadcast_to(fast.mean(axis=0), fast.shape)
+        slow = mean if waves is None else slowly(time, fast, peak_of(scene).period)
+        gap = gap_between(scene, one, other)
+        far, turned = np.hypot(*slow[:, :2].T), np.abs(slow[:, 2])
+        if far.max() <= LARGEST_GAP_SHARE * gap and turned.max() <= LARGEST_RELATIVE_TURN:
+            continue
+        at = int(far.argmax())
+        yield (
+            warnings.RelativePlaceWarning,
+            f"group {name!r}: {other!r} leaves its place beside {one!r} by {far[at]:.3g} m on the average "
+            f"at t = {time[at]:.6g} s and its heading by {np.degrees(turned.max()):.3g} deg (limits: "
+            f"{LARGEST_GAP_SHARE * gap:.3g} m, a tenth of the gap of {gap:.3g} m, and "
+            f"{np.degrees(LARGEST_RELATIVE_TURN):.0f} deg). Moor them closer to the places of the group's "
+            "data, or compute the group where they go",
+        )
 
 
 def _relative(scene: Description, pair: tuple[str, str], moved: tuple[Array, Array]) -> Array:
@@ -283,10 +239,8 @@ def _relative(scene: Description, pair: tuple[str, str], moved: tuple[Array, Arr
         for start, body, motion in zip(starts, bodies, moved, strict=True)
     ]
     apart, yaw = places[1] - places[0], moved[0][:, 5]
-    cosine, sine = np.cos(yaw), np.sin(yaw)
-    followed = np.column_stack(
-        [cosine * apart[:, 0] + sine * apart[:, 1], cosine * apart[:, 1] - sine * apart[:, 0]]
-    )
+    followed = (apart[:, 0] + 1j * apart[:, 1]) * np.exp(-1j * yaw)
+    followed = np.column_stack([followed.real, followed.imag])
     turn = np.unwrap(moved[1][:, 5]) - np.unwrap(yaw)
     return np.column_stack([followed - (starts[1] - starts[0]), turn])
 
@@ -296,30 +250,20 @@ def gap_between(scene: Description, one: str, other: str) -> float:
 
     Of hulls whose rectangles overlap, as a float about a spar, the smaller breadth.
     """
-    corners, breadths = [], []
-    for name in (one, other):
-        vessel = scene.vessels[name]
-        hull, body = vessel.database, scene.bodies[vessel.body]
-        if not isinstance(hull, HydroDatabase):
+    sizes = []
+    for vessel in (scene.vessels[one], scene.vessels[other]):
+        if not isinstance(vessel.database, HydroDatabase):
             return float("inf")
-        half = CORNERS * [hull.length, hull.breadth]
-        turn = rotation_about_z(heading_of(body.quaternion))[:2, :2]
-        corners.append(half @ turn.T + np.asarray(body.position)[:2])
-        breadths.append(hull.breadth)
-    gap = max(_apart(*corners), _apart(*reversed(corners)))
-    return min(_distance(*corners), _distance(*reversed(corners))) if gap > 0.0 else float(min(breadths))
+        sizes.append((scene.bodies[vessel.body], vessel.database.length, vessel.database.breadth))
+    apart = [
+        beside(own[0], hull.position + rotation_about_z(heading_of(hull.quaternion)) @ corner, *own[1:])
+        for own, (hull, length, breadth) in (sizes, sizes[::-1])
+        for corner in CORNERS * [length, breadth, 0.0]
+    ]
+    return min(apart) if min(apart) > 0.0 else float(min(breadth for _, _, breadth in sizes))
 
 
-def _apart(one: Array, other: Array) -> float:
-    """The largest distance that an edge of one keeps from all of the other; negative where they overlap."""
-    edges = np.roll(one, -1, axis=0) - one
-    outwards = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.hypot(*edges.T)[:, None]
-    return float(max(np.min((other - corner) @ out) for corner, out in zip(one, outwards, strict=True)))
-
-
-def _distance(one: Array, other: Array) -> float:
-    """Of the corners of one from the edges of the other, at least."""
-    edges = np.roll(other, -1, axis=0) - other
-    from_start = one[:, None] - other
-    share = np.clip(np.sum(from_start * edges, axis=2) / np.sum(edges**2, axis=1), 0.0, 1.0)
-    return float(np.linalg.norm(from_start - share[..., None] * edges, axis=2).min())
+def beside(hull: _core.Body, place: Array, length: float, breadth: float) -> float:
+    """Horizontal distance of a place from the box of a hull, m; 0 within it."""
+    x, y, _ = rotation_matrix(hull.quaternion).T @ (place - np.asarray(hull.position))
+    return float(np.hypot(max(abs(x) - 0.5 * length, 0.0), max(abs(y) - 0.5 * breadth, 0.0)))

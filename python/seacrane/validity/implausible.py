@@ -3,38 +3,38 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
-from seacrane.description.given import floating_bodies
+from seacrane import _core, warnings
+from seacrane.description.given import (
+    beside_surface,
+    borne_mass,
+    elastic_force,
+    floating_bodies,
+    welded_mass,
+    with_mass,
+)
 from seacrane.description.holding import free_drives
-from seacrane.description.loads import bodies_of, kind_of
+from seacrane.description.line_path import described_poses
+from seacrane.description.loads import bodies_of, kind_of, named
 from seacrane.description.once import once, once_in_any_sea
 from seacrane.description.outline import size_of_ship
 from seacrane.description.places import ANGLES, placed
 from seacrane.description.references import references
 from seacrane.description.suspension import bodies_below
 from seacrane.description.wet_parts import immersed_parts
+from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import angle_of
-from seacrane.validity.contact_starts import warn_of_contact_starts
-from seacrane.validity.hull_range import peak_of
+from seacrane.validity.hull_range import beside, peak_of
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 from seacrane.validity.line_checks import warn_of_line_starts
 from seacrane.validity.magnitudes import warn_of_units
-from seacrane.validity.unstable import carried_by, warn_of_capsize
-from seacrane.warnings import (
-    BallastWarning,
-    CompassDirectionWarning,
-    DragAxesWarning,
-    FreeCraneWarning,
-    MassUnitWarning,
-    ScatteredWavesWarning,
-)
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
@@ -51,6 +51,9 @@ LARGEST_SINKAGE = 2.0  # m
 DEEP = np.pi  # of wavenumber times depth: 4 % of the wave are left
 STEEP = np.radians(45.0)  # of a part's z axis from the vertical
 UNLIKE = 1.5  # drag along z over that across it, or the other way round
+SUNK = 0.1  # m of a contact's point, as the core has it of what is described
+CRUSHED = 10.0  # times the weight on a point, likewise
+SHOT = 1.0  # m/s2, away from a surface: a tenth of the weight
 WITHOUT_WEIGHT = ("flow force", "span drag")  # nothing of them acts at rest, or the next wave turns it
 
 
@@ -96,21 +99,19 @@ def _warn_of_winds(scene: Description) -> None:
     energy = np.square(np.asarray(scene.waves.amplitude, dtype=float)) * np.ones(len(scene.waves.omega))
     direction = np.asarray(scene.waves.direction, dtype=float)
     for name, load in scene.loads.items():
-        if not (isinstance(load, _core.FlowForce) and load.density < HEAVIEST_AIR) or _still(load):
+        if not (isinstance(load, _core.FlowForce) and load.density < HEAVIEST_AIR):
+            continue
+        if not np.any(load.speed.to_pieces()["coefficients"]):
             continue
         along = np.cos(direction - load.direction) >= np.cos(AGAINST)
         if np.sum(energy * along) < LEAST_ENERGY * np.sum(energy):
             main = float(np.angle(np.sum(energy * np.exp(1j * direction))))
             warn_caller(
                 f"flow force {name!r}: the wind blows to {np.degrees(load.direction):.4g} deg, the waves run "
-                f"to {np.degrees(main):.4g} deg, against it. Both are where they go to; weather forecasts "
-                "and compasses tell where wind comes from: turn it by 180 deg?",
-                CompassDirectionWarning,
+                f"to {np.degrees(main):.4g} deg, against it; forecasts say where wind comes from: turn it by "
+                "180 deg?",
+                warnings.CompassDirectionWarning,
             )
-
-
-def _still(wind: _core.FlowForce) -> bool:
-    return not np.any(np.asarray(wind.speed.to_pieces()["coefficients"]))
 
 
 @once_in_any_sea
@@ -121,7 +122,7 @@ def _warn_of_masses(scene: Description) -> None:
             warn_caller(
                 f"body {name!r}: mass {body.mass:.6g} kg and inertia make a radius of gyration of "
                 f"{radius:.4g} m; give both in kg and kg m2: tonnes for kg?",
-                MassUnitWarning,
+                warnings.MassUnitWarning,
             )
     floating = floating_bodies(scene)
     hulls = [body.mass for name, body in scene.bodies.items() if name in floating]
@@ -131,7 +132,7 @@ def _warn_of_masses(scene: Description) -> None:
             warn_caller(
                 f"body {below[0]!r}: {mass:.6g} kg hang on {one.name!r}, in a scene with a vessel of "
                 f"{max(hulls):.4g} kg, which does not feel them; masses are kilograms: tonnes for kg?",
-                MassUnitWarning,
+                warnings.MassUnitWarning,
             )
 
 
@@ -157,7 +158,15 @@ def _warn_of_ballast(scene: Description) -> None:
         forward, port = arms[:, :2] @ bow, arms[:, :2] @ [-bow[1], bow[0]]
         lift = np.array([*(-body.mass * scene.gravity for body in weights), *(f.force[2] for f in held)])
         load = [lift.sum(), lift @ port, -lift @ forward]
-        _warn_of_balance(vessel, np.linalg.lstsq(restoring, load)[0], float(hull.position[2]))
+        heave, roll, pitch = np.linalg.lstsq(restoring, load)[0] - [hull.position[2], 0.0, 0.0]
+        if max(abs(roll), abs(pitch)) <= LARGEST_HEEL and abs(heave) <= LARGEST_SINKAGE:
+            continue
+        warn_caller(
+            f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by "
+            f"{np.degrees(roll):.3g} deg, trim it by {np.degrees(pitch):.3g} deg and lift it by "
+            f"{heave:.3g} m. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
+            warnings.BallastWarning,
+        )
 
 
 def _holds(scene: Description, load: Any, carried: frozenset[str]) -> bool:
@@ -165,19 +174,6 @@ def _holds(scene: Description, load: Any, carried: frozenset[str]) -> bool:
     ends = set(bodies_of(load, scene.joints))
     known = kind_of(load) == "point force" or kind_of(load) in WITHOUT_WEIGHT
     return bool(ends & carried) and not known and (len(ends) == 1 or not ends <= carried)
-
-
-def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: float) -> None:
-    """`rest`: heave, roll and pitch at which the weights balance, from the described pose at `start`."""
-    heave, roll, pitch = rest[0] - start, rest[1], rest[2]
-    if max(abs(roll), abs(pitch)) <= LARGEST_HEEL and abs(heave) <= LARGEST_SINKAGE:
-        return
-    warn_caller(
-        f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by {np.degrees(roll):.3g} "
-        f"deg, trim it by {np.degrees(pitch):.3g} deg and lift it by {heave:.3g} m, so that it swings from "
-        "the start. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
-        BallastWarning,
-    )
 
 
 def warn_of_free_cranes(scene: Description) -> None:
@@ -190,7 +186,7 @@ def warn_of_free_cranes(scene: Description) -> None:
                 f"{which}: nothing holds {', '.join(free)}: it falls, or turns as the ship rolls. Leave out "
                 "held=False of add_crane, or give each joint a driver (Scene.add_driver) or an actuator "
                 "(Scene.add_actuator)",
-                FreeCraneWarning,
+                warnings.FreeCraneWarning,
             )
 
 
@@ -208,22 +204,15 @@ def warn_of_parts_near_hulls(scene: Description) -> None:
     places = {name: place for name, place in places.items() if place[2] > deepest}
     for ship in sorted(ships) if places else ():
         length, breadth = size_of_ship(scene, ship)
-        away = {name: _beside(scene.bodies[ship], place, length, breadth) for name, place in places.items()}
+        away = {name: beside(scene.bodies[ship], place, length, breadth) for name, place in places.items()}
         nearest = min(away, key=lambda name: away[name])
         if away[nearest] < breadth:
             warn_caller(
                 f"immersed part {nearest!r}: starts {away[nearest]:.3g} m from the side of {ship!r}, within "
-                f"its breadth of {breadth:.3g} m, in a sea. The water that it feels has neither the waves "
-                "that the hull scatters nor those that it makes: before a wall waves are twice as high, in a "
-                "lee lower. Give wave_factor what this hull makes of them",
-                ScatteredWavesWarning,
+                f"its breadth of {breadth:.3g} m, in a sea without the waves that the hull scatters and "
+                "makes. Give wave_factor what this hull makes of them",
+                warnings.ScatteredWavesWarning,
             )
-
-
-def _beside(hull: _core.Body, place: Array, length: float, breadth: float) -> float:
-    """Horizontal distance of a place from the box of a hull, m; 0 within it."""
-    x, y, _ = rotation_matrix(hull.quaternion).T @ (place - np.asarray(hull.position))
-    return float(np.hypot(max(abs(x) - 0.5 * length, 0.0), max(abs(y) - 0.5 * breadth, 0.0)))
 
 
 @once_in_any_sea
@@ -239,8 +228,119 @@ def warn_of_drag_axes(scene: Description) -> None:
         if tilt > STEEP and not 1.0 / UNLIKE <= ratio <= UNLIKE:
             warn_caller(
                 f"immersed part {part.name!r}: its z axis is {np.degrees(tilt):.3g} deg from the vertical as "
-                f"described, and its drag_area of {areas[2]:.4g} m2 acts along it, not upwards. drag_area is "
-                "along the axes of the part, which turn with the body: give it in their order, or turn the "
-                "part by axes, if it enters the water as described",
-                DragAxesWarning,
+                f"described, and its drag_area of {areas[2]:.4g} m2 acts along it, not upwards. Give it in "
+                "the order of the part's axes, or turn these by axes, if it enters the water as described",
+                warnings.DragAxesWarning,
             )
+
+
+@once_in_any_sea
+def warn_of_capsize(scene: Description) -> None:
+    """Warn of vessels whose roll restoring the weights on them outweigh, as they are described.
+
+    Weights that hang count at the upper end of what they hang on.
+    """
+    for vessel in (one for one in scene.vessels.values() if one.floats):
+        restoring = float(np.asarray(vessel.restoring)[3, 3])
+        carried = carried_by(scene, vessel.body)
+        if restoring == 0.0 or vessel.body not in scene.bodies:
+            continue
+        hull = scene.bodies[vessel.body]
+        weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
+        hung = [one for one in reversed(bodies_below(scene)) if one[0].held_at[0] in scene.bodies]
+        held = {body: one.held_at for one, below in hung for body in below}
+        lowered = 0.0
+        for body in weights:
+            at, point = held.get(body.name, (body.name, body.center_of_mass))
+            lowered += body.mass * scene.gravity * _above(scene.bodies[at], point, hull)
+        raised = sum(
+            float(force.force[2]) * _above(scene.bodies[force.body], force.point, hull)
+            for force in scene.point_forces.values()
+            if force.body in carried
+        )
+        left = restoring - lowered + raised
+        if left < 0.0:
+            warn_caller(
+                f"vessel {vessel.name!r}: has a GM of about {left / (hull.mass * scene.gravity):.3g} m with "
+                "the weights on it as described, and capsizes: its C44 holds its own weight alone. Lower the "
+                "weights, put less of them on it, or look at seacrane.statics",
+                warnings.UnstableRestWarning,
+            )
+
+
+@once_in_any_sea
+def carried_by(scene: Description, vessel: str) -> frozenset[str]:
+    """Bodies whose weight comes to a vessel; none where another support shares it."""
+    stopped = {joint for load in scene.loads.values() for joint in named(load, "joint")}
+    driven = {driver.joint for driver in scene.drivers.values()}
+    neighbours: dict[str, list[str]] = {}
+    for name, joint in scene.joints.items():
+        if joint.kind != "free" or name in stopped | driven:
+            neighbours.setdefault(joint.first, []).append(joint.second)
+            neighbours.setdefault(joint.second, []).append(joint.first)
+    for one, below in bodies_below(scene):
+        neighbours.setdefault(one.held_at[0], []).extend(below)
+    found, open_ = {vessel}, [vessel]
+    while open_:
+        new = set(neighbours.get(open_.pop(), ())) - found
+        found |= new
+        open_ += new
+    floating = floating_bodies(scene)
+    alone = found <= set(scene.bodies) and found & floating == {vessel}
+    return frozenset(found if alone else ())
+
+
+def _above(body: _core.Body, point: object, hull: _core.Body) -> float:
+    turned = rotation_matrix(body.quaternion) @ np.asarray(point, dtype=float)
+    return float(body.position[2] + turned[2] - hull.position[2])
+
+
+def warn_of_contact_starts(scene: Description) -> None:
+    """Warn of bodies that surfaces press away at once, as a scene is described."""
+    contacts = [one for one in scene.loads.values() if isinstance(one, _core.Contact)]
+    if not contacts:
+        return
+    pose = described_poses(scene)
+    places = {one.name: [beside_surface(one, i, pose) for i in range(len(one.points))] for one in contacts}
+    for body in with_mass(scene, *dict.fromkeys(one.body for one in contacts)):
+        mass = welded_mass(scene, body)
+        of_body = [one for one in contacts if one.body == body]
+        total = np.array([0.0, 0.0, -mass * scene.gravity if scene.bodies[body].gravity else 0.0])
+        for one in of_body:
+            total += sum((elastic_force(one, -gap) * way for gap, way in places[one.name]), np.zeros(3))
+        for one in of_body:
+            _warn_of_shot(one, places[one.name], total / mass)
+
+
+def _warn_of_shot(contact: _core.Contact, places: list[tuple[float, Array]], acceleration: Array) -> None:
+    """Warn of the deepest point, where the body is pressed away from the surface there."""
+    depth, way, point = max((-gap, tuple(way), i) for i, (gap, way) in enumerate(places))
+    away = float(acceleration @ way)
+    if depth <= 0.0 or away <= SHOT:
+        return
+    warn_caller(
+        f"contact {contact.name!r}: point {point + 1} of {contact.body!r} starts {depth:.4g} m inside the "
+        f"surface of {contact.on!r}, which presses the body away with {away:.3g} m/s2 at once: move the body "
+        "out, or correct the place of the surface",
+        warnings.ContactStartWarning,
+    )
+
+
+def check_contact_connected(
+    title: str, scene: Description, name: str, measured: Mapping[str, Array], time: float
+) -> None:
+    """Refuse a contact that a stage connects at `time` (s) with a point deep inside."""
+    contacts = {key: one for key, one in scene.loads.items() if isinstance(one, _core.Contact)}
+    contact, count = contacts[name], len(contacts[name].points)
+    before = sum(len(contacts[key].points) for key in list(contacts)[: list(contacts).index(name)])
+    gaps = np.ravel(measured["contact_gap"])[before : before + count]
+    worst = int(np.argmin(gaps))
+    force = elastic_force(contact, -float(gaps[worst]))
+    share = borne_mass(scene, contact.body, contact.on) * scene.gravity / count
+    if -gaps[worst] <= SUNK or force <= CRUSHED * share:
+        return
+    raise SceneError(
+        f"{title}: contact {name!r} connects with point {worst + 1} of {contact.body!r} "
+        f"{-gaps[worst]:.4g} m inside {contact.on!r} at t = {time:.6g} s, where it is pressed out with "
+        f"{force:.4g} N; connect it before the point is inside, or correct the place of the surface"
+    )

@@ -9,22 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import warnings
 from seacrane.description.places import ANGLES, Pose, coordinate_at, wrapped
 from seacrane.inputs.frames import MOTIONS, rotation_matrix
-from seacrane.validity.after_run import Finding, tried
+from seacrane.validity.after_run import Finding, peak, tried
 from seacrane.validity.hull_range import current_findings, hull_findings, motions, relative_findings
 from seacrane.validity.lifting import lifting
 from seacrane.validity.line_checks import line_findings
-from seacrane.warnings import (
-    EnergyErrorWarning,
-    FullTurnWarning,
-    LargeHeelWarning,
-    NearSingularWarning,
-    OutsideDatabaseWarning,
-    OutsideRangeWarning,
-    PushingLinkWarning,
-    SoftGainsWarning,
-)
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -64,19 +55,11 @@ def findings(
     """
     found: list[Finding] = []
     looks: Mapping[str, Look] = {
-        "heel": _heel,
-        "hulls": hull_findings,
-        "places in a group": relative_findings,
-        "currents": current_findings,
-        "frequencies": _frequencies,
-        "links": _links,
-        "lifting": lifting,
-        "turns": _turns,
-        "energy": _energy,
-        "lines": partial(line_findings, described=described),
-        "ranges": _ranges,
-        "following": partial(_following, steered=steered),
-    }
+        "heel": _heel, "hulls": hull_findings, "places in a group": relative_findings,
+        "currents": current_findings, "frequencies": _frequencies, "links": _links, "lifting": lifting,
+        "turns": _turns, "energy": _energy, "lines": partial(line_findings, described=described),
+        "ranges": _ranges, "following": partial(_following, steered=steered),
+    }  # fmt: skip
     for what, look in looks.items():
         found += tried(f"looking at {what}", partial(_listed, look, scene, time, channels), [], found)
     return [*found, *_singular(stats)]
@@ -86,23 +69,16 @@ def _listed(look: Look, scene: Description, time: Array, channels: Channels) -> 
     return list(look(scene, time, channels))
 
 
-def _worst(time: Array, values: Array) -> tuple[float, float]:
-    """Largest magnitude and its time."""
-    at = int(np.argmax(np.abs(values)))
-    return float(np.abs(values[at])), float(time[at])
-
-
 def _heel(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
     for vessel, motion in motions(scene, channels):
-        for name in ("roll", "pitch") if vessel.floats else ():
-            angle, at = _worst(time, motion[:, MOTIONS.index(name)])
-            if angle > LARGEST_HEEL:
+        for name, angles in zip(MOTIONS[3:5], motion.T[3:5], strict=True) if vessel.floats else ():
+            for angle, at in peak(np.abs(angles), above=LARGEST_HEEL):
                 yield (
-                    LargeHeelWarning,
-                    f"vessel {vessel.name!r}: {name} reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, "
-                    f"beyond {np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear and wave loads are "
-                    "those of the upright hull, so that righting moments and capsize are not told. Lower the "
-                    "sea or the load, add roll damping, or take motions beyond as an alarm only",
+                    warnings.LargeHeelWarning,
+                    f"vessel {vessel.name!r}: {name} reaches {np.degrees(angle):.3g} deg at t = "
+                    f"{time[at]:.6g} s, beyond {np.degrees(LARGEST_HEEL):.0f} deg, of which restoring and "
+                    "wave loads know nothing. Lower the sea or the load, add roll damping, or take motions "
+                    "beyond as an alarm only",
                 )
 
 
@@ -118,11 +94,10 @@ def _frequencies(scene: Description, time: Array, channels: Channels) -> Iterato
         worst, share = _foreign(time, motion, highest)
         if share > FOREIGN_SHARE:
             yield (
-                OutsideDatabaseWarning,
+                warnings.OutsideDatabaseWarning,
                 f"vessel {vessel.name!r}: {share:.0%} of the energy of {MOTIONS[worst]} is above "
-                f"{highest:.4g} rad/s, where database {known.database!r} ends: added mass and damping are "
-                "guessed there. Compute the database to higher frequencies, or look for what shakes the "
-                "vessel that fast",
+                f"{highest:.4g} rad/s, where database {known.database!r} ends. Compute it to higher "
+                "frequencies, or look for what shakes the vessel that fast",
             )
 
 
@@ -151,12 +126,11 @@ def _links(scene: Description, time: Array, channels: Channels) -> Iterator[Find
     links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
     for i, name in enumerate(links if "tension" in channels else []):
         tension = channels["tension"][:, i]
-        if _hangs(scene, name) and tension.min() < -1e-9 * np.abs(tension).max():
-            at = int(tension.argmin())
+        push = peak(-tension, above=1e-9 * np.abs(tension).max()) if _hangs(scene, name) else ()
+        for force, at in push:
             yield (
-                PushingLinkWarning,
-                f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
-                "cannot: it would be slack, and its load when it tightens again is not in this result. "
+                warnings.PushingLinkWarning,
+                f"link {name!r}: pushes with {force:.4g} N at t = {time[at]:.6g} s, which a wire cannot. "
                 f"scene.add_line(joint={name!r}, rung='rigid') makes it a wire",
             )
 
@@ -172,11 +146,9 @@ def _turns(scene: Description, time: Array, channels: Channels) -> Iterator[Find
         count, first = _jumps(time, channels["coordinate"][:, i]) if kind == "angle" else (0, 0.0)
         if count:
             yield (
-                FullTurnWarning,
-                f"coordinate {name!r}: passes 180 deg {count} time(s), first at t = {first:.6g} s: it is "
-                "recorded between -180 and 180 deg and jumps there, and an actuator more than half a turn "
-                "behind its reference pulls the other way. Unwrap it by numpy.unwrap; keep references within "
-                "half a turn of the motion",
+                warnings.FullTurnWarning,
+                f"coordinate {name!r}: passes 180 deg {count} time(s), first at t = {first:.6g} s, and jumps "
+                "there. Unwrap it by numpy.unwrap; keep references within half a turn of the motion",
             )
 
 
@@ -195,7 +167,7 @@ def _energy(scene: Description, time: Array, channels: Channels) -> Iterator[Fin
     if off.size and size != 0.0:
         worst = float(error.max())
         yield (
-            EnergyErrorWarning,
+            warnings.EnergyErrorWarning,
             f"run: energy_balance reaches {worst:.3g} J, {worst / size:.2g} of work and kinetic energy, "
             f"from t = {time[off[0]]:.6g} s on: this is not the scene's motion. Give a shorter dt, a tighter "
             "rtol or an adaptive integrator; where it stays, a load tells a power that is not its force's",
@@ -205,29 +177,26 @@ def _energy(scene: Description, time: Array, channels: Channels) -> Iterator[Fin
 def _singular(stats: Mapping[str, Any]) -> Iterator[Finding]:
     if stats.get("rank_changed"):
         yield (
-            NearSingularWarning,
+            warnings.NearSingularWarning,
             f"joint {stats['smallest_pivot_joint']!r}: its constraints came to depend on the others at t = "
             f"{stats['smallest_pivot_at_s']:.6g} s (relative singular value "
-            f"{stats['smallest_singular_value']:.2g}): the mechanism can branch there, as at a dead centre; "
-            "it went on by inertia, and reactions there are not unique. Look at energy_balance, which tells "
-            "what was lost there; keep away from the position, or give the joint more freedom",
+            f"{stats['smallest_singular_value']:.2g}): the mechanism can branch there, and went on by "
+            "inertia. Look at energy_balance; keep away from the position, or give the joint more freedom",
         )
 
 
 def _values(scene: Description, joint: str, coordinate: str, channels: Channels) -> Array | None:
     """A coordinate at the outputs (n,), or None where nothing recorded tells it."""
-    places = list(scene.recorded.values())
+    places, bodies = list(scene.recorded.values()), list(scene.bodies)
     if "coordinate" in channels and (joint, coordinate) in places:
         return channels["coordinate"][:, places.index((joint, coordinate))]
-    if "position" not in channels or "quaternion" not in channels:
-        return None
-    index = {name: i for i, name in enumerate(scene.bodies)}
 
     def pose(body: str) -> Pose:
-        at = index[body]
+        at = bodies.index(body)
         return channels["position"][:, at], rotation_matrix(channels["quaternion"][:, at])
 
-    return coordinate_at(scene, joint, coordinate, pose)
+    posed = {"position", "quaternion"} <= channels.keys()
+    return coordinate_at(scene, joint, coordinate, pose) if posed else None
 
 
 def _ranges(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
@@ -238,10 +207,9 @@ def _ranges(scene: Description, time: Array, channels: Channels) -> Iterator[Fin
             continue
         angular = limit.coordinate in ANGLES
         beyond = np.maximum(limit.minimum - values, values - limit.maximum)
-        at = int(beyond.argmax())
-        if beyond[at] > BEYOND * (1.0 if angular else scene.length_scale):
+        for _, at in peak(beyond, above=BEYOND * (1.0 if angular else scene.length_scale)):
             yield (
-                OutsideRangeWarning,
+                warnings.OutsideRangeWarning,
                 f"range {name!r}: {limit.joint}.{limit.coordinate} reaches {values[at]:.4g} "
                 f"{'rad' if angular else 'm'} at t = {time[at]:.6g} s, outside {limit.minimum:.4g} to "
                 f"{limit.maximum:.4g} from the described pose: the real one ends there. Correct reference or "
@@ -265,25 +233,23 @@ def _following(
             count, first = _jumps(time, error)
             if count:
                 yield (
-                    FullTurnWarning,
+                    warnings.FullTurnWarning,
                     f"actuator {name!r}: came to be half a turn from its reference {count} time(s), first at "
-                    f"t = {first:.6g} s: an angle is known to whole turns only, and from there it was driven "
-                    "the other way round. Lead it by a slower reference, or give it stronger gains",
+                    f"t = {first:.6g} s, and was driven the other way round from there. Lead it by a slower "
+                    "reference, or give it stronger gains",
                 )
         if actuator.stiffness == 0.0 or actuator.damping > 0.0:  # else a spring
-            yield from _short(scene, name, error)
+            yield from _short(scene, actuator, error)
 
 
 def _holds(actuator: _core.Actuator) -> bool:
     """Whether an actuator has a reference to follow: a controller's gains, or a curve that says so."""
     if actuator.stiffness > 0.0:
         return actuator.damping > 0.0 or actuator.coordinate in ANGLES
-    data = actuator.reference.to_pieces()
-    return bool(np.any(np.asarray(data["coefficients"]) != 0.0))
+    return bool(np.any(actuator.reference.to_pieces()["coefficients"]))
 
 
-def _short(scene: Description, name: str, error: Array) -> Iterator[Finding]:
-    actuator = scene.actuators[name]
+def _short(scene: Description, actuator: _core.Actuator, error: Array) -> Iterator[Finding]:
     last = error[-max(int(LAST * error.size), 1) :]
     angular = actuator.coordinate in ANGLES
     limit = SHORT[angular] * (1.0 if angular else scene.length_scale)
@@ -292,9 +258,9 @@ def _short(scene: Description, name: str, error: Array) -> Iterator[Finding]:
         return
     away = f"{np.degrees(mean):.4g} deg" if angular else f"{mean:.4g} m"
     yield (
-        SoftGainsWarning,
-        f"actuator {name!r}: ends {away} from its reference: stiffness {actuator.stiffness:.4g} and damping "
-        f"{actuator.damping:.4g} {'N m/rad, N m s/rad' if angular else 'N/m, N s/m'} are too soft for what "
-        "it carries. Give stiffness = inertia * omega**2 with omega well above the motion "
+        warnings.SoftGainsWarning,
+        f"actuator {actuator.name!r}: ends {away} from its reference: stiffness {actuator.stiffness:.4g} and "
+        f"damping {actuator.damping:.4g} {'N m/rad, N m s/rad' if angular else 'N/m, N s/m'} are too soft "
+        "for what it carries. Give stiffness = inertia * omega**2 with omega well above the motion "
         "(seacrane.analysis.reflected_inertia), or its load as feed_forward (seacrane.balance)",
     )

@@ -19,7 +19,7 @@ from seacrane.description.suspension import bodies_below, hung_loads, suspension
 from seacrane.description.wet_parts import carried_by_water
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.validity.after_run import Finding
+from seacrane.validity.after_run import Finding, peak
 from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, LoadOffDeckWarning, OverloadWarning
 
 if TYPE_CHECKING:
@@ -53,19 +53,17 @@ def _swings(scene: Description, time: Array, position: Array, quaternion: Array)
         lower, _ = placed(scene, *lower_end, position, quaternion)
         hung = np.broadcast_to(lower - upper, (time.size, 3))
         swing = np.arctan2(np.hypot(hung[:, 0], hung[:, 1]), -hung[:, 2])
-        at = int(swing.argmax())
         slanted = what.startswith("line") and swing[0] > LARGEST_SWING  # as a tugger does
-        if swing[at] <= LARGEST_SWING or slanted:
-            continue
-        period = 2.0 * np.pi * np.sqrt(np.linalg.norm(hung[at]) / max(scene.gravity, 1e-9))
-        yield (
-            LargeSwingWarning,
-            f"{what}: {lower_end[0]!r} swings {np.degrees(swing[at]):.3g} deg from vertical at t = "
-            f"{time[at]:.6g} s, beyond {np.degrees(LARGEST_SWING):.0f} deg: no lift is let swing so far, and "
-            f"a pendulum of {period:.3g} s gathers what waves and drives put in. Move slower, keep its "
-            "period away from the sea's, hold it by taglines (add_spring), or give it the damping that it "
-            "has (add_pendulum_damping, add_wind)",
-        )
+        for angle, at in peak(swing, above=LARGEST_SWING) if not slanted else ():
+            period = 2.0 * np.pi * np.sqrt(np.linalg.norm(hung[at]) / max(scene.gravity, 1e-9))
+            yield (
+                LargeSwingWarning,
+                f"{what}: {lower_end[0]!r} swings {np.degrees(angle):.3g} deg from vertical at t = "
+                f"{time[at]:.6g} s, beyond {np.degrees(LARGEST_SWING):.0f} deg: a pendulum of {period:.3g} s "
+                "gathers what waves and drives put in. Move slower, keep its period away from the sea's, "
+                "hold it by taglines (add_spring), or give it the damping that it has "
+                "(add_pendulum_damping, add_wind)",
+            )
 
 
 def _hanging(scene: Description) -> Iterator[tuple[str, _Place, _Place]]:
@@ -91,14 +89,13 @@ def _overloads(scene: Description, time: Array, position: Array, quaternion: Arr
         left = mass - water / (scene.gravity or 1.0)
         radius = np.atleast_1d(tip_radius(scene, roles, position, quaternion))
         allowed = allowed_at(roles.capacity, radius)
-        at = int((left - allowed).argmax())
-        if left[at] > allowed[at]:
-            lighter = f", of which water carries {(mass - left[at]) / 1e3:.4g} t," if left[at] < mass else ""
+        for most, at in peak(left, above=allowed):
+            lighter = f", of which water carries {(mass - most) / 1e3:.4g} t," if most < mass else ","
             yield (
                 OverloadWarning,
                 f"crane {roles.prefix!r}: its load {one.load!r} of {mass / 1e3:.4g} t, with what holds it"
-                f"{lighter or ','} is above the {allowed[at] / 1e3:.4g} t of the crane's table at a radius "
-                f"of {radius[at]:.4g} m, where it is at t = {time[at]:.6g} s. Lift less, keep the tip nearer "
+                f"{lighter} is above the {allowed[at] / 1e3:.4g} t of the crane's table at a radius of "
+                f"{radius[at]:.4g} m, where it is at t = {time[at]:.6g} s. Lift less, keep the tip nearer "
                 "(seacrane.load_chart tells how near), or correct the table",
             )
 
@@ -134,9 +131,8 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
                 warn_caller(
                     f"body {one.load!r}: starts inside vessel {vessel.name!r}: its lower edge is at "
                     f"{centre[2] - half:.4g} m, {centre[0]:.4g} m forward and {centre[1]:.4g} m to port of "
-                    f"its origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is. "
-                    "Nothing keeps bodies apart: shorten what it hangs on, or turn the crane out before the "
-                    "load is lowered",
+                    f"its origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is: "
+                    "shorten what it hangs on, or turn the crane out before the load is lowered",
                     LoadInHullWarning,
                 )
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
+from seacrane import _core, warnings
 from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.loads import lines_of, whole_of, winch_of, winches_of
 from seacrane.description.once import once_in_any_sea
@@ -17,40 +17,23 @@ from seacrane.description.suspension import bodies_below, line_weights
 from seacrane.description.wet_parts import carried_by_water, immersed_parts
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.validity.after_run import Finding
-from seacrane.warnings import (
-    FleetAngleWarning,
-    LiftedStartWarning,
-    LineLengthWarning,
-    LineTableWarning,
-    PushingLineWarning,
-    WinchLimitWarning,
-)
+from seacrane.validity.after_run import Finding, peak
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
+Lines = Mapping[str, _core.Line]
 LARGEST_CONTRADICTION = 0.01  # of the line's length, at the start
 AT_END = 1e-6  # m
 STRONGEST = 1e12  # N or W: a bound here or beyond is none
 LARGEST_FLEET_ANGLE = 4.0  # degrees, the usual bound for ropes of cranes
 LARGEST_LIFT = 1.5  # of a body's weight, by its lines
 DRY = 1.25  # times what a body weighs under water, likewise
-
-
-class _Bound(NamedTuple):
-    """What a winch does at a bound, and what to give."""
-
-    unit: str
-    then: str
-    fix: str
-
-
-BOUNDS = {
-    "maximum_tension": _Bound("N", "so that its motor holds no more, and the load may fall", "Lift less"),
-    "maximum_power": _Bound("W", "so that its motor gives no more", "Lift slower"),
-    "brake_capacity": _Bound("N", "so that its brake slips", "Close it on less"),
+BOUNDS = {  # of winches: their unit, what happens there, and what to do
+    "maximum_tension": ("N", "so that its motor holds no more, and the load may fall", "Lift less"),
+    "maximum_power": ("W", "so that its motor gives no more", "Lift slower"),
+    "brake_capacity": ("N", "so that its brake slips", "Close it on less"),
 }
 
 
@@ -59,12 +42,12 @@ def bound_findings(scene: Description, reached: Iterable[tuple[float, str]]) -> 
     lines, first = winches_of(scene.loads), {name: time for time, name in sorted(reached, reverse=True)}
     return [
         (
-            WinchLimitWarning,
-            f"line {name!r}: its winch reached its {bound}, {getattr(line, bound):.4g} {of.unit}, at t = "
-            f"{first[f'{name}.{bound}']:.6g} s, {of.then}. {of.fix}, or give it more",
+            warnings.WinchLimitWarning,
+            f"line {name!r}: its winch reached its {bound}, {getattr(line, bound):.4g} {unit}, at t = "
+            f"{first[f'{name}.{bound}']:.6g} s, {then}. {fix}, or give it more",
         )
         for name, line in lines.items()
-        for bound, of in BOUNDS.items()
+        for bound, (unit, then, fix) in BOUNDS.items()
         if f"{name}.{bound}" in first
     ]
 
@@ -85,7 +68,7 @@ def warn_of_connected(
             f"{title}: line {name!r} connects stretched by {stretch:.4g} m, {stretch / length:.3g} of its "
             f"unstretched {length:.6g} m, at t = {time:.6g} s: it pulls with {tension:.4g} N at once. Give "
             f"it {length + stretch:.6g} m, pay out before, or connect it nearer",
-            LineLengthWarning,
+            warnings.LineLengthWarning,
         )
 
 
@@ -99,9 +82,16 @@ def line_findings(
         for key in ("line_unstretched_length", "line_tension", "line_stretch") if lines and key in channels
     }  # fmt: skip
     if "sheave_fleet_angle" in channels:
-        sheaves = [f"{name} {i}" for name, line in lines.items() for i in turned_at(line)]
+        sheaves = [f"{name} {i}" for name, line in lines.items() for i in _turned_at(line)]
         angles = np.degrees(np.asarray(channels["sheave_fleet_angle"])).reshape(time.size, len(sheaves))
-        yield from _leaning(sheaves, time, angles)
+        for name, angle in zip(sheaves, angles.T, strict=True):
+            for worst, at in peak(angle, above=LARGEST_FLEET_ANGLE):
+                yield (
+                    warnings.FleetAngleWarning,
+                    f"line at sheave {name!r}: leaves the plane of its rim by {worst:.3g} degrees at t = "
+                    f"{time[at]:.6g} s, beyond {LARGEST_FLEET_ANGLE:g} degrees; the rope would climb out of "
+                    "its groove. Turn the sheave's axis, or put it on a body that swivels",
+                )
     if "line_unstretched_length" not in given:
         return
     lengths = given["line_unstretched_length"]
@@ -109,46 +99,33 @@ def line_findings(
         if line.winch:
             yield from _met(winch_of(line), line, time, length / line.share)
     for (name, line), tension in zip(lines.items(), given.get("line_tension", ()), strict=False):
-        yield from _pushed(name, line, time, tension)
+        for push, at in peak(-tension, above=0.0) if line.rung == QUASI_STATIC else ():
+            yield (
+                warnings.PushingLineWarning,
+                f"line {name!r}: pushes with {push:.4g} N at t = {time[at]:.6g} s: its stretch is "
+                "quasi-static, and follows the tension too late to go slack. Give it rung 'elastic'",
+            )
     if "line_stretch" not in given:
         return
     stretches = given["line_stretch"]
     if described and time[0] == 0.0:
         yield from _contradicted(lines, strains_at_rest(scene), lengths[:, 0], stretches[:, 0])
     for (name, line), strain in zip(lines.items(), stretches / lengths, strict=True):
-        if len(line.strains):
-            yield from _beyond(name, line, time, strain)
+        for worst, at in peak(strain, above=line.strains[-1]) if len(line.strains) else ():
+            yield (
+                warnings.LineTableWarning,
+                f"line {name!r}: is strained by {worst:.4g} at t = {time[at]:.6g} s, and its table ends at "
+                f"{line.strains[-1]:.4g}; it went on along its last tangent. Extend the table",
+            )
 
 
-def turned_at(line: _core.Line) -> list[int]:
+def _turned_at(line: _core.Line) -> list[int]:
     """The points of a line's path at which it lies on a sheave or meets friction."""
     turned = np.zeros(len(line.points), dtype=bool)
     for values, usual in ((line.radii, 0.0), (line.efficiencies, 1.0), (line.frictions, 0.0)):
         if len(values):
             turned |= np.asarray(values) != usual
     return [int(i) for i in np.flatnonzero(turned)]
-
-
-def _beyond(name: str, line: _core.Line, time: Array, strain: Array) -> Iterator[Finding]:
-    worst = int(np.argmax(strain))
-    if strain[worst] > line.strains[-1]:
-        yield (
-            LineTableWarning,
-            f"line {name!r}: is strained by {strain[worst]:.4g} at t = {time[worst]:.6g} s, and its table "
-            f"ends at {line.strains[-1]:.4g}; it went on along its last tangent. Extend the table",
-        )
-
-
-def _leaning(sheaves: list[str], time: Array, angles: Array) -> Iterator[Finding]:
-    for name, angle in zip(sheaves, angles.T, strict=True):
-        worst = int(np.argmax(angle))
-        if angle[worst] > LARGEST_FLEET_ANGLE:
-            yield (
-                FleetAngleWarning,
-                f"line at sheave {name!r}: leaves the plane of its rim by {angle[worst]:.3g} degrees at t = "
-                f"{time[worst]:.6g} s, beyond {LARGEST_FLEET_ANGLE:g} degrees; the rope would climb out of "
-                "its groove. Turn the sheave's axis, or put it on a body that swivels",
-            )
 
 
 def strains_at_rest(scene: Description) -> dict[str, float]:
@@ -162,39 +139,29 @@ def strains_at_rest(scene: Description) -> dict[str, float]:
 
 
 def _contradicted(
-    lines: Mapping[str, _core.Line], resting: Mapping[str, float], lengths: Array, stretches: Array
+    lines: Lines, resting: Mapping[str, float], lengths: Array, stretches: Array
 ) -> Iterator[Finding]:
     """Lines whose described length is not that of their path; a heavy one is the sum of its segments.
 
     What hangs on a line stretches it at rest, by the strain in `resting`; that is no contradiction.
     """
-    wholes = [whole_of(name, line) for name, line in lines.items()]
-    for name in dict.fromkeys(wholes):
-        own = np.array([whole == name for whole in wholes])
+    wholes: dict[str, list[int]] = {}
+    for at, (name, line) in enumerate(lines.items()):
+        wholes.setdefault(whole_of(name, line), []).append(at)
+    for name, own in wholes.items():
         length, stretch = float(lengths[own].sum()), float(stretches[own].sum())
-        mine = [line for line, is_own in zip(lines.values(), own, strict=True) if is_own]
-        segments = [one for one, whole in zip(lines, wholes, strict=True) if whole == name]
-        at_rest = max(resting.get(one, 0.0) for one in segments)
-        tables = [strain for line in mine for strain in line.strains]
+        segments = [(one, line) for i, (one, line) in enumerate(lines.items()) if i in own]
+        at_rest = max(resting.get(one, 0.0) for one, _ in segments)
+        tables = [strain for _, line in segments for strain in line.strains]
         usual = max([LARGEST_CONTRADICTION, *tables])  # a cord is meant to be as long as its table
         if -LARGEST_CONTRADICTION * length <= stretch <= (usual + at_rest) * length:
             continue
         state = "stretched" if stretch > 0.0 else "slack"
         yield (
-            LineLengthWarning,
+            warnings.LineLengthWarning,
             f"line {name!r}: starts {state} by {abs(stretch):.4g} m, {abs(stretch) / length:.3g} of its "
             f"unstretched {length:.6g} m: its path is {length + stretch:.6g} m long. Correct its length or "
             "its points, or take this as meant where the line starts slack",
-        )
-
-
-def _pushed(name: str, line: _core.Line, time: Array, tension: Array) -> Iterator[Finding]:
-    worst = int(np.argmin(tension))
-    if line.rung == QUASI_STATIC and tension[worst] < 0.0:
-        yield (
-            PushingLineWarning,
-            f"line {name!r}: pushes with {-tension[worst]:.4g} N at t = {time[worst]:.6g} s: its stretch is "
-            "quasi-static, and follows the tension too late to go slack. Give it rung 'elastic'",
         )
 
 
@@ -202,18 +169,15 @@ def _met(name: str, line: _core.Line, time: Array, length: Array) -> Iterator[Fi
     ended = np.flatnonzero(length <= line.minimum_length + AT_END)
     if ended.size:
         yield (
-            WinchLimitWarning,
+            warnings.WinchLimitWarning,
             f"line {name!r}: its winch has hauled in to minimum_length, {line.minimum_length:.6g} m, at t = "
             f"{time[ended[0]]:.6g} s, and stops there. Haul in less, or give a smaller minimum_length",
         )
-    command = np.abs(line.rate.evaluate(time)[:, 0])
-    worst = int(np.argmax(command))
-    if command[worst] > line.maximum_rate:
+    for rate, at in peak(np.abs(line.rate.evaluate(time)[:, 0]), above=line.maximum_rate):
         yield (
-            WinchLimitWarning,
-            f"line {name!r}: its winch is commanded {command[worst]:.4g} m/s at t = {time[worst]:.6g} s, "
-            f"beyond its maximum_rate of {line.maximum_rate:.4g} m/s, which it keeps. Command less, or give "
-            "it more",
+            warnings.WinchLimitWarning,
+            f"line {name!r}: its winch is commanded {rate:.4g} m/s at t = {time[at]:.6g} s, beyond its "
+            f"maximum_rate of {line.maximum_rate:.4g} m/s, which it keeps. Command less, or give it more",
         )
 
 
@@ -224,18 +188,16 @@ def warn_of_line_starts(scene: Description) -> None:
     if not lines:
         return
     paths = {name: laid(line, described_poses(scene)) for name, line in lines.items()}
-    tensions = {name: start_tension(line, paths[name].length) for name, line in lines.items()}
+    tensions = {name: _start_tension(line, paths[name].length) for name, line in lines.items()}
     if all(np.isfinite(tension) for tension in tensions.values()):
         for body in _hung(scene, lines):
-            _warn_of_lift(scene, body, lines, paths, tensions)
-        _warn_of_dry_weights(scene, lines, tensions)
-    weights = line_weights(scene)
-    for name, line in lines.items():
-        weight, falls = weights.get(name, (0.0, 1))
-        _warn_of_weak_winch(line, weight / max(falls, 1))
+            _warn_of_lift(scene.bodies[body], scene.gravity, lines, paths, tensions)
+        _warn_of_dry_weights(scene, tensions)
+    for name, (weight, falls) in line_weights(scene).items():
+        _warn_of_weak_winch(lines[name], weight / max(falls, 1))
 
 
-def start_tension(line: _core.Line, path: float) -> float:
+def _start_tension(line: _core.Line, path: float) -> float:
     """N, of a path as long (m), without damping."""
     length = float(line.length.evaluate([0.0])[0, 0])
     strain = path / length - 1.0
@@ -244,7 +206,7 @@ def start_tension(line: _core.Line, path: float) -> float:
     return float(np.interp(strain, line.strains, line.tensions))
 
 
-def _hung(scene: Description, lines: dict[str, _core.Line]) -> list[str]:
+def _hung(scene: Description, lines: Lines) -> list[str]:
     """Bodies that lines alone carry; a seat or a free joint does not."""
     seats = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "seat"}
     joints = [one for name, one in scene.joints.items() if name not in seats and one.kind != "free"]
@@ -258,34 +220,35 @@ def _hung(scene: Description, lines: dict[str, _core.Line]) -> list[str]:
 
 
 def _warn_of_lift(
-    scene: Description,
-    body: str,
-    lines: dict[str, _core.Line],
-    paths: dict[str, Laid],
-    tensions: dict[str, float],
+    body: _core.Body, gravity: float, lines: Lines, paths: Mapping[str, Laid], tensions: Mapping[str, float]
 ) -> None:
-    pulls = {name: tensions[name] * _upwards(line, paths[name], body) for name, line in lines.items()}
-    one = scene.bodies[body]
-    weight, lift = one.mass * scene.gravity, sum(pulls.values())
-    turned = one.mass * float(np.square(one.velocity).sum()) / _longest(body, lines, paths)
+    pulls, spans = {}, []
+    for name, line in lines.items():
+        apart = paths[name].ends - paths[name].starts
+        long = np.linalg.norm(apart, axis=1)
+        up = apart[:, 2] / np.maximum(long, 1e-300)
+        on = np.array([one == body.name for one in line.bodies])
+        pulls[name] = tensions[name] * float(up[on[:-1]].sum() - up[on[1:]].sum())
+        spans += [float(long.max())] * bool(on.any())  # on which it swings
+    weight, lift = body.mass * gravity, sum(pulls.values())
+    turned = body.mass * float(np.square(body.velocity).sum()) / max([*spans, 1e-300])
     if weight > 0.0 and lift > LARGEST_LIFT * (weight + turned):
         worst = max(pulls, key=lambda name: pulls[name])
         warn_caller(
-            f"body {body!r}: its lines start by lifting it with {lift:.4g} N, {lift / weight:.3g} times its "
-            f"weight of {weight:.4g} N, most of it line {worst!r}, whose path is {paths[worst].length:.6g} m "
-            f"long, and its length {float(lines[worst].length.evaluate([0.0])[0, 0]):.6g} m: the load jumps. "
-            "Correct its length, or give tension_at_start",
-            LiftedStartWarning,
+            f"body {body.name!r}: its lines start by lifting it with {lift:.4g} N, {lift / weight:.3g} times "
+            f"its weight of {weight:.4g} N, most of it line {worst!r}, whose path is "
+            f"{paths[worst].length:.6g} m long, and its length "
+            f"{float(lines[worst].length.evaluate([0.0])[0, 0]):.6g} m: the load jumps. Correct its length, "
+            "or give tension_at_start",
+            warnings.LiftedStartWarning,
         )
 
 
-def _warn_of_dry_weights(
-    scene: Description, lines: dict[str, _core.Line], tensions: dict[str, float]
-) -> None:
+def _warn_of_dry_weights(scene: Description, tensions: Mapping[str, float]) -> None:
     """Warn of the uppermost lines that start with the weight in air of what hangs on them under water."""
     told: set[str] = set()
     for one, bodies in bodies_below(scene):
-        if told & set(bodies) or one.top not in lines:
+        if told & set(bodies) or one.top not in tensions:
             continue
         told |= set(bodies)
         weight = sum(scene.bodies[body].mass for body in bodies if scene.bodies[body].gravity) * scene.gravity
@@ -298,7 +261,7 @@ def _warn_of_dry_weights(
                 f"water carries {carried:.4g} N of the weight of {weight:.4g} N, so that the load leaps and "
                 'the line may go slack. Give start="rest", or a length or tension_at_start for the '
                 f"{weight - carried:.4g} N that are left",
-                LiftedStartWarning,
+                warnings.LiftedStartWarning,
             )
 
 
@@ -308,24 +271,6 @@ def _described(scene: Description) -> dict[str, Array]:
     centres = [body.position + turns[name] @ body.center_of_mass for name, body in scene.bodies.items()]
     turned = [body.quaternion for body in scene.bodies.values()]
     return {"position": np.array([centres]), "quaternion": np.array([turned])}
-
-
-def _longest(body: str, lines: dict[str, _core.Line], paths: dict[str, Laid]) -> float:
-    """Span (m) of the lines at a body, on which it swings."""
-    spans = [
-        np.linalg.norm(paths[name].ends - paths[name].starts, axis=1).max()
-        for name, line in lines.items()
-        if body in line.bodies
-    ]
-    return max(float(max(spans)), 1e-300)
-
-
-def _upwards(line: _core.Line, path: Laid, body: str) -> float:
-    """Upward pull on a body by 1 N of tension."""
-    apart = path.ends - path.starts
-    up = apart[:, 2] / np.maximum(np.linalg.norm(apart, axis=1), 1e-300)
-    on = np.array([one == body for one in line.bodies])
-    return float(up[on[:-1]].sum() - up[on[1:]].sum())
 
 
 def _warn_of_weak_winch(line: _core.Line, tension: float) -> None:
@@ -350,6 +295,6 @@ def _warn_of_weak_winch(line: _core.Line, tension: float) -> None:
             warn_caller(
                 f"line {line.name!r}: its {what.format(f'{force:.4g} N')}, less than the {tension:.4g} N "
                 f"that hang on the rope: {then}. Give {give} in N, enough for it",
-                WinchLimitWarning,
+                warnings.WinchLimitWarning,
             )
             return

@@ -67,16 +67,16 @@ def _unusual(element: Any, times: Array) -> Iterator[str]:
     kind: Any = type(element)
     for field, least, most in _bounded(kind):
         value = getattr(element, field.name)
-        if isinstance(value, float) and (value == field.default or _is_usual(abs(value), least, most)):
+        if isinstance(value, float):
+            sizes = [abs(value)] if value not in (0.0, field.default) else []
+        else:
+            size = _magnitudes(value, times)
+            size = size[size > 0.0]
+            sizes = [float(size.min()), float(size.max())] if size.size else []
+        high = bool(sizes) and sizes[-1] > most * SLACK > 0.0
+        if not sizes or not (high or sizes[0] * SLACK < least):
             continue
-        size = _magnitudes(value, times)
-        largest = float(size.max(initial=0.0))
-        if not largest > 0.0 or (least == 0.0 and largest <= most * SLACK):
-            continue
-        smallest, high = float(size[size > 0.0].min()), largest > most * SLACK > 0.0
-        if not (smallest * SLACK < least or high):
-            continue
-        worst = largest if high else smallest
+        worst = sizes[-1] if high else sizes[0]
         unit = f" {field.unit}" if field.unit else ""
         bounds = f"{least:.6g} to {most:.6g}" if most else f"{least:.6g} and more"
         yield (
@@ -85,10 +85,6 @@ def _unusual(element: Any, times: Array) -> Iterator[str]:
             f"{field.name} reaches {worst:.6g}, and usual are {bounds}: it is a ratio or a share, no "
             "percentage"
         )  # fmt: skip
-
-
-def _is_usual(size: float, least: float, most: float) -> bool:
-    return not (size > 0.0 and size * SLACK < least) and not size > most * SLACK > 0.0
 
 
 def _magnitudes(value: Any, times: Array) -> Array:
