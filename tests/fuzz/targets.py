@@ -267,7 +267,7 @@ _ALL = [
     Target("gltf-bytes", "gltf", "box.glb", _of(read_gltf, most=1000), ("inputs/mesh_files.py",), None),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
-    Target("crane", "crane", "crane.toml", _crane, _under("crane", "file_table knuckle_boom")),
+    Target("crane", "crane", "crane.toml", _crane, _under("crane", "file_table")),
     Target("jointed", "jointed", "crane.toml", _crane, _JOINTED),
     Target("urdf", "urdf", "crane.urdf", _urdf, _URDF),
     Target("measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from seacrane.crane.mass_properties import MassProperties, Member
 from seacrane.description.roles import Areas, Capacity
 from seacrane.errors import SceneError
+from seacrane.inputs.frames import euler_matrix
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
@@ -38,6 +39,11 @@ class Placed:
     def inner(self, other: Placed) -> Placed:
         """A frame that is given in this one."""
         return Placed(self.axes @ other.axes, self.point(other.origin))
+
+
+def placed(origin: Array, turns: Array) -> Placed:
+    """A frame by its origin (m) and its turns about the fixed axes x, y, z (rad), as URDF has them."""
+    return Placed(euler_matrix(-turns).T, origin)
 
 
 HOME = Placed(np.eye(3), np.zeros(3))
@@ -175,8 +181,6 @@ class CraneData:
         As of `CraneRoles`.
     hydraulics : mapping of str to mapping
         Keywords of `add_hydraulic_cylinder` by the labels of cylinders that the file says are hydraulic.
-    short_names : mapping of str to str
-        Other names of coordinates, with their labels.
     """
 
     name: str
@@ -191,7 +195,6 @@ class CraneData:
     capacity: Capacity = ()
     areas: Mapping[str, Areas] = field(default_factory=dict)
     hydraulics: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    short_names: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def tree(self) -> dict[str, JointData]:
@@ -210,9 +213,10 @@ class CraneData:
         return slew | dict(self.luffs) | dict(self.cylinders)
 
     def led_by(self, label: str) -> JointData:
-        """Joint of a coordinate, by its label or another name; SceneError for none."""
+        """Joint of a coordinate by its label, of cylinders also "s1", "s2"; SceneError for none."""
         known = self.coordinates
-        name = known.get(self.short_names.get(label, label))
+        short = {f"s{place}": joint for place, joint in enumerate(self.cylinders.values(), 1)}
+        name = (short | known).get(label)
         if name is None:
             raise SceneError(
                 f"crane {self.name!r}: has no coordinate {shown(label)}; it has "
@@ -229,7 +233,10 @@ class CraneData:
         return found
 
     def at_joints(self) -> CraneData:
-        """With the frames of bodies, which were given from the crane foot, at the joints that carry them."""
+        """With the frames of bodies that have none of their own at the joints that carry them."""
         carried = {joint.second: joint.point for joint in self.tree.values()}
-        bodies = tuple(one.shifted(carried.get(one.name, np.zeros(3))) for one in self.bodies)
+        bodies = tuple(
+            one.shifted(carried.get(one.name, np.zeros(3))) if one.frame is HOME else one
+            for one in self.bodies
+        )
         return dataclasses.replace(self, bodies=bodies)

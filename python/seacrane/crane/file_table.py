@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from types import MappingProxyType
@@ -36,6 +37,15 @@ def read_text(path: Path) -> str:
         return read_whole(path, LARGEST_FILE, "no crane file is").decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(f"crane data file {path} cannot be read ({error}); check the path.") from error
+
+
+@contextmanager
+def as_file_error(lead: str = "") -> Iterator[None]:
+    """What is refused inside the block is refused of the file."""
+    try:
+        yield
+    except SceneError as error:
+        raise FileFormatError(f"{lead}{error}.") from error
 
 
 def root_of(text: str, source: str) -> FileTable:
@@ -100,12 +110,19 @@ class FileTable:
             self.wrong(key, value, f"write a finite number, {LARGEST:g} at most")
         return float(value)
 
-    def head(self, *, default: str) -> str:
+    def flag(self, key: str) -> bool:
+        """true or false; false where it is left out."""
+        value = self.values.pop(key, False)
+        if not isinstance(value, bool):
+            self.wrong(key, value, "write true or false")
+        return value
+
+    def head(self) -> str:
         """The kind of crane, of a file whose schema this version reads."""
         schema = self.take("schema")
         if schema != SCHEMA:
             self.wrong("schema", schema, f"this version reads schema {SCHEMA}")
-        return self.text("kind") if "kind" in self.values else default
+        return self.text("kind")
 
     def tables(self, key: str) -> list[FileTable]:
         """A list of tables, which may be left out."""
@@ -138,20 +155,16 @@ class FileTable:
         table.finish()
         if not isinstance(rows, list):
             table.wrong("rows", rows, "write rows [radius, load], m and kg")
-        try:
+        with as_file_error():
             return capacity_of(self.source, rows)
-        except SceneError as error:
-            raise FileFormatError(f"{error}.") from error
 
     def areas(self) -> Areas | None:
         """Both areas of a piston, or neither."""
         if not {"full_area", "rod_side_area"} & set(self.values):
             return None
         pair = self.number("full_area"), self.number("rod_side_area")
-        try:
+        with as_file_error():
             return areas_of(f"{self.source}: {self.where}", pair)
-        except SceneError as error:
-            raise FileFormatError(f"{error}.") from error
 
     def hydraulics(self) -> Mapping[str, Any] | None:
         """Keywords of a hydraulic cylinder: each of its values a table, SI units; None for none."""
@@ -171,15 +184,12 @@ class FileTable:
         self.finish()
         return kind(**given)
 
-    def members(self, key: str, plane: Array | None = None) -> tuple[Member, ...]:
-        """Uniform bodies, their ends three numbers, or two along the axes (3, 2) of a plane."""
-        value = self.take(key)
-        if not isinstance(value, list) or not value:
+    def members(self, key: str) -> tuple[Member, ...]:
+        """Uniform bodies, one or more."""
+        found = tuple(_member(table) for table in self.tables(key))
+        if not found:
             self.refuse(f"{self.label(key)} needs at least one member; add one")
-        return tuple(
-            _member(FileTable(self.source, f"{self.label(key)}[{index}]", item), plane)
-            for index, item in enumerate(value)
-        )
+        return found
 
     def finish(self) -> None:
         if self.values:
@@ -208,8 +218,10 @@ class Frames:
         """A point of a body's frame in the crane-foot frame at home, m."""
         return self._of(table, body).point(np.array(at))
 
-    def axis(self, table: FileTable, body: str, key: str) -> Array:
-        """A unit vector in the crane-foot frame at home; FileFormatError for none."""
+    def axis(self, table: FileTable, body: str, key: str) -> Array | None:
+        """A unit vector in the crane-foot frame at home, if it is given; FileFormatError for zeros."""
+        if key not in table.values:
+            return None
         given = np.array(table.space_point(key))
         length = float(np.linalg.norm(given))
         if length == 0.0:
@@ -223,24 +235,22 @@ class Frames:
         return self.placed[body]
 
 
-def _member(table: FileTable, plane: Array | None) -> Member:
-    name, shape = table.named(), table.text("shape")
-    mass = table.number("mass")
-    start, end = (
-        table.space_point(key) if plane is None else tuple((plane @ table.point(key)).tolist())
-        for key in ("start", "end")
-    )
+def _member(table: FileTable) -> Member:
+    name, shape, mass = table.named(), table.text("shape"), table.number("mass")
+    start, end = table.space_point("start"), table.space_point("end")
     if math.dist(start, end) == 0.0:
         table.refuse(f"{table.where} has length 0; move its start or its end")
-    if shape not in SHAPES:
-        table.wrong("shape", shape, 'write "tube" or "box"')
-    member = SHAPES[shape](table, {"name": name, "mass": mass, "start": start, "end": end})
-    table.finish()
-    return member
+    match shape:
+        case "tube":
+            return _tube(table, name=name, mass=mass, start=start, end=end)
+        case "box":
+            return _box(table, name=name, mass=mass, start=start, end=end)
+    table.wrong("shape", shape, 'write "tube" or "box"')
 
 
-def _tube(table: FileTable, common: dict[str, Any]) -> Tube:
+def _tube(table: FileTable, **common: Any) -> Tube:
     outer, inner = table.number("outer_diameter"), table.number("inner_diameter", positive=False)
+    table.finish()
     if inner >= outer:
         table.refuse(
             f"{table.label('inner_diameter')} is {inner:g} m, not below the outer diameter {outer:g} m; make "
@@ -249,9 +259,9 @@ def _tube(table: FileTable, common: dict[str, Any]) -> Tube:
     return Tube(**common, outer_diameter=outer, inner_diameter=inner)
 
 
-def _box(table: FileTable, common: dict[str, Any]) -> Box:
-    width, depth = table.number("width"), table.number("depth")
-    wall = table.number("wall", positive=False)
+def _box(table: FileTable, **common: Any) -> Box:
+    width, depth, wall = table.number("width"), table.number("depth"), table.number("wall", positive=False)
+    table.finish()
     section = f"{table.label('wall')} is {wall:g} m"
     if 0.0 < wall < THINNEST * max(width, depth):
         table.refuse(f"{section} in a section of {width:g} x {depth:g} m; make it thicker (0: solid)")
@@ -260,6 +270,3 @@ def _box(table: FileTable, common: dict[str, Any]) -> Box:
             f"{section}, half the section ({width:g} x {depth:g} m) or more; make it thinner (0: solid)"
         )
     return Box(**common, width=width, depth=depth, wall=wall)
-
-
-SHAPES: Mapping[str, Callable[[FileTable, dict[str, Any]], Member]] = {"tube": _tube, "box": _box}

@@ -11,14 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.crane.crane import Crane
-from seacrane.crane.data import CLOSING, FREEDOMS, HOME, BodyData, CraneData, JointData, RopeData
-from seacrane.crane.file_table import FileTable, Frames, read_text, root_of
-from seacrane.crane.knuckle_boom import knuckle_boom
+from seacrane.crane.data import (
+    CLOSING,
+    FREEDOMS,
+    HOME,
+    BodyData,
+    CraneData,
+    JointData,
+    Placed,
+    RopeData,
+    placed,
+)
+from seacrane.crane.file_table import FileTable, Frames, as_file_error, read_text, root_of
 from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.crane.pose import CLOSED, extent_of, pose_of
 from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
-from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import listed, shown
 
 Array = NDArray[np.float64]
@@ -35,7 +43,7 @@ def load_crane(path: str | Path = DEFAULT) -> Crane:
     Parameters
     ----------
     path : path-like
-        TOML with kind "knuckle-boom" (default), "jointed" or "urdf"; or the name of a crane that comes with
+        TOML with kind "jointed" or "urdf"; or the name of a crane that comes with
         seacrane, one of `shipped_cranes`. Default: the 250 t knuckle boom among them.
 
     Returns
@@ -72,49 +80,22 @@ def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = 
         As of `load_crane`.
     """
     root = root_of(text, source)
-    kind = root.head(default="knuckle-boom")
+    kind, name = root.head(), root.text("name")
     match kind:
-        case "knuckle-boom":
-            data = knuckle_boom(root)
         case "jointed":
-            data = _jointed(root)
-        case "urdf":
-            data = _beside_urdf(root, folder or Path())
+            bodies = tuple(_body(table) for table in root.tables("bodies"))
+            frames = Frames({body.name: body.frame for body in bodies})
+            joints = tuple(_joint(table, frames) for table in root.tables("joints"))
+            stands = bodies[0].name if bodies else ""
+            total, mass = root.number("total_mass"), math.fsum(body.properties.mass for body in bodies)
+            if abs(mass - total) > TOTAL * total:
+                root.refuse(
+                    f"the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct one of them"
+                )
+        case "urdf":  # which has the masses of its links alone
+            stands, bodies, joints, frames = read_urdf((folder or Path()) / root.text("urdf"))
         case _:
-            root.wrong("kind", kind, 'write "knuckle-boom", "jointed" or "urdf"')
-    if kind != "urdf":  # which has the masses of its links alone
-        total, mass = root.number("total_mass"), math.fsum(body.properties.mass for body in data.bodies)
-        if abs(mass - total) > TOTAL * total:
-            root.refuse(
-                f"the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct a mass or total_mass"
-            )
-    root.finish()
-    _check(root, data)
-    return Crane(data)
-
-
-def _jointed(root: FileTable) -> CraneData:
-    name, bodies = root.text("name"), tuple(_body(table) for table in root.tables("bodies"))
-    here = Frames({body.name: HOME for body in bodies})
-    joints = tuple(_joint(table, here) for table in root.tables("joints"))
-    stands = bodies[0].name if bodies else ""
-    return _with_roles(root, name, stands, bodies, joints, here)
-
-
-def _beside_urdf(root: FileTable, folder: Path) -> CraneData:
-    """Bodies and joints are the URDF's, closing joints and roles those of the table."""
-    name = root.text("name")
-    return _with_roles(root, name, *read_urdf(folder / root.text("urdf")))
-
-
-def _with_roles(
-    root: FileTable,
-    name: str,
-    stands: str,
-    bodies: tuple[BodyData, ...],
-    joints: tuple[JointData, ...],
-    frames: Frames,
-) -> CraneData:
+            root.wrong("kind", kind, 'write "jointed", as the shipped knuckle boom has it, or "urdf"')
     closing = tuple(_joint(table, frames, closes=True) for table in root.tables("closing_joints"))
     roles = root.table("roles")
     slew = roles.text("slew") if "slew" in roles.values else None
@@ -122,32 +103,30 @@ def _with_roles(
     tip = _place(roles.table("tip"), frames)
     roles.finish()
     areas, oil = _pistons(root, cylinders)
-    return CraneData(
-        name=name,
-        root=stands,
-        bodies=bodies,
-        joints=joints + closing,
-        slew=slew,
-        luffs=luffs,
-        cylinders=cylinders,
-        tip=tip,
-        ropes=tuple(_rope(table, frames) for table in root.tables("ropes")),
-        capacity=root.capacity(),
-        areas=areas,
-        hydraulics=oil,
-    ).at_joints()
+    data = CraneData(
+        name=name, root=stands, bodies=bodies, joints=joints + closing, slew=slew, luffs=luffs,
+        cylinders=cylinders, tip=tip, ropes=tuple(_rope(table, frames) for table in root.tables("ropes")),
+        capacity=root.capacity(), areas=areas, hydraulics=oil,
+    ).at_joints()  # fmt: skip
+    root.finish()
+    _check(root, data)
+    return Crane(data)
 
 
 def _body(table: FileTable) -> BodyData:
     """By its members, or by mass, centre of mass and inertia."""
     name = table.named()
-    if "members" in table.values:
-        members = table.members("members")
-        properties = combine(members)
-    else:
-        members, properties = (), _given_mass(table)
+    members = table.members("members") if "members" in table.values else ()
+    properties = combine(members) if members else _given_mass(table)
+    frame = _frame(table.table("frame")) if "frame" in table.values else HOME
     table.finish()
-    return BodyData(name=name, properties=properties, members=members)
+    return BodyData(name=name, properties=properties, frame=frame, members=members)
+
+
+def _frame(table: FileTable) -> Placed:
+    found = placed(np.array(table.space_point("xyz")), np.array(table.space_point("rpy")))
+    table.finish()
+    return found
 
 
 def _given_mass(table: FileTable) -> MassProperties:
@@ -167,15 +146,12 @@ def _joint(table: FileTable, frames: Frames, *, closes: bool = False) -> JointDa
     name, kind = table.named(), table.text("kind")
     first, second = table.text("first"), table.text("second")
     point = frames.point(table, first, table.space_point("point"))
-    axes = {
-        key: frames.axis(table, first, key) if key in table.values else None
-        for key in ("axis", "second_axis")
-    }
-    limits = _range(table)
+    axis, second_axis = (frames.axis(table, first, key) for key in ("axis", "second_axis"))
+    closes, limits = closes or table.flag("closes"), _range(table)
     table.finish()
     return JointData(
-        name=name, kind=kind, first=frames.body(first), second=frames.body(second), point=point, range=limits,
-        closes=closes, **axes,
+        name=name, kind=kind, first=frames.body(first), second=frames.body(second), point=point, axis=axis,
+        second_axis=second_axis, range=limits, closes=closes,
     )  # fmt: skip
 
 
@@ -258,10 +234,8 @@ def _check(root: FileTable, data: CraneData) -> None:
     _check_closing(root, data)
     _check_roles(root, data)
     _check_ropes(root, data)
-    try:
+    with as_file_error(f"{root.source}: "):
         pose_of(data, {})
-    except SceneError as error:
-        raise FileFormatError(f"{root.source}: {error}.") from error
 
 
 def _different(root: FileTable, what: str, names: Iterable[str]) -> None:

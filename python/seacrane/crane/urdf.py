@@ -15,7 +15,7 @@ from xml.etree.ElementTree import Element, ParseError, fromstring
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.data import HOME, BodyData, JointData, MeshData, Placed
+from seacrane.crane.data import HOME, BodyData, JointData, MeshData, Placed, placed
 from seacrane.crane.file_table import LARGEST, Frames
 from seacrane.crane.mass_properties import MassProperties
 from seacrane.description.revolved import revolved
@@ -90,11 +90,7 @@ class Tag:
             return HOME
         name = self.element.get("name") or f"<{self.element.tag}>"
         here = Tag(self.source, f"<origin> of {name}", origin)
-        (cr, sr), (cp, sp), (cy, sy) = ((math.cos(a), math.sin(a)) for a in here.row("rpy"))
-        about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
-        about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
-        about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
-        return Placed(about_z @ about_y @ about_x, here.row("xyz"))
+        return placed(here.row("xyz"), here.row("rpy"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,10 +129,10 @@ def read_urdf(path: Path) -> tuple[str, tuple[BodyData, ...], tuple[JointData, .
         parent, child = ("" if end is None else end.get("link", "") for end in ends)
         joints.append(_Joint(source, f"joint {name!r}", one, name, parent, child))
     root, ordered = _outwards(source, joints, links)
-    placed: dict[str, Placed] = {root: HOME}
+    frames: dict[str, Placed] = {root: HOME}
     owner, parts = {root: root}, {root: [root]}  # the body whose part each link is; and its parts
     for joint in ordered:
-        placed[joint.child] = placed[joint.parent].inner(joint.origin())
+        frames[joint.child] = frames[joint.parent].inner(joint.origin())
         massive = links[joint.child].find("inertial").element is not None
         if not massive and joint.get("type") != "fixed":
             links[joint.child].fail(f"moves on {joint.what} and has no <inertial>; give its mass and inertia")
@@ -145,16 +141,16 @@ def read_urdf(path: Path) -> tuple[str, tuple[BodyData, ...], tuple[JointData, .
     bodies = tuple(
         BodyData(
             name=name,
-            properties=_properties(link, placed[name]),
+            properties=_properties(link, frames[name]),
             meshes=tuple(
-                mesh for part in parts[name] for mesh in _meshes(path.parent, part, links[part], placed[part])
+                mesh for part in parts[name] for mesh in _meshes(path.parent, part, links[part], frames[part])
             ),
         )
         for name, link in links.items()
         if link.find("inertial").element is not None
     )
-    found = tuple(_joint(one, placed[one.child], owner) for one in ordered if owner[one.child] == one.child)
-    return root, bodies, found, Frames(placed, owner)
+    found = tuple(_joint(one, frames[one.child], owner) for one in ordered if owner[one.child] == one.child)
+    return root, bodies, found, Frames(frames, owner)
 
 
 def _robot(path: Path) -> Element:

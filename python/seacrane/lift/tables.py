@@ -9,7 +9,6 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
-from seacrane.crane.knuckle_boom import CYLINDERS
 from seacrane.crane.parts import Payload
 from seacrane.description import elements
 from seacrane.description.curves import spline_curve
@@ -173,7 +172,7 @@ RAM = _call(
 )  # fmt: skip
 PLACED = ("name", "first", "second", "first_point", "second_point", "retracted_length", "stroke")
 OIL = tuple(replace(key, required=False) for key in RAM.keys if key.name not in PLACED)
-HYDRAULICS = tuple(Key(name=label, type="table", keys=OIL) for label in CYLINDERS)
+HYDRAULICS = tuple(Key(name=label, type="table", keys=OIL) for label in ("main", "knuckle"))
 CRANE = keys_of(
     add_crane,
     more=POSE

@@ -17,8 +17,9 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import finite_of, number_of, shaped_of, text_of, vector_of
 from seacrane.inputs.shown import shown
 from seacrane.warnings import MeshConvergenceWarning
-from seacrane.water.added_mass import ROUNDING, perforation_factor, ramp
+from seacrane.water.added_mass import RAMP_KNOTS, ROUNDING, perforation_factor, ramp
 from seacrane.water.density import SEA_WATER, density_of
+from seacrane.water.flat_parts import LEAST_SLAM, MOST_PERFORATION, Piece, share_of
 from seacrane.water.panel_added_mass import (
     MOST_PANELS,
     MeshShape,
@@ -27,7 +28,7 @@ from seacrane.water.panel_added_mass import (
     panel_ladder,
     volumes_below,
 )
-from seacrane.water.parts import LEAST_SLAM, MOST_PERFORATION, RAMP_KNOTS, Piece, TablePart, share_of
+from seacrane.water.parts import TablePart
 
 Array = NDArray[np.float64]
 
