@@ -84,22 +84,7 @@ def vessel(
         hs (2 m), tp (8 s), gamma (3.3), wave_direction_deg (135), seed (1), count (200), and the other
         arguments of `add_sea`; hs = 0 is calm water.
     """
-    return _afloat(
-        "vessel", memory=memory, kinematics=kinematics, database=database, mooring=mooring,
-        **sea,
-    )  # fmt: skip
-
-
-def _afloat(
-    name: str,
-    *,
-    memory: str = "per-pair",
-    kinematics: str = "yaw_following",
-    database: Any = None,
-    mooring: float | None = MOORING_PERIOD,
-    **sea: Any,
-) -> Scene:
-    scene = Scene(name=name)
+    scene = Scene(name="vessel")
     scene.add_vessel(_database(database), memory=memory, kinematics=kinematics, mooring=mooring)
     if "wave_direction_deg" in sea:
         sea["direction_deg"] = sea.pop("wave_direction_deg")
@@ -120,7 +105,7 @@ def _crane_afloat(
     name: str, *, payload: Payload | None, foot: Any, options: dict[str, Any]
 ) -> tuple[Scene, Balance]:
     """Vessel and crane, balanced at the start, its actuators without control; and what balances it."""
-    scene = _afloat(name, **options)
+    scene = vessel(**options).copy(name=name)
     scene.add_crane(base="vessel", foot=foot, payload=payload, damping=False)
     for actuator, joint in ACTUATORS.items():
         scene.add_actuator(name=actuator, joint=joint)

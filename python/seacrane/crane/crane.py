@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.crane.data import BodyData, CraneData, JointData, Placed, RopeData
 from seacrane.crane.mass_properties import MassProperties
-from seacrane.crane.parts import BodyRecord, CraneParts, JointRecord
+from seacrane.crane.parts import CraneParts
 from seacrane.crane.pose import UNITS, Pose, gap_rates, in_loops, pose_of, twists
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
@@ -102,7 +103,7 @@ class Crane:
         """All that it brings into a scene at a pose, with its foot at `foot` of its base's frame, m."""
         at, pose = _point("foot", foot), pose_of(self.data, coordinates)
         decks = [
-            JointRecord(name="deck", kind="weld", first="", second=body.name, point=at.copy())
+            JointData(name="deck", kind="weld", first="", second=body.name, point=at)
             for body in self.data.bodies
             if body.name == self.data.root
         ]
@@ -111,14 +112,8 @@ class Crane:
             bodies=[_body(one, at, pose) for one in self.data.bodies],
             joints=[*decks, *(self._joint(joint, at, pose) for joint in self.data.joints)],
             tip=(body, at + pose.moved[body].point(tip)),
-            slew=self.data.slew,
-            luffs=dict(self.data.luffs),
-            cylinders=dict(self.data.cylinders),
             ranges=self._ranges(pose),
             ropes=tuple(_rope(rope, at, pose) for rope in self.data.ropes),
-            meshes={one.name: one.meshes for one in self.data.bodies if one.meshes},
-            capacity=self.data.capacity,
-            areas=dict(self.data.areas),
         )
 
     def _weight(self, joint: JointData, moved: Mapping[str, Placed], payload_mass: float) -> Array:
@@ -130,22 +125,20 @@ class Crane:
             if one.name in beyond
         ]
         loads += [(payload_mass, moved[holder].point(tip))] if holder in beyond else []
-        return np.array(
-            [math.fsum(mass * twist.at(place)[2] for mass, place in loads) for twist in twists(joint, moved)]
-        )
+        return np.array([
+            math.fsum(mass * float(up @ [*place, 1.0]) for mass, place in loads)
+            for *_, up in twists(joint, moved)
+        ])  # fmt: skip
 
-    def _joint(self, joint: JointData, foot: Array, pose: Pose) -> JointRecord:
+    def _joint(self, joint: JointData, foot: Array, pose: Pose) -> JointData:
         first, second = pose.moved[joint.first], pose.moved[joint.second]
         massless = {self.data.root: ""} if self.data.root not in self.mass_properties else {}
-        return JointRecord(
-            name=joint.name,
-            kind=joint.kind,
-            first=massless.get(joint.first, joint.first),
-            second=massless.get(joint.second, joint.second),
-            point=foot + first.point(joint.point),
+        return replace(
+            joint, first=massless.get(joint.first, joint.first),
+            second=massless.get(joint.second, joint.second), point=foot + first.point(joint.point),
             axis=None if joint.axis is None else first.axes @ joint.axis,
             second_axis=None if joint.second_axis is None else second.axes @ joint.second_axis,
-        )
+        )  # fmt: skip
 
     def _ranges(self, pose: Pose) -> dict[str, tuple[float, float]]:
         """From the pose on; SceneError for a pose that is out of one."""
@@ -162,16 +155,12 @@ class Crane:
         return found
 
 
-def _body(body: BodyData, foot: Array, pose: Pose) -> BodyRecord:
-    placed = pose.moved[body.name].inner(body.frame)
-    return BodyRecord(
-        name=body.name,
-        mass=body.properties.mass,
-        inertia=body.properties.inertia.copy(),
-        center_of_mass=body.properties.center_of_mass.copy(),
-        position=foot + placed.origin,
-        quaternion=quaternion_of(placed.axes),
-    )
+def _body(body: BodyData, foot: Array, pose: Pose) -> _core.Body:
+    placed, given = pose.moved[body.name].inner(body.frame), body.properties
+    return _core.Body(
+        name=body.name, mass=given.mass, inertia=given.inertia, center_of_mass=given.center_of_mass,
+        position=foot + placed.origin, quaternion=quaternion_of(placed.axes),
+    )  # fmt: skip
 
 
 def _rope(rope: RopeData, foot: Array, pose: Pose) -> RopeData:

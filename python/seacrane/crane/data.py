@@ -117,12 +117,14 @@ class BodyData:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class JointData:
-    """A joint of a crane, in the crane-foot frame at home.
+    """A joint of a crane, in the crane-foot frame at home, or at a pose in the frame of its base.
 
     Attributes
     ----------
     name, kind, first, second : The kind is one of `FREEDOMS`; a joint of the tree carries its second body.
     point : (3,) m.
+    second_point : ndarray, shape (3,), or None
+        Of the link of a payload, a distance joint, on the payload.
     axis, second_axis : ndarray, shape (3,), or None
         Unit vectors; the second one of a universal joint alone, fixed on the second body.
     range : (float, float) or None
@@ -135,6 +137,7 @@ class JointData:
     first: str
     second: str
     point: Array
+    second_point: Array | None = None
     axis: Array | None = None
     second_axis: Array | None = None
     range: tuple[float, float] | None = None
