@@ -157,24 +157,11 @@ def simulate(
 
     Warns
     -----
-    LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
-    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, LineTableWarning,
-    FleetAngleWarning, PushingLineWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning,
-    SoftGainsWarning, EnergyErrorWarning, NearSingularWarning, LargeSwingWarning, OverloadWarning,
-    CurrentInWavesWarning
-        After the run, when its motions left the range in which the models hold; also in `stats`, as
-        "validity". See docs/troubleshooting.md.
-    StiffWarning
-        After a slow run, when one fast mode set the steps of its explicit method; in `stats` likewise.
-    GrowingModeWarning
-        After a long run, when its method fed an oscillation with little damping; in `stats` likewise.
-    LineRungWarning
-        After a run in which water struck what hangs on a line that rung="auto" made quasi-static; in `stats`
-        likewise.
-    DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
-    LoadInHullWarning, FreeCraneWarning, ContactStartWarning, LiftedStartWarning, QuasiStaticLineWarning,
-    ScatteredWavesWarning, DragAxesWarning
-        Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
+    SeacraneWarning
+        Before it, when the description most likely does not say what was meant (docs/mistakes.md). After it,
+        when its motions left the range in which the models hold, one fast mode set its steps, its method fed
+        an oscillation, or water struck what hangs on a quasi-static line; also in `stats`, as "validity"
+        (docs/troubleshooting.md).
     """
     end, stages = (math.nan, t_end) if _several(t_end) else (t_end, None)
     written = {"checkpoint_every": checkpoint_every, "resume": resume, "overwrite": overwrite}

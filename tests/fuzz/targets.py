@@ -173,7 +173,7 @@ def _measured(path: Path) -> Any:
         raise SceneError("other arguments")
     waves = sea.MeasuredWaves(**arguments)
     components = waves.waves(direction=np.radians(waves.direction_deg), depth=np.inf)
-    return [waves.band_passed(), components.amplitude, components.phase]
+    return [components.amplitude, components.phase]
 
 
 def _series(path: Path) -> Any:

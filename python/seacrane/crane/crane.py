@@ -5,24 +5,32 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.crane.data import BodyData, CraneData, JointData, Placed, RopeData
-from seacrane.crane.mass_properties import MassProperties
+from seacrane.crane.mass_properties import MassProperties, Tube
 from seacrane.crane.parts import CraneParts
-from seacrane.crane.pose import UNITS, Pose, gap_rates, in_loops, pose_of, twists
+from seacrane.crane.pose import UNITS, Pose, extent_of, gap_rates, in_loops, pose_of, twists
+from seacrane.description.description import Description
+from seacrane.description.hydraulic_cylinders import place_cylinder
+from seacrane.description.roles import require_cylinders
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.frames import quaternion_of
+from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
+Hydraulics = Mapping[str, Mapping[str, Any]]
 ROUNDING = 1e-9  # rad or m
+ON_AXIS = 1e-6  # of the crane's extent: a pin so near to the axis is on it
 STANDARD_GRAVITY = 9.80665
 
 
@@ -173,3 +181,84 @@ def _point(name: str, value: Vector | Array) -> Array:
     if point.shape != (3,) or not np.all(np.isfinite(point)):
         raise SceneError.of(f"crane: {name}", f"is {value!r}; give three finite numbers (x, y, z) in m.")
     return point
+
+
+def hydraulics_of(crane: Crane, given: Hydraulics | None) -> Hydraulics:
+    """Keywords of the hydraulic cylinders by label: those given, else those of the data file."""
+    if given is None:
+        return crane.data.hydraulics
+    labels = crane.data.cylinders
+    if not isinstance(given, Mapping) or not all(isinstance(one, Mapping) for one in given.values()):
+        example = ", ".join(f"{label!r}: {{...}}" for label in labels)
+        raise SceneError.of("crane: hydraulics", f"are {shown(given)}; give {{{example}}}")
+    require_cylinders("crane: hydraulics are", given, labels)
+    return given
+
+
+def add_hydraulics(
+    scene: Description, crane: Crane, hydraulics: Hydraulics, *, coordinates: Mapping[str, float],
+    payload_mass: float, prefix: str,
+) -> None:  # fmt: skip
+    """Add cylinders between barrels and rods, with pressures that hold the crane and a payload, kg."""
+    if not hydraulics:
+        return
+    forces = crane.static_cylinder_forces(payload_mass=payload_mass, gravity=scene.gravity, **coordinates)
+    by_label = dict(zip(crane.data.cylinders, forces.tolist(), strict=True))
+    for label, entries in hydraulics.items():
+        slide = crane.data.tree[crane.data.cylinders[label]]
+        names = {"name": slide.name, "first": slide.first, "second": slide.second}
+        given = {key: prefix + name for key, name in names.items()} | _ends(crane, label, slide)
+        given |= _areas(crane, label, slide, entries)
+        place_cylinder(scene, given | dict(entries), partial(by_label.__getitem__, label))
+
+
+def _ends(crane: Crane, label: str, slide: JointData) -> dict[str, Any]:
+    """Points of barrel and rod in their coordinates, length at stroke 0 and largest stroke, m.
+
+    The points are the outermost pins of both on the cylinder's axis; SceneError where there are none, or for
+    a cylinder without a range.
+    """
+    what, axis = f"crane {crane.data.name!r}: cylinder {label!r}", slide.axis
+    assert axis is not None
+    if slide.range is None:
+        raise SceneError(f"{what}: has no range, which its stroke would be; give its joint a range_m")
+    near, reaches, points = ON_AXIS * extent_of(crane.data), [], []
+    for name, outward in ((slide.first, -1.0), (slide.second, 1.0)):
+        pins = [
+            one.point for one in crane.data.joints if name in (one.first, one.second) and one is not slide
+        ]
+        on_axis = [at for at in pins if float(np.linalg.norm(np.cross(axis, at - slide.point))) < near]
+        if not on_axis:
+            raise SceneError(
+                f"{what}: where it takes hold is not known, as no other joint of {name!r} is on its axis; "
+                "add it by add_hydraulic_cylinder with its points"
+            )
+        pin = max(on_axis, key=lambda at: outward * float((at - slide.point) @ axis))
+        frame = crane.body(name).frame
+        reaches.append(float(pin @ axis))
+        points.append(frame.axes.T @ (pin - frame.origin))
+    length, (low, high) = reaches[1] - reaches[0], slide.range
+    if not length + low > 0.0:
+        raise SceneError(
+            f"{what}: is {length:.4g} m long at home, and its range_m begins {-low:.4g} m below; correct it"
+        )
+    reach = {"retracted_length": length + low, "stroke": high - low}
+    return {"first_point": points[0], "second_point": points[1]} | reach
+
+
+def _areas(crane: Crane, label: str, slide: JointData, entries: Mapping[str, Any]) -> dict[str, Any]:
+    """The areas of the data file, or of the bore and the rod of its members."""
+    if label in crane.data.areas:
+        return dict(zip(("full_area", "rod_side_area"), crane.data.areas[label], strict=True))
+    if "full_area" in entries and "rod_side_area" in entries:
+        return {}
+    barrel, rod = (crane.body(name).members for name in (slide.first, slide.second))
+    bores = [part.inner_diameter for part in barrel if isinstance(part, Tube)]
+    rods = [part.outer_diameter for part in rod if isinstance(part, Tube)]
+    if not bores or not rods or not 0.0 < max(rods) < min(bores):
+        raise SceneError(
+            f"crane: the areas of the {label} cylinder are not known, as its rod and barrel are no tubes "
+            "that fit; give full_area and rod_side_area, m2"
+        )
+    full = math.pi / 4.0 * min(bores) ** 2
+    return {"full_area": full, "rod_side_area": full - math.pi / 4.0 * max(rods) ** 2}

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -101,18 +100,14 @@ class BodyData:
         def moved(point: Iterable[float]) -> tuple[float, ...]:
             return tuple((np.array(point) - origin).tolist())
 
-        return BodyData(
-            name=self.name,
-            properties=MassProperties(given.mass, given.center_of_mass - origin, given.inertia),
+        return replace(
+            self, properties=replace(given, center_of_mass=given.center_of_mass - origin),
             frame=Placed(np.eye(3), origin),
-            members=tuple(
-                dataclasses.replace(one, start=moved(one.start), end=moved(one.end)) for one in self.members
-            ),
+            members=tuple(replace(one, start=moved(one.start), end=moved(one.end)) for one in self.members),
             meshes=tuple(
-                dataclasses.replace(one, frame=Placed(one.frame.axes, one.frame.origin - origin))
-                for one in self.meshes
+                replace(one, frame=Placed(one.frame.axes, one.frame.origin - origin)) for one in self.meshes
             ),
-        )
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -242,4 +237,4 @@ class CraneData:
             one.shifted(carried.get(one.name, np.zeros(3))) if one.frame is HOME else one
             for one in self.bodies
         )
-        return dataclasses.replace(self, bodies=bodies)
+        return replace(self, bodies=bodies)

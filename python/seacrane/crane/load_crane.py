@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -224,111 +225,104 @@ def _pistons(
 
 def _check(root: FileTable, data: CraneData) -> None:
     """FileFormatError that names the item which does not fit."""
-    if not data.bodies:
-        root.refuse("has no bodies; write [[bodies]]")
-    _different(root, "body", (body.name for body in data.bodies))
-    _different(root, "joint", ("deck", "link", *(joint.name for joint in data.joints)))
-    for joint in data.joints:
-        _check_joint(root, joint)
-    _check_tree(root, data)
-    _check_closing(root, data)
-    _check_roles(root, data)
-    _check_ropes(root, data)
+    for checked in (_names_twice, _unlike_kinds, _no_tree, _no_loops, _no_roles, _no_ropes):
+        for says in checked(data):
+            root.refuse(says)
     with as_file_error(f"{root.source}: "):
         pose_of(data, {})
 
 
-def _different(root: FileTable, what: str, names: Iterable[str]) -> None:
-    seen: set[str] = set()
-    for name in names:
-        if name in seen:
-            root.refuse(f"the name {shown(name)} is that of two; rename one {what}")
-        seen.add(name)
+def _names_twice(data: CraneData) -> Iterator[str]:
+    if not data.bodies:
+        yield "has no bodies; write [[bodies]]"
+    for what, names in {
+        "body": [body.name for body in data.bodies],
+        "joint": ["deck", "link", *(joint.name for joint in data.joints)],
+        "coordinate": [*KEYWORDS, *([] if data.slew is None else ["slew"]), *data.luffs, *data.cylinders],
+        "rope's luff": [rope.luff for rope in data.ropes],
+    }.items():
+        for name, count in Counter(names).items():
+            if count > 1:
+                yield f"the name {shown(name)} is that of two; rename one {what}"
 
 
-def _check_joint(root: FileTable, joint: JointData) -> None:
-    what = f"joint {joint.name!r}"
-    if joint.kind not in FREEDOMS:
-        root.refuse(f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(FREEDOMS)}")
-    needs = {"revolute": 1, "prismatic": 1, "universal": 2}.get(joint.kind, 0)
-    has = [joint.axis is not None, joint.second_axis is not None]
-    if has != [needs > 0, needs > 1]:
-        wanted = ("no axis", "axis alone", "axis and second_axis")[needs]
-        root.refuse(f"{what}: a {joint.kind} joint takes {wanted}; correct its axes")
-    if needs == 2 and abs(float(np.dot(joint.axis, joint.second_axis))) > ALIGNED:  # type: ignore[arg-type]
-        root.refuse(f"{what}: axis and second_axis are not perpendicular; turn one of them")
-    if joint.range is not None and joint.kind not in ("revolute", "prismatic"):
-        root.refuse(f"{what}: a {joint.kind} joint has no range; leave it out")
+def _unlike_kinds(data: CraneData) -> Iterator[str]:
+    for joint in data.joints:
+        what = f"joint {joint.name!r}"
+        if joint.kind not in FREEDOMS:
+            yield f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(FREEDOMS)}"
+        needs = {"revolute": 1, "prismatic": 1, "universal": 2}.get(joint.kind, 0)
+        if [joint.axis is not None, joint.second_axis is not None] != [needs > 0, needs > 1]:
+            wanted = ("no axis", "axis alone", "axis and second_axis")[needs]
+            yield f"{what}: a {joint.kind} joint takes {wanted}; correct its axes"
+        if needs == 2 and abs(float(np.dot(joint.axis, joint.second_axis))) > ALIGNED:  # type: ignore[arg-type]
+            yield f"{what}: axis and second_axis are not perpendicular; turn one of them"
+        if joint.range is not None and (joint.closes or joint.kind not in ("revolute", "prismatic")):
+            yield f"{what}: has a range; give one to a hinge or a slide that carries a body"
 
 
-def _check_tree(root: FileTable, data: CraneData) -> None:
-    there, names = {data.root}, {data.root, *(one.name for one in data.bodies)}
+def _no_tree(data: CraneData) -> Iterator[str]:
+    there, bodies = {data.root}, [one.name for one in data.bodies]
+    known = {data.root, *bodies}
     for joint in data.tree.values():
         for role, body in (("first", joint.first), ("second", joint.second)):
-            if body not in names:
-                known = listed([one.name for one in data.bodies])
-                root.refuse(f"joint {joint.name!r}: its {role} body is {shown(body)}; there are {known}")
+            if body not in known:
+                yield f"joint {joint.name!r}: its {role} body is {shown(body)}; there are {listed(bodies)}"
         if joint.first not in there:
-            root.refuse(
-                f"joint {joint.name!r}: nothing carries its first body {joint.first!r} yet; write "
-                "the joint that does before it"
+            yield (
+                f"joint {joint.name!r}: nothing carries its first body {joint.first!r} yet; write the joint "
+                "that does before it"
             )
         if joint.second in there:
-            root.refuse(
-                f"joint {joint.name!r} closes a loop: something carries its second body "
-                f"{joint.second!r} already; write it as one of [[closing_joints]]"
+            yield (
+                f"joint {joint.name!r} closes a loop: something carries its second body {joint.second!r} "
+                "already; write it as one of [[closing_joints]]"
             )
         there.add(joint.second)
-    loose = [body.name for body in data.bodies if body.name not in there]
-    if loose:
-        root.refuse(f"no joint carries body {loose[0]!r}; add one, or take it out")
+    for name in bodies:
+        if name not in there:
+            yield f"no joint carries body {name!r}; add one, or take it out"
 
 
-def _check_closing(root: FileTable, data: CraneData) -> None:
+def _no_loops(data: CraneData) -> Iterator[str]:
     known = {data.root, *(body.name for body in data.bodies)}
     for joint in data.closing_joints:
-        what = f"closing joint {joint.name!r}"
+        what, ends = f"closing joint {joint.name!r}", f"{shown(joint.first)} and {shown(joint.second)}"
         if joint.kind not in CLOSING:
-            root.refuse(f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(CLOSING)}")
+            yield f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(CLOSING)}"
         if not {joint.first, joint.second} <= known or joint.first == joint.second:
-            root.refuse(
-                f"{what}: joins {shown(joint.first)} and {shown(joint.second)}; name two bodies of the crane"
-            )
-        if joint.range is not None:
-            root.refuse(f"{what}: has a range; give one to a joint of the tree")
+            yield f"{what}: joins {ends}; name two bodies of the crane"
 
 
-def _check_roles(root: FileTable, data: CraneData) -> None:
+def _no_roles(data: CraneData) -> Iterator[str]:
     kinds = {name: joint.kind for name, joint in data.tree.items()}
-    wanted = {"luff": (data.luffs, "revolute"), "cylinder": (data.cylinders, "prismatic")}
     slew = {} if data.slew is None else {"slew": data.slew}
-    for role, (joints, kind) in {"slew drive": (slew, "revolute"), **wanted}.items():
+    for role, joints, kind in (
+        ("slew drive", slew, "revolute"), ("luff", data.luffs, "revolute"),
+        ("cylinder", data.cylinders, "prismatic"),
+    ):  # fmt: skip
         for label, joint in joints.items():
             if kinds.get(joint) != kind:
                 fitting = listed([name for name, one in kinds.items() if one == kind]) or "none"
-                root.refuse(
-                    f"{role} {label!r} is joint {shown(joint)}, which is no {kind} joint of the "
-                    f"tree; there are {fitting}"
+                yield (
+                    f"{role} {label!r} is joint {shown(joint)}, which is no {kind} joint of the tree; there "
+                    f"are {fitting}"
                 )
-    _different(root, "coordinate", [*KEYWORDS, *slew, *data.luffs, *data.cylinders])
     if data.tip[0] not in {body.name for body in data.bodies}:
-        root.refuse(f"the tip is on {shown(data.tip[0])}; name a body of the crane")
+        yield f"the tip is on {shown(data.tip[0])}; name a body of the crane"
 
 
-def _check_ropes(root: FileTable, data: CraneData) -> None:
-    _different(root, "rope's luff", (rope.luff for rope in data.ropes))
+def _no_ropes(data: CraneData) -> Iterator[str]:
     for rope in data.ropes:
-        what = f"rope {rope.name!r}"
+        what, (first, start), (second, end) = f"rope {rope.name!r}", rope.first, rope.second
         if rope.luff not in data.luffs:
-            root.refuse(
-                f"{what}: holds luff {shown(rope.luff)}; the luffs are "
-                f"{listed([repr(name) for name in data.luffs]) or 'none'}"
-            )
+            known = listed([repr(name) for name in data.luffs]) or "none"
+            yield f"{what}: holds luff {shown(rope.luff)}; the luffs are {known}"
         beyond = data.beyond(data.luffs[rope.luff])
-        if rope.first[0] in beyond or rope.second[0] not in beyond:
-            root.refuse(
-                f"{what}: runs from {shown(rope.first[0])} to {shown(rope.second[0])}; its first body must "
-                f"be before hinge {data.luffs[rope.luff]!r} and its second beyond it"
+        if first in beyond or second not in beyond:
+            yield (
+                f"{what}: runs from {shown(first)} to {shown(second)}; its first body must be before hinge "
+                f"{data.luffs[rope.luff]!r} and its second beyond it"
             )
-        if np.linalg.norm(rope.second[1] - rope.first[1]) < CLOSED * extent_of(data):
-            root.refuse(f"{what}: has no length at home; move one of its blocks")
+        if np.linalg.norm(end - start) < CLOSED * extent_of(data):
+            yield f"{what}: has no length at home; move one of its blocks"

@@ -171,7 +171,8 @@ def leaning(parts: CraneParts, slew: str | None) -> tuple[CraneParts, Lean]:
     else:
         k = next(i for i, body in enumerate(bodies) if body.name == upper)
         bodies[k : k + 1] = _parted(bodies[k])
-        joints[at : at + 1] = [replace(bearing, **{"first" if turned else "second": FOOT}), hinge]
+        standing = replace(bearing, first=FOOT) if turned else replace(bearing, second=FOOT)
+        joints[at : at + 1] = [standing, hinge]
     weight = inertia = 0.0
     for body in bodies:
         if body.name in beyond:

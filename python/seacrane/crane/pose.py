@@ -98,6 +98,7 @@ def twists(joint: JointData, moved: Mapping[str, Placed]) -> list[Array]:
     the matrix of its rotation, and in the last column the velocity of what is at the crane foot."""
     first, second = moved[joint.first], moved[joint.second]
     if joint.kind == "prismatic":
+        assert joint.axis is not None
         return [np.column_stack([np.zeros((3, 3)), first.axes @ joint.axis])]
     axes = [*np.eye(3)] if joint.kind == "spherical" else []
     axes += [] if joint.axis is None else [first.axes @ joint.axis]
@@ -172,6 +173,7 @@ def _motions(data: CraneData, values: Mapping[str, Array]) -> dict[str, Placed]:
 def _motion(joint: JointData, values: Array) -> Placed:
     """The motion of the second body relative to the first one."""
     if joint.kind == "prismatic":
+        assert joint.axis is not None
         return Placed(np.eye(3), values[0] * joint.axis)
     turn = values if joint.kind == "spherical" else np.eye(3)
     for axis, value in zip((joint.axis, joint.second_axis), values, strict=False):

@@ -63,12 +63,10 @@ def spline_curve(*, times: Any, values: Any) -> Curve:
 def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: float) -> tuple[Curve, ...]:
     """Splines through ramp(t) Re sum amplitude exp(i omega t), one for each column.
 
-    Quintic splines on an even grid, with continuous derivatives up to the fourth. The interval is halved
-    until the largest error, measured midway between the samples, is 1e-6 of the sum's root mean square.
-    Frequencies (k,) are in rad/s, amplitudes (k, n) in m or rad. The sum grows from rest over the ramp (s),
-    is zero until t = 0 where there is one, and the curves hold their value from the duration (s) on.
-
-    Raises SceneError for a duration of too many periods.
+    Quintic splines on an even grid, whose interval is halved until the largest error, measured midway between
+    the samples, is 1e-6 of the sum's root mean square. Frequencies (k,) are in rad/s, amplitudes (k, n) in m
+    or rad. The sum grows from rest over the ramp (s), is zero until t = 0 where there is one, and the curves
+    hold their value from the duration (s) on. Raises SceneError for a duration of too many periods.
     """
 
     def values(times: Array) -> Array:

@@ -32,11 +32,8 @@ def source_of(scene: Description, body: str | None) -> Source | None:
 def database_of(
     scene: Description, body: str, what: str, given: HydroDatabase | None = None
 ) -> HydroDatabase:
-    """The database of the vessel of a body, or the one given: the same ship at a forward speed.
-
-    Raises SceneError where there is none, with what needs it, or where the one given is another one of zero
-    speed.
-    """
+    """The database of the vessel of a body, or the one given: the same ship at a forward speed. SceneError
+    where there is none, with what needs it, or where the one given is another one of zero speed."""
     vessel = next((one for one in scene.vessels.values() if one.body == body), None)
     if given is not None:
         if not isinstance(given, HydroDatabase):

@@ -33,6 +33,7 @@ Array = NDArray[np.float64]
 Value = TypeVar("Value")
 LONGEST, DEEPEST = 1000, 40  # characters; parentheses, calls and signs within each other
 FUNCTIONS = {"sqrt": 1, "abs": 1, "hypot": 2, "atan2": 2, "min": 0, "max": 0}  # arguments; 0: two or more
+SIGNS = (("+", "-"), ("*", "/"))
 OF_TWO: dict[str, Callable[[Any, Any], Any]] = {
     "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide,
     "hypot": np.hypot, "atan2": np.arctan2, "min": np.minimum, "max": np.maximum,
@@ -45,36 +46,28 @@ def _dimension(*exponents: int) -> Dimension:
 
 
 PURE, ANGLE = _dimension(0, 0, 0, 0), _dimension(0, 0, 0, 1)
-
+_OF_DIMENSION: dict[tuple[int, ...], dict[str, float]] = {  # kg, m, s, rad: units, the SI one first, in SI
+    (0, 0, 0, 0): {"1": 1.0},
+    (0, 0, 0, 1): {"rad": 1.0, "deg": pi / 180.0},
+    (0, 0, -1, 1): {"rad/s": 1.0, "deg/s": pi / 180.0},
+    (0, 0, -2, 1): {"rad/s2": 1.0},
+    (0, 1, 0, 0): {"m": 1.0, "mm": 1e-3},
+    (0, 2, 0, 0): {"m2": 1.0},
+    (0, 3, 0, 0): {"m3": 1.0},
+    (0, 1, -1, 0): {"m/s": 1.0},
+    (0, 1, -2, 0): {"m/s2": 1.0},
+    (0, 3, -1, 0): {"m3/s": 1.0},
+    (0, 0, 1, 0): {"s": 1.0},
+    (1, 0, 0, 0): {"kg": 1.0, "t": 1e3},
+    (1, 1, -2, 0): {"N": 1.0, "kN": 1e3},
+    (1, 1, -1, 0): {"N s": 1.0},
+    (1, 2, -2, 0): {"N m": 1.0, "J": 1.0, "kN m": 1e3},
+    (1, 0, -2, 0): {"N/m": 1.0},
+    (1, 2, -3, 0): {"W": 1.0},
+    (1, -1, -2, 0): {"Pa": 1.0, "bar": 1e5},
+}
 UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
-    {  # factor to SI, and dimension; of units of one dimension the SI one comes first
-        "1": (1.0, PURE),
-        "rad": (1.0, ANGLE),
-        "deg": (pi / 180.0, ANGLE),
-        "rad/s": (1.0, _dimension(0, 0, -1, 1)),
-        "deg/s": (pi / 180.0, _dimension(0, 0, -1, 1)),
-        "rad/s2": (1.0, _dimension(0, 0, -2, 1)),
-        "m": (1.0, _dimension(0, 1, 0, 0)),
-        "mm": (1e-3, _dimension(0, 1, 0, 0)),
-        "m2": (1.0, _dimension(0, 2, 0, 0)),
-        "m3": (1.0, _dimension(0, 3, 0, 0)),
-        "m/s": (1.0, _dimension(0, 1, -1, 0)),
-        "m/s2": (1.0, _dimension(0, 1, -2, 0)),
-        "m3/s": (1.0, _dimension(0, 3, -1, 0)),
-        "s": (1.0, _dimension(0, 0, 1, 0)),
-        "kg": (1.0, _dimension(1, 0, 0, 0)),
-        "t": (1e3, _dimension(1, 0, 0, 0)),
-        "N": (1.0, _dimension(1, 1, -2, 0)),
-        "kN": (1e3, _dimension(1, 1, -2, 0)),
-        "N s": (1.0, _dimension(1, 1, -1, 0)),
-        "N m": (1.0, _dimension(1, 2, -2, 0)),
-        "J": (1.0, _dimension(1, 2, -2, 0)),
-        "kN m": (1e3, _dimension(1, 2, -2, 0)),
-        "N/m": (1.0, _dimension(1, 0, -2, 0)),
-        "W": (1.0, _dimension(1, 2, -3, 0)),
-        "Pa": (1.0, _dimension(1, -1, -2, 0)),
-        "bar": (1e5, _dimension(1, -1, -2, 0)),
-    }
+    {unit: (si, _dimension(*of)) for of, units in _OF_DIMENSION.items() for unit, si in units.items()}
 )
 
 
@@ -239,16 +232,14 @@ class _Parser:
         self.advance()
         return str(found)
 
-    def sum(self) -> None:
-        self.product()
-        while sign := self.sign("+", "-"):
-            self.product()
-            self.steps.append(Call(sign, 2))
-
-    def product(self) -> None:
-        self.factor()
-        while sign := self.sign("*", "/"):
+    def sum(self, level: int = 0) -> None:
+        """Of products, which are of factors."""
+        if level == len(SIGNS):
             self.factor()
+            return
+        self.sum(level + 1)
+        while sign := self.sign(*SIGNS[level]):
+            self.sum(level + 1)
             self.steps.append(Call(sign, 2))
 
     def factor(self) -> None:

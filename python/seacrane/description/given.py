@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.description import Description
+from seacrane.description.description import Description, Some
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description, Some
 
 USUAL_SIZE = (100.0, 20.0, 5.0)  # m, of a ship whose size nobody gave
 Array = NDArray[np.float64]
@@ -67,12 +63,7 @@ def shown_size(scene: Description, body: str) -> tuple[float, float, float]:
 
 
 def require_described(scene: Description, end: float) -> None:
-    """Refuse a run to `end` (s) that is longer than the given motion of a ship.
-
-    Raises
-    ------
-    SceneError
-    """
+    """SceneError for a run to `end` (s) that is longer than the given motion of a ship."""
     for vessel in scene.vessels.values():
         known = scene.provenance.get(vessel.name)
         if known is None or known.duration is None or end <= known.duration:

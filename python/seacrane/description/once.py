@@ -33,13 +33,8 @@ Known = dict[Any, dict[Hashable, tuple[Any, list[Said]]]]
 
 
 class Answers:
-    """What was worked out of one content: by function and arguments, with the warnings given on the way.
-
-    Attributes
-    ----------
-    known : Of the scene in its sea.
-    in_any_sea : Of all but the sea; scenes that differ in nothing else share it.
-    """
+    """What was worked out of one content, by function and arguments, with the warnings given on the way: of
+    the scene in its sea, and of all but the sea, which scenes that differ in nothing else share."""
 
     def __init__(self, content: list[Any], waves: Waves | None, in_any_sea: Known) -> None:
         self.content, self.waves = content, waves

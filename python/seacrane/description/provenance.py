@@ -96,15 +96,14 @@ class SeaProvenance:
 
     def settings(self) -> dict[str, Any]:
         """What the sea was made from, as far as it is known."""
-        return self._known(SEA_SETTINGS)
+        return {name: value for name, value in self._known().items() if name in SEA_SETTINGS}
 
     def stats(self) -> dict[str, Any]:
         """What its realisation came to, as far as it is known."""
-        return self._known(SEA_STATS)
+        return {name: value for name, value in self._known().items() if name not in SEA_SETTINGS}
 
-    def _known(self, names: tuple[str, ...]) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+    def _known(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if value is not None}
 
 
-SEA_NAMES = tuple(one.name for one in fields(SeaProvenance))
-SEA_SETTINGS, SEA_STATS = SEA_NAMES[:8], SEA_NAMES[8:]
+SEA_SETTINGS = tuple(one.name for one in fields(SeaProvenance))[:8]

@@ -111,13 +111,8 @@ class LuffingRope:
 
 
 def lengthening(hinge: Array, axis: Array, first: Array, second: Array) -> float:
-    """Rate of the distance between the blocks per rate of the hinge's angle, m/rad.
-
-    Parameters
-    ----------
-    hinge, axis, first, second : ndarray, shape (3,)
-        A point of the hinge, its unit vector, and both blocks; one frame, m.
-    """
+    """Rate of the distance between two blocks per rate of a hinge's angle, m/rad, by a point of the hinge and
+    its unit vector; (3,) in one frame, m."""
     along = (second - first) / np.linalg.norm(second - first)
     return float(along @ np.cross(axis, second - hinge))
 

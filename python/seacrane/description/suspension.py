@@ -142,11 +142,9 @@ def static_weights(scene: Description) -> Mapping[str, tuple[float, int]]:
 
 @once_in_any_sea
 def least_weights(scene: Description) -> Mapping[str, float]:
-    """Least weight (N) at rest on every suspension that alone carries it, by its `channel`.
-
-    The lesser of two: in air, with compartments empty, and with all parts in water, compartments full. None
-    of what floats.
-    """
+    """Least weight (N) at rest on every suspension that alone carries it, by its `channel`; none of what
+    floats: the lesser of that in air, compartments empty, and that with all parts in water, compartments
+    full."""
     ties = _ties_of(scene)
     held = [(one, _least_weight(scene, ties.below(one))) for one in suspensions(scene)]
     return {end: weight for one, own in held for end, weight in _ends(scene, one, own)}
@@ -167,18 +165,11 @@ def _least_weight(scene: Description, bodies: Sequence[str]) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Rig:
-    """What hangs on one suspension, or on several between the same two bodies, as slings do.
+    """What hangs on one suspension, or on several between the same two bodies, as slings do."""
 
-    Attributes
-    ----------
-    held : By which it hangs.
-    bodies : Those that it is made of, that at the lower end of `held` first.
-    inner : What hangs on what inside it, such as slings below a block.
-    """
-
-    held: tuple[Suspension, ...]
-    bodies: tuple[str, ...]
-    inner: tuple[Suspension, ...]
+    held: tuple[Suspension, ...]  # by which it hangs
+    bodies: tuple[str, ...]  # that it is made of, that at the lower end of `held` first
+    inner: tuple[Suspension, ...]  # what hangs on what inside it, such as slings below a block
 
 
 @once_in_any_sea

@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from seacrane import _core
-from seacrane.crane.crane import Crane, Vector
+from seacrane.crane.crane import Crane, Vector, add_hydraulics, hydraulics_of
 from seacrane.crane.data import JointData, MeshData, RopeData
-from seacrane.crane.hydraulics import add_hydraulics, hydraulics_of
 from seacrane.crane.load_crane import load_crane
 from seacrane.crane.parts import FAR, STRUCTURE, UP, CraneParts, Lean, Payload, leaning
 from seacrane.description.description import Description

@@ -33,7 +33,7 @@ from seacrane.inputs.shown import shown
 from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 
 Array = NDArray[np.float64]
-VERSION = 3  # raised with every change of what is solved
+VERSION = 4  # raised with every change of what is solved
 KIND, SUFFIX = "added_mass", ".ladder"
 AXES = ("Surge", "Sway", "Heave")
 MOST_PANELS = 3000  # 16 bytes for each pair of them, two matrices: 0.3 GB
@@ -195,7 +195,7 @@ class PanelLadder:
     draughts : (n,) m, of the lowest point.
     added, low : (n, 3) along the axes, at infinite and at zero frequency.
     unbounded : (3, 3) without a surface.
-    coarse : (3,) its diagonal with half the panels.
+    error : largest change of its diagonal with half the panels, over the largest of its axes.
     panels : most that a draught took.
     code : the program and its version.
     """
@@ -204,15 +204,9 @@ class PanelLadder:
     added: Array
     low: Array
     unbounded: Array
-    coarse: Array
+    error: float
     panels: int
     code: str
-
-    @property
-    def error(self) -> float:
-        """Largest change of the unbounded added mass with half the panels, over the largest of its axes."""
-        fine = np.diag(self.unbounded)
-        return float(np.max(np.abs(self.coarse - fine)) / fine.max())
 
 
 def panel_ladder(what: str, shape: MeshShape, draughts: Array | None, panels: int) -> PanelLadder:
@@ -252,44 +246,36 @@ def _digest(triangles: Array, draughts: Array | None, panels: int) -> str:
 
 def _solved(surface: _Panels, draughts: Array | None) -> PanelLadder:
     unbounded = surface.solved(None, np.inf)
-    coarse = surface.solved(None, np.inf, share=0.5)
-    rungs = default_draughts(surface.shape) if draughts is None else _with_touch(surface.shape, draughts)
-    height = surface.shape.size[2]
+    deep = np.diag(unbounded)
+    coarse = np.diag(surface.solved(None, np.inf, share=0.5))
+    rungs, height = _rungs(surface.shape, draughts), surface.shape.size[2]
     added: list[Array] = []
     for draught in rungs:
-        added.append(surface.solved(float(draught), np.inf))
-        left = np.diag(unbounded) - np.diag(added[-1])
-        if draughts is None and draught > height and np.all(left <= SETTLED * np.diag(unbounded)):
+        added.append(np.diag(surface.solved(float(draught), np.inf)))
+        if draughts is None and draught > height and np.all(deep - added[-1] <= SETTLED * deep):
             break
     used = rungs[: len(added)]
-    low = [surface.solved(float(draught), 0.0) for draught in used]
+    low = [np.diag(surface.solved(float(draught), 0.0)) for draught in used]
     return PanelLadder(
-        draughts=used, added=np.array([np.diag(one) for one in added]),
-        low=np.array([np.diag(one) for one in low]), unbounded=unbounded, coarse=np.diag(coarse).copy(),
-        panels=surface.most, code=surface.code,
+        draughts=used, added=np.array(added), low=np.array(low), unbounded=unbounded,
+        error=float(np.max(np.abs(coarse - deep)) / deep.max()), panels=surface.most, code=surface.code,
     )  # fmt: skip
 
 
-def default_draughts(shape: MeshShape) -> Array:
-    """Draughts (n,): denser near touch, and on below awash."""
+def _rungs(shape: MeshShape, given: Array | None) -> Array:
+    """Draughts (n,): those given, or denser near touch and on below awash.
+
+    Before them those near the touch of a flat bottom, from which its added mass there follows.
+    """
     long, wide, height = shape.size
+    first = np.sqrt(shape.flat) * np.array(FIRST_FLAT)
+    first = first[(first > 0.0) & (first < 0.9 * height)]
+    if given is not None:
+        return np.concatenate([first[first < 0.9 * given[0]], given])
     above = height * (np.arange(1, RUNGS + 1) / RUNGS) ** CLUSTERED
-    first = _near_touch(shape)
     above = above[above > 1.2 * first.max(initial=0.0)]
     below = height + np.sqrt(long * wide) * np.array(CLEARANCES)
     return np.concatenate([first, above, below])
-
-
-def _near_touch(shape: MeshShape) -> Array:
-    """Draughts near touch, from which that of a flat bottom as it touches follows; none of another bottom."""
-    first = np.sqrt(shape.flat) * np.array(FIRST_FLAT)
-    return np.asarray(first[(first > 0.0) & (first < 0.9 * shape.size[2])])
-
-
-def _with_touch(shape: MeshShape, draughts: Array) -> Array:
-    """Draughts that were given, after those near touch."""
-    first = _near_touch(shape)
-    return np.concatenate([first[first < 0.9 * draughts[0]], draughts])
 
 
 class _Panels:
@@ -319,15 +305,14 @@ class _Panels:
         mesh = self.capytaine.Mesh(vertices=panels.reshape(-1, 3), faces=faces)
         dofs = self.capytaine.rigid_body_dofs(only=AXES, rotation_center=(0.0, 0.0, 0.0))
         body = self.capytaine.FloatingBody(mesh=mesh, dofs=dofs)
-        rows = [self._row(body, omega, surface, axis) for axis in AXES]
-        return np.array(rows, dtype=float)
-
-    def _row(self, body: Any, omega: float, surface: float, axis: str) -> list[float]:
-        problem = self.capytaine.RadiationProblem(
-            body=body, omega=omega, free_surface=surface, water_depth=np.inf, radiating_dof=axis, rho=1.0
-        )
-        masses = self.solver.solve(problem, method="direct", keep_details=False).added_masses
-        return [float(masses[one]) for one in AXES]
+        rows = []
+        for axis in AXES:
+            problem = self.capytaine.RadiationProblem(
+                body=body, omega=omega, free_surface=surface, water_depth=np.inf, radiating_dof=axis, rho=1.0
+            )
+            masses = self.solver.solve(problem, method="direct", keep_details=False).added_masses
+            rows.append([float(masses[one]) for one in AXES])
+        return np.array(rows)
 
     def _wet(self, draught: float) -> Array:
         """Triangles of what is below the surface z = 0 at a draught."""

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import not_negative_of, number_of, shaped_of, vector_of
+from seacrane.inputs.checked import not_negative_of, number_of, positive_of, shaped_of, vector_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.water.added_mass import (
@@ -273,6 +273,27 @@ class TablePart(Shape):
             added_masses=np.asarray(self.added_masses, dtype=float),
             drag=0.5 * density * np.asarray(self.drag_area, dtype=float),
         )  # fmt: skip
+
+
+@named
+@dataclass(frozen=True, kw_only=True)
+class Opening:
+    """A hole in the wall of a compartment, small against its section.
+
+    Parameters
+    ----------
+    point : array_like, shape (3,)
+        Its centre, m, body coordinates, between bottom and top of the compartment.
+    area : float
+        m2, of the hole itself; the jet fills `discharge_coefficient` of it.
+    """
+
+    point: Any
+    area: float
+
+    def __post_init__(self) -> None:
+        shaped_of("opening: point", self.point, (3,))
+        positive_of("opening: area", self.area, "m2")
 
 
 Part = BoxPart | PlatePart | CylinderPart | SpherePart | TablePart
