@@ -52,32 +52,19 @@ def simulate(
 
 @overload
 def simulate(
-    scene: Scene,
-    t_end: float | Sequence[Stage] = 100.0,
-    *,
-    to: str | os.PathLike[str],
+    scene: Scene, t_end: float | Sequence[Stage] = 100.0, *, to: str | os.PathLike[str],
     **how: Unpack[_Written],
-) -> StreamedResult: ...
+) -> StreamedResult: ...  # fmt: skip
 
 
 @named
 def simulate(
-    scene: Scene,
-    t_end: float | Sequence[Stage] = 100.0,
-    *,
-    to: str | os.PathLike[str] | None = None,
-    method: Method | None = None,
-    outputs: Outputs | None = None,
-    start: Start = None,
-    first: str | None = None,
-    controllers: Sequence[SampledController] = (),
-    accuracy: Mapping[str, float] | None = None,
-    checkpoint_every: float | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    progress: bool = False,
-    **shorthand: Unpack[Shorthand],
-) -> Result | StreamedResult:
+    scene: Scene, t_end: float | Sequence[Stage] = 100.0, *, to: str | os.PathLike[str] | None = None,
+    method: Method | None = None, outputs: Outputs | None = None, start: Start = None,
+    first: str | None = None, controllers: Sequence[SampledController] = (),
+    accuracy: Mapping[str, float] | None = None, checkpoint_every: float | None = None,
+    resume: bool = False, overwrite: bool = False, progress: bool = False, **shorthand: Unpack[Shorthand],
+) -> Result | StreamedResult:  # fmt: skip
     """Simulate a scene, to a time or through the stages of a lift, and return its recorded channels.
 
     Through stages the clock and the waves go on; an element that a stage connects is absent until then. In
@@ -183,7 +170,12 @@ def simulate(
         lift = StagedRun(
             scene, stages, start=start, first=first, method=method, outputs=outputs, controllers=called
         )
-        return _carried_out(lift) if to is None else stages_to_file(lift, Path(to), overwrite=overwrite)
+        if to is not None:
+            return stages_to_file(lift, Path(to), overwrite=overwrite)
+        while lift.advance():
+            pass
+        lift.warn()
+        return lift.result()
     if to is None:
         run = Run(scene, end, method=method, outputs=outputs, start=start, controlled=bool(called))
         return finished(run, called, progress=progress)
@@ -197,19 +189,10 @@ def _several(t_end: float | Sequence[Stage]) -> TypeIs[Sequence[Stage]]:
     return isinstance(t_end, Sequence) and not isinstance(t_end, str)
 
 
-def _carried_out(lift: StagedRun) -> Result:
-    while lift.advance():
-        pass
-    lift.warn()
-    return lift.result()
-
-
 def _require_use(
-    stages: Sequence[Stage] | None,
-    to: str | os.PathLike[str] | None,
-    accuracy: Mapping[str, float] | None,
+    stages: Sequence[Stage] | None, to: str | os.PathLike[str] | None, accuracy: Mapping[str, float] | None,
     **given: object,
-) -> None:
+) -> None:  # fmt: skip
     """Refuse words that this kind of run has no use for."""
     whole = UNWRITTEN if to is None else ""
     if to is not None and accuracy is not None:
@@ -218,10 +201,8 @@ def _require_use(
         whole = "stages are written one by one"
     reasons = {
         "first": "it names a stage, and no stages are given" if stages is None else "",
-        "checkpoint_every": whole,
-        "resume": whole,
-        "overwrite": UNWRITTEN if to is None else "",
-    }
+        "checkpoint_every": whole, "resume": whole, "overwrite": UNWRITTEN if to is None else "",
+    }  # fmt: skip
     for word, reason in reasons.items():
         if given[word] not in (None, False) and reason:
             raise SceneError(f"{word} is {shown(given[word])}: {reason}; leave it out")

@@ -85,14 +85,7 @@ class Crane:
         """Forces of the cylinders at rest on a level base, N, shape (cylinders,), positive when they push.
 
         By virtual work, the slope of the potential energy over each stroke, the other strokes held. The
-        cylinders' own weights count.
-
-        Parameters
-        ----------
-        payload_mass : float
-            Hanging at rest from the tip, kg.
-        gravity : float
-            m/s2.
+        cylinders' own weights count, and the payload's (kg), which hangs at rest from the tip; gravity: m/s2.
         """
         moved = pose_of(self.data, coordinates).moved
         strokes = [self.data.tree[name] for name in self.data.cylinders.values()]

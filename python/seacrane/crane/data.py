@@ -51,15 +51,8 @@ HOME = Placed(np.eye(3), np.zeros(3))
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MeshData:
-    """What a body is drawn by: a file, or triangles.
-
-    Attributes
-    ----------
-    vertices, faces : ndarray (n, 3) and (m, 3), or None
-        m, in place of a file.
-    scale : By which coordinates are multiplied to be m.
-    frame : Of the mesh in that of its body.
-    """
+    """What a body is drawn by, in a frame of the body's: a file with its scale to m, or triangles (n, 3), m,
+    with faces (m, 3)."""
 
     name: str
     file: Path | None = None
@@ -71,15 +64,10 @@ class MeshData:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BodyData:
-    """A rigid part of a crane.
+    """A rigid part of a crane, in its own frame, which is given in that of the crane foot at home.
 
-    Attributes
-    ----------
-    properties : In its own frame.
-    frame : In that of the crane foot, at home.
-    members : tuple of Tube or Box
-        That it is made of and drawn by, in its own frame; empty where only its mass is known.
-    meshes : That it is drawn by in their place.
+    It is made of and drawn by its members, which are empty where only its mass is known; `meshes` draw it in
+    their place.
     """
 
     name: str
@@ -118,12 +106,10 @@ class JointData:
     ----------
     name, kind, first, second : The kind is one of `FREEDOMS`; a joint of the tree carries its second body.
     point : (3,) m.
-    second_point : ndarray, shape (3,), or None
-        Of the link of a payload, a distance joint, on the payload.
+    second_point : (3,) Of the link of a payload, a distance joint, on the payload.
     axis, second_axis : ndarray, shape (3,), or None
         Unit vectors; the second one of a universal joint alone, fixed on the second body.
-    range : (float, float) or None
-        Of its coordinate from home, rad or m.
+    range : Of its coordinate from home, rad or m.
     closes : Whether it closes a loop, and carries nothing.
     """
 
@@ -141,16 +127,7 @@ class JointData:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RopeData:
-    """A luffing rope between two bodies on both sides of a hinge.
-
-    Attributes
-    ----------
-    name, luff : Its own, and the label of the hinge that it holds.
-    falls : Parts of rope between the two blocks.
-    EA : Axial stiffness of one part, N.
-    first, second : (str, ndarray (3,))
-        Bodies and blocks at home, crane-foot frame, m; the second one is beyond the hinge.
-    """
+    """As `LuffingRope`, by the label of the hinge that it holds; blocks at home, crane-foot frame, m."""
 
     name: str
     luff: str
@@ -171,10 +148,8 @@ class CraneData:
         Of the tree one for each body but the root, each after what carries its first body; and those that
         close loops.
     slew : Joint of the slew drive.
-    luffs, cylinders : mapping of str to str
-        Hinges that raise and lower the jib, and sliding joints, by label.
-    tip : (str, ndarray (3,))
-        Its body, and its place at home, m.
+    luffs, cylinders : Hinges that raise and lower the jib, and sliding joints, by label.
+    tip : Its body, and its place at home, m.
     capacity, areas
         As of `CraneRoles`.
     hydraulics : mapping of str to mapping

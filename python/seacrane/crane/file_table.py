@@ -6,9 +6,7 @@ import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, fields
-from pathlib import Path
-from types import MappingProxyType
+from dataclasses import fields
 from typing import Any, NoReturn
 
 import numpy as np
@@ -20,23 +18,14 @@ from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.description.roles import Areas, Capacity, areas_of, capacity_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import shown
-from seacrane.inputs.whole_file import read_whole
 
 Array = NDArray[np.float64]
+Frames = dict[str, tuple[str, Placed]]  # by name: the body that a frame is fixed to, and where it is at home
 SCHEMA = 1
 LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with
-LARGEST_FILE = 2**20  # bytes
 LONGEST_TEXT = 200
 SMALLEST = 1e-9  # m, kg
 THINNEST = 1e-6  # of a section
-
-
-def read_text(path: Path) -> str:
-    """Text of a crane's file; FileFormatError where it cannot be read."""
-    try:
-        return read_whole(path, LARGEST_FILE, "no crane file is").decode("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileFormatError(f"crane data file {path} cannot be read ({error}); check the path.") from error
 
 
 @contextmanager
@@ -63,8 +52,9 @@ def root_of(text: str, source: str) -> FileTable:
 class FileTable:
     """One table of the file; every value is asked for once, leftovers are misspelt keys."""
 
-    def __init__(self, source: str, where: str, values: object) -> None:
+    def __init__(self, source: str, where: str, values: object, frames: Frames | None = None) -> None:
         self.source, self.where = source, where
+        self.frames: Frames = {} if frames is None else frames  # of the file, once they are known
         if not isinstance(values, Mapping):
             raise FileFormatError(f"{source}: {where} is {shown(values)}; write a table of keys and values.")
         self.values = dict(values)
@@ -78,7 +68,7 @@ class FileTable:
         return self.values.pop(key)
 
     def table(self, key: str) -> FileTable:
-        return FileTable(self.source, self.label(key), self.take(key))
+        return FileTable(self.source, self.label(key), self.take(key), self.frames)
 
     def refuse(self, says: str) -> NoReturn:
         raise FileFormatError(f"{self.source}: {says}.")
@@ -129,21 +119,14 @@ class FileTable:
         value = self.values.pop(key, [])
         if not isinstance(value, list):
             self.wrong(key, value, f"write [[{key}]]")
-        return [FileTable(self.source, f"{self.label(key)}[{i}]", item) for i, item in enumerate(value)]
+        where = self.label(key)
+        return [FileTable(self.source, f"{where}[{i}]", one, self.frames) for i, one in enumerate(value)]
 
-    def space_point(self, key: str) -> Point:
-        """Three numbers."""
-        return self._row(key, 3, "three numbers [x, y, z]")
-
-    def point(self, key: str) -> tuple[float, float]:
-        """Two numbers."""
-        first, second = self._row(key, 2, "two numbers [along, above], in m")
-        return first, second
-
-    def _row(self, key: str, count: int, wanted: str) -> Point:
+    def numbers(self, key: str, count: int) -> Point:
+        """A list of so many of them."""
         value = self.take(key)
         if not isinstance(value, list) or len(value) != count:
-            self.wrong(key, value, f"write {wanted}")
+            self.wrong(key, value, f"write a list of {count} numbers")
         return tuple(self._number(key, item) for item in value)
 
     def capacity(self) -> Capacity:
@@ -153,8 +136,6 @@ class FileTable:
         table = self.table("capacity")
         rows = table.take("rows")
         table.finish()
-        if not isinstance(rows, list):
-            table.wrong("rows", rows, "write rows [radius, load], m and kg")
         with as_file_error():
             return capacity_of(self.source, rows)
 
@@ -173,7 +154,7 @@ class FileTable:
         inner = self.table("hydraulics")
         found = {word: inner.table(word).value(kind) for word, kind in VALUES.items() if word in inner.values}
         inner.finish()
-        return MappingProxyType(found)
+        return found
 
     def value(self, kind: type[Any]) -> Any:
         """The whole table as a value, whose fields are numbers and flags."""
@@ -191,53 +172,35 @@ class FileTable:
             self.refuse(f"{self.label(key)} needs at least one member; add one")
         return found
 
+    def point_on(self, name: str) -> tuple[str, Array]:
+        """The body that a frame is fixed to, and the table's point, given in the frame, at home, m."""
+        body, frame = self._frame(name)
+        return body, frame.point(np.array(self.numbers("point", 3)))
+
+    def axis_on(self, name: str, key: str) -> Array | None:
+        """A unit vector, given in a frame, at home; None where it is left out."""
+        if key not in self.values:
+            return None
+        given = np.array(self.numbers(key, 3))
+        length = float(np.linalg.norm(given))
+        if length == 0.0:
+            self.refuse(f"{self.label(key)} is all zero; write a direction, such as [0.0, 0.0, 1.0]")
+        return np.asarray(self._frame(name)[1].axes @ (given / length))
+
+    def _frame(self, name: str) -> tuple[str, Placed]:
+        if name not in self.frames:
+            known = ", ".join(self.frames) or "none"
+            self.refuse(f"{self.where} names body {shown(name)}; the crane has {known}")
+        return self.frames[name]
+
     def finish(self) -> None:
         if self.values:
             self.refuse(f"unknown key {self.label(min(self.values))[:80]}; correct its spelling or remove it")
 
 
-@dataclass(frozen=True, eq=False)
-class Frames:
-    """Frame of every body by its name, and those of frames that are fixed to one, at home.
-
-    Attributes
-    ----------
-    placed : mapping of str to Placed
-    holder : mapping of str to str
-        The body that each frame is fixed to, where that is another.
-    """
-
-    placed: Mapping[str, Placed]
-    holder: Mapping[str, str] = field(default_factory=dict)
-
-    def body(self, name: str) -> str:
-        """The body that a frame is fixed to."""
-        return self.holder.get(name, name)
-
-    def point(self, table: FileTable, body: str, at: Point) -> Array:
-        """A point of a body's frame in the crane-foot frame at home, m."""
-        return self._of(table, body).point(np.array(at))
-
-    def axis(self, table: FileTable, body: str, key: str) -> Array | None:
-        """A unit vector in the crane-foot frame at home, if it is given; FileFormatError for zeros."""
-        if key not in table.values:
-            return None
-        given = np.array(table.space_point(key))
-        length = float(np.linalg.norm(given))
-        if length == 0.0:
-            table.refuse(f"{table.label(key)} is all zero; write a direction, such as [0.0, 0.0, 1.0]")
-        return np.asarray(self._of(table, body).axes @ (given / length))
-
-    def _of(self, table: FileTable, body: str) -> Placed:
-        if body not in self.placed:
-            known = ", ".join(self.placed) or "none"
-            table.refuse(f"{table.where} names body {shown(body)}; the crane has {known}")
-        return self.placed[body]
-
-
 def _member(table: FileTable) -> Member:
     name, shape, mass = table.named(), table.text("shape"), table.number("mass")
-    start, end = table.space_point("start"), table.space_point("end")
+    start, end = table.numbers("start", 3), table.numbers("end", 3)
     if math.dist(start, end) == 0.0:
         table.refuse(f"{table.where} has length 0; move its start or its end")
     match shape:

@@ -19,18 +19,20 @@ from seacrane.crane.data import (
     BodyData,
     CraneData,
     JointData,
-    Placed,
     RopeData,
     placed,
 )
-from seacrane.crane.file_table import FileTable, Frames, as_file_error, read_text, root_of
+from seacrane.crane.file_table import FileTable, as_file_error, root_of
 from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.crane.pose import CLOSED, extent_of, pose_of
 from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
+from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import listed, shown
+from seacrane.inputs.whole_file import read_whole
 
 Array = NDArray[np.float64]
+LARGEST_FILE = 2**20  # bytes
 TOTAL = 1e-9  # of the mass, by which the members may miss it
 SHIPPED = Path(__file__).resolve().parent.parent / "data" / "cranes"
 DEFAULT = "knuckle_boom_250t"
@@ -59,7 +61,11 @@ def load_crane(path: str | Path = DEFAULT) -> Crane:
         item.
     """
     file = SHIPPED / f"{path}.toml" if str(path) in shipped_cranes() else Path(path)
-    return parse_crane(read_text(file), source=str(file), folder=file.parent)
+    try:
+        text = read_whole(file, LARGEST_FILE, "no crane file is").decode("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileFormatError(f"crane data file {file} cannot be read ({error}); check the path.") from error
+    return parse_crane(text, source=str(file), folder=file.parent)
 
 
 def shipped_cranes() -> list[str]:
@@ -68,25 +74,15 @@ def shipped_cranes() -> list[str]:
 
 
 def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = None) -> Crane:
-    """Read a crane from TOML text.
-
-    Parameters
-    ----------
-    source : Name used in messages.
-    folder : In which a URDF file is; default: the working directory.
-
-    Raises
-    ------
-    FileFormatError
-        As of `load_crane`.
-    """
+    """Read a crane from TOML text; `source` is its name in messages, a URDF file is in the `folder`, by
+    default the working directory. FileFormatError as of `load_crane`."""
     root = root_of(text, source)
     kind, name = root.head(), root.text("name")
     match kind:
         case "jointed":
             bodies = tuple(_body(table) for table in root.tables("bodies"))
-            frames = Frames({body.name: body.frame for body in bodies})
-            joints = tuple(_joint(table, frames) for table in root.tables("joints"))
+            root.frames |= {body.name: (body.name, body.frame) for body in bodies}
+            joints = tuple(_joint(table) for table in root.tables("joints"))
             stands = bodies[0].name if bodies else ""
             total, mass = root.number("total_mass"), math.fsum(body.properties.mass for body in bodies)
             if abs(mass - total) > TOTAL * total:
@@ -95,18 +91,19 @@ def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = 
                 )
         case "urdf":  # which has the masses of its links alone
             stands, bodies, joints, frames = read_urdf((folder or Path()) / root.text("urdf"))
+            root.frames |= frames
         case _:
             root.wrong("kind", kind, 'write "jointed", as the shipped knuckle boom has it, or "urdf"')
-    closing = tuple(_joint(table, frames, closes=True) for table in root.tables("closing_joints"))
+    closing = tuple(_joint(table, closes=True) for table in root.tables("closing_joints"))
     roles = root.table("roles")
     slew = roles.text("slew") if "slew" in roles.values else None
     luffs, cylinders = _names(roles, "luffs"), _names(roles, "cylinders")
-    tip = _place(roles.table("tip"), frames)
+    tip = _place(roles.table("tip"))
     roles.finish()
     areas, oil = _pistons(root, cylinders)
     data = CraneData(
         name=name, root=stands, bodies=bodies, joints=joints + closing, slew=slew, luffs=luffs,
-        cylinders=cylinders, tip=tip, ropes=tuple(_rope(table, frames) for table in root.tables("ropes")),
+        cylinders=cylinders, tip=tip, ropes=tuple(_rope(table) for table in root.tables("ropes")),
         capacity=root.capacity(), areas=areas, hydraulics=oil,
     ).at_joints()  # fmt: skip
     root.finish()
@@ -119,20 +116,18 @@ def _body(table: FileTable) -> BodyData:
     name = table.named()
     members = table.members("members") if "members" in table.values else ()
     properties = combine(members) if members else _given_mass(table)
-    frame = _frame(table.table("frame")) if "frame" in table.values else HOME
+    frame = HOME
+    if "frame" in table.values:
+        own = table.table("frame")
+        frame = placed(np.array(own.numbers("xyz", 3)), np.array(own.numbers("rpy", 3)))
+        own.finish()
     table.finish()
     return BodyData(name=name, properties=properties, frame=frame, members=members)
 
 
-def _frame(table: FileTable) -> Placed:
-    found = placed(np.array(table.space_point("xyz")), np.array(table.space_point("rpy")))
-    table.finish()
-    return found
-
-
 def _given_mass(table: FileTable) -> MassProperties:
     mass = table.number("mass")
-    center = np.array(table.space_point("center_of_mass"))
+    center = np.array(table.numbers("center_of_mass", 3))
     rows = table.take("inertia")
     try:
         inertia = np.array(rows, dtype=float)
@@ -143,16 +138,16 @@ def _given_mass(table: FileTable) -> MassProperties:
     return MassProperties(mass, center, inertia)
 
 
-def _joint(table: FileTable, frames: Frames, *, closes: bool = False) -> JointData:
+def _joint(table: FileTable, *, closes: bool = False) -> JointData:
     name, kind = table.named(), table.text("kind")
-    first, second = table.text("first"), table.text("second")
-    point = frames.point(table, first, table.space_point("point"))
-    axis, second_axis = (frames.axis(table, first, key) for key in ("axis", "second_axis"))
+    frame, second = table.text("first"), table.text("second")
+    first, point = table.point_on(frame)
+    axis, second_axis = (table.axis_on(frame, key) for key in ("axis", "second_axis"))
     closes, limits = closes or table.flag("closes"), _range(table)
     table.finish()
     return JointData(
-        name=name, kind=kind, first=frames.body(first), second=frames.body(second), point=point, axis=axis,
-        second_axis=second_axis, range=limits, closes=closes,
+        name=name, kind=kind, first=first, second=table.frames.get(second, (second,))[0], point=point,
+        axis=axis, second_axis=second_axis, range=limits, closes=closes,
     )  # fmt: skip
 
 
@@ -163,7 +158,7 @@ def _range(table: FileTable) -> tuple[float, float] | None:
         return None
     if len(found) > 1:
         table.refuse(f"{table.where} has {' and '.join(found)}; write one of them")
-    low, high = table.point(found[0])
+    low, high = table.numbers(found[0], 2)
     if not low < high:
         table.refuse(f"{table.label(found[0])} is {low:g} to {high:g}; write the lower end first")
     return (math.radians(low), math.radians(high)) if found[0] == "range_deg" else (low, high)
@@ -179,28 +174,21 @@ def _names(roles: FileTable, key: str) -> dict[str, str]:
     return found
 
 
-def _place(table: FileTable, frames: Frames) -> tuple[str, Array]:
+def _place(table: FileTable) -> tuple[str, Array]:
     """A body and a point of it at home."""
-    body = table.text("body")
-    point = frames.point(table, body, table.space_point("point"))
+    found = table.point_on(table.text("body"))
     table.finish()
-    return frames.body(body), point
+    return found
 
 
-def _rope(table: FileTable, frames: Frames) -> RopeData:
+def _rope(table: FileTable) -> RopeData:
     name, falls = table.named(), table.number("falls")
     if falls != int(falls) or falls < 1:
         table.refuse(f"{table.label('falls')} is {falls:g}; write a whole number, 1 or more")
-    rope = RopeData(
-        name=name,
-        luff=table.text("luff"),
-        falls=int(falls),
-        EA=table.number("stiffness" if "stiffness" in table.values else "EA"),  # as in 0.2, or since
-        first=_place(table.table("first"), frames),
-        second=_place(table.table("second"), frames),
-    )
+    stiffness = table.number("stiffness" if "stiffness" in table.values else "EA")  # as in 0.2, or since
+    luff, ends = table.text("luff"), [_place(table.table(key)) for key in ("first", "second")]
     table.finish()
-    return rope
+    return RopeData(name=name, luff=luff, falls=int(falls), EA=stiffness, first=ends[0], second=ends[1])
 
 
 def _pistons(
@@ -252,10 +240,11 @@ def _unlike_kinds(data: CraneData) -> Iterator[str]:
         if joint.kind not in FREEDOMS:
             yield f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(FREEDOMS)}"
         needs = {"revolute": 1, "prismatic": 1, "universal": 2}.get(joint.kind, 0)
-        if [joint.axis is not None, joint.second_axis is not None] != [needs > 0, needs > 1]:
+        axes = [one for one in (joint.axis, joint.second_axis) if one is not None]
+        if len(axes) != needs or (joint.axis is None) != (needs == 0):
             wanted = ("no axis", "axis alone", "axis and second_axis")[needs]
             yield f"{what}: a {joint.kind} joint takes {wanted}; correct its axes"
-        if needs == 2 and abs(float(np.dot(joint.axis, joint.second_axis))) > ALIGNED:  # type: ignore[arg-type]
+        if needs == 2 and abs(float(axes[0] @ axes[1])) > ALIGNED:
             yield f"{what}: axis and second_axis are not perpendicular; turn one of them"
         if joint.range is not None and (joint.closes or joint.kind not in ("revolute", "prismatic")):
             yield f"{what}: has a range; give one to a hinge or a slide that carries a body"

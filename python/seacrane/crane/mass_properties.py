@@ -87,10 +87,7 @@ class MassProperties:
 
 
 def combine(members: Sequence[Member]) -> MassProperties:
-    """Add up members, at least one, that form one rigid body, in the axes of their ends.
-
-    The parallel-axis theorem carries each member to the common centre of mass.
-    """
+    """Add up members, at least one, that form one rigid body, in the axes of their ends."""
     centres = [(np.array(one.start) + np.array(one.end)) / 2.0 for one in members]
     mass = math.fsum(member.mass for member in members)
     center = np.sum([one.mass * c for one, c in zip(members, centres, strict=True)], axis=0) / mass

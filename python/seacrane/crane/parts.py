@@ -37,16 +37,8 @@ UP = np.array([0.0, 0.0, 1.0])
 class CraneParts:
     """A crane at a pose, without its payload: what differs from its data; in the frame of its base, m, rad.
 
-    Attributes
-    ----------
-    bodies : list of Body
-    joints : list of JointData
-        The first one welds it to its base, whose name is "".
-    tip : (str, ndarray (3,))
-        Its body, and its place.
-    ranges : mapping of str to (float, float)
-        Where coordinates are meant to stay from the pose on, by joint.
-    ropes : With their blocks at the pose.
+    The first joint welds it to its base, whose name is "". `tip` is a body and a place; `ranges` are where
+    coordinates are meant to stay from the pose on, by joint.
     """
 
     bodies: list[_core.Body]
@@ -116,21 +108,13 @@ class Payload:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Lean:
-    """How a crane leans, at its described pose, in the frame of its base.
+    """How a crane leans, at its described pose, in the frame of its base."""
 
-    Attributes
-    ----------
-    first, second : What stands ("" the base), and what leans.
-    point : (3,) where the spring pulls: as far out as the tip, at the hinge's height, m.
-    weight : Of a mass at the tip that has the moment of all that leans, kg.
-    inertia : Mass at the tip with the moment of inertia of all that leans, kg.
-    """
-
-    first: str
-    second: str
-    point: Array
-    weight: float
-    inertia: float
+    first: str  # what stands; "" the base
+    second: str  # what leans
+    point: Array  # where the spring pulls: as far out as the tip, at the hinge's height, m
+    weight: float  # of a mass at the tip that has the moment of all that leans, kg
+    inertia: float  # mass at the tip with the moment of inertia of all that leans, kg
 
     def damping(self, stiffness: float) -> float:
         """Of the spring, N s/m."""
@@ -141,11 +125,7 @@ def leaning(parts: CraneParts, slew: str | None) -> tuple[CraneParts, Lean]:
     """The crane with a hinge at the slew bearing, or at its foot, across the plane through axis and tip.
 
     The hinge stands on a foot that slews, or takes the place of the first joint of a crane that does not.
-
-    Raises
-    ------
-    SceneError
-        For a tip over the hinge, which no lean moves up or down.
+    SceneError for a tip over the hinge, which no lean moves up or down.
     """
     bodies, joints = list(parts.bodies), list(parts.joints)
     bearing = next((joint for joint in joints if joint.name == slew), joints[0])
@@ -170,7 +150,11 @@ def leaning(parts: CraneParts, slew: str | None) -> tuple[CraneParts, Lean]:
         joints[at] = hinge
     else:
         k = next(i for i, body in enumerate(bodies) if body.name == upper)
-        bodies[k : k + 1] = _parted(bodies[k])
+        body, shares = bodies[k], {FOOT: SHARE, upper: 1.0 - SHARE}  # of the same mass, centre and inertia
+        bodies[k : k + 1] = [
+            changed(body, name=name, mass=share * body.mass, inertia=share * body.inertia)
+            for name, share in shares.items()
+        ]
         standing = replace(bearing, first=FOOT) if turned else replace(bearing, second=FOOT)
         joints[at : at + 1] = [standing, hinge]
     weight = inertia = 0.0
@@ -200,12 +184,3 @@ def _beyond(parts: CraneParts, bearing: JointData) -> set[str]:
                 if body in (joint.first, joint.second):
                     ahead += [joint.first, joint.second]
     return found
-
-
-def _parted(body: _core.Body) -> list[_core.Body]:
-    """Its foot, and the rest: together of the same mass, centre and inertia."""
-    shares = {FOOT: SHARE, body.name: 1.0 - SHARE}
-    return [
-        changed(body, name=name, mass=share * body.mass, inertia=share * body.inertia)
-        for name, share in shares.items()
-    ]

@@ -22,18 +22,10 @@ UNITS = {"revolute": "rad", "prismatic": "m"}
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """A crane at values of its coordinates.
+    """A crane at values of its coordinates."""
 
-    Attributes
-    ----------
-    moved : mapping of str to Placed
-        Motion of every body from home, crane-foot frame.
-    values : mapping of str to ndarray
-        Of every joint of the tree, from home, rad and m: of a spherical one its rotation matrix.
-    """
-
-    moved: Mapping[str, Placed]
-    values: Mapping[str, Array]
+    moved: Mapping[str, Placed]  # motion of every body from home, crane-foot frame
+    values: Mapping[str, Array]  # of every joint of the tree, rad and m; of a spherical one its rotation
 
 
 STILL = np.zeros((3, 4))

@@ -45,6 +45,10 @@ class Tag:
         """Raise a FileFormatError of this element."""
         raise FileFormatError(f"{self.source}: {self.what} {says}.")
 
+    def wrong(self, key: str, text: str, fix: str) -> NoReturn:
+        """Raise a FileFormatError of an attribute."""
+        raise FileFormatError(f"{self.source}: {self.what}: {key} is {shown(text)}; {fix}.")
+
     def find(self, tag: str) -> Tag:
         """What is within it, of which messages speak as of it."""
         return Tag(self.source, self.what, None if self.element is None else self.element.find(tag))
@@ -56,31 +60,25 @@ class Tag:
     def number(self, key: str, default: float | None = None) -> float:
         """An attribute that is a finite number."""
         text = None if self.element is None else self.element.get(key)
-        if text is not None:
-            return self._numbers(key, [text])[0]
-        if default is None:
+        if text is None and default is None:
             self.fail(f"has no {key}; give it")
-        return default
+        return float(default or 0.0) if text is None else self._number(key, text)
 
     def row(self, key: str, usual: str = "0 0 0") -> Array:
         """An attribute of three finite numbers."""
         text = self.get(key, usual)
-        row = self._numbers(key, text.split())
+        row = [self._number(key, one) for one in text.split()]
         if len(row) != 3:
-            raise FileFormatError(f"{self.source}: {self.what}: {key} is {shown(text)}; write three numbers.")
+            self.wrong(key, text, "write three numbers")
         return np.array(row)
 
-    def _numbers(self, key: str, texts: list[str]) -> list[float]:
-        found = []
-        for text in texts:
-            try:
-                found.append(float(text))
-            except ValueError:
-                found.append(math.nan)
-            if not abs(found[-1]) <= LARGEST:
-                raise FileFormatError(
-                    f"{self.source}: {self.what}: {key} is {shown(text)}; write a finite number."
-                )
+    def _number(self, key: str, text: str) -> float:
+        try:
+            found = float(text)
+        except ValueError:
+            found = math.nan
+        if not abs(found) <= LARGEST:
+            self.wrong(key, text, "write a finite number")
         return found
 
     def origin(self) -> Placed:
@@ -106,17 +104,8 @@ def read_urdf(path: Path) -> tuple[str, tuple[BodyData, ...], tuple[JointData, .
     """Read links and joints: the root link, whose frame is that of the crane foot, bodies, joints, frames.
 
     Joints are in order from the root outwards. Links without mass on fixed joints are frames of what they are
-    fixed to. Collision shapes, materials, transmissions and extensions are not read.
-
-    Raises
-    ------
-    FileFormatError
-        The file cannot be read, is no URDF, or says something of a link or a joint that cannot be.
-
-    Warns
-    -----
-    UrdfWarning
-        For what is left out of it and would matter.
+    fixed to. Collision shapes, materials, transmissions and extensions are not read; an UrdfWarning names
+    what is left out and would matter. FileFormatError for what is no URDF, or says something that cannot be.
     """
     source, robot = path.name, _robot(path)
     named = {_name(source, link): link for link in robot.findall("link")}
@@ -150,7 +139,7 @@ def read_urdf(path: Path) -> tuple[str, tuple[BodyData, ...], tuple[JointData, .
         if link.find("inertial").element is not None
     )
     found = tuple(_joint(one, frames[one.child], owner) for one in ordered if owner[one.child] == one.child)
-    return root, bodies, found, Frames(frames, owner)
+    return root, bodies, found, {name: (owner[name], frame) for name, frame in frames.items()}
 
 
 def _robot(path: Path) -> Element:

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.description import SETTINGS, Description
 from seacrane.description.holding import with_holds
-from seacrane.description.loads import lines_of, refuse_winch_of_segment
+from seacrane.description.loads import changed, lines_of, refuse_winch_of_segment
 from seacrane.description.once import forgetting, once
 from seacrane.description.places import start_pose
-from seacrane.description.rungs import compiled_loads
+from seacrane.description.rungs import AUTO, ELASTIC
 from seacrane.description.waves import ByHeading, HullLoads, Waves
 from seacrane.description.wet_parts import (
     refuse_contradictions_in_water,
@@ -39,10 +39,8 @@ LOADED = ("transfer", "force_by_heading", "drift", "drift_by_heading")  # of a h
 
 
 def moves(scene: Description, model: _core.Model) -> list[tuple[str, float, float]]:
-    """Bodies that assembly moved beyond 0.01 m (times the length scale) or 0.01 rad, most first.
-
-    Each with its name, m of the centre of mass (of the reference point of a vessel), and rad.
-    """
+    """Bodies that assembly moved beyond 0.01 m (times the length scale) or 0.01 rad, most first, each with
+    m of its centre of mass (of the reference point of a vessel) and rad."""
     found = model.assembly
     limit = min(LARGEST_MOVE * scene.length_scale, MOST_MOVE)
     if found["largest_translation_m"] <= limit and found["largest_rotation_rad"] <= LARGEST_TURN:
@@ -59,10 +57,8 @@ def moves(scene: Description, model: _core.Model) -> list[tuple[str, float, floa
 
 
 def velocities(scene: Description, model: _core.Model) -> list[tuple[str, float, float]]:
-    """Bodies described as moving whose velocity assembly changed by more than a hundredth of it.
-
-    Each with its name, and by how much: m/s of its origin, rad/s.
-    """
+    """Bodies described as moving whose velocity assembly changed by more than a hundredth of it, and by how
+    much: m/s of the origin, rad/s."""
     if model.assembly["largest_velocity_change"] == 0.0:
         return []
     out = []
@@ -182,17 +178,21 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
     for line in lines_of(scene.loads).values():
         if line.winch and not line.paid_out_by:
             refuse_winch_of_segment(line)
-    settings: dict[str, Any] = {"wave_loads": []}
-    for key in SETTINGS:
-        settings[key] = number_of(f"scene {scene.name!r}: {key}", getattr(scene, key))
+    loads = [  # the core knows no "auto"
+        changed(load, rung=ELASTIC) if isinstance(load, _core.Line) and load.rung == AUTO else load
+        for load in scene.all_loads()
+    ]
+    settings: dict[str, Any] = {
+        key: number_of(f"scene {scene.name!r}: {key}", getattr(scene, key)) for key in SETTINGS
+    }
     if sea is not None:
-        settings |= {"wave_loads": compiled_waves(sea), "sea": field_of(sea)}
+        settings["sea"] = field_of(sea)
     model = _core.compile(
         name=name_of("scene", scene.name),
         orientation=text_of(f"scene {scene.name!r}: orientation", scene.orientation), **settings,
         bodies=list(scene.bodies.values()), joints=list(scene.joints.values()),
-        drivers=list(scene.drivers.values()), loads=compiled_loads(scene.all_loads()),
-        vessels=list(scene.vessels.values()), groups=list(scene.groups.values()),
+        drivers=list(scene.drivers.values()), loads=loads, vessels=list(scene.vessels.values()),
+        groups=list(scene.groups.values()), wave_loads=[] if sea is None else compiled_waves(sea),
         coordinates=[(name, *place) for name, place in scene.recorded.items()],
         points=list(scene.points.values()), merge=merge,
     )  # fmt: skip
@@ -211,12 +211,10 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
 
 
 def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
-    """The model of a scene, from that of the same scene in another sea: nothing but the sea is compiled.
+    """The model of a scene, which belongs to it from now on, from that of the same scene in another sea.
 
-    The scene belongs to the model from now on: it is not to be changed.
-
-    Raises SceneError for a sea on other vessels than the model's, loads at another kind of position, or a sea
-    of another depth than a seabed.
+    SceneError for a sea on other vessels than the model's, loads at another kind of position, or a sea of
+    another depth than a seabed.
     """
     assert scene.waves is not None
     _, merge = model.compiled_from
@@ -251,7 +249,7 @@ def _told_of(*bodies: str) -> Iterator[None]:
 def field_of(waves: Waves) -> _core.SeaField:
     """What moving points see of a sea; raises SceneError for values that make no sense."""
     with _told_of(*waves.hulls):
-        return waves.field()
+        return _core.SeaField(waves.components(), stretching=waves.stretching)
 
 
 def compiled_waves(waves: Waves) -> list[_core.WaveLoads]:

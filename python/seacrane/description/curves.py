@@ -72,10 +72,12 @@ def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: fl
     def values(times: Array) -> Array:
         return summed(omega, amplitude, times) * ramp_of(times, ramp)[:, None]
 
-    scale = np.sqrt(0.5 * np.sum(np.abs(amplitude) ** 2, axis=0))
+    size = np.abs(amplitude)
+    scale = np.sqrt(0.5 * np.sum(size**2, axis=0))
     if not scale.any():
         return tuple(Curve.constant(value=0.0) for _ in scale)
-    wanted = np.ceil(duration * PER_PERIOD * _fastest(omega, amplitude) / (2.0 * np.pi))
+    fastest = float(omega[np.any(size > SMALLEST_SHARE * size.max(axis=0), axis=1)].max())
+    wanted = np.ceil(duration * PER_PERIOD * fastest / (2.0 * np.pi))
     if wanted > MOST_PIECES:
         raise SceneError(
             f"motion of {duration:.6g} s: takes {wanted:.3g} pieces of a curve, above {MOST_PIECES}; give a "
@@ -106,13 +108,6 @@ def ramp_of(times: Array, ramp: float) -> Array:
     with np.errstate(over="ignore"):  # a ramp of next to nothing
         x = np.clip(times / ramp, 0.0, 1.0)
     return np.asarray(x**5 * (126.0 + x * (-420.0 + x * (540.0 + x * (-315.0 + 70.0 * x)))))
-
-
-def _fastest(omega: Array, amplitude: Complex) -> float:
-    """rad/s, of the cosines that matter."""
-    size = np.abs(amplitude)
-    matters = np.any(size > SMALLEST_SHARE * size.max(axis=0), axis=1)
-    return float(omega[matters].max())
 
 
 def _fitted(values: Callable[[Array], Array], duration: float, count: int) -> tuple[tuple[Curve, ...], Array]:

@@ -36,20 +36,11 @@ _FUNCTIONS: list[Any] = []  # that scenes call: they stay as long as Python runs
 
 
 def add_joint(
-    scene: Description,
-    name: str,
-    *,
-    kind: str,
-    first: str,
-    second: str,
-    point: Any = None,
-    axis: Any = None,
-    second_axis: Any = None,
-    second_point: Any = None,
-    first_frame: _core.Frame | None = None,
-    second_frame: _core.Frame | None = None,
+    scene: Description, name: str, *, kind: str, first: str, second: str, point: Any = None,
+    axis: Any = None, second_axis: Any = None, second_point: Any = None,
+    first_frame: _core.Frame | None = None, second_frame: _core.Frame | None = None,
     **parameters: float | None,
-) -> _core.Joint:
+) -> _core.Joint:  # fmt: skip
     """Add a joint between two bodies; it may close a loop.
 
     Either `point` and `axis` in the inertial frame at the described pose, which also set the joint's
@@ -147,13 +138,9 @@ def _misplaced(key: str, kind: str) -> str:
 
 
 def add_driver(
-    scene: Description,
-    joint: str,
-    *,
-    curve: _core.Curve | float,
-    coordinate: str | None = None,
+    scene: Description, joint: str, *, curve: _core.Curve | float, coordinate: str | None = None,
     name: str | None = None,
-) -> _core.Driver:
+) -> _core.Driver:  # fmt: skip
     """Prescribe a joint coordinate (m or rad) as a function of time; a number holds it there.
 
     `joint` may be what a crane calls its drive, such as "slew" or "main"; the default name is that of the
@@ -168,16 +155,10 @@ def add_driver(
 
 
 def add_actuator(
-    scene: Description,
-    joint: str,
-    *,
-    name: str | None = None,
-    coordinate: str | None = None,
-    stiffness: float = 0.0,
-    damping: float = 0.0,
-    feed_forward: float | _core.Curve = 0.0,
+    scene: Description, joint: str, *, name: str | None = None, coordinate: str | None = None,
+    stiffness: float = 0.0, damping: float = 0.0, feed_forward: float | _core.Curve = 0.0,
     reference: float | _core.Curve = 0.0,
-) -> _core.Actuator:
+) -> _core.Actuator:  # fmt: skip
     """State feedback on a joint coordinate q, compiled into the loop.
 
     Load along q on both bodies: feed_forward + stiffness (reference - q) + damping (reference' - q'), N
@@ -260,19 +241,10 @@ def _force_of(what: str, force: Any) -> tuple[partial[Any], tuple[str, ...]]:
 
 
 def add_spring(
-    scene: Description,
-    name: str,
-    *,
-    first: str,
-    second: str,
-    first_point: Any = (0.0, 0.0, 0.0),
-    second_point: Any = (0.0, 0.0, 0.0),
-    stiffness: float = 0.0,
-    damping: float = 0.0,
-    natural_length: float = 0.0,
-    lengths: Sequence[float] = (),
-    forces: Sequence[float] = (),
-) -> _core.Spring:
+    scene: Description, name: str, *, first: str, second: str, first_point: Any = (0.0, 0.0, 0.0),
+    second_point: Any = (0.0, 0.0, 0.0), stiffness: float = 0.0, damping: float = 0.0,
+    natural_length: float = 0.0, lengths: Sequence[float] = (), forces: Sequence[float] = (),
+) -> _core.Spring:  # fmt: skip
     """A spring-damper between points of two bodies (m, body coordinates): linear (N/m, N s/m, m), or a
     table of tension `forces` (N) over `lengths` (m)."""
     given: dict[str, Any] = {key: value for key, value in locals().items() if key != "scene"}

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Description
-from seacrane.description.places import Pose, described_pose
+from seacrane.description.places import described_pose
 
 Array = NDArray[np.float64]
+Pose = tuple[Array, Array]  # of a body's origin, m, and its axes as columns
 TURN = 2.0 * np.pi
 STEPS = 12  # of Newton's method
 LARGEST_PIECE = np.radians(15.0)  # of an arc that is drawn

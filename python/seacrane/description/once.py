@@ -12,14 +12,11 @@ from contextvars import ContextVar
 from functools import wraps
 from itertools import chain
 from operator import attrgetter, is_, itemgetter, methodcaller
-from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from seacrane.description.description import ANSWERS, KINDS
+from seacrane.description.description import ANSWERS, KINDS, Description
+from seacrane.description.waves import Waves
 from seacrane.inputs.caller import Said, recorded, say_again
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description
-    from seacrane.description.waves import Waves
 
 P = ParamSpec("P")
 T = TypeVar("T")

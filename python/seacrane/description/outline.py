@@ -29,9 +29,7 @@ def outline_of(scene: Description) -> dict[str, Any]:
     the centre of mass. "links": bodies and points of both ends, ground points in inertial axes.
     """
     ships = floating_bodies(scene)
-    bodies = {name: _about(body, ship=name in ships) for name, body in scene.bodies.items()}
-    for name in given_vessels(scene):
-        bodies[name]["ship"] |= dict(zip(("length", "breadth"), shown_size(scene, name), strict=False))
+    bodies = {name: _about(scene, body, ship=name in ships) for name, body in scene.bodies.items()}
     joined = {name: joint_ends(one) for name, one in scene.joints.items()}
     for name, end in [*chain.from_iterable(joined.values()), *tips(scene).values()]:
         point = _relative(scene, name, end)
@@ -66,11 +64,11 @@ def hung_notes(scene: Description) -> list[dict[str, Any]]:
     ]  # fmt: skip
 
 
-def _about(body: _core.Body, *, ship: bool) -> dict[str, Any]:
+def _about(scene: Description, body: _core.Body, *, ship: bool) -> dict[str, Any]:
     """A body without its points."""
     if not ship:
         return {"points": [], "box": box_edges(body)}
-    length, breadth = ship_size(body)
+    length, breadth = size_of_ship(scene, body.name)
     origin = (-np.asarray(body.center_of_mass)).tolist()
     return {"points": [], "ship": {"length": length, "breadth": breadth, "origin": origin}}
 

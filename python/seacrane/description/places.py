@@ -58,10 +58,7 @@ def place_of(scene: Description, body: str, point: Any = ORIGIN) -> Array:
 
 
 def on_body(scene: Description, what: str, name: str, point: Any) -> tuple[str, Array]:
-    """A body and a point in its coordinates, m, of a body by its name or a point by its own.
-
-    Raises SceneError as `place_of`.
-    """
+    """A body and a point in its coordinates, m, by the name of a body or a point; errors as of `place_of`."""
     name = text_of(f"{what}: body", name)
     offset = np.array(shaped_of(f"{what} on {name!r}: point", point, (3,)))
     if name == GROUND or name in scene.bodies:
@@ -87,7 +84,7 @@ def placed(scene: Description, body: str, point: Any) -> Array:
     if body not in scene.bodies:
         return local
     origin, turn = described_pose(scene, body)
-    return origin + turn @ local
+    return np.asarray(origin + turn @ local)
 
 
 def described_pose(scene: Description, body: str) -> Pose:

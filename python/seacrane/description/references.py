@@ -5,22 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.given import given_vessels, require_described
+from seacrane.description.limit_state import Range
 from seacrane.description.once import once
 from seacrane.description.places import ANGLES, coordinate_at, start_pose, wrapped
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import DriverImpulseWarning
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description
-    from seacrane.description.limit_state import Range
 
 Array = NDArray[np.float64]
 JUMP = 1e-6  # m or rad: what projection closes without a word

@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import joint_ends, lines_of, path_of, springs_of, whole_of
 from seacrane.description.once import once_in_any_sea
+from seacrane.description.roles import CraneRoles
 from seacrane.description.rungs import RIGID, WITH_MASS
 from seacrane.description.wet_parts import buoyancy_of, water_in, wet_bodies
-
-if TYPE_CHECKING:
-    from seacrane import _core
-    from seacrane.description.description import Description
-    from seacrane.description.roles import CraneRoles
 
 ROD = "rod"
 Point = tuple[float, float, float]
@@ -26,29 +24,17 @@ Place = tuple[str, Point]  # a body, or the ground, and a point in its coordinat
 
 @dataclass(frozen=True, kw_only=True)
 class Suspension:
-    """One rod, wire or line, by what it holds at its lower end.
+    """One rod, wire or line, by what it holds at its lower end."""
 
-    Attributes
-    ----------
-    name : Of the joint, or of the line; of a line with mass the whole of it.
-    channel : Its name, or that of its lowest segment, in the channels over `suspension`.
-    top : That of its uppermost segment.
-    rung : "rod", which pushes too, or that of a line.
-    first, upper, lower : (str, (float, float, float))
-        Body and point, in its coordinates, m: where it begins, and both ends of its last straight part.
-    falls : Straight parts that hold the lower body.
-    parts : The elements that it is made of.
-    """
-
-    name: str
-    channel: str
-    top: str
-    rung: str
-    first: Place
-    upper: Place
+    name: str  # of the joint, or of the line; of a line with mass the whole of it
+    channel: str  # its name, or that of its lowest segment, in the channels over `suspension`
+    top: str  # that of its uppermost segment
+    rung: str  # "rod", which pushes too, or that of a line
+    first: Place  # where it begins
+    upper: Place  # both ends of its last straight part
     lower: Place
-    falls: int
-    parts: frozenset[str]
+    falls: int  # straight parts that hold the lower body
+    parts: frozenset[str]  # the elements that it is made of
 
     @property
     def held_at(self) -> Place:
@@ -58,24 +44,14 @@ class Suspension:
 
 @dataclass(frozen=True, kw_only=True)
 class Hung:
-    """A load that hangs on a crane, or on something else by itself.
+    """A load that hangs on a crane, or on something else by itself."""
 
-    Attributes
-    ----------
-    label : str
-        "hook" after the crane's prefix; of a load that hangs on no crane, the name of the suspension.
-    suspension : On which it hangs, with block and slings where it has them.
-    load : The body.
-    point : Of it, in its coordinates, m: where it is held, in the middle of its slings.
-    weight : Of all that the suspension carries, N; None where something else carries it too.
-    """
-
-    label: str
+    label: str  # "hook" after the crane's prefix; without a crane the name of the suspension
     crane: CraneRoles | None
-    suspension: Suspension
+    suspension: Suspension  # on which it hangs, with block and slings where it has them
     load: str
-    point: Point
-    weight: float | None
+    point: Point  # of it: where it is held, in the middle of its slings
+    weight: float | None  # N, of all that the suspension carries; None where something else carries it too
 
     @property
     def hangs_from(self) -> Place:

@@ -44,8 +44,7 @@ class ByHeading(_ReadOnly):
 
     Attributes
     ----------
-    heading : ndarray, shape (m,)
-        rad, increasing within one turn, at most 45 deg apart.
+    heading : (m,) rad, increasing within one turn, at most 45 deg apart.
     values : ndarray, shape (m, n, 6), complex or real
         Force per amplitude (N/m, N m/m), or mean drift per squared amplitude (N/m2, N m/m2), at the
         frequencies of the n components.
@@ -69,17 +68,14 @@ class HullLoads(_ReadOnly):
     transfer : ndarray, shape (n, 6), complex
         Force RAO at each component's direction relative to `heading`, N/m and N m/m about the body origin in
         the vessel's axes, exp(+i w t).
-    position : tuple of float
-        Where the phase is taken, (x, y), m, inertial frame.
-    heading : float
-        rad, of the vessel where its loads are taken.
+    position : Where the phase is taken, (x, y), m, inertial frame.
+    heading : rad, of the vessel where its loads are taken.
     force_by_heading : ByHeading, optional
         Force RAOs over the heading. With them loads are those at the vessel's position and heading of the
         moment, summed exactly; `transfer` then only serves the linear model.
     drift : ndarray, shape (n, 6), optional
         Mean drift load per squared amplitude at each component, N/m2 and N m/m2: adds Newman's slow drift.
-    drift_by_heading : ByHeading, optional
-        The same over the heading, for loads at the actual or the slow position.
+    drift_by_heading : The same over the heading, for loads at the actual or the slow position.
     cutoff : float
         rad/s: with `force_by_heading`, loads are those at the position and heading below this frequency; 0:
         at those of the moment.
@@ -227,10 +223,6 @@ class Waves(_ReadOnly):
             omega=self.omega, amplitude=self.amplitude, phase=self.phase, direction=self.direction,
             depth=self.depth, **flow,
         )  # fmt: skip
-
-    def field(self) -> _core.SeaField:
-        """What moving points see of the sea."""
-        return _core.SeaField(self.components(), stretching=self.stretching)
 
 
 def flowing_water(current: Current, depth: float, stretching: str) -> Waves:

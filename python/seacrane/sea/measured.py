@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import finite_of, name_of, number_of, shaped_of, vector_of
 from seacrane.inputs.plausible import direction_of
-
-if TYPE_CHECKING:
-    from seacrane.sea.spreading import Spreading
+from seacrane.sea.spreading import Spreading
 
 Array = NDArray[np.float64]
 HIGHEST = 1e6  # m: no sea, and its squares do not overflow

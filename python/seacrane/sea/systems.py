@@ -237,11 +237,9 @@ class SeaState:
     def description(self) -> dict[str, Any]:
         """The sea in plain data, for notes and files: depth None is deep water, a record its size."""
         return {
-            "seed": self.seed,
-            "depth": None if np.isinf(self.depth) else float(self.depth),
-            "placement": self.placement,
-            "systems": [_described(system) for system in self.systems],
-        }
+            "seed": self.seed, "depth": None if np.isinf(self.depth) else float(self.depth),
+            "placement": self.placement, "systems": [_described(system) for system in self.systems],
+        }  # fmt: skip
 
 
 def _described(system: WaveSystem | MeasuredWaves) -> dict[str, Any]:

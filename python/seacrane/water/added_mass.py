@@ -98,10 +98,8 @@ def disc_added_mass(radius: float) -> float:
 
 
 def ring_added_mass(radius: float, wall: float) -> float:
-    """Of one side of a ring of outer radius and width (m), along its axis, over the density, m3.
-
-    That of a flat strip, pi/8 wall^2 for each metre, along the ring's mean circle: for thin walls.
-    """
+    """Of one side of a ring of outer radius and width (m), along its axis, over the density, m3: that of a
+    flat strip, pi/8 wall^2 for each metre, along the ring's mean circle, for thin walls."""
     return np.pi / 8.0 * wall**2 * 2.0 * np.pi * (radius - 0.5 * wall)
 
 

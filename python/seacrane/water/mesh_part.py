@@ -92,20 +92,12 @@ class MeshPart(TablePart):
 
 
 def from_mesh(
-    mesh: str | os.PathLike[str] | ArrayLike,
-    *,
-    scale: float = 1.0,
-    draughts: ArrayLike | None = None,
-    wetting: float = 1.0,
-    slam: float | None = None,
-    perforation: float = 0.0,
-    drag_area: ArrayLike = (0.0, 0.0, 0.0),
-    panels: int = 400,
-    source: str = "",
+    mesh: str | os.PathLike[str] | ArrayLike, *, scale: float = 1.0, draughts: ArrayLike | None = None,
+    wetting: float = 1.0, slam: float | None = None, perforation: float = 0.0,
+    drag_area: ArrayLike = (0.0, 0.0, 0.0), panels: int = 400, source: str = "",
     point: ArrayLike = (0.0, 0.0, 0.0),
-    axes: ArrayLike = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
-    density: float = SEA_WATER,
-) -> MeshPart:
+    axes: ArrayLike = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), density: float = SEA_WATER,
+) -> MeshPart:  # fmt: skip
     """A part of a load from a closed mesh: volume over depth exactly, added mass over depth by Capytaine.
 
     The tables are those of the mesh as it is drawn, z upwards, and hold at whatever attitude. Buoyancy and
@@ -254,12 +246,8 @@ def _warn(what: str, part: MeshPart) -> None:
 class _DepthTable:
     """Added mass over density (m3) over depth, from a ladder of a mesh; wetting and C_S as of `from_mesh`.
 
-    Attributes
-    ----------
-    rungs : (n,) depths of the ladder, m, from 0 to where the fluid is unbounded.
-    added, low : (n, 3) at the rungs, m3, before pile-up and ramp.
-    over : m, of the ramp of a flat bottom; 0 without.
-    mended : largest change of added mass so that it grows, over the largest of all.
+    `added` and `low` (n, 3) are those at the `rungs` (n,), m, from 0 to where the fluid is unbounded, before
+    pile-up and ramp; `over` is the ramp of a flat bottom, m.
     """
 
     def __init__(self, ladder: PanelLadder, shape: MeshShape, *, wetting: float, slam: float) -> None:
@@ -319,10 +307,8 @@ def between(rungs: Array, values: Array, depths: Array) -> Array:
 
 
 def at_touch(draughts: Array, values: Array, flat: float) -> Array:
-    """Added mass (3,) as the bottom touches: half of a plate's across a flat one, else none.
-
-    The sides add as depth times the logarithm of depth, as of a plate with a thin edge.
-    """
+    """Added mass (3,) as the bottom touches: half of a plate's across a flat one, else none. The sides add as
+    depth times the logarithm of depth, as of a plate with a thin edge."""
     out = np.zeros(3)
     if flat > 0.0:
         x = draughts[:2] * np.log(np.sqrt(flat) * np.e / draughts[:2])
