@@ -121,6 +121,7 @@ CALLS = {
     "read_nemoh_group": Call("read_nemoh", renamed=BY_BODY | {"restorings": "restoring"}),
     "read_wamit_group": Call("read_wamit", renamed=BY_BODY),
 }
+FFT = re.compile(r"""\bevaluation=(["'])fft\1""")  # which was the table, made in another way
 PASSIVE = re.compile(r"""\b(memory|kind)=(["'])passive\2""")  # a kind of fluid memory that is gone
 
 GONE = {
@@ -129,6 +130,8 @@ GONE = {
     "add_bridle": "slings are lines: add_line for each, or slings=Slings(...) of add_hoist",
     "add_relative": 'it is add_channel(name, expression="<point>.z in <body> - <to>.z in <body>")',
     "add_slack_tank": "it is add_vessel(..., slack_moment=...), of all tanks together",
+    "BodyRecord": "crane.parts(...).bodies are Body, as in Scene.bodies",
+    "JointRecord": "crane.parts(...).joints are JointData",
     "JointedCrane": "JointedCrane is Crane, as of load_crane; crane.tip(coordinates=x) is crane.tip(**x)",
     "coefficient_scatter": "it is ensemble(partial(needs.scattered, scene), over={'case': [...]}, keep=...)",
     "model_error": "model_error is the difference of a run with memory='convolution'",
@@ -141,7 +144,7 @@ def ported(text: str) -> tuple[str, list[str]]:
         (text.count("\n", 0, found.start()) + 1, "memory by motion takes a limit, and no r2")
         for found in PASSIVE.finditer(text)
     ]
-    text = PASSIVE.sub(r"\1=\2by-motion\2", text)
+    text = FFT.sub(r"evaluation=\1table\1", PASSIVE.sub(r"\1=\2by-motion\2", text))
     starts = [0]
     for line in text.encode().splitlines(keepends=True):
         starts.append(starts[-1] + len(line))

@@ -1,4 +1,4 @@
-"""What wave loads cost per evaluation: summed, from a table, from an FFT, at the actual position."""
+"""What wave loads cost per evaluation: summed, from a table, at the actual position."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ def wave_loads() -> Iterator[list[Any]]:
     calm = Scene(name="calm")
     calm.add_vessel(database, memory="per-pair")
     rows = [_row(calm, database, count) for count in COUNTS]
-    slopes = [exponent(list(COUNTS), [row[k] for row in rows], LARGE) for k in range(1, 5)]
-    yield from (*rows, ["exponent", *slopes, None, None, None, None])
+    slopes = [exponent(list(COUNTS), [row[k] for row in rows], LARGE) for k in range(1, 4)]
+    yield from (*rows, ["exponent", *slopes, None, None])
 
 
 def _row(calm: Scene, database: HydroDatabase, count: int) -> list[Any]:
@@ -42,7 +42,6 @@ def _row(calm: Scene, database: HydroDatabase, count: int) -> list[Any]:
         "calm": None,
         "exact": replace(waves, evaluation="exact"),
         "table": waves,
-        "fft": replace(waves, evaluation="fft"),
         "actual": waves.changed(force_by_heading=force_by_heading(database, waves.omega)),
     }
     models, setup, cost = {}, {}, dict.fromkeys(kinds, np.inf)
@@ -56,13 +55,12 @@ def _row(calm: Scene, database: HydroDatabase, count: int) -> list[Any]:
             calls = max(200, 400_000 // count) if kind in ("exact", "actual") else 20_000
             cost[kind] = min(cost[kind], evaluation_ns(model, repeats=1, count=calls))
     exact = ExactWaveLoad(waves.components(), transfer=waves.hull().transfer)
-    period_h = 2.0 * np.pi / (waves.omega[1] - waves.omega[0]) / 3600.0
-    above = [cost[kind] - cost["calm"] for kind in ("exact", "table", "fft", "actual")]
-    return [count, *above, WaveTable(exact).step, setup["table"], setup["fft"], period_h]
+    above = [cost[kind] - cost["calm"] for kind in ("exact", "table", "actual")]
+    return [count, *above, WaveTable(exact).step, setup["table"]]
 
 
 def _sea(database: HydroDatabase, count: int) -> Waves:
-    """JONSWAP, Hs 2 m, Tp 8 s, at equally spaced frequencies, multiples of the step."""
+    """JONSWAP, Hs 2 m, Tp 8 s, at equally spaced frequencies."""
     first = int(np.ceil(BAND[0] / ((BAND[1] - BAND[0]) / count)))
     step = BAND[0] / first
     omega = step * (first + np.arange(count))
@@ -85,11 +83,10 @@ SECTION = Section(
     text=(
         "The vessel alone in waves less the vessel in calm water, ns per evaluation; calls 25 ms apart, as "
         "in a run. The table's knots are made on the way and are part of it. Set-up is the time to compile "
-        "the scene. Frequencies are equally spaced: the FFT's series holds one period. Exponent: slope in "
+        "the scene. Exponent: slope in "
         f"logarithms from {LARGE} components on."
     ),
-    head=["components", "exact sum", "table", "FFT series", "actual position", "table, knots s apart",
-          "set-up table [ms]", "set-up FFT [ms]", "FFT series covers [h]"],
+    head=["components", "exact sum", "table", "actual position", "table, knots s apart", "set-up table [ms]"],
     rows=wave_loads,
     sources=(*STEPS, *WATER, *HULL),
 )  # fmt: skip

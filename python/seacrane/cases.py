@@ -44,11 +44,8 @@ def _database(database: str | os.PathLike[str] | HydroDatabase | None) -> HydroD
 
 @lru_cache(maxsize=4)
 def _gains() -> dict[str, tuple[float, float]]:
-    """Stiffness and damping of each actuator.
-
-    NATURAL_FREQUENCY and DAMPING_RATIO on the inertia it feels at case 2's final pose with the payload
-    attached, the others locked and the vessel held.
-    """
+    """Stiffness and damping of each actuator, on the inertia it feels at case 2's final pose with the payload
+    attached, the others locked and the vessel held."""
     scene = Scene(name="case 2, final pose")
     scene.add_crane(
         base="ground", slew=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload(), damping=False
@@ -61,13 +58,10 @@ def _gains() -> dict[str, tuple[float, float]]:
 
 
 def vessel(
-    *,
-    memory: str = "per-pair",
-    kinematics: str = "yaw_following",
+    *, memory: str = "per-pair", kinematics: str = "yaw_following",
     database: str | os.PathLike[str] | HydroDatabase | None = None,
-    mooring: float | None = MOORING_PERIOD,
-    **sea: Any,
-) -> Scene:
+    mooring: float | None = MOORING_PERIOD, **sea: Any,
+) -> Scene:  # fmt: skip
     """The vessel alone in waves.
 
     Parameters
@@ -84,22 +78,7 @@ def vessel(
         hs (2 m), tp (8 s), gamma (3.3), wave_direction_deg (135), seed (1), count (200), and the other
         arguments of `add_sea`; hs = 0 is calm water.
     """
-    return _afloat(
-        "vessel", memory=memory, kinematics=kinematics, database=database, mooring=mooring,
-        **sea,
-    )  # fmt: skip
-
-
-def _afloat(
-    name: str,
-    *,
-    memory: str = "per-pair",
-    kinematics: str = "yaw_following",
-    database: Any = None,
-    mooring: float | None = MOORING_PERIOD,
-    **sea: Any,
-) -> Scene:
-    scene = Scene(name=name)
+    scene = Scene(name="vessel")
     scene.add_vessel(_database(database), memory=memory, kinematics=kinematics, mooring=mooring)
     if "wave_direction_deg" in sea:
         sea["direction_deg"] = sea.pop("wave_direction_deg")
@@ -120,7 +99,7 @@ def _crane_afloat(
     name: str, *, payload: Payload | None, foot: Any, options: dict[str, Any]
 ) -> tuple[Scene, Balance]:
     """Vessel and crane, balanced at the start, its actuators without control; and what balances it."""
-    scene = _afloat(name, **options)
+    scene = vessel(**options).copy(name=name)
     scene.add_crane(base="vessel", foot=foot, payload=payload, damping=False)
     for actuator, joint in ACTUATORS.items():
         scene.add_actuator(name=actuator, joint=joint)
@@ -128,14 +107,9 @@ def _crane_afloat(
 
 
 def _lift(
-    name: str,
-    *,
-    payload: Payload | None,
-    motion: _Motion,
-    foot: Any = FOOT,
-    feed_forward: str = "references",
-    **options: Any,
-) -> Scene:
+    name: str, *, payload: Payload | None, motion: _Motion, foot: Any = FOOT,
+    feed_forward: str = "references", **options: Any,
+) -> Scene:  # fmt: skip
     if feed_forward not in ("references", "start"):
         raise SceneError(f"{name}: feed_forward is {feed_forward!r}; choose 'references' or 'start'")
     options["database"] = database = _database(options.get("database"))
@@ -155,24 +129,17 @@ def _lift(
     for actuator, joint in ACTUATORS.items():
         stiffness, damping = _gains()[actuator]
         scene.add_actuator(
-            name=actuator,
-            joint=joint,
-            stiffness=stiffness,
-            damping=damping,
-            feed_forward=loads[actuator],
+            name=actuator, joint=joint, stiffness=stiffness, damping=damping, feed_forward=loads[actuator],
             reference=motion.references[actuator],
-        )
+        )  # fmt: skip
     return scene
 
 
 @lru_cache(maxsize=8)
 def _quasi_static(
-    motion: _Motion,
-    payload: Payload | None,
-    foot: tuple[float, ...],
-    database: HydroDatabase,
+    motion: _Motion, payload: Payload | None, foot: tuple[float, ...], database: HydroDatabase,
     mooring: float | None,
-) -> dict[str, _core.Curve]:
+) -> dict[str, _core.Curve]:  # fmt: skip
     """Quasi-static balance along the motion; neither sea nor fluid memory nor kinematics matter at rest."""
     options = {"memory": "none", "database": database, "mooring": mooring, "hs": 0.0}
     scene, _ = _crane_afloat("at rest", payload=payload, foot=foot, options=options)
@@ -185,22 +152,17 @@ def _move(end: float) -> _core.Curve:
     return _core.Curve.quintic(start_time=0.0, end_time=MOVE_END, start=0.0, end=end)
 
 
+_TIMES = np.linspace(0.0, MOVE_END, 10)
 _SWING_OUT = _Motion(
-    {"slew": _move(SLEW_END), "main": _move(STROKE_END), "knuckle": _move(STROKE_END)},
-    np.linspace(0.0, MOVE_END, 10),
+    {"slew": _move(SLEW_END), "main": _move(STROKE_END), "knuckle": _move(STROKE_END)}, _TIMES
 )
-
-
-def _swing_out_and_oscillate() -> _Motion:
-    omega = 2.0 * np.pi / OSCILLATION_PERIOD
-    swing = _core.Curve.harmonic(start_time=OSCILLATION_START, offset=3.0, amplitude=1.0, omega=omega)
-    stroke = _move(4.0).then(time=OSCILLATION_START, curve=swing)
-    references = {"slew": _move(SLEW_END), "main": stroke, "knuckle": stroke}
-    move, rest = np.linspace(0.0, MOVE_END, 10), np.arange(MOVE_END, CASE_END + 0.1, 0.5)
-    return _Motion(references, np.append(move, rest[1:]), OSCILLATION_PERIOD)
-
-
-_SWING_OUT_AND_OSCILLATE = _swing_out_and_oscillate()
+_OMEGA = 2.0 * np.pi / OSCILLATION_PERIOD
+_SWING = _core.Curve.harmonic(start_time=OSCILLATION_START, offset=3.0, amplitude=1.0, omega=_OMEGA)
+_STROKE = _move(4.0).then(time=OSCILLATION_START, curve=_SWING)
+_SWING_OUT_AND_OSCILLATE = _Motion(
+    {"slew": _move(SLEW_END), "main": _STROKE, "knuckle": _STROKE},
+    np.append(_TIMES, np.arange(MOVE_END, CASE_END + 0.1, 0.5)[1:]), OSCILLATION_PERIOD,
+)  # fmt: skip
 
 
 def case1(**options: Any) -> Scene:

@@ -52,32 +52,19 @@ def simulate(
 
 @overload
 def simulate(
-    scene: Scene,
-    t_end: float | Sequence[Stage] = 100.0,
-    *,
-    to: str | os.PathLike[str],
+    scene: Scene, t_end: float | Sequence[Stage] = 100.0, *, to: str | os.PathLike[str],
     **how: Unpack[_Written],
-) -> StreamedResult: ...
+) -> StreamedResult: ...  # fmt: skip
 
 
 @named
 def simulate(
-    scene: Scene,
-    t_end: float | Sequence[Stage] = 100.0,
-    *,
-    to: str | os.PathLike[str] | None = None,
-    method: Method | None = None,
-    outputs: Outputs | None = None,
-    start: Start = None,
-    first: str | None = None,
-    controllers: Sequence[SampledController] = (),
-    accuracy: Mapping[str, float] | None = None,
-    checkpoint_every: float | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
-    progress: bool = False,
-    **shorthand: Unpack[Shorthand],
-) -> Result | StreamedResult:
+    scene: Scene, t_end: float | Sequence[Stage] = 100.0, *, to: str | os.PathLike[str] | None = None,
+    method: Method | None = None, outputs: Outputs | None = None, start: Start = None,
+    first: str | None = None, controllers: Sequence[SampledController] = (),
+    accuracy: Mapping[str, float] | None = None, checkpoint_every: float | None = None,
+    resume: bool = False, overwrite: bool = False, progress: bool = False, **shorthand: Unpack[Shorthand],
+) -> Result | StreamedResult:  # fmt: skip
     """Simulate a scene, to a time or through the stages of a lift, and return its recorded channels.
 
     Through stages the clock and the waves go on; an element that a stage connects is absent until then. In
@@ -157,24 +144,11 @@ def simulate(
 
     Warns
     -----
-    LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
-    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, LineTableWarning,
-    FleetAngleWarning, PushingLineWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning,
-    SoftGainsWarning, EnergyErrorWarning, NearSingularWarning, LargeSwingWarning, OverloadWarning,
-    CurrentInWavesWarning
-        After the run, when its motions left the range in which the models hold; also in `stats`, as
-        "validity". See docs/troubleshooting.md.
-    StiffWarning
-        After a slow run, when one fast mode set the steps of its explicit method; in `stats` likewise.
-    GrowingModeWarning
-        After a long run, when its method fed an oscillation with little damping; in `stats` likewise.
-    LineRungWarning
-        After a run in which water struck what hangs on a line that rung="auto" made quasi-static; in `stats`
-        likewise.
-    DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
-    LoadInHullWarning, FreeCraneWarning, ContactStartWarning, LiftedStartWarning, QuasiStaticLineWarning,
-    ScatteredWavesWarning, DragAxesWarning
-        Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
+    SeacraneWarning
+        Before it, when the description most likely does not say what was meant (docs/mistakes.md). After it,
+        when its motions left the range in which the models hold, one fast mode set its steps, its method fed
+        an oscillation, or water struck what hangs on a quasi-static line; also in `stats`, as "validity"
+        (docs/troubleshooting.md).
     """
     end, stages = (math.nan, t_end) if _several(t_end) else (t_end, None)
     written = {"checkpoint_every": checkpoint_every, "resume": resume, "overwrite": overwrite}
@@ -196,7 +170,12 @@ def simulate(
         lift = StagedRun(
             scene, stages, start=start, first=first, method=method, outputs=outputs, controllers=called
         )
-        return _carried_out(lift) if to is None else stages_to_file(lift, Path(to), overwrite=overwrite)
+        if to is not None:
+            return stages_to_file(lift, Path(to), overwrite=overwrite)
+        while lift.advance():
+            pass
+        lift.warn()
+        return lift.result()
     if to is None:
         run = Run(scene, end, method=method, outputs=outputs, start=start, controlled=bool(called))
         return finished(run, called, progress=progress)
@@ -210,19 +189,10 @@ def _several(t_end: float | Sequence[Stage]) -> TypeIs[Sequence[Stage]]:
     return isinstance(t_end, Sequence) and not isinstance(t_end, str)
 
 
-def _carried_out(lift: StagedRun) -> Result:
-    while lift.advance():
-        pass
-    lift.warn()
-    return lift.result()
-
-
 def _require_use(
-    stages: Sequence[Stage] | None,
-    to: str | os.PathLike[str] | None,
-    accuracy: Mapping[str, float] | None,
+    stages: Sequence[Stage] | None, to: str | os.PathLike[str] | None, accuracy: Mapping[str, float] | None,
     **given: object,
-) -> None:
+) -> None:  # fmt: skip
     """Refuse words that this kind of run has no use for."""
     whole = UNWRITTEN if to is None else ""
     if to is not None and accuracy is not None:
@@ -231,10 +201,8 @@ def _require_use(
         whole = "stages are written one by one"
     reasons = {
         "first": "it names a stage, and no stages are given" if stages is None else "",
-        "checkpoint_every": whole,
-        "resume": whole,
-        "overwrite": UNWRITTEN if to is None else "",
-    }
+        "checkpoint_every": whole, "resume": whole, "overwrite": UNWRITTEN if to is None else "",
+    }  # fmt: skip
     for word, reason in reasons.items():
         if given[word] not in (None, False) and reason:
             raise SceneError(f"{word} is {shown(given[word])}: {reason}; leave it out")

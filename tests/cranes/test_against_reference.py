@@ -83,7 +83,7 @@ def body_records(scene: Scene) -> list[dict[str, Any]]:
 def joint_records(payload: Payload | None) -> list[dict[str, Any]]:
     parts = load_crane().parts(foot=FOOT)
     joints = [*parts.joints, *([] if payload is None else [payload.link(parts.tip[1], parts.tip[0])])]
-    keys = ("kind", "name", "first", "second", "point", "axis", "second_axis", "second_point", "length")
+    keys = ("kind", "name", "first", "second", "point", "axis", "second_axis", "second_point")
     return [
         {key: getattr(joint, key) for key in keys if getattr(joint, key) is not None}
         | ({} if joint.first else {"first": "vessel"})

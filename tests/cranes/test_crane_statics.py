@@ -6,7 +6,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from seacrane.crane import BodyRecord, Payload, load_crane
+from seacrane._core import Body
+from seacrane.crane import Payload, load_crane
 from seacrane.inputs.frames import rotation_matrix
 
 Array = npt.NDArray[np.float64]
@@ -20,7 +21,7 @@ def flat(point: Array) -> Array:
     return np.array([-point[0], point[2]])
 
 
-def centre(body: BodyRecord) -> Array:
+def centre(body: Body) -> Array:
     return body.position + rotation_matrix(body.quaternion) @ body.center_of_mass
 
 
@@ -29,7 +30,7 @@ def cross(a: Array, b: Array) -> float:
 
 
 def cylinder(
-    foot: Array, head: Array, moment: float, jib_pivot: Array, barrel: BodyRecord, rod: BodyRecord
+    foot: Array, head: Array, moment: float, jib_pivot: Array, barrel: Body, rod: Body
 ) -> tuple[float, Array]:
     """Free bodies of one cylinder and its jib: (force between barrel and rod, force on the jib at the head).
 

@@ -145,17 +145,16 @@ def test_an_a_frame_starts_at_rest_on_its_oil(tilt: float) -> None:
 
 KNUCKLE_FILE = (SHIPPED / "knuckle_boom_250t.toml").read_text(encoding="utf-8")
 FRAME_FILE = (SHIPPED / "a_frame_40t.toml").read_text(encoding="utf-8")
-PISTON = '\n[[pistons]]\ncylinder = "tilt"\n[pistons.hydraulics]\n'
-MAIN = "[main_cylinder.hydraulics]\n"
+PISTON = '\n[[pistons]]\ncylinder = "{}"\n[pistons.hydraulics]\n'
 KEYS = "pump.pressure = 32e6\nvalve.rated_flow = 0.05\nvalve.rated_drop = 1e6\n"
 
 
 @pytest.mark.parametrize(
     ("text", "ram", "driven"),
     [
-        (KNUCKLE_FILE.replace("[[main_cylinder.barrel]]", f"{MAIN}{KEYS}\n[[main_cylinder.barrel]]"),
-         "main_cylinder", {"A.angle", "knuckle_cylinder.displacement"}),
-        (FRAME_FILE + PISTON + KEYS, "cylinder", set()),
+        (KNUCKLE_FILE + PISTON.format("main") + KEYS, "main_cylinder",
+         {"A.angle", "knuckle_cylinder.displacement"}),
+        (FRAME_FILE + PISTON.format("tilt") + KEYS, "cylinder", set()),
     ],
     ids=["knuckle boom", "A-frame"],
 )  # fmt: skip

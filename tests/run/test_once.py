@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Curve, Scene, SceneError, SeaState, WaveSystem, cases, equilibrium, simulate
+from seacrane import Curve, Scene, SceneError, cases, equilibrium, simulate
 from seacrane.description.once import ANSWERS
 from seacrane.description.pick import Pick
 from seacrane.result import Result
 from seacrane.scene import Waves
-from seacrane.sea import jonswap
 from seacrane.warnings import FreeCraneWarning
 
 SHORT = {"t_end": 0.3, "dt_out": 0.1}
@@ -166,11 +165,6 @@ def test_a_copy_shares_what_is_known_until_it_differs() -> None:
     assert ANSWERS in vars(scene)  # what is kept for long holds no model
     assert ANSWERS not in vars(result.scene)
     assert ANSWERS not in vars(pickle.loads(pickle.dumps(scene)))
-    scene = cases.case2(hs=0.0)  # nor are tables of a whole period kept
-    system = WaveSystem(spectrum=jonswap(hs=2.0, tp=8.0), direction_deg=90.0, count=64)
-    scene.waves = None
-    scene.add_sea(sea=SeaState(systems=[system], placement="uniform"), evaluation="fft")
-    assert scene.compile() is not scene.compile()
 
 
 def test_a_sea_is_not_written_into() -> None:

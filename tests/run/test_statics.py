@@ -186,7 +186,7 @@ def test_areas_come_from_the_crane_s_file_and_have_limit_states(tmp_path: Path) 
     text, path = (SHIPPED / "knuckle_boom_250t.toml").read_text(), tmp_path / "crane.toml"
 
     def crane(areas: str) -> Crane:
-        path.write_text(text.replace("[main_cylinder]", f"[main_cylinder]\n{areas}"))
+        path.write_text(f'{text}\n[[pistons]]\ncylinder = "main"\n{areas}')
         return load_crane(path)
 
     scene = sc.Scene(name="crane", gravity=G)

@@ -69,13 +69,12 @@ def test_a_record_is_reproduced_where_it_was_measured(n: int, spreading: object)
     np.testing.assert_allclose(waves.elevation(t + measured.duration, x=120.0, y=-45.0), still, atol=1e-9)
 
 
-def test_cuts_taper_and_spectrum_of_a_record() -> None:
+def test_cuts_and_taper_of_a_record() -> None:
     t, eta = record()
     cut = {"minimum_omega": 0.4, "maximum_omega": 1.3, "taper": 0.2}
     measured = MeasuredWaves(time=t, elevation=eta, direction_deg=0.0, **cut)
     waves = SeaState(systems=[measured]).realise().waves
     assert np.min(waves.omega) >= 0.4 and np.max(waves.omega) <= 1.3
-    np.testing.assert_allclose(waves.elevation(t), measured.band_passed(), atol=1e-10)
     # The window: Tukey's, a raised cosine over a tenth of the record at each end.
     n = eta.size
     window = np.ones(n)
@@ -85,11 +84,7 @@ def test_cuts_taper_and_spectrum_of_a_record() -> None:
     transform = np.fft.rfft((eta - eta.mean()) * window)
     omega = 2.0 * np.pi * np.fft.rfftfreq(n, 0.25)
     transform[(omega < 0.4) | (omega > 1.3)] = 0.0
-    np.testing.assert_allclose(measured.band_passed(), np.fft.irfft(transform, n), atol=1e-10)
-    t, eta = record(40_000)
-    spectrum = MeasuredWaves(time=t, elevation=eta, direction_deg=0.0).spectrum(segments=40)
-    assert spectrum.hs == pytest.approx(4.0 * np.std(eta), rel=0.03)
-    assert spectrum.tp == pytest.approx(8.0, rel=0.1)
+    np.testing.assert_allclose(waves.elevation(t), np.fft.irfft(transform, n), atol=1e-10)
 
 
 def test_records_and_systems_that_make_no_sea_are_refused() -> None:
@@ -157,9 +152,6 @@ def test_plain_arguments_of_add_sea() -> None:
         with pytest.raises(SceneError, match=message):
             afloat(**given)
     assert afloat(sea=SeaState(systems=[WIND], depth=500.0)).waves.depth == 500.0  # deep for every wave of it
-    afloat(sea=SeaState(systems=[SWELL], placement="uniform"), evaluation="fft").compile()
-    with pytest.raises(SceneError, match="placement='uniform'"):
-        afloat(sea=SeaState(systems=[SWELL]), evaluation="fft").compile()
 
 
 def test_a_sea_is_as_deep_as_its_database() -> None:

@@ -137,7 +137,6 @@ def test_what_makes_no_sense_is_refused_by_name() -> None:
     paper.add_vessel(database(), kinematics="paper")
     paper.waves = afloat("slow").waves
     for call, message in (
-        (actual_scene(evaluation="fft").compile, "evaluation='exact'"),
         (turned.compile, "45 deg"),
         (actual_scene(drift=np.zeros((40, 6))).compile, "drift_by_heading"),
         (paper.compile, "yaw_following"),

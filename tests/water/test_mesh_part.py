@@ -168,8 +168,8 @@ def test_a_file_is_read_with_its_scale_and_density_and_holes_are_factors(tmp_pat
     ("mesh", "given", "message"),
     [(BOX[1:], {}, "3 edges.*surface is open"), (BOX[:, ::-1], {}, "encloses -3 m3"),
      (np.concatenate([BOX[:1, ::-1], BOX[1:]]), {}, "normals disagree"), (BOX * np.nan, {}, "not finite"),
-     (BOX, {"density": 1.025}, "t/m3"), (BOX, {"draughts": (1.0, 0.5, 1.5)}, "draughts has 0.5 m after"),
-     (BOX, {"draughts": (0.5, 1.0)}, "draughts ends at 1 m, above its top"),
+     (BOX, {"density": 1.025}, "t/m3"), (BOX, {"draughts": (1.0, 0.5, 1.5)}, "draughts is .*increasing"),
+     (BOX, {"draughts": (0.5, 1.0)}, "draughts is .* on to .* its top"),
      (BOX, {"slam": 3.0}, "slam is 3"), (mesh_shapes.sphere(1.0), {"slam": 6.0}, "bottom is flat")],
 )  # fmt: skip
 def test_bad_meshes_and_numbers_are_refused(mesh: Any, given: dict[str, Any], message: str) -> None:

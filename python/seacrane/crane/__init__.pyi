@@ -9,8 +9,6 @@ from seacrane.crane.data import BodyData as BodyData
 from seacrane.crane.data import JointData as JointData
 from seacrane.scene.add_crane import FOOT as FOOT
 from seacrane.crane.parts import CraneParts as CraneParts
-from seacrane.crane.parts import BodyRecord as BodyRecord
-from seacrane.crane.parts import JointRecord as JointRecord
 from seacrane.crane.mass_properties import MassProperties as MassProperties
 from seacrane.crane.mass_properties import Box as Box
 from seacrane.crane.mass_properties import Tube as Tube

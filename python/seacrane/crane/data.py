@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from seacrane.crane.mass_properties import MassProperties, Member
 from seacrane.description.roles import Areas, Capacity
 from seacrane.errors import SceneError
+from seacrane.inputs.frames import euler_matrix
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
@@ -40,21 +40,19 @@ class Placed:
         return Placed(self.axes @ other.axes, self.point(other.origin))
 
 
+def placed(origin: Array, turns: Array) -> Placed:
+    """A frame by its origin (m) and its turns about the fixed axes x, y, z (rad), as URDF has them."""
+    return Placed(euler_matrix(-turns).T, origin)
+
+
 HOME = Placed(np.eye(3), np.zeros(3))
 """The frame of the crane foot, and no motion."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MeshData:
-    """What a body is drawn by: a file, or triangles.
-
-    Attributes
-    ----------
-    vertices, faces : ndarray (n, 3) and (m, 3), or None
-        m, in place of a file.
-    scale : By which coordinates are multiplied to be m.
-    frame : Of the mesh in that of its body.
-    """
+    """What a body is drawn by, in a frame of the body's: a file with its scale to m, or triangles (n, 3), m,
+    with faces (m, 3)."""
 
     name: str
     file: Path | None = None
@@ -66,15 +64,10 @@ class MeshData:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BodyData:
-    """A rigid part of a crane.
+    """A rigid part of a crane, in its own frame, which is given in that of the crane foot at home.
 
-    Attributes
-    ----------
-    properties : In its own frame.
-    frame : In that of the crane foot, at home.
-    members : tuple of Tube or Box
-        That it is made of and drawn by, in its own frame; empty where only its mass is known.
-    meshes : That it is drawn by in their place.
+    It is made of and drawn by its members, which are empty where only its mass is known; `meshes` draw it in
+    their place.
     """
 
     name: str
@@ -95,32 +88,28 @@ class BodyData:
         def moved(point: Iterable[float]) -> tuple[float, ...]:
             return tuple((np.array(point) - origin).tolist())
 
-        return BodyData(
-            name=self.name,
-            properties=MassProperties(given.mass, given.center_of_mass - origin, given.inertia),
+        return replace(
+            self, properties=replace(given, center_of_mass=given.center_of_mass - origin),
             frame=Placed(np.eye(3), origin),
-            members=tuple(
-                dataclasses.replace(one, start=moved(one.start), end=moved(one.end)) for one in self.members
-            ),
+            members=tuple(replace(one, start=moved(one.start), end=moved(one.end)) for one in self.members),
             meshes=tuple(
-                dataclasses.replace(one, frame=Placed(one.frame.axes, one.frame.origin - origin))
-                for one in self.meshes
+                replace(one, frame=Placed(one.frame.axes, one.frame.origin - origin)) for one in self.meshes
             ),
-        )
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class JointData:
-    """A joint of a crane, in the crane-foot frame at home.
+    """A joint of a crane, in the crane-foot frame at home, or at a pose in the frame of its base.
 
     Attributes
     ----------
     name, kind, first, second : The kind is one of `FREEDOMS`; a joint of the tree carries its second body.
     point : (3,) m.
+    second_point : (3,) Of the link of a payload, a distance joint, on the payload.
     axis, second_axis : ndarray, shape (3,), or None
         Unit vectors; the second one of a universal joint alone, fixed on the second body.
-    range : (float, float) or None
-        Of its coordinate from home, rad or m.
+    range : Of its coordinate from home, rad or m.
     closes : Whether it closes a loop, and carries nothing.
     """
 
@@ -129,6 +118,7 @@ class JointData:
     first: str
     second: str
     point: Array
+    second_point: Array | None = None
     axis: Array | None = None
     second_axis: Array | None = None
     range: tuple[float, float] | None = None
@@ -137,16 +127,7 @@ class JointData:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RopeData:
-    """A luffing rope between two bodies on both sides of a hinge.
-
-    Attributes
-    ----------
-    name, luff : Its own, and the label of the hinge that it holds.
-    falls : Parts of rope between the two blocks.
-    EA : Axial stiffness of one part, N.
-    first, second : (str, ndarray (3,))
-        Bodies and blocks at home, crane-foot frame, m; the second one is beyond the hinge.
-    """
+    """As `LuffingRope`, by the label of the hinge that it holds; blocks at home, crane-foot frame, m."""
 
     name: str
     luff: str
@@ -167,16 +148,12 @@ class CraneData:
         Of the tree one for each body but the root, each after what carries its first body; and those that
         close loops.
     slew : Joint of the slew drive.
-    luffs, cylinders : mapping of str to str
-        Hinges that raise and lower the jib, and sliding joints, by label.
-    tip : (str, ndarray (3,))
-        Its body, and its place at home, m.
+    luffs, cylinders : Hinges that raise and lower the jib, and sliding joints, by label.
+    tip : Its body, and its place at home, m.
     capacity, areas
         As of `CraneRoles`.
     hydraulics : mapping of str to mapping
         Keywords of `add_hydraulic_cylinder` by the labels of cylinders that the file says are hydraulic.
-    short_names : mapping of str to str
-        Other names of coordinates, with their labels.
     """
 
     name: str
@@ -191,7 +168,6 @@ class CraneData:
     capacity: Capacity = ()
     areas: Mapping[str, Areas] = field(default_factory=dict)
     hydraulics: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    short_names: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def tree(self) -> dict[str, JointData]:
@@ -210,9 +186,10 @@ class CraneData:
         return slew | dict(self.luffs) | dict(self.cylinders)
 
     def led_by(self, label: str) -> JointData:
-        """Joint of a coordinate, by its label or another name; SceneError for none."""
+        """Joint of a coordinate by its label, of cylinders also "s1", "s2"; SceneError for none."""
         known = self.coordinates
-        name = known.get(self.short_names.get(label, label))
+        short = {f"s{place}": joint for place, joint in enumerate(self.cylinders.values(), 1)}
+        name = (short | known).get(label)
         if name is None:
             raise SceneError(
                 f"crane {self.name!r}: has no coordinate {shown(label)}; it has "
@@ -229,7 +206,10 @@ class CraneData:
         return found
 
     def at_joints(self) -> CraneData:
-        """With the frames of bodies, which were given from the crane foot, at the joints that carry them."""
+        """With the frames of bodies that have none of their own at the joints that carry them."""
         carried = {joint.second: joint.point for joint in self.tree.values()}
-        bodies = tuple(one.shifted(carried.get(one.name, np.zeros(3))) for one in self.bodies)
-        return dataclasses.replace(self, bodies=bodies)
+        bodies = tuple(
+            one.shifted(carried.get(one.name, np.zeros(3))) if one.frame is HOME else one
+            for one in self.bodies
+        )
+        return replace(self, bodies=bodies)

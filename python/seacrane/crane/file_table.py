@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
-from pathlib import Path
-from types import MappingProxyType
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import fields
 from typing import Any, NoReturn
 
 import numpy as np
@@ -19,23 +18,23 @@ from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.description.roles import Areas, Capacity, areas_of, capacity_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import shown
-from seacrane.inputs.whole_file import read_whole
 
 Array = NDArray[np.float64]
+Frames = dict[str, tuple[str, Placed]]  # by name: the body that a frame is fixed to, and where it is at home
 SCHEMA = 1
 LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with
-LARGEST_FILE = 2**20  # bytes
 LONGEST_TEXT = 200
 SMALLEST = 1e-9  # m, kg
 THINNEST = 1e-6  # of a section
 
 
-def read_text(path: Path) -> str:
-    """Text of a crane's file; FileFormatError where it cannot be read."""
+@contextmanager
+def as_file_error(lead: str = "") -> Iterator[None]:
+    """What is refused inside the block is refused of the file."""
     try:
-        return read_whole(path, LARGEST_FILE, "no crane file is").decode("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileFormatError(f"crane data file {path} cannot be read ({error}); check the path.") from error
+        yield
+    except SceneError as error:
+        raise FileFormatError(f"{lead}{error}.") from error
 
 
 def root_of(text: str, source: str) -> FileTable:
@@ -53,8 +52,9 @@ def root_of(text: str, source: str) -> FileTable:
 class FileTable:
     """One table of the file; every value is asked for once, leftovers are misspelt keys."""
 
-    def __init__(self, source: str, where: str, values: object) -> None:
+    def __init__(self, source: str, where: str, values: object, frames: Frames | None = None) -> None:
         self.source, self.where = source, where
+        self.frames: Frames = {} if frames is None else frames  # of the file, once they are known
         if not isinstance(values, Mapping):
             raise FileFormatError(f"{source}: {where} is {shown(values)}; write a table of keys and values.")
         self.values = dict(values)
@@ -68,7 +68,7 @@ class FileTable:
         return self.values.pop(key)
 
     def table(self, key: str) -> FileTable:
-        return FileTable(self.source, self.label(key), self.take(key))
+        return FileTable(self.source, self.label(key), self.take(key), self.frames)
 
     def refuse(self, says: str) -> NoReturn:
         raise FileFormatError(f"{self.source}: {says}.")
@@ -100,33 +100,33 @@ class FileTable:
             self.wrong(key, value, f"write a finite number, {LARGEST:g} at most")
         return float(value)
 
-    def head(self, *, default: str) -> str:
+    def flag(self, key: str) -> bool:
+        """true or false; false where it is left out."""
+        value = self.values.pop(key, False)
+        if not isinstance(value, bool):
+            self.wrong(key, value, "write true or false")
+        return value
+
+    def head(self) -> str:
         """The kind of crane, of a file whose schema this version reads."""
         schema = self.take("schema")
         if schema != SCHEMA:
             self.wrong("schema", schema, f"this version reads schema {SCHEMA}")
-        return self.text("kind") if "kind" in self.values else default
+        return self.text("kind")
 
     def tables(self, key: str) -> list[FileTable]:
         """A list of tables, which may be left out."""
         value = self.values.pop(key, [])
         if not isinstance(value, list):
             self.wrong(key, value, f"write [[{key}]]")
-        return [FileTable(self.source, f"{self.label(key)}[{i}]", item) for i, item in enumerate(value)]
+        where = self.label(key)
+        return [FileTable(self.source, f"{where}[{i}]", one, self.frames) for i, one in enumerate(value)]
 
-    def space_point(self, key: str) -> Point:
-        """Three numbers."""
-        return self._row(key, 3, "three numbers [x, y, z]")
-
-    def point(self, key: str) -> tuple[float, float]:
-        """Two numbers."""
-        first, second = self._row(key, 2, "two numbers [along, above], in m")
-        return first, second
-
-    def _row(self, key: str, count: int, wanted: str) -> Point:
+    def numbers(self, key: str, count: int) -> Point:
+        """A list of so many of them."""
         value = self.take(key)
         if not isinstance(value, list) or len(value) != count:
-            self.wrong(key, value, f"write {wanted}")
+            self.wrong(key, value, f"write a list of {count} numbers")
         return tuple(self._number(key, item) for item in value)
 
     def capacity(self) -> Capacity:
@@ -136,22 +136,16 @@ class FileTable:
         table = self.table("capacity")
         rows = table.take("rows")
         table.finish()
-        if not isinstance(rows, list):
-            table.wrong("rows", rows, "write rows [radius, load], m and kg")
-        try:
+        with as_file_error():
             return capacity_of(self.source, rows)
-        except SceneError as error:
-            raise FileFormatError(f"{error}.") from error
 
     def areas(self) -> Areas | None:
         """Both areas of a piston, or neither."""
         if not {"full_area", "rod_side_area"} & set(self.values):
             return None
         pair = self.number("full_area"), self.number("rod_side_area")
-        try:
+        with as_file_error():
             return areas_of(f"{self.source}: {self.where}", pair)
-        except SceneError as error:
-            raise FileFormatError(f"{error}.") from error
 
     def hydraulics(self) -> Mapping[str, Any] | None:
         """Keywords of a hydraulic cylinder: each of its values a table, SI units; None for none."""
@@ -160,7 +154,7 @@ class FileTable:
         inner = self.table("hydraulics")
         found = {word: inner.table(word).value(kind) for word, kind in VALUES.items() if word in inner.values}
         inner.finish()
-        return MappingProxyType(found)
+        return found
 
     def value(self, kind: type[Any]) -> Any:
         """The whole table as a value, whose fields are numbers and flags."""
@@ -171,76 +165,55 @@ class FileTable:
         self.finish()
         return kind(**given)
 
-    def members(self, key: str, plane: Array | None = None) -> tuple[Member, ...]:
-        """Uniform bodies, their ends three numbers, or two along the axes (3, 2) of a plane."""
-        value = self.take(key)
-        if not isinstance(value, list) or not value:
+    def members(self, key: str) -> tuple[Member, ...]:
+        """Uniform bodies, one or more."""
+        found = tuple(_member(table) for table in self.tables(key))
+        if not found:
             self.refuse(f"{self.label(key)} needs at least one member; add one")
-        return tuple(
-            _member(FileTable(self.source, f"{self.label(key)}[{index}]", item), plane)
-            for index, item in enumerate(value)
-        )
+        return found
+
+    def point_on(self, name: str) -> tuple[str, Array]:
+        """The body that a frame is fixed to, and the table's point, given in the frame, at home, m."""
+        body, frame = self._frame(name)
+        return body, frame.point(np.array(self.numbers("point", 3)))
+
+    def axis_on(self, name: str, key: str) -> Array | None:
+        """A unit vector, given in a frame, at home; None where it is left out."""
+        if key not in self.values:
+            return None
+        given = np.array(self.numbers(key, 3))
+        length = float(np.linalg.norm(given))
+        if length == 0.0:
+            self.refuse(f"{self.label(key)} is all zero; write a direction, such as [0.0, 0.0, 1.0]")
+        return np.asarray(self._frame(name)[1].axes @ (given / length))
+
+    def _frame(self, name: str) -> tuple[str, Placed]:
+        if name not in self.frames:
+            known = ", ".join(self.frames) or "none"
+            self.refuse(f"{self.where} names body {shown(name)}; the crane has {known}")
+        return self.frames[name]
 
     def finish(self) -> None:
         if self.values:
             self.refuse(f"unknown key {self.label(min(self.values))[:80]}; correct its spelling or remove it")
 
 
-@dataclass(frozen=True, eq=False)
-class Frames:
-    """Frame of every body by its name, and those of frames that are fixed to one, at home.
-
-    Attributes
-    ----------
-    placed : mapping of str to Placed
-    holder : mapping of str to str
-        The body that each frame is fixed to, where that is another.
-    """
-
-    placed: Mapping[str, Placed]
-    holder: Mapping[str, str] = field(default_factory=dict)
-
-    def body(self, name: str) -> str:
-        """The body that a frame is fixed to."""
-        return self.holder.get(name, name)
-
-    def point(self, table: FileTable, body: str, at: Point) -> Array:
-        """A point of a body's frame in the crane-foot frame at home, m."""
-        return self._of(table, body).point(np.array(at))
-
-    def axis(self, table: FileTable, body: str, key: str) -> Array:
-        """A unit vector in the crane-foot frame at home; FileFormatError for none."""
-        given = np.array(table.space_point(key))
-        length = float(np.linalg.norm(given))
-        if length == 0.0:
-            table.refuse(f"{table.label(key)} is all zero; write a direction, such as [0.0, 0.0, 1.0]")
-        return np.asarray(self._of(table, body).axes @ (given / length))
-
-    def _of(self, table: FileTable, body: str) -> Placed:
-        if body not in self.placed:
-            known = ", ".join(self.placed) or "none"
-            table.refuse(f"{table.where} names body {shown(body)}; the crane has {known}")
-        return self.placed[body]
-
-
-def _member(table: FileTable, plane: Array | None) -> Member:
-    name, shape = table.named(), table.text("shape")
-    mass = table.number("mass")
-    start, end = (
-        table.space_point(key) if plane is None else tuple((plane @ table.point(key)).tolist())
-        for key in ("start", "end")
-    )
+def _member(table: FileTable) -> Member:
+    name, shape, mass = table.named(), table.text("shape"), table.number("mass")
+    start, end = table.numbers("start", 3), table.numbers("end", 3)
     if math.dist(start, end) == 0.0:
         table.refuse(f"{table.where} has length 0; move its start or its end")
-    if shape not in SHAPES:
-        table.wrong("shape", shape, 'write "tube" or "box"')
-    member = SHAPES[shape](table, {"name": name, "mass": mass, "start": start, "end": end})
-    table.finish()
-    return member
+    match shape:
+        case "tube":
+            return _tube(table, name=name, mass=mass, start=start, end=end)
+        case "box":
+            return _box(table, name=name, mass=mass, start=start, end=end)
+    table.wrong("shape", shape, 'write "tube" or "box"')
 
 
-def _tube(table: FileTable, common: dict[str, Any]) -> Tube:
+def _tube(table: FileTable, **common: Any) -> Tube:
     outer, inner = table.number("outer_diameter"), table.number("inner_diameter", positive=False)
+    table.finish()
     if inner >= outer:
         table.refuse(
             f"{table.label('inner_diameter')} is {inner:g} m, not below the outer diameter {outer:g} m; make "
@@ -249,9 +222,9 @@ def _tube(table: FileTable, common: dict[str, Any]) -> Tube:
     return Tube(**common, outer_diameter=outer, inner_diameter=inner)
 
 
-def _box(table: FileTable, common: dict[str, Any]) -> Box:
-    width, depth = table.number("width"), table.number("depth")
-    wall = table.number("wall", positive=False)
+def _box(table: FileTable, **common: Any) -> Box:
+    width, depth, wall = table.number("width"), table.number("depth"), table.number("wall", positive=False)
+    table.finish()
     section = f"{table.label('wall')} is {wall:g} m"
     if 0.0 < wall < THINNEST * max(width, depth):
         table.refuse(f"{section} in a section of {width:g} x {depth:g} m; make it thicker (0: solid)")
@@ -260,6 +233,3 @@ def _box(table: FileTable, common: dict[str, Any]) -> Box:
             f"{section}, half the section ({width:g} x {depth:g} m) or more; make it thinner (0: solid)"
         )
     return Box(**common, width=width, depth=depth, wall=wall)
-
-
-SHAPES: Mapping[str, Callable[[FileTable, dict[str, Any]], Member]] = {"tube": _tube, "box": _box}

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,17 +12,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.crane.crane import Crane
-from seacrane.crane.data import CLOSING, FREEDOMS, HOME, BodyData, CraneData, JointData, RopeData
-from seacrane.crane.file_table import FileTable, Frames, read_text, root_of
-from seacrane.crane.knuckle_boom import knuckle_boom
+from seacrane.crane.data import (
+    CLOSING,
+    FREEDOMS,
+    HOME,
+    BodyData,
+    CraneData,
+    JointData,
+    RopeData,
+    placed,
+)
+from seacrane.crane.file_table import FileTable, as_file_error, root_of
 from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.crane.pose import CLOSED, extent_of, pose_of
 from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
-from seacrane.errors import FileFormatError, SceneError
+from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import listed, shown
+from seacrane.inputs.whole_file import read_whole
 
 Array = NDArray[np.float64]
+LARGEST_FILE = 2**20  # bytes
 TOTAL = 1e-9  # of the mass, by which the members may miss it
 SHIPPED = Path(__file__).resolve().parent.parent / "data" / "cranes"
 DEFAULT = "knuckle_boom_250t"
@@ -35,7 +46,7 @@ def load_crane(path: str | Path = DEFAULT) -> Crane:
     Parameters
     ----------
     path : path-like
-        TOML with kind "knuckle-boom" (default), "jointed" or "urdf"; or the name of a crane that comes with
+        TOML with kind "jointed" or "urdf"; or the name of a crane that comes with
         seacrane, one of `shipped_cranes`. Default: the 250 t knuckle boom among them.
 
     Returns
@@ -50,7 +61,11 @@ def load_crane(path: str | Path = DEFAULT) -> Crane:
         item.
     """
     file = SHIPPED / f"{path}.toml" if str(path) in shipped_cranes() else Path(path)
-    return parse_crane(read_text(file), source=str(file), folder=file.parent)
+    try:
+        text = read_whole(file, LARGEST_FILE, "no crane file is").decode("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileFormatError(f"crane data file {file} cannot be read ({error}); check the path.") from error
+    return parse_crane(text, source=str(file), folder=file.parent)
 
 
 def shipped_cranes() -> list[str]:
@@ -59,100 +74,60 @@ def shipped_cranes() -> list[str]:
 
 
 def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = None) -> Crane:
-    """Read a crane from TOML text.
-
-    Parameters
-    ----------
-    source : Name used in messages.
-    folder : In which a URDF file is; default: the working directory.
-
-    Raises
-    ------
-    FileFormatError
-        As of `load_crane`.
-    """
+    """Read a crane from TOML text; `source` is its name in messages, a URDF file is in the `folder`, by
+    default the working directory. FileFormatError as of `load_crane`."""
     root = root_of(text, source)
-    kind = root.head(default="knuckle-boom")
+    kind, name = root.head(), root.text("name")
     match kind:
-        case "knuckle-boom":
-            data = knuckle_boom(root)
         case "jointed":
-            data = _jointed(root)
-        case "urdf":
-            data = _beside_urdf(root, folder or Path())
+            bodies = tuple(_body(table) for table in root.tables("bodies"))
+            root.frames |= {body.name: (body.name, body.frame) for body in bodies}
+            joints = tuple(_joint(table) for table in root.tables("joints"))
+            stands = bodies[0].name if bodies else ""
+            total, mass = root.number("total_mass"), math.fsum(body.properties.mass for body in bodies)
+            if abs(mass - total) > TOTAL * total:
+                root.refuse(
+                    f"the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct one of them"
+                )
+        case "urdf":  # which has the masses of its links alone
+            stands, bodies, joints, frames = read_urdf((folder or Path()) / root.text("urdf"))
+            root.frames |= frames
         case _:
-            root.wrong("kind", kind, 'write "knuckle-boom", "jointed" or "urdf"')
-    if kind != "urdf":  # which has the masses of its links alone
-        total, mass = root.number("total_mass"), math.fsum(body.properties.mass for body in data.bodies)
-        if abs(mass - total) > TOTAL * total:
-            root.refuse(
-                f"the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct a mass or total_mass"
-            )
+            root.wrong("kind", kind, 'write "jointed", as the shipped knuckle boom has it, or "urdf"')
+    closing = tuple(_joint(table, closes=True) for table in root.tables("closing_joints"))
+    roles = root.table("roles")
+    slew = roles.text("slew") if "slew" in roles.values else None
+    luffs, cylinders = _names(roles, "luffs"), _names(roles, "cylinders")
+    tip = _place(roles.table("tip"))
+    roles.finish()
+    areas, oil = _pistons(root, cylinders)
+    data = CraneData(
+        name=name, root=stands, bodies=bodies, joints=joints + closing, slew=slew, luffs=luffs,
+        cylinders=cylinders, tip=tip, ropes=tuple(_rope(table) for table in root.tables("ropes")),
+        capacity=root.capacity(), areas=areas, hydraulics=oil,
+    ).at_joints()  # fmt: skip
     root.finish()
     _check(root, data)
     return Crane(data)
 
 
-def _jointed(root: FileTable) -> CraneData:
-    name, bodies = root.text("name"), tuple(_body(table) for table in root.tables("bodies"))
-    here = Frames({body.name: HOME for body in bodies})
-    joints = tuple(_joint(table, here) for table in root.tables("joints"))
-    stands = bodies[0].name if bodies else ""
-    return _with_roles(root, name, stands, bodies, joints, here)
-
-
-def _beside_urdf(root: FileTable, folder: Path) -> CraneData:
-    """Bodies and joints are the URDF's, closing joints and roles those of the table."""
-    name = root.text("name")
-    return _with_roles(root, name, *read_urdf(folder / root.text("urdf")))
-
-
-def _with_roles(
-    root: FileTable,
-    name: str,
-    stands: str,
-    bodies: tuple[BodyData, ...],
-    joints: tuple[JointData, ...],
-    frames: Frames,
-) -> CraneData:
-    closing = tuple(_joint(table, frames, closes=True) for table in root.tables("closing_joints"))
-    roles = root.table("roles")
-    slew = roles.text("slew") if "slew" in roles.values else None
-    luffs, cylinders = _names(roles, "luffs"), _names(roles, "cylinders")
-    tip = _place(roles.table("tip"), frames)
-    roles.finish()
-    areas, oil = _pistons(root, cylinders)
-    return CraneData(
-        name=name,
-        root=stands,
-        bodies=bodies,
-        joints=joints + closing,
-        slew=slew,
-        luffs=luffs,
-        cylinders=cylinders,
-        tip=tip,
-        ropes=tuple(_rope(table, frames) for table in root.tables("ropes")),
-        capacity=root.capacity(),
-        areas=areas,
-        hydraulics=oil,
-    ).at_joints()
-
-
 def _body(table: FileTable) -> BodyData:
     """By its members, or by mass, centre of mass and inertia."""
     name = table.named()
-    if "members" in table.values:
-        members = table.members("members")
-        properties = combine(members)
-    else:
-        members, properties = (), _given_mass(table)
+    members = table.members("members") if "members" in table.values else ()
+    properties = combine(members) if members else _given_mass(table)
+    frame = HOME
+    if "frame" in table.values:
+        own = table.table("frame")
+        frame = placed(np.array(own.numbers("xyz", 3)), np.array(own.numbers("rpy", 3)))
+        own.finish()
     table.finish()
-    return BodyData(name=name, properties=properties, members=members)
+    return BodyData(name=name, properties=properties, frame=frame, members=members)
 
 
 def _given_mass(table: FileTable) -> MassProperties:
     mass = table.number("mass")
-    center = np.array(table.space_point("center_of_mass"))
+    center = np.array(table.numbers("center_of_mass", 3))
     rows = table.take("inertia")
     try:
         inertia = np.array(rows, dtype=float)
@@ -163,19 +138,16 @@ def _given_mass(table: FileTable) -> MassProperties:
     return MassProperties(mass, center, inertia)
 
 
-def _joint(table: FileTable, frames: Frames, *, closes: bool = False) -> JointData:
+def _joint(table: FileTable, *, closes: bool = False) -> JointData:
     name, kind = table.named(), table.text("kind")
-    first, second = table.text("first"), table.text("second")
-    point = frames.point(table, first, table.space_point("point"))
-    axes = {
-        key: frames.axis(table, first, key) if key in table.values else None
-        for key in ("axis", "second_axis")
-    }
-    limits = _range(table)
+    frame, second = table.text("first"), table.text("second")
+    first, point = table.point_on(frame)
+    axis, second_axis = (table.axis_on(frame, key) for key in ("axis", "second_axis"))
+    closes, limits = closes or table.flag("closes"), _range(table)
     table.finish()
     return JointData(
-        name=name, kind=kind, first=frames.body(first), second=frames.body(second), point=point, range=limits,
-        closes=closes, **axes,
+        name=name, kind=kind, first=first, second=table.frames.get(second, (second,))[0], point=point,
+        axis=axis, second_axis=second_axis, range=limits, closes=closes,
     )  # fmt: skip
 
 
@@ -186,7 +158,7 @@ def _range(table: FileTable) -> tuple[float, float] | None:
         return None
     if len(found) > 1:
         table.refuse(f"{table.where} has {' and '.join(found)}; write one of them")
-    low, high = table.point(found[0])
+    low, high = table.numbers(found[0], 2)
     if not low < high:
         table.refuse(f"{table.label(found[0])} is {low:g} to {high:g}; write the lower end first")
     return (math.radians(low), math.radians(high)) if found[0] == "range_deg" else (low, high)
@@ -202,28 +174,21 @@ def _names(roles: FileTable, key: str) -> dict[str, str]:
     return found
 
 
-def _place(table: FileTable, frames: Frames) -> tuple[str, Array]:
+def _place(table: FileTable) -> tuple[str, Array]:
     """A body and a point of it at home."""
-    body = table.text("body")
-    point = frames.point(table, body, table.space_point("point"))
+    found = table.point_on(table.text("body"))
     table.finish()
-    return frames.body(body), point
+    return found
 
 
-def _rope(table: FileTable, frames: Frames) -> RopeData:
+def _rope(table: FileTable) -> RopeData:
     name, falls = table.named(), table.number("falls")
     if falls != int(falls) or falls < 1:
         table.refuse(f"{table.label('falls')} is {falls:g}; write a whole number, 1 or more")
-    rope = RopeData(
-        name=name,
-        luff=table.text("luff"),
-        falls=int(falls),
-        EA=table.number("stiffness" if "stiffness" in table.values else "EA"),  # as in 0.2, or since
-        first=_place(table.table("first"), frames),
-        second=_place(table.table("second"), frames),
-    )
+    stiffness = table.number("stiffness" if "stiffness" in table.values else "EA")  # as in 0.2, or since
+    luff, ends = table.text("luff"), [_place(table.table(key)) for key in ("first", "second")]
     table.finish()
-    return rope
+    return RopeData(name=name, luff=luff, falls=int(falls), EA=stiffness, first=ends[0], second=ends[1])
 
 
 def _pistons(
@@ -248,113 +213,105 @@ def _pistons(
 
 def _check(root: FileTable, data: CraneData) -> None:
     """FileFormatError that names the item which does not fit."""
-    if not data.bodies:
-        root.refuse("has no bodies; write [[bodies]]")
-    _different(root, "body", (body.name for body in data.bodies))
-    _different(root, "joint", ("deck", "link", *(joint.name for joint in data.joints)))
-    for joint in data.joints:
-        _check_joint(root, joint)
-    _check_tree(root, data)
-    _check_closing(root, data)
-    _check_roles(root, data)
-    _check_ropes(root, data)
-    try:
+    for checked in (_names_twice, _unlike_kinds, _no_tree, _no_loops, _no_roles, _no_ropes):
+        for says in checked(data):
+            root.refuse(says)
+    with as_file_error(f"{root.source}: "):
         pose_of(data, {})
-    except SceneError as error:
-        raise FileFormatError(f"{root.source}: {error}.") from error
 
 
-def _different(root: FileTable, what: str, names: Iterable[str]) -> None:
-    seen: set[str] = set()
-    for name in names:
-        if name in seen:
-            root.refuse(f"the name {shown(name)} is that of two; rename one {what}")
-        seen.add(name)
+def _names_twice(data: CraneData) -> Iterator[str]:
+    if not data.bodies:
+        yield "has no bodies; write [[bodies]]"
+    for what, names in {
+        "body": [body.name for body in data.bodies],
+        "joint": ["deck", "link", *(joint.name for joint in data.joints)],
+        "coordinate": [*KEYWORDS, *([] if data.slew is None else ["slew"]), *data.luffs, *data.cylinders],
+        "rope's luff": [rope.luff for rope in data.ropes],
+    }.items():
+        for name, count in Counter(names).items():
+            if count > 1:
+                yield f"the name {shown(name)} is that of two; rename one {what}"
 
 
-def _check_joint(root: FileTable, joint: JointData) -> None:
-    what = f"joint {joint.name!r}"
-    if joint.kind not in FREEDOMS:
-        root.refuse(f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(FREEDOMS)}")
-    needs = {"revolute": 1, "prismatic": 1, "universal": 2}.get(joint.kind, 0)
-    has = [joint.axis is not None, joint.second_axis is not None]
-    if has != [needs > 0, needs > 1]:
-        wanted = ("no axis", "axis alone", "axis and second_axis")[needs]
-        root.refuse(f"{what}: a {joint.kind} joint takes {wanted}; correct its axes")
-    if needs == 2 and abs(float(np.dot(joint.axis, joint.second_axis))) > ALIGNED:  # type: ignore[arg-type]
-        root.refuse(f"{what}: axis and second_axis are not perpendicular; turn one of them")
-    if joint.range is not None and joint.kind not in ("revolute", "prismatic"):
-        root.refuse(f"{what}: a {joint.kind} joint has no range; leave it out")
+def _unlike_kinds(data: CraneData) -> Iterator[str]:
+    for joint in data.joints:
+        what = f"joint {joint.name!r}"
+        if joint.kind not in FREEDOMS:
+            yield f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(FREEDOMS)}"
+        needs = {"revolute": 1, "prismatic": 1, "universal": 2}.get(joint.kind, 0)
+        axes = [one for one in (joint.axis, joint.second_axis) if one is not None]
+        if len(axes) != needs or (joint.axis is None) != (needs == 0):
+            wanted = ("no axis", "axis alone", "axis and second_axis")[needs]
+            yield f"{what}: a {joint.kind} joint takes {wanted}; correct its axes"
+        if needs == 2 and abs(float(axes[0] @ axes[1])) > ALIGNED:
+            yield f"{what}: axis and second_axis are not perpendicular; turn one of them"
+        if joint.range is not None and (joint.closes or joint.kind not in ("revolute", "prismatic")):
+            yield f"{what}: has a range; give one to a hinge or a slide that carries a body"
 
 
-def _check_tree(root: FileTable, data: CraneData) -> None:
-    there, names = {data.root}, {data.root, *(one.name for one in data.bodies)}
+def _no_tree(data: CraneData) -> Iterator[str]:
+    there, bodies = {data.root}, [one.name for one in data.bodies]
+    known = {data.root, *bodies}
     for joint in data.tree.values():
         for role, body in (("first", joint.first), ("second", joint.second)):
-            if body not in names:
-                known = listed([one.name for one in data.bodies])
-                root.refuse(f"joint {joint.name!r}: its {role} body is {shown(body)}; there are {known}")
+            if body not in known:
+                yield f"joint {joint.name!r}: its {role} body is {shown(body)}; there are {listed(bodies)}"
         if joint.first not in there:
-            root.refuse(
-                f"joint {joint.name!r}: nothing carries its first body {joint.first!r} yet; write "
-                "the joint that does before it"
+            yield (
+                f"joint {joint.name!r}: nothing carries its first body {joint.first!r} yet; write the joint "
+                "that does before it"
             )
         if joint.second in there:
-            root.refuse(
-                f"joint {joint.name!r} closes a loop: something carries its second body "
-                f"{joint.second!r} already; write it as one of [[closing_joints]]"
+            yield (
+                f"joint {joint.name!r} closes a loop: something carries its second body {joint.second!r} "
+                "already; write it as one of [[closing_joints]]"
             )
         there.add(joint.second)
-    loose = [body.name for body in data.bodies if body.name not in there]
-    if loose:
-        root.refuse(f"no joint carries body {loose[0]!r}; add one, or take it out")
+    for name in bodies:
+        if name not in there:
+            yield f"no joint carries body {name!r}; add one, or take it out"
 
 
-def _check_closing(root: FileTable, data: CraneData) -> None:
+def _no_loops(data: CraneData) -> Iterator[str]:
     known = {data.root, *(body.name for body in data.bodies)}
     for joint in data.closing_joints:
-        what = f"closing joint {joint.name!r}"
+        what, ends = f"closing joint {joint.name!r}", f"{shown(joint.first)} and {shown(joint.second)}"
         if joint.kind not in CLOSING:
-            root.refuse(f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(CLOSING)}")
+            yield f"{what}: kind is {shown(joint.kind)}; write one of {', '.join(CLOSING)}"
         if not {joint.first, joint.second} <= known or joint.first == joint.second:
-            root.refuse(
-                f"{what}: joins {shown(joint.first)} and {shown(joint.second)}; name two bodies of the crane"
-            )
-        if joint.range is not None:
-            root.refuse(f"{what}: has a range; give one to a joint of the tree")
+            yield f"{what}: joins {ends}; name two bodies of the crane"
 
 
-def _check_roles(root: FileTable, data: CraneData) -> None:
+def _no_roles(data: CraneData) -> Iterator[str]:
     kinds = {name: joint.kind for name, joint in data.tree.items()}
-    wanted = {"luff": (data.luffs, "revolute"), "cylinder": (data.cylinders, "prismatic")}
     slew = {} if data.slew is None else {"slew": data.slew}
-    for role, (joints, kind) in {"slew drive": (slew, "revolute"), **wanted}.items():
+    for role, joints, kind in (
+        ("slew drive", slew, "revolute"), ("luff", data.luffs, "revolute"),
+        ("cylinder", data.cylinders, "prismatic"),
+    ):  # fmt: skip
         for label, joint in joints.items():
             if kinds.get(joint) != kind:
                 fitting = listed([name for name, one in kinds.items() if one == kind]) or "none"
-                root.refuse(
-                    f"{role} {label!r} is joint {shown(joint)}, which is no {kind} joint of the "
-                    f"tree; there are {fitting}"
+                yield (
+                    f"{role} {label!r} is joint {shown(joint)}, which is no {kind} joint of the tree; there "
+                    f"are {fitting}"
                 )
-    _different(root, "coordinate", [*KEYWORDS, *slew, *data.luffs, *data.cylinders])
     if data.tip[0] not in {body.name for body in data.bodies}:
-        root.refuse(f"the tip is on {shown(data.tip[0])}; name a body of the crane")
+        yield f"the tip is on {shown(data.tip[0])}; name a body of the crane"
 
 
-def _check_ropes(root: FileTable, data: CraneData) -> None:
-    _different(root, "rope's luff", (rope.luff for rope in data.ropes))
+def _no_ropes(data: CraneData) -> Iterator[str]:
     for rope in data.ropes:
-        what = f"rope {rope.name!r}"
+        what, (first, start), (second, end) = f"rope {rope.name!r}", rope.first, rope.second
         if rope.luff not in data.luffs:
-            root.refuse(
-                f"{what}: holds luff {shown(rope.luff)}; the luffs are "
-                f"{listed([repr(name) for name in data.luffs]) or 'none'}"
-            )
+            known = listed([repr(name) for name in data.luffs]) or "none"
+            yield f"{what}: holds luff {shown(rope.luff)}; the luffs are {known}"
         beyond = data.beyond(data.luffs[rope.luff])
-        if rope.first[0] in beyond or rope.second[0] not in beyond:
-            root.refuse(
-                f"{what}: runs from {shown(rope.first[0])} to {shown(rope.second[0])}; its first body must "
-                f"be before hinge {data.luffs[rope.luff]!r} and its second beyond it"
+        if first in beyond or second not in beyond:
+            yield (
+                f"{what}: runs from {shown(first)} to {shown(second)}; its first body must be before hinge "
+                f"{data.luffs[rope.luff]!r} and its second beyond it"
             )
-        if np.linalg.norm(rope.second[1] - rope.first[1]) < CLOSED * extent_of(data):
-            root.refuse(f"{what}: has no length at home; move one of its blocks")
+        if np.linalg.norm(end - start) < CLOSED * extent_of(data):
+            yield f"{what}: has no length at home; move one of its blocks"

@@ -30,13 +30,10 @@ class _Member:
 
 @dataclass(frozen=True, kw_only=True)
 class Tube(_Member):
-    """Uniform circular tube from `start` to `end`.
+    """Uniform circular tube from `start` to `end`, the ends of its centre line in the body's frame, m; kg.
 
     Attributes
     ----------
-    mass : kg.
-    start, end : (float, float, float)
-        Ends of the centre line in the body's frame, m.
     outer_diameter, inner_diameter : m; inner 0 means a solid cylinder.
     """
 
@@ -53,13 +50,10 @@ class Tube(_Member):
 
 @dataclass(frozen=True, kw_only=True)
 class Box(_Member):
-    """Uniform rectangular box, solid or hollow with open ends, from `start` to `end`.
+    """Uniform rectangular box, solid or hollow with open ends, as `Tube`.
 
     Attributes
     ----------
-    mass : kg.
-    start, end : (float, float, float)
-        Ends of the centre line in the body's frame, m.
     width, depth : float
         Section across the vertical plane of the member and in it, m; of an upright one along y and along x.
     wall : Wall thickness, m; 0 means solid.
@@ -85,14 +79,7 @@ Member = Tube | Box
 
 @dataclass(frozen=True, eq=False)
 class MassProperties:
-    """Mass properties of a body, in body axes.
-
-    Attributes
-    ----------
-    mass : kg.
-    center_of_mass : (3,) from the body origin, m.
-    inertia : (3, 3) about the centre of mass, kg m2.
-    """
+    """Mass (kg), its centre from the body origin (3,), m, and inertia about that (3, 3), kg m2; body axes."""
 
     mass: float
     center_of_mass: Array
@@ -100,10 +87,7 @@ class MassProperties:
 
 
 def combine(members: Sequence[Member]) -> MassProperties:
-    """Add up members, at least one, that form one rigid body, in the axes of their ends.
-
-    The parallel-axis theorem carries each member to the common centre of mass.
-    """
+    """Add up members, at least one, that form one rigid body, in the axes of their ends."""
     centres = [(np.array(one.start) + np.array(one.end)) / 2.0 for one in members]
     mass = math.fsum(member.mass for member in members)
     center = np.sum([one.mass * c for one, c in zip(members, centres, strict=True)], axis=0) / mass

@@ -12,8 +12,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.data import MeshData, RopeData
-from seacrane.description.roles import Areas, Capacity
+from seacrane import _core
+from seacrane.crane.data import JointData, RopeData
+from seacrane.description.loads import changed
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of, positive_of
 from seacrane.inputs.frames import rotation_matrix
@@ -32,93 +33,19 @@ LEAST_RADIUS = 0.1  # m
 UP = np.array([0.0, 0.0, 1.0])
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class BodyRecord:
-    """A body of the crane or its payload.
-
-    Attributes
-    ----------
-    mass : kg.
-    inertia : (3, 3) about the centre of mass, body axes, kg m2.
-    center_of_mass : (3,) from the body origin, body axes, m.
-    position : (3,) body origin, m.
-    quaternion : (4,) scalar first, body to base frame.
-    """
-
-    name: str
-    mass: float
-    inertia: Array
-    center_of_mass: Array
-    position: Array
-    quaternion: Array
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class JointRecord:
-    """A joint of the crane; points and axes at the described pose, None where unused.
-
-    Attributes
-    ----------
-    point : (3,) joint point, m; for "distance" the point on the first body.
-    second_point : ndarray, shape (3,), or None
-        Point on the second body of a "distance" joint.
-    axis : ndarray, shape (3,), or None
-        Joint axis; for "universal" the axis fixed on the first body.
-    second_axis : ndarray, shape (3,), or None
-        Axis of a "universal" joint fixed on the second body.
-    length : float or None
-        Of a "distance" joint, m.
-    """
-
-    name: str
-    kind: str
-    first: str
-    second: str
-    point: Array
-    second_point: Array | None = None
-    axis: Array | None = None
-    second_axis: Array | None = None
-    length: float | None = None
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CraneParts:
-    """A crane at a pose, without its payload.
+    """A crane at a pose, without its payload: what differs from its data; in the frame of its base, m, rad.
 
-    Attributes
-    ----------
-    bodies, joints : The first joint welds it to its base, whose name is "".
-    tip : (str, ndarray (3,))
-        Its body, and its place, m.
-    slew : Joint of the slew drive.
-    luffs, cylinders : mapping of str to str
-        Joints by label.
-    ranges : mapping of str to (float, float)
-        Where coordinates are meant to stay from the pose on, by joint.
-    ropes : With their blocks at the pose.
-    meshes : mapping of str to tuple of MeshData
-        That bodies are drawn by.
-    capacity, areas
-        As of `CraneRoles`.
+    The first joint welds it to its base, whose name is "". `tip` is a body and a place; `ranges` are where
+    coordinates are meant to stay from the pose on, by joint.
     """
 
-    bodies: list[BodyRecord]
-    joints: list[JointRecord]
+    bodies: list[_core.Body]
+    joints: list[JointData]
     tip: tuple[str, Array]
-    slew: str | None
-    luffs: Mapping[str, str] = field(default_factory=dict)
-    cylinders: Mapping[str, str] = field(default_factory=dict)
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     ropes: tuple[RopeData, ...] = ()
-    meshes: Mapping[str, tuple[MeshData, ...]] = field(default_factory=dict)
-    capacity: Capacity = ()
-    areas: Mapping[str, Areas] = field(default_factory=dict)
-
-    @property
-    def drives(self) -> tuple[str, ...]:
-        """Joints that something has to hold."""
-        slew = () if self.slew is None else (self.slew,)
-        return (*slew, *self.luffs.values(), *self.cylinders.values())
 
 
 @named
@@ -166,67 +93,45 @@ class Payload:
         x, y, z = (edge**2 for edge in self.size)
         return np.diag([y + z, z + x, x + y]) * (self.mass / 12.0)
 
-    def under(self, tip: Array) -> BodyRecord:
+    def under(self, tip: Array) -> _core.Body:
         """Hanging at rest under a tip, its frame at its centre, along the frame of the tip's coordinates."""
         drop = self.link_length + self.size[2] / 2.0
-        return BodyRecord(
-            name="payload",
-            mass=self.mass,
-            inertia=self.inertia,
-            center_of_mass=np.zeros(3),
-            position=tip - np.array([0.0, 0.0, drop]),
-            quaternion=np.array([1.0, 0.0, 0.0, 0.0]),
-        )
+        return _core.Body(name="payload", mass=self.mass, inertia=self.inertia, position=tip - drop * UP)
 
-    def link(self, tip: Array, body: str) -> JointRecord:
+    def link(self, tip: Array, body: str) -> JointData:
         """From a tip and its body to the centroid of the top."""
-        return JointRecord(
-            name="link",
-            kind="distance",
-            first=body,
-            second="payload",
-            point=tip.copy(),
+        return JointData(
+            name="link", kind="distance", first=body, second="payload", point=tip,
             second_point=tip - np.array([0.0, 0.0, self.link_length]),
-            length=self.link_length,
-        )
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Lean:
-    """How a crane leans, at its described pose, in the frame of its base.
+    """How a crane leans, at its described pose, in the frame of its base."""
 
-    Attributes
-    ----------
-    first, second : What stands ("" the base), and what leans.
-    point : (3,) where the spring pulls: as far out as the tip, at the hinge's height, m.
-    weight : Of a mass at the tip that has the moment of all that leans, kg.
-    inertia : Mass at the tip with the moment of inertia of all that leans, kg.
-    """
-
-    first: str
-    second: str
-    point: Array
-    weight: float
-    inertia: float
+    first: str  # what stands; "" the base
+    second: str  # what leans
+    point: Array  # where the spring pulls: as far out as the tip, at the hinge's height, m
+    weight: float  # of a mass at the tip that has the moment of all that leans, kg
+    inertia: float  # mass at the tip with the moment of inertia of all that leans, kg
 
     def damping(self, stiffness: float) -> float:
         """Of the spring, N s/m."""
         return 2.0 * DAMPING * math.sqrt(stiffness * self.inertia)
 
 
-def leaning(parts: CraneParts) -> tuple[CraneParts, Lean]:
+def leaning(parts: CraneParts, slew: str | None) -> tuple[CraneParts, Lean]:
     """The crane with a hinge at the slew bearing, or at its foot, across the plane through axis and tip.
 
-    Raises
-    ------
-    SceneError
-        For a tip over the hinge, which no lean moves up or down.
+    The hinge stands on a foot that slews, or takes the place of the first joint of a crane that does not.
+    SceneError for a tip over the hinge, which no lean moves up or down.
     """
-    bearing = next((joint for joint in parts.joints if joint.name == parts.slew), parts.joints[0])
+    bodies, joints = list(parts.bodies), list(parts.joints)
+    bearing = next((joint for joint in joints if joint.name == slew), joints[0])
     beyond = _beyond(parts, bearing)
-    upper, lower = (
-        (bearing.second, bearing.first) if bearing.second in beyond else (bearing.first, bearing.second)
-    )
+    turned = bearing.second not in beyond  # the bearing has what leans as its first body
+    upper, lower = (bearing.first, bearing.second) if turned else (bearing.second, bearing.first)
     out = parts.tip[1] - bearing.point
     out[2] = 0.0
     radius = float(np.linalg.norm(out))
@@ -236,42 +141,38 @@ def leaning(parts: CraneParts) -> tuple[CraneParts, Lean]:
         )
     out /= radius
     axis = np.cross(out, UP)
-    hinge = JointRecord(
-        name=STRUCTURE, kind="revolute", first=FOOT, second=upper, point=bearing.point.copy(), axis=axis
+    first = lower if slew is None else FOOT
+    hinge = JointData(
+        name=STRUCTURE, kind="revolute", first=first, second=upper, point=bearing.point, axis=axis
     )
-    if parts.slew is None:
-        hinge = replace(hinge, first=lower)
-    hinged = _hinged(parts, bearing, hinge)
-    moved = [body for body in hinged.bodies if body.name in beyond]
-    levers = [_center(body) - bearing.point for body in moved]
-    about = sum(
-        body.mass * float(np.sum(np.cross(axis, lever) ** 2)) + float(_along(body, axis))
-        for body, lever in zip(moved, levers, strict=True)
-    )
-    moment = sum(body.mass * float(out @ lever) for body, lever in zip(moved, levers, strict=True))
-    lean = Lean(
-        first=hinge.first, second=upper, point=bearing.point + radius * out, weight=moment / radius,
-        inertia=about / radius**2,
-    )  # fmt: skip
-    return hinged, lean
-
-
-def _hinged(parts: CraneParts, bearing: JointRecord, hinge: JointRecord) -> CraneParts:
-    """With the hinge over a foot that slews, or in place of the first joint of a crane that does not."""
-    bodies, joints = list(parts.bodies), list(parts.joints)
     at = joints.index(bearing)
-    if parts.slew is None:
+    if slew is None:
         joints[at] = hinge
     else:
-        k = next(i for i, body in enumerate(bodies) if body.name == hinge.second)
-        bodies[k : k + 1] = _parted(bodies[k])
-        below = bearing.first == hinge.second
-        standing = replace(bearing, first=FOOT) if below else replace(bearing, second=FOOT)
+        k = next(i for i, body in enumerate(bodies) if body.name == upper)
+        body, shares = bodies[k], {FOOT: SHARE, upper: 1.0 - SHARE}  # of the same mass, centre and inertia
+        bodies[k : k + 1] = [
+            changed(body, name=name, mass=share * body.mass, inertia=share * body.inertia)
+            for name, share in shares.items()
+        ]
+        standing = replace(bearing, first=FOOT) if turned else replace(bearing, second=FOOT)
         joints[at : at + 1] = [standing, hinge]
-    return replace(parts, bodies=bodies, joints=joints)
+    weight = inertia = 0.0
+    for body in bodies:
+        if body.name in beyond:
+            turn = rotation_matrix(body.quaternion)
+            lever = body.position + turn @ body.center_of_mass - bearing.point
+            own = turn.T @ axis
+            inertia += body.mass * float(np.sum(np.cross(axis, lever) ** 2)) + float(own @ body.inertia @ own)
+            weight += body.mass * float(out @ lever) / radius
+    lean = Lean(
+        first=first, second=upper, point=bearing.point + radius * out, weight=weight,
+        inertia=inertia / radius**2,
+    )  # fmt: skip
+    return replace(parts, bodies=bodies, joints=joints), lean
 
 
-def _beyond(parts: CraneParts, bearing: JointRecord) -> set[str]:
+def _beyond(parts: CraneParts, bearing: JointData) -> set[str]:
     """Bodies that hold together with the tip's without the bearing."""
     found, ahead = set[str](), [parts.tip[0]]
     others = [joint for joint in parts.joints if joint is not bearing]
@@ -283,22 +184,3 @@ def _beyond(parts: CraneParts, bearing: JointRecord) -> set[str]:
                 if body in (joint.first, joint.second):
                     ahead += [joint.first, joint.second]
     return found
-
-
-def _parted(body: BodyRecord) -> list[BodyRecord]:
-    """Its foot, and the rest: together of the same mass, centre and inertia."""
-    shares = {FOOT: SHARE, body.name: 1.0 - SHARE}
-    return [
-        replace(body, name=name, mass=share * body.mass, inertia=share * np.asarray(body.inertia))
-        for name, share in shares.items()
-    ]
-
-
-def _center(body: BodyRecord) -> Array:
-    return np.asarray(body.position + rotation_matrix(body.quaternion) @ body.center_of_mass)
-
-
-def _along(body: BodyRecord, axis: Array) -> float:
-    """Moment of inertia about its centre along an axis, kg m2."""
-    own = rotation_matrix(body.quaternion).T @ axis
-    return float(own @ np.asarray(body.inertia) @ own)

@@ -22,35 +22,13 @@ UNITS = {"revolute": "rad", "prismatic": "m"}
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """A crane at values of its coordinates.
+    """A crane at values of its coordinates."""
 
-    Attributes
-    ----------
-    moved : mapping of str to Placed
-        Motion of every body from home, crane-foot frame.
-    values : mapping of str to ndarray
-        Of every joint of the tree, from home, rad and m: of a spherical one its rotation matrix.
-    """
-
-    moved: Mapping[str, Placed]
-    values: Mapping[str, Array]
+    moved: Mapping[str, Placed]  # motion of every body from home, crane-foot frame
+    values: Mapping[str, Array]  # of every joint of the tree, rad and m; of a spherical one its rotation
 
 
-@dataclass(frozen=True, eq=False)
-class Twist:
-    """Velocities for a unit rate of a joint: of rotation, and of what is at the crane foot."""
-
-    turning: Array
-    speed: Array
-
-    def at(self, point: Array) -> Array:
-        return self.speed + self.turning @ point
-
-    def __sub__(self, other: Twist) -> Twist:
-        return Twist(self.turning - other.turning, self.speed - other.speed)
-
-
-STILL = Twist(np.zeros((3, 3)), np.zeros(3))
+STILL = np.zeros((3, 4))
 
 
 def pose_of(data: CraneData, coordinates: Mapping[str, float]) -> Pose:
@@ -107,17 +85,18 @@ def extent_of(data: CraneData) -> float:
     return float(np.linalg.norm(found.max(axis=0) - found.min(axis=0))) or 1.0
 
 
-def twists(joint: JointData, moved: Mapping[str, Placed]) -> list[Twist]:
-    """Motion of what is beyond a joint, one for each of its coordinates (of a spherical one x, y, z)."""
+def twists(joint: JointData, moved: Mapping[str, Placed]) -> list[Array]:
+    """Velocities (3, 4) of what is beyond a joint, for each of its coordinates (of a spherical one x, y, z):
+    the matrix of its rotation, and in the last column the velocity of what is at the crane foot."""
     first, second = moved[joint.first], moved[joint.second]
     if joint.kind == "prismatic":
         assert joint.axis is not None
-        return [Twist(np.zeros((3, 3)), first.axes @ joint.axis)]
+        return [np.column_stack([np.zeros((3, 3)), first.axes @ joint.axis])]
     axes = [*np.eye(3)] if joint.kind == "spherical" else []
     axes += [] if joint.axis is None else [first.axes @ joint.axis]
     axes += [] if joint.second_axis is None else [second.axes @ joint.second_axis]
     at = first.point(joint.point)
-    return [Twist(_cross(axis), -_cross(axis) @ at) for axis in axes]
+    return [np.column_stack([_cross(axis), -_cross(axis) @ at]) for axis in axes]
 
 
 def gap_rates(data: CraneData, joints: Iterable[JointData], moved: Mapping[str, Placed]) -> Array:
@@ -209,30 +188,28 @@ def _cross(vector: Array) -> Array:
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
+def _crossing(joint: JointData) -> list[tuple[Array, Array]]:
+    """Axes at home, one on each body, that a closing joint keeps perpendicular."""
+    if joint.axis is None:
+        return []
+    if joint.second_axis is not None:
+        return [(joint.axis, joint.second_axis)]
+    across = np.eye(3)[np.argmin(np.abs(joint.axis))]
+    beside = np.cross(joint.axis, across) / np.linalg.norm(np.cross(joint.axis, across))
+    return [(beside, joint.axis), (np.cross(joint.axis, beside), joint.axis)]
+
+
 def _gap(joint: JointData, moved: Mapping[str, Placed]) -> Array:
     """What keeps a closing joint from fitting: m, and sines of angles."""
     first, second = moved[joint.first], moved[joint.second]
-    apart = second.point(joint.point) - first.point(joint.point)
-    if joint.kind == "spherical":
-        return apart
-    assert joint.axis is not None
-    axis = first.axes @ joint.axis
-    if joint.second_axis is not None:
-        return np.append(apart, axis @ second.axes @ joint.second_axis)
-    return np.concatenate([apart, _cross(axis) @ second.axes @ joint.axis])
+    sines = [(first.axes @ one) @ (second.axes @ other) for one, other in _crossing(joint)]
+    return np.array([*(second.point(joint.point) - first.point(joint.point)), *sines])
 
 
-def _gap_rate(joint: JointData, moved: Mapping[str, Placed], before: Twist, after: Twist) -> Array:
+def _gap_rate(joint: JointData, moved: Mapping[str, Placed], before: Array, after: Array) -> Array:
     """The rate of `_gap`, where both bodies move at the twists `before` and `after`."""
     first, second = moved[joint.first], moved[joint.second]
-    apart = after.at(second.point(joint.point)) - before.at(first.point(joint.point))
-    if joint.kind == "spherical":
-        return apart
-    assert joint.axis is not None
-    axis, turning = first.axes @ joint.axis, (after - before).turning
-    if joint.second_axis is not None:
-        return np.append(apart, axis @ turning @ second.axes @ joint.second_axis)
-    other = second.axes @ joint.axis
-    return np.concatenate(
-        [apart, _cross(before.turning @ axis) @ other + _cross(axis) @ after.turning @ other]
-    )
+    apart = after @ [*second.point(joint.point), 1.0] - before @ [*first.point(joint.point), 1.0]
+    turning = (after - before)[:, :3]
+    sines = [(first.axes @ one) @ turning @ (second.axes @ other) for one, other in _crossing(joint)]
+    return np.array([*apart, *sines])

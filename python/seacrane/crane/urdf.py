@@ -15,7 +15,7 @@ from xml.etree.ElementTree import Element, ParseError, fromstring
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane.data import HOME, BodyData, JointData, MeshData, Placed
+from seacrane.crane.data import HOME, BodyData, JointData, MeshData, Placed, placed
 from seacrane.crane.file_table import LARGEST, Frames
 from seacrane.crane.mass_properties import MassProperties
 from seacrane.description.revolved import revolved
@@ -45,6 +45,10 @@ class Tag:
         """Raise a FileFormatError of this element."""
         raise FileFormatError(f"{self.source}: {self.what} {says}.")
 
+    def wrong(self, key: str, text: str, fix: str) -> NoReturn:
+        """Raise a FileFormatError of an attribute."""
+        raise FileFormatError(f"{self.source}: {self.what}: {key} is {shown(text)}; {fix}.")
+
     def find(self, tag: str) -> Tag:
         """What is within it, of which messages speak as of it."""
         return Tag(self.source, self.what, None if self.element is None else self.element.find(tag))
@@ -56,31 +60,25 @@ class Tag:
     def number(self, key: str, default: float | None = None) -> float:
         """An attribute that is a finite number."""
         text = None if self.element is None else self.element.get(key)
-        if text is not None:
-            return self._numbers(key, [text])[0]
-        if default is None:
+        if text is None and default is None:
             self.fail(f"has no {key}; give it")
-        return default
+        return float(default or 0.0) if text is None else self._number(key, text)
 
     def row(self, key: str, usual: str = "0 0 0") -> Array:
         """An attribute of three finite numbers."""
         text = self.get(key, usual)
-        row = self._numbers(key, text.split())
+        row = [self._number(key, one) for one in text.split()]
         if len(row) != 3:
-            raise FileFormatError(f"{self.source}: {self.what}: {key} is {shown(text)}; write three numbers.")
+            self.wrong(key, text, "write three numbers")
         return np.array(row)
 
-    def _numbers(self, key: str, texts: list[str]) -> list[float]:
-        found = []
-        for text in texts:
-            try:
-                found.append(float(text))
-            except ValueError:
-                found.append(math.nan)
-            if not abs(found[-1]) <= LARGEST:
-                raise FileFormatError(
-                    f"{self.source}: {self.what}: {key} is {shown(text)}; write a finite number."
-                )
+    def _number(self, key: str, text: str) -> float:
+        try:
+            found = float(text)
+        except ValueError:
+            found = math.nan
+        if not abs(found) <= LARGEST:
+            self.wrong(key, text, "write a finite number")
         return found
 
     def origin(self) -> Placed:
@@ -90,11 +88,7 @@ class Tag:
             return HOME
         name = self.element.get("name") or f"<{self.element.tag}>"
         here = Tag(self.source, f"<origin> of {name}", origin)
-        (cr, sr), (cp, sp), (cy, sy) = ((math.cos(a), math.sin(a)) for a in here.row("rpy"))
-        about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
-        about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
-        about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
-        return Placed(about_z @ about_y @ about_x, here.row("xyz"))
+        return placed(here.row("xyz"), here.row("rpy"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,17 +104,8 @@ def read_urdf(path: Path) -> tuple[str, tuple[BodyData, ...], tuple[JointData, .
     """Read links and joints: the root link, whose frame is that of the crane foot, bodies, joints, frames.
 
     Joints are in order from the root outwards. Links without mass on fixed joints are frames of what they are
-    fixed to. Collision shapes, materials, transmissions and extensions are not read.
-
-    Raises
-    ------
-    FileFormatError
-        The file cannot be read, is no URDF, or says something of a link or a joint that cannot be.
-
-    Warns
-    -----
-    UrdfWarning
-        For what is left out of it and would matter.
+    fixed to. Collision shapes, materials, transmissions and extensions are not read; an UrdfWarning names
+    what is left out and would matter. FileFormatError for what is no URDF, or says something that cannot be.
     """
     source, robot = path.name, _robot(path)
     named = {_name(source, link): link for link in robot.findall("link")}
@@ -133,10 +118,10 @@ def read_urdf(path: Path) -> tuple[str, tuple[BodyData, ...], tuple[JointData, .
         parent, child = ("" if end is None else end.get("link", "") for end in ends)
         joints.append(_Joint(source, f"joint {name!r}", one, name, parent, child))
     root, ordered = _outwards(source, joints, links)
-    placed: dict[str, Placed] = {root: HOME}
+    frames: dict[str, Placed] = {root: HOME}
     owner, parts = {root: root}, {root: [root]}  # the body whose part each link is; and its parts
     for joint in ordered:
-        placed[joint.child] = placed[joint.parent].inner(joint.origin())
+        frames[joint.child] = frames[joint.parent].inner(joint.origin())
         massive = links[joint.child].find("inertial").element is not None
         if not massive and joint.get("type") != "fixed":
             links[joint.child].fail(f"moves on {joint.what} and has no <inertial>; give its mass and inertia")
@@ -145,16 +130,16 @@ def read_urdf(path: Path) -> tuple[str, tuple[BodyData, ...], tuple[JointData, .
     bodies = tuple(
         BodyData(
             name=name,
-            properties=_properties(link, placed[name]),
+            properties=_properties(link, frames[name]),
             meshes=tuple(
-                mesh for part in parts[name] for mesh in _meshes(path.parent, part, links[part], placed[part])
+                mesh for part in parts[name] for mesh in _meshes(path.parent, part, links[part], frames[part])
             ),
         )
         for name, link in links.items()
         if link.find("inertial").element is not None
     )
-    found = tuple(_joint(one, placed[one.child], owner) for one in ordered if owner[one.child] == one.child)
-    return root, bodies, found, Frames(placed, owner)
+    found = tuple(_joint(one, frames[one.child], owner) for one in ordered if owner[one.child] == one.child)
+    return root, bodies, found, {name: (owner[name], frame) for name, frame in frames.items()}
 
 
 def _robot(path: Path) -> Element:

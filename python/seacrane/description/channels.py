@@ -24,44 +24,20 @@ OWN = "own"  # expressions of other channels
 
 @dataclass(frozen=True, kw_only=True)
 class Channel:
-    """Dimensions, unit and description of one recorded quantity.
+    """Dimensions, unit and description of one recorded quantity."""
 
-    Attributes
-    ----------
-    dims : tuple of str
-        Of its arrays, "time" first.
-    dims_of_several : tuple of str
-        The same in a scene with several vessels, slew drives or hooks: theirs comes after time there.
-    by_default : bool
-        Whether a run records it unasked.
-    made_of : tuple of str
-        The core's channels from which it is derived, as far as a scene has them; empty for the core's own
-        and for expressions, which say it themselves.
-    turns : bool
-        Whether it is an angle that counts whole turns.
-    has_extremes : bool
-        Whether a run keeps its least and largest values between outputs, where it is asked for them.
-    """
-
-    dims: tuple[str, ...]
-    dims_of_several: tuple[str, ...]
+    dims: tuple[str, ...]  # of its arrays, "time" first
+    dims_of_several: tuple[str, ...]  # where there are several vessels, slew drives or hooks: after time
     unit: str
     long_name: str
-    by_default: bool = True
-    made_of: tuple[str, ...] = ()
-    turns: bool = False
-    has_extremes: bool = False
+    by_default: bool = True  # whether a run records it unasked
+    made_of: tuple[str, ...] = ()  # channels of the core; empty for its own, and for expressions
+    turns: bool = False  # whether it is an angle that counts whole turns
+    has_extremes: bool = False  # whether a run keeps those between outputs, where it is asked for them
 
     def dims_of(self, axes: int) -> tuple[str, ...]:
         """Dimensions of an array with so many axes."""
         return self.dims_of_several if axes == len(self.dims_of_several) else self.dims
-
-
-def _core_channel(channel: _core.Channel) -> Channel:
-    return Channel(
-        dims=("time", *channel.dims), dims_of_several=("time", *channel.dims_of_several), unit=channel.unit,
-        long_name=channel.text, by_default=channel.by_default, has_extremes=channel.has_extremes,
-    )  # fmt: skip
 
 
 def _derived(
@@ -80,12 +56,10 @@ _asked = partial(_derived, by_default=False)
 DERIVED: Mapping[str, Channel] = MappingProxyType({
     "stroke": _derived("cylinder", "m", "coordinate", "cylinder stroke, extension positive"),
     "stroke_rate": _derived("cylinder", "m/s", "coordinate_rate", "rate of the cylinder stroke"),
-    "cylinder_force": _derived("cylinder", "N", _DRIVE,
-        "actuator force of the cylinder, positive pushes"),
+    "cylinder_force": _derived("cylinder", "N", _DRIVE, "actuator force of the cylinder, positive pushes"),
     "cylinder_pressure": _derived("piston", "Pa", _DRIVE,
         "pressure in the loaded chamber of the cylinder, the rod side's negative"),
-    "slew_angle": _derived("", "rad", "coordinate",
-        "slew angle of the crane", several="slew", turns=True),
+    "slew_angle": _derived("", "rad", "coordinate", "slew angle of the crane", several="slew", turns=True),
     "slew_torque": _derived("", "N m", _DRIVE, "actuator torque of the slew drive", several="slew"),
     "link_tension": _derived("", "N", "tension",
         "tension of the link between crane tip and payload", several="hook"),
@@ -127,9 +101,16 @@ DERIVED: Mapping[str, Channel] = MappingProxyType({
         several="hook"),
 })  # fmt: skip
 
-CHANNELS: Mapping[str, Channel] = MappingProxyType(
-    {**{channel.name: _core_channel(channel) for channel in _core.channels()}, **DERIVED}
-)
+CHANNELS: Mapping[str, Channel] = MappingProxyType({
+    **{
+        one.name: Channel(
+            dims=("time", *one.dims), dims_of_several=("time", *one.dims_of_several), unit=one.unit,
+            long_name=one.text, by_default=one.by_default, has_extremes=one.has_extremes,
+        )
+        for one in _core.channels()
+    },
+    **DERIVED,
+})  # fmt: skip
 
 # Names along the dimensions that are the same in every scene.
 FIXED: Mapping[str, tuple[str, ...]] = MappingProxyType(

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.description import SETTINGS, Description
 from seacrane.description.holding import with_holds
-from seacrane.description.loads import lines_of, refuse_winch_of_segment
+from seacrane.description.loads import changed, lines_of, refuse_winch_of_segment
 from seacrane.description.once import forgetting, once
 from seacrane.description.places import start_pose
-from seacrane.description.rungs import compiled_loads
-from seacrane.description.waves import ByHeading, HullLoads, Waves, grid_of
+from seacrane.description.rungs import AUTO, ELASTIC
+from seacrane.description.waves import ByHeading, HullLoads, Waves
 from seacrane.description.wet_parts import (
     refuse_contradictions_in_water,
     refuse_outside_parts,
@@ -35,17 +35,12 @@ MOST_MOVE = 1.0  # m: however large the scale
 LARGEST_TURN = 0.01  # rad: the angle that they refer to
 LARGEST_SHARE = 0.01  # of a velocity that was described
 NAMED = 3
-Complex = NDArray[np.complex128]
+LOADED = ("transfer", "force_by_heading", "drift", "drift_by_heading")  # of a hull, over the components
 
 
 def moves(scene: Description, model: _core.Model) -> list[tuple[str, float, float]]:
-    """Bodies that assembly moved beyond 0.01 m (times the length scale) or 0.01 rad, most first.
-
-    Returns
-    -------
-    list of (str, float, float)
-        Name, m of the centre of mass (of the reference point of a vessel), rad.
-    """
+    """Bodies that assembly moved beyond 0.01 m (times the length scale) or 0.01 rad, most first, each with
+    m of its centre of mass (of the reference point of a vessel) and rad."""
     found = model.assembly
     limit = min(LARGEST_MOVE * scene.length_scale, MOST_MOVE)
     if found["largest_translation_m"] <= limit and found["largest_rotation_rad"] <= LARGEST_TURN:
@@ -54,7 +49,7 @@ def moves(scene: Description, model: _core.Model) -> list[tuple[str, float, floa
     for name, body in scene.bodies.items():
         described = rotation_matrix(body.quaternion)
         centre, turn = start_pose(scene, model, name)
-        moved = float(np.linalg.norm(centre[0] - body.position - described @ body.center_of_mass))
+        moved = _length(centre[0] - body.position - described @ body.center_of_mass)
         turned = float(np.arccos(np.clip((np.trace(turn[0] @ described.T) - 1.0) / 2.0, -1.0, 1.0)))
         if moved > limit or turned > LARGEST_TURN:
             out.append((name, moved, turned))
@@ -62,13 +57,8 @@ def moves(scene: Description, model: _core.Model) -> list[tuple[str, float, floa
 
 
 def velocities(scene: Description, model: _core.Model) -> list[tuple[str, float, float]]:
-    """Bodies described as moving whose velocity assembly changed by more than a hundredth of it.
-
-    Returns
-    -------
-    list of (str, float, float)
-        Name, and by how much: m/s of its origin, rad/s.
-    """
+    """Bodies described as moving whose velocity assembly changed by more than a hundredth of it, and by how
+    much: m/s of the origin, rad/s."""
     if model.assembly["largest_velocity_change"] == 0.0:
         return []
     out = []
@@ -121,8 +111,7 @@ def without_negligible(waves: Waves) -> Waves:
     Components are left out, smallest first, while the magnitudes of all that are left out stay below
     `waves.negligible` times the sum of the magnitudes of all, in each of the six loads on every vessel, in
     the elevation and in the slow drift. The first two can then never differ by more, at any time; slow drift,
-    a product of two sums, to first order. At least one component stays, and all do in a series made by FFT,
-    which costs the same with fewer.
+    a product of two sums, to first order. At least one component stays.
 
     Raises ValueError if `negligible` is no number from 0 to 0.1.
     """
@@ -130,21 +119,16 @@ def without_negligible(waves: Waves) -> Waves:
     if kept.all():
         return waves
 
-    def some(table: ByHeading | None) -> ByHeading | None:
-        return None if table is None else replace(table, values=np.asarray(table.values)[:, kept])
+    def fewer(owner: Any, *keys: str) -> dict[str, Any]:
+        held = {key: getattr(owner, key) for key in keys if getattr(owner, key) is not None}
+        return {
+            key: replace(one, values=np.asarray(one.values)[:, kept]) if isinstance(one, ByHeading)
+            else np.asarray(one)[kept]
+            for key, one in held.items()
+        }  # fmt: skip
 
-    def fewer(hull: HullLoads) -> HullLoads:
-        return replace(
-            hull, transfer=np.asarray(hull.transfer)[kept], force_by_heading=some(hull.force_by_heading),
-            drift=None if hull.drift is None else np.asarray(hull.drift)[kept],
-            drift_by_heading=some(hull.drift_by_heading),
-        )  # fmt: skip
-
-    return replace(
-        waves, omega=np.asarray(waves.omega)[kept], amplitude=np.asarray(waves.amplitude)[kept],
-        phase=np.asarray(waves.phase)[kept], direction=np.asarray(waves.direction)[kept],
-        hulls={body: fewer(hull) for body, hull in waves.hulls.items()},
-    )  # fmt: skip
+    hulls = {body: replace(hull, **fewer(hull, *LOADED)) for body, hull in waves.hulls.items()}
+    return replace(waves, **fewer(waves, "omega", "amplitude", "phase", "direction"), hulls=hulls)
 
 
 def kept_components(waves: Waves) -> NDArray[np.bool_]:
@@ -153,8 +137,6 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
     if not 0.0 <= limit <= 0.1:
         raise ValueError(f"negligible is {limit}; give a share from 0 to 0.1, such as 1e-9")
     kept = np.ones(np.size(waves.omega), dtype=bool)
-    if waves.evaluation == "fft":
-        return kept
     magnitudes = _magnitudes(waves)
     if len(magnitudes) < 2 or not np.isfinite(magnitudes).all():
         return kept
@@ -169,31 +151,26 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
 def _magnitudes(waves: Waves) -> Array:
     """What each component adds at most, (n, channels)."""
     amplitude = np.abs(np.asarray(waves.amplitude, dtype=float))[:, None]
-    return np.hstack(
-        [amplitude, *(part for hull in waves.hulls.values() for part in _loads(amplitude, hull))]
-    )
-
-
-def _loads(amplitude: Array, hull: HullLoads) -> list[Array]:
-    columns = [amplitude * np.abs(np.asarray(hull.transfer))]
-    # Slow drift multiplies two sums of sqrt(D) a: leaving out a share of one changes it by twice that share.
-    if hull.drift is not None:
-        columns.append(2.0 * amplitude * np.sqrt(np.abs(np.asarray(hull.drift))))
-    if hull.force_by_heading is not None:
-        columns.append(amplitude * np.abs(np.asarray(hull.force_by_heading.values)).max(axis=0))
-    if hull.drift_by_heading is not None:
-        columns.append(
-            2.0 * amplitude * np.sqrt(np.abs(np.asarray(hull.drift_by_heading.values)).max(axis=0))
-        )
-    return columns
+    columns = [amplitude]
+    for hull in waves.hulls.values():
+        force, drift = hull.force_by_heading, hull.drift_by_heading
+        columns.append(amplitude * np.abs(np.asarray(hull.transfer)))
+        # Slow drift multiplies two sums of sqrt(D) a: leaving out a share of one changes it by twice that.
+        if hull.drift is not None:
+            columns.append(2.0 * amplitude * np.sqrt(np.abs(np.asarray(hull.drift))))
+        if force is not None:
+            columns.append(amplitude * np.abs(np.asarray(force.values)).max(axis=0))
+        if drift is not None:
+            columns.append(2.0 * amplitude * np.sqrt(np.abs(np.asarray(drift.values)).max(axis=0)))
+    return np.hstack(columns)
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
     """What `Scene.compile` does, without its look at what capsizes; its docstring says what is raised."""
-    whole_period = scene.waves is not None and scene.waves.evaluation == "fft"  # tables of many megabytes
-    return _compiled(scene, merge) if whole_period else _compiled_once(scene, merge)
+    return _compiled(scene, merge)
 
 
+@once
 def _compiled(scene: Description, merge: bool) -> _core.Model:
     scene = with_holds(scene)
     refuse_unsaid_air(scene)
@@ -201,17 +178,21 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
     for line in lines_of(scene.loads).values():
         if line.winch and not line.paid_out_by:
             refuse_winch_of_segment(line)
-    settings: dict[str, Any] = {"wave_loads": []}
-    for key in SETTINGS:
-        settings[key] = number_of(f"scene {scene.name!r}: {key}", getattr(scene, key))
+    loads = [  # the core knows no "auto"
+        changed(load, rung=ELASTIC) if isinstance(load, _core.Line) and load.rung == AUTO else load
+        for load in scene.all_loads()
+    ]
+    settings: dict[str, Any] = {
+        key: number_of(f"scene {scene.name!r}: {key}", getattr(scene, key)) for key in SETTINGS
+    }
     if sea is not None:
-        settings |= {"wave_loads": compiled_waves(sea), "sea": field_of(sea)}
+        settings["sea"] = field_of(sea)
     model = _core.compile(
         name=name_of("scene", scene.name),
         orientation=text_of(f"scene {scene.name!r}: orientation", scene.orientation), **settings,
         bodies=list(scene.bodies.values()), joints=list(scene.joints.values()),
-        drivers=list(scene.drivers.values()), loads=compiled_loads(scene.all_loads()),
-        vessels=list(scene.vessels.values()), groups=list(scene.groups.values()),
+        drivers=list(scene.drivers.values()), loads=loads, vessels=list(scene.vessels.values()),
+        groups=list(scene.groups.values()), wave_loads=[] if sea is None else compiled_waves(sea),
         coordinates=[(name, *place) for name, place in scene.recorded.items()],
         points=list(scene.points.values()), merge=merge,
     )  # fmt: skip
@@ -229,16 +210,11 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
     return model
 
 
-_compiled_once = once(_compiled)
-
-
 def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
-    """The model of a scene, from that of the same scene in another sea: nothing but the sea is compiled.
+    """The model of a scene, which belongs to it from now on, from that of the same scene in another sea.
 
-    The scene belongs to the model from now on: it is not to be changed.
-
-    Raises SceneError for a sea on other vessels than the model's, loads at another kind of position, or a sea
-    of another depth than a seabed.
+    SceneError for a sea on other vessels than the model's, loads at another kind of position, or a sea of
+    another depth than a seabed.
     """
     assert scene.waves is not None
     _, merge = model.compiled_from
@@ -257,47 +233,40 @@ def compiled(scene: Description, merge: bool) -> _core.Model:
 
 def pruned(waves: Waves, *, prune: bool = True) -> Waves:
     """The sea without the components that are negligible; raises SceneError for values that make no sense."""
-    with _told_of(f"waves on {_hulls_of(waves)}"):
+    with _told_of(*waves.hulls):
         return without_negligible(waves) if prune else waves
 
 
 @contextmanager
-def _told_of(what: str) -> Iterator[None]:
+def _told_of(*bodies: str) -> Iterator[None]:
     """Values that make no sense are a SceneError about the waves."""
     try:
         yield
     except (TypeError, ValueError) as error:
-        raise SceneError(f"{what}: {error}") from error
-
-
-def _hulls_of(waves: Waves) -> str:
-    return ", ".join(map(repr, waves.hulls)) or "no vessel"
+        raise SceneError(f"waves on {', '.join(map(repr, bodies)) or 'no vessel'}: {error}") from error
 
 
 def field_of(waves: Waves) -> _core.SeaField:
     """What moving points see of a sea; raises SceneError for values that make no sense."""
-    with _told_of(f"waves on {_hulls_of(waves)}"):
-        return waves.field()
+    with _told_of(*waves.hulls):
+        return _core.SeaField(waves.components(), stretching=waves.stretching)
 
 
 def compiled_waves(waves: Waves) -> list[_core.WaveLoads]:
     """The loads for the compiled core; raises SceneError for shapes or values that make no sense."""
-    return [_loads_on(waves, text_of("waves: body", body)) for body in waves.hulls]
-
-
-def _loads_on(waves: Waves, body: str) -> _core.WaveLoads:
-    hull = waves.hulls[body]
-    with _told_of(f"waves on {body!r}"):
-        loads = _mean(waves, hull) if hull.force_by_heading is None else _positioned(waves, hull)
-        return _core.WaveLoads(name=f"waves on {body}", body=body, **loads)
+    found = []
+    for body, hull in waves.hulls.items():
+        name = f"waves on {text_of('waves: body', body)}"
+        with _told_of(body):
+            loads = _mean(waves, hull) if hull.force_by_heading is None else _positioned(waves, hull)
+            found.append(_core.WaveLoads(name=name, body=body, **loads))
+    return found
 
 
 def _positioned(waves: Waves, hull: HullLoads) -> dict[str, Any]:
     force, drift = hull.force_by_heading, hull.drift_by_heading
     if force is None or (hull.drift is not None and drift is None):
         raise ValueError("drift at the actual position needs drift_by_heading")
-    if waves.evaluation == "fft":
-        raise ValueError("loads at the actual or slow position have no table; choose evaluation='exact'")
     slow: dict[str, Any] = {}
     if drift is not None:
         slow = {"drift_headings": np.asarray(drift.heading).tolist(), "drift": drift.values}
@@ -309,75 +278,13 @@ def _positioned(waves: Waves, hull: HullLoads) -> dict[str, Any]:
 
 
 def _mean(waves: Waves, hull: HullLoads) -> dict[str, Any]:
-    sea, position = waves.components(), hull.position
-    loads: dict[str, Any] = {
-        "exact": _core.ExactWaveLoad(sea, transfer=hull.transfer, position=position, elevation_point=position)
-    }
+    sea, position, bound = waves.components(), hull.position, waves.relative_bound
+    exact = _core.ExactWaveLoad(sea, transfer=hull.transfer, position=position, elevation_point=position)
+    loads: dict[str, Any] = {"exact": exact}
+    if waves.evaluation == "table":
+        loads["table"] = _core.WaveTable(exact, relative_bound=bound)
     if hull.drift is not None:
-        loads["drift"] = _core.DriftLoad(sea, coefficient=hull.drift, position=position)
-    if waves.evaluation == "exact":
-        return loads
-    bound = waves.relative_bound
-    if waves.evaluation == "fft":
-        loads["table"] = wave_table(waves, hull, loads["exact"])
-        if hull.drift is not None:
-            loads["drift_table"] = drift_table(waves, hull, loads["drift"])
-        return loads
-    loads["table"] = _core.WaveTable(loads["exact"], relative_bound=bound)
-    if hull.drift is not None:
-        loads["drift_table"] = _core.DriftTable(loads["drift"], relative_bound=bound)
+        loads["drift"] = drift = _core.DriftLoad(sea, coefficient=hull.drift, position=position)
+        if waves.evaluation == "table":
+            loads["drift_table"] = _core.DriftTable(drift, relative_bound=bound)
     return loads
-
-
-def wave_table(waves: Waves, hull: HullLoads, load: _core.ExactWaveLoad) -> _core.WaveTable:
-    """The first-order load's table over one period, within `waves.relative_bound`."""
-    step, number = grid_of(np.asarray(waves.omega, dtype=float))
-    count = _knot_count(step, number, _core.WaveTable.largest_step(load, relative_bound=waves.relative_bound))
-    transfer = np.asarray(hull.transfer, dtype=complex)
-    weight = np.column_stack([transfer, np.ones(len(number))]) * _phasors(hull, load)[:, None]
-    knots = np.empty((count, 3, 7))
-    for order in range(3):
-        spectrum = np.zeros((count // 2 + 1, 7), dtype=complex)
-        factor = (1j * step * number[:, None]) ** order
-        np.add.at(spectrum, number, 0.5 * count * factor * weight)
-        knots[:, order] = np.fft.irfft(spectrum, n=count, axis=0)
-    return _core.WaveTable(load, relative_bound=waves.relative_bound, period=2.0 * np.pi / step, knots=knots)
-
-
-def drift_table(waves: Waves, hull: HullLoads, load: _core.DriftLoad) -> _core.DriftTable:
-    """The slow drift's table over one period: products of its envelopes' series and their derivatives."""
-    step, number = grid_of(np.asarray(waves.omega, dtype=float))
-    count = _knot_count(
-        step, number, _core.DriftTable.largest_step(load, relative_bound=waves.relative_bound)
-    )
-    coefficient = np.asarray(hull.drift, dtype=float)
-    weight = np.column_stack([coefficient, np.ones(len(number))]) * _phasors(hull, load)[:, None]
-    series = []
-    for order in range(3):
-        spectrum = np.zeros((count, 7), dtype=complex)
-        np.add.at(spectrum, number, count * (1j * step * number[:, None]) ** order * weight)
-        series.append(np.fft.ifft(spectrum, axis=0))
-
-    def product(a: int, b: int) -> Array:
-        return np.asarray((series[a][:, 6:].conj() * series[b][:, :6]).real)
-
-    knots = np.stack(
-        [product(0, 0), product(1, 0) + product(0, 1), product(2, 0) + 2.0 * product(1, 1) + product(0, 2)],
-        axis=1,
-    )
-    return _core.DriftTable(load, relative_bound=waves.relative_bound, period=2.0 * np.pi / step, knots=knots)
-
-
-def _phasors(hull: HullLoads, load: _core.ExactWaveLoad | _core.DriftLoad) -> Complex:
-    """a exp(i phase) where the loads are taken, shape (n,)."""
-    sea, (x, y) = load.waves, hull.position
-    along = x * np.cos(sea.direction) + y * np.sin(sea.direction)
-    return np.asarray(sea.amplitude * np.exp(1j * (sea.phase - sea.wavenumber * along)))
-
-
-def _knot_count(step: float, number: NDArray[np.int64], widest: float) -> int:
-    """Knots of one period: enough for the bound and to tell all frequencies apart, of a fast length."""
-    from scipy.fft import next_fast_len
-
-    period = 2.0 * np.pi / step
-    return int(next_fast_len(max(int(np.ceil(period / widest)), 2 * int(number.max()) + 2), real=True))

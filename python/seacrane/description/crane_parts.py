@@ -101,13 +101,8 @@ def crane_bodies(scene: Description) -> set[str]:
 def placed(
     scene: Description, body: str, point: Any, position: Array, quaternion: Array
 ) -> tuple[Array, Array]:
-    """A point of a body (body coordinates, m) in inertial axes (..., 3), and the body's rotation.
-
-    Parameters
-    ----------
-    position, quaternion : ndarray, shape (..., bodies, 3) and (..., bodies, 4)
-        Centres of mass and attitudes of all bodies, in the scene's order.
-    """
+    """A point of a body (its coordinates, m) in inertial axes (..., 3), and the body's rotation, by the
+    centres of mass (..., bodies, 3) and attitudes (..., bodies, 4) of all bodies in the scene's order."""
     at = np.asarray(point, dtype=float)
     if body not in scene.bodies:
         return at, np.eye(3)

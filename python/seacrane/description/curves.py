@@ -63,21 +63,21 @@ def spline_curve(*, times: Any, values: Any) -> Curve:
 def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: float) -> tuple[Curve, ...]:
     """Splines through ramp(t) Re sum amplitude exp(i omega t), one for each column.
 
-    Quintic splines on an even grid, with continuous derivatives up to the fourth. The interval is halved
-    until the largest error, measured midway between the samples, is 1e-6 of the sum's root mean square.
-    Frequencies (k,) are in rad/s, amplitudes (k, n) in m or rad. The sum grows from rest over the ramp (s),
-    is zero until t = 0 where there is one, and the curves hold their value from the duration (s) on.
-
-    Raises SceneError for a duration of too many periods.
+    Quintic splines on an even grid, whose interval is halved until the largest error, measured midway between
+    the samples, is 1e-6 of the sum's root mean square. Frequencies (k,) are in rad/s, amplitudes (k, n) in m
+    or rad. The sum grows from rest over the ramp (s), is zero until t = 0 where there is one, and the curves
+    hold their value from the duration (s) on. Raises SceneError for a duration of too many periods.
     """
 
     def values(times: Array) -> Array:
         return summed(omega, amplitude, times) * ramp_of(times, ramp)[:, None]
 
-    scale = np.sqrt(0.5 * np.sum(np.abs(amplitude) ** 2, axis=0))
+    size = np.abs(amplitude)
+    scale = np.sqrt(0.5 * np.sum(size**2, axis=0))
     if not scale.any():
         return tuple(Curve.constant(value=0.0) for _ in scale)
-    wanted = np.ceil(duration * PER_PERIOD * _fastest(omega, amplitude) / (2.0 * np.pi))
+    fastest = float(omega[np.any(size > SMALLEST_SHARE * size.max(axis=0), axis=1)].max())
+    wanted = np.ceil(duration * PER_PERIOD * fastest / (2.0 * np.pi))
     if wanted > MOST_PIECES:
         raise SceneError(
             f"motion of {duration:.6g} s: takes {wanted:.3g} pieces of a curve, above {MOST_PIECES}; give a "
@@ -108,13 +108,6 @@ def ramp_of(times: Array, ramp: float) -> Array:
     with np.errstate(over="ignore"):  # a ramp of next to nothing
         x = np.clip(times / ramp, 0.0, 1.0)
     return np.asarray(x**5 * (126.0 + x * (-420.0 + x * (540.0 + x * (-315.0 + 70.0 * x)))))
-
-
-def _fastest(omega: Array, amplitude: Complex) -> float:
-    """rad/s, of the cosines that matter."""
-    size = np.abs(amplitude)
-    matters = np.any(size > SMALLEST_SHARE * size.max(axis=0), axis=1)
-    return float(omega[matters].max())
 
 
 def _fitted(values: Callable[[Array], Array], duration: float, count: int) -> tuple[tuple[Curve, ...], Array]:

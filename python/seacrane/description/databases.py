@@ -10,6 +10,7 @@ from functools import lru_cache
 from typing import Any, TypeVar
 
 from seacrane.description.description import Description
+from seacrane.description.loads import changed
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.vessel_hydrodynamics import Source, VesselHydrodynamics, alike
 from seacrane.errors import FileFormatError, SceneError
@@ -32,11 +33,8 @@ def source_of(scene: Description, body: str | None) -> Source | None:
 def database_of(
     scene: Description, body: str, what: str, given: HydroDatabase | None = None
 ) -> HydroDatabase:
-    """The database of the vessel of a body, or the one given: the same ship at a forward speed.
-
-    Raises SceneError where there is none, with what needs it, or where the one given is another one of zero
-    speed.
-    """
+    """The database of the vessel of a body, or the one given: the same ship at a forward speed. SceneError
+    where there is none, with what needs it, or where the one given is another one of zero speed."""
     vessel = next((one for one in scene.vessels.values() if one.body == body), None)
     if given is not None:
         if not isinstance(given, HydroDatabase):
@@ -81,7 +79,7 @@ def without_databases(scene: Some) -> Some:
     """A copy of the scene that takes less to send to other processes; it moves alike."""
     out = scene.copy()
     for name, vessel in scene.vessels.items():
-        out.vessels[name] = VesselHydrodynamics(**vessel.__getstate__() | {"database": None})
+        out.vessels[name] = changed(vessel, database=None)
     return out
 
 
@@ -111,8 +109,7 @@ def databases_from_node(node: Node, scene: Description) -> None:
             if name not in scene.vessels:
                 known = ", ".join(map(repr, scene.vessels))
                 one.fail(f"give a vessel of the scene: {known or 'it has none'}")
-            entries = scene.vessels[name].__getstate__() | {"database": source}
-            scene.vessels[name] = VesselHydrodynamics(**entries)
+            scene.vessels[name] = changed(scene.vessels[name], database=source)
 
 
 def _source(entry: Node) -> Source:

@@ -21,32 +21,17 @@ GROUND = "ground"
 STANDARD_GRAVITY = 9.80665
 Some = TypeVar("Some", bound="Description")
 COMPILED: Mapping[str, str] = {  # what the elements of each table are called
-    "bodies": "body",
-    "joints": "joint",
-    "drivers": "driver",
-    "actuators": "actuator",
-    "point_forces": "point force",
-    "springs": "spring",
-    "force_tables": "force table",
-    "function_forces": "function force",
-    "loads": "load",
-    "vessels": "vessel",
-    "groups": "group",
+    "bodies": "body", "joints": "joint", "drivers": "driver", "actuators": "actuator",
+    "point_forces": "point force", "springs": "spring", "force_tables": "force table",
+    "function_forces": "function force", "loads": "load", "vessels": "vessel", "groups": "group",
     "points": "point",
-}
+}  # fmt: skip
 KINDS: Mapping[str, str] = {
-    **COMPILED,
-    "recorded": "recorded coordinate",
-    "ranges": "range",
-    "roles": "crane",
-    "provenance": "provenance",
-    "limit_states": "limit state",
-    "clearances": "clearance",
-    "channels": "channel",
-    "ratings": "rating",
-    "lift_factors": "lift factors",
+    **COMPILED, "recorded": "recorded coordinate", "ranges": "range", "roles": "crane",
+    "provenance": "provenance", "limit_states": "limit state", "clearances": "clearance",
+    "channels": "channel", "ratings": "rating", "lift_factors": "lift factors",
     "meshes": "mesh",
-}
+}  # fmt: skip
 ELEMENTS = tuple(COMPILED)
 SETTINGS = ("gravity", "baumgarte", "length_scale")
 LOADS = tuple(key for key, kind in COMPILED.items() if kind in (*_core.LOAD_KINDS, "load"))
@@ -123,9 +108,7 @@ class Description:
         for key, kind in KINDS.items():  # a table belongs to one scene
             held[key] = Table(kind, held[key])
         self.notes = deepcopy(dict(self.notes))
-        self.warned: dict[str, None] = dict(
-            self.__dict__.get("warned", ())
-        )  # messages, while it was described
+        self.warned = dict[str, None](held.get("warned", ()))  # messages, while it was described
 
     def __repr__(self) -> str:
         held = [
@@ -197,12 +180,8 @@ def coordinate_of(scene: Description, kind: str, joint: str, coordinate: str | N
 
 
 class Table(dict[str, Element]):
-    """Elements of one kind by name, in the order in which they were added; a name that is not there says so.
-
-    Parameters
-    ----------
-    kind : What its elements are called, such as "point force".
-    """
+    """Elements of one kind, such as "point force", by name, in the order in which they were added; a name
+    that is not there says so."""
 
     kind: str
 

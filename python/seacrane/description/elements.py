@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.crane_parts import drive_named
 from seacrane.description.description import (
-    GROUND,
     KINDS,
     LOADS,
     AnyNamed,
@@ -23,9 +22,10 @@ from seacrane.description.description import (
     require,
 )
 from seacrane.description.loads import kind_of, make_load
+from seacrane.description.places import described_pose
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, numbers_of, shaped_of, text_of
-from seacrane.inputs.frames import axes_across, axes_along, rotation_matrix
+from seacrane.inputs.frames import axes_across, axes_along
 from seacrane.inputs.keywords import nearest, taken
 from seacrane.inputs.shown import shown
 
@@ -36,20 +36,11 @@ _FUNCTIONS: list[Any] = []  # that scenes call: they stay as long as Python runs
 
 
 def add_joint(
-    scene: Description,
-    name: str,
-    *,
-    kind: str,
-    first: str,
-    second: str,
-    point: Any = None,
-    axis: Any = None,
-    second_axis: Any = None,
-    second_point: Any = None,
-    first_frame: _core.Frame | None = None,
-    second_frame: _core.Frame | None = None,
+    scene: Description, name: str, *, kind: str, first: str, second: str, point: Any = None,
+    axis: Any = None, second_axis: Any = None, second_point: Any = None,
+    first_frame: _core.Frame | None = None, second_frame: _core.Frame | None = None,
     **parameters: float | None,
-) -> _core.Joint:
+) -> _core.Joint:  # fmt: skip
     """Add a joint between two bodies; it may close a loop.
 
     Either `point` and `axis` in the inertial frame at the described pose, which also set the joint's
@@ -101,9 +92,8 @@ def add_joint(
         other = at if second_point is None else second_point
         first_frame = _frame(scene, name, first, at, along)
         second_frame = _frame(scene, name, second, other, across)
-        for length in _lengths(about):
-            if length in given:
-                continue
+        parameters_of = about.parameters if about else ()
+        for length in [one.name for one in parameters_of if one.role == "distance" and one.name not in given]:
             if second_point is None:
                 raise SceneError(f"joint {name!r}: a {kind} joint needs second_point, or frames and {length}")
             apart = shaped_of(f"joint {name!r}: second_point", other, (3,)) - np.asarray(at, dtype=float)
@@ -119,12 +109,11 @@ def add_joint(
 
 
 def _pose(scene: Description, joint: str, body: str) -> tuple[Array, Array]:
-    if text_of(f"joint {joint!r}: body", body) == GROUND:
-        return np.zeros(3), np.eye(3)
-    described = scene.bodies[require(scene, f"joint {joint!r}", "body", body)]
-    if not np.linalg.norm(described.quaternion) > 0.0:
-        raise SceneError.of(f"body {body!r}: quaternion", f"is {described.quaternion.tolist()}; normalise it")
-    return described.position, rotation_matrix(described.quaternion)
+    require(scene, f"joint {joint!r}", "body", body, ground=True)
+    if body in scene.bodies and not np.linalg.norm(scene.bodies[body].quaternion) > 0.0:
+        given = scene.bodies[body].quaternion.tolist()
+        raise SceneError.of(f"body {body!r}: quaternion", f"is {given}; normalise it")
+    return described_pose(scene, body)
 
 
 def _frame(scene: Description, joint: str, body: str, point: Any, axes: Array) -> _core.Frame:
@@ -139,27 +128,19 @@ def _own(kind: _core.JointKind) -> list[str]:
     return [*(field.name for field in kind.parameters), *(key for key, has in places if has)]
 
 
-def _lengths(kind: _core.JointKind | None) -> list[str]:
-    """Parameters that default to the distance of a joint's two points."""
-    return [field.name for field in kind.parameters if field.role == "distance"] if kind else []
-
-
 def _misplaced(key: str, kind: str) -> str:
-    owners = [name for name, other in _core.joint_kinds().items() if key in _own(other)]
+    taken_by = {name: _own(other) for name, other in _core.joint_kinds().items()}
+    owners = [name for name, own in taken_by.items() if key in own]
     if not owners:
-        near = nearest(key, [one for other in _core.joint_kinds().values() for one in _own(other)])
+        near = nearest(key, [one for own in taken_by.values() for one in own])
         return f"no joint takes {key!r}" + (f" (did you mean {near!r}?)" if near else "")
     return f"{key} belongs to a {' or '.join(owners)} joint, this one is {kind}"
 
 
 def add_driver(
-    scene: Description,
-    joint: str,
-    *,
-    curve: _core.Curve | float,
-    coordinate: str | None = None,
+    scene: Description, joint: str, *, curve: _core.Curve | float, coordinate: str | None = None,
     name: str | None = None,
-) -> _core.Driver:
+) -> _core.Driver:  # fmt: skip
     """Prescribe a joint coordinate (m or rad) as a function of time; a number holds it there.
 
     `joint` may be what a crane calls its drive, such as "slew" or "main"; the default name is that of the
@@ -174,16 +155,10 @@ def add_driver(
 
 
 def add_actuator(
-    scene: Description,
-    joint: str,
-    *,
-    name: str | None = None,
-    coordinate: str | None = None,
-    stiffness: float = 0.0,
-    damping: float = 0.0,
-    feed_forward: float | _core.Curve = 0.0,
+    scene: Description, joint: str, *, name: str | None = None, coordinate: str | None = None,
+    stiffness: float = 0.0, damping: float = 0.0, feed_forward: float | _core.Curve = 0.0,
     reference: float | _core.Curve = 0.0,
-) -> _core.Actuator:
+) -> _core.Actuator:  # fmt: skip
     """State feedback on a joint coordinate q, compiled into the loop.
 
     Load along q on both bodies: feed_forward + stiffness (reference - q) + damping (reference' - q'), N
@@ -266,19 +241,10 @@ def _force_of(what: str, force: Any) -> tuple[partial[Any], tuple[str, ...]]:
 
 
 def add_spring(
-    scene: Description,
-    name: str,
-    *,
-    first: str,
-    second: str,
-    first_point: Any = (0.0, 0.0, 0.0),
-    second_point: Any = (0.0, 0.0, 0.0),
-    stiffness: float = 0.0,
-    damping: float = 0.0,
-    natural_length: float = 0.0,
-    lengths: Sequence[float] = (),
-    forces: Sequence[float] = (),
-) -> _core.Spring:
+    scene: Description, name: str, *, first: str, second: str, first_point: Any = (0.0, 0.0, 0.0),
+    second_point: Any = (0.0, 0.0, 0.0), stiffness: float = 0.0, damping: float = 0.0,
+    natural_length: float = 0.0, lengths: Sequence[float] = (), forces: Sequence[float] = (),
+) -> _core.Spring:  # fmt: skip
     """A spring-damper between points of two bodies (m, body coordinates): linear (N/m, N s/m, m), or a
     table of tension `forces` (N) over `lengths` (m)."""
     given: dict[str, Any] = {key: value for key, value in locals().items() if key != "scene"}

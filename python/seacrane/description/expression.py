@@ -13,13 +13,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import reduce
 from math import pi
 from types import MappingProxyType
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NamedTuple, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +32,8 @@ Array = NDArray[np.float64]
 Value = TypeVar("Value")
 LONGEST, DEEPEST = 1000, 40  # characters; parentheses, calls and signs within each other
 FUNCTIONS = {"sqrt": 1, "abs": 1, "hypot": 2, "atan2": 2, "min": 0, "max": 0}  # arguments; 0: two or more
+SIGNS = (("+", "-"), ("*", "/"))
+OF_ONE: dict[str, Callable[[Any], Any]] = {"negative": np.negative, "sqrt": np.sqrt, "abs": np.abs}
 OF_TWO: dict[str, Callable[[Any, Any], Any]] = {
     "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide,
     "hypot": np.hypot, "atan2": np.arctan2, "min": np.minimum, "max": np.maximum,
@@ -40,41 +41,21 @@ OF_TWO: dict[str, Callable[[Any, Any], Any]] = {
 
 
 def _dimension(*exponents: int) -> Dimension:
-    kg, m, s, rad = (Fraction(one) for one in exponents)
-    return kg, m, s, rad
+    return tuple(map(Fraction, exponents))  # type: ignore[return-value]
 
 
 PURE, ANGLE = _dimension(0, 0, 0, 0), _dimension(0, 0, 0, 1)
-
+_OF_DIMENSION: dict[tuple[int, ...], dict[str, float]] = {  # kg, m, s, rad: units, the SI one first, in SI
+    (0, 0, 0, 0): {"1": 1.0}, (0, 0, 0, 1): {"rad": 1.0, "deg": pi / 180.0},
+    (0, 0, -1, 1): {"rad/s": 1.0, "deg/s": pi / 180.0}, (0, 0, -2, 1): {"rad/s2": 1.0},
+    (0, 1, 0, 0): {"m": 1.0, "mm": 1e-3}, (0, 2, 0, 0): {"m2": 1.0}, (0, 3, 0, 0): {"m3": 1.0},
+    (0, 1, -1, 0): {"m/s": 1.0}, (0, 1, -2, 0): {"m/s2": 1.0}, (0, 3, -1, 0): {"m3/s": 1.0},
+    (0, 0, 1, 0): {"s": 1.0}, (1, 0, 0, 0): {"kg": 1.0, "t": 1e3}, (1, 1, -2, 0): {"N": 1.0, "kN": 1e3},
+    (1, 1, -1, 0): {"N s": 1.0}, (1, 2, -2, 0): {"N m": 1.0, "J": 1.0, "kN m": 1e3},
+    (1, 0, -2, 0): {"N/m": 1.0}, (1, 2, -3, 0): {"W": 1.0}, (1, -1, -2, 0): {"Pa": 1.0, "bar": 1e5},
+}  # fmt: skip
 UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
-    {  # factor to SI, and dimension; of units of one dimension the SI one comes first
-        "1": (1.0, PURE),
-        "rad": (1.0, ANGLE),
-        "deg": (pi / 180.0, ANGLE),
-        "rad/s": (1.0, _dimension(0, 0, -1, 1)),
-        "deg/s": (pi / 180.0, _dimension(0, 0, -1, 1)),
-        "rad/s2": (1.0, _dimension(0, 0, -2, 1)),
-        "m": (1.0, _dimension(0, 1, 0, 0)),
-        "mm": (1e-3, _dimension(0, 1, 0, 0)),
-        "m2": (1.0, _dimension(0, 2, 0, 0)),
-        "m3": (1.0, _dimension(0, 3, 0, 0)),
-        "m/s": (1.0, _dimension(0, 1, -1, 0)),
-        "m/s2": (1.0, _dimension(0, 1, -2, 0)),
-        "m3/s": (1.0, _dimension(0, 3, -1, 0)),
-        "s": (1.0, _dimension(0, 0, 1, 0)),
-        "kg": (1.0, _dimension(1, 0, 0, 0)),
-        "t": (1e3, _dimension(1, 0, 0, 0)),
-        "N": (1.0, _dimension(1, 1, -2, 0)),
-        "kN": (1e3, _dimension(1, 1, -2, 0)),
-        "N s": (1.0, _dimension(1, 1, -1, 0)),
-        "N m": (1.0, _dimension(1, 2, -2, 0)),
-        "J": (1.0, _dimension(1, 2, -2, 0)),
-        "kN m": (1e3, _dimension(1, 2, -2, 0)),
-        "N/m": (1.0, _dimension(1, 0, -2, 0)),
-        "W": (1.0, _dimension(1, 2, -3, 0)),
-        "Pa": (1.0, _dimension(1, -1, -2, 0)),
-        "bar": (1e5, _dimension(1, -1, -2, 0)),
-    }
+    {unit: (si, _dimension(*of)) for of, units in _OF_DIMENSION.items() for unit, si in units.items()}
 )
 
 
@@ -113,16 +94,14 @@ _TOKEN = re.compile(
 )
 
 
-@dataclass(frozen=True)
-class Number:
+class Number(NamedTuple):
     """A number in SI units."""
 
     value: float
     dimension: Dimension
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """The text of a curve; of a place its name, its axis, and the body along whose axes that is."""
 
     text: str
@@ -135,8 +114,7 @@ class Curve:
         return self.axis.startswith("v")
 
 
-@dataclass(frozen=True)
-class Call:
+class Call(NamedTuple):
     """What is done with the last values."""
 
     name: str
@@ -168,15 +146,9 @@ def worked_out(
 
 def values_of(name: str, values: Sequence[Array]) -> Array:
     """What a call makes of arrays; not a number where it is none."""
-    first = values[0]
     with np.errstate(all="ignore"):
-        match name:
-            case "negative":
-                return np.asarray(-first)
-            case "sqrt":
-                return np.asarray(np.sqrt(first))
-            case "abs":
-                return np.asarray(np.abs(first))
+        if name in OF_ONE:
+            return np.asarray(OF_ONE[name](values[0]))
         return np.asarray(reduce(OF_TWO[name], values))
 
 
@@ -239,16 +211,14 @@ class _Parser:
         self.advance()
         return str(found)
 
-    def sum(self) -> None:
-        self.product()
-        while sign := self.sign("+", "-"):
-            self.product()
-            self.steps.append(Call(sign, 2))
-
-    def product(self) -> None:
-        self.factor()
-        while sign := self.sign("*", "/"):
+    def sum(self, level: int = 0) -> None:
+        """Of products, which are of factors."""
+        if level == len(SIGNS):
             self.factor()
+            return
+        self.sum(level + 1)
+        while sign := self.sign(*SIGNS[level]):
+            self.sum(level + 1)
             self.steps.append(Call(sign, 2))
 
     def factor(self) -> None:

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.description import Description
+from seacrane.description.description import Description, Some
+from seacrane.description.loads import changed
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description, Some
 
 USUAL_SIZE = (100.0, 20.0, 5.0)  # m, of a ship whose size nobody gave
 Array = NDArray[np.float64]
@@ -28,12 +25,8 @@ def floating_bodies(scene: Description) -> set[str]:
 
 def given_vessels(scene: Description) -> dict[str, str]:
     """Kind of motion by the body: "raos", "history" or "rest"."""
-    found = {}
-    for vessel in scene.vessels.values():
-        known = scene.provenance.get(vessel.name)
-        if known is not None and known.motion is not None:
-            found[vessel.body] = known.motion
-    return found
+    known = {vessel.body: scene.provenance.get(vessel.name) for vessel in scene.vessels.values()}
+    return {body: one.motion for body, one in known.items() if one is not None and one.motion is not None}
 
 
 def given_drivers(scene: Description) -> list[str]:
@@ -46,7 +39,7 @@ def led_by(scene: Some, curves: Mapping[str, _core.Curve]) -> Some:
     """The scene with other curves of some drivers, by their names."""
     out = scene.copy()
     for name, curve in curves.items():
-        out.drivers[name] = _core.Driver(**scene.drivers[name].__getstate__() | {"curve": curve})
+        out.drivers[name] = changed(scene.drivers[name], curve=curve)
     return out
 
 
@@ -67,12 +60,7 @@ def shown_size(scene: Description, body: str) -> tuple[float, float, float]:
 
 
 def require_described(scene: Description, end: float) -> None:
-    """Refuse a run to `end` (s) that is longer than the given motion of a ship.
-
-    Raises
-    ------
-    SceneError
-    """
+    """SceneError for a run to `end` (s) that is longer than the given motion of a ship."""
     for vessel in scene.vessels.values():
         known = scene.provenance.get(vessel.name)
         if known is None or known.duration is None or end <= known.duration:

@@ -16,11 +16,8 @@ Drive = tuple[str, str, str]  # label, joint and coordinate
 
 
 def free_drives(scene: Description, roles: CraneRoles) -> list[Drive]:
-    """Slew drive, luffs and cylinders of a crane on which nothing acts; none where C functions may.
-
-    What acts is a driver, an actuator or another load on the joint, a luffing rope, or a spring or hydraulic
-    cylinder between its two bodies.
-    """
+    """Slew drive, luffs and cylinders of a crane on which nothing acts: no driver, actuator or other load on
+    the joint, luffing rope, spring or oil between its two bodies; none where C functions may."""
     if scene.function_forces:
         return []
     return [drive for drive in _drives(scene, roles) if not _acted_on(scene, drive[1])]

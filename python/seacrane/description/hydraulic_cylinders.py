@@ -132,7 +132,7 @@ VALUES: dict[str, type[Any]] = {
 
 
 def hydraulic_cylinders(scene: Description) -> dict[str, _core.HydraulicCylinder]:
-    """The hydraulic cylinders of a scene, by name."""
+    """By name."""
     return {name: load for name, load in scene.loads.items() if isinstance(load, _core.HydraulicCylinder)}
 
 
@@ -163,34 +163,31 @@ def what_of(given: Mapping[str, Any]) -> str:
 def place_cylinder(
     scene: Description, keywords: Mapping[str, Any], holding: Callable[[], float]
 ) -> _core.HydraulicCylinder:
-    """Add a cylinder; volumes, reference and pressures that are None or absent are filled in.
+    """Add a cylinder by keywords of `add_hydraulic_cylinder`; what is None or absent is filled in.
 
-    Parameters
-    ----------
-    keywords : Of `add_hydraulic_cylinder`.
-    holding : Tells the force that it holds, N, where a pressure is left out.
-
-    Raises SceneError if the points are not within the stroke.
+    `holding` tells the force that it holds, N. Raises SceneError if the points are not within the stroke.
     """
     what = what_of(keywords)
     settings = flat(what, keywords, VALUES)
     settings.setdefault("reference", _stroke(scene, what, settings))
+    stroke = _number(what, settings, "stroke")
     for volume, area in (("hose_volume", "full_area"), ("hose_volume_rod", "rod_side_area")):
-        swept = number_of(f"{what}: {area}", settings[area]) * number_of(
-            f"{what}: stroke", settings["stroke"]
-        )
-        settings.setdefault(volume, HOSE * swept)
+        settings.setdefault(volume, HOSE * (_number(what, settings, area) * stroke))
     _check_units(what, settings)
     if not {"pressure", "pressure_rod"} <= settings.keys():
         settings |= _pressures(what, holding(), settings)
     return put_load(scene, _core.HydraulicCylinder(**settings))
 
 
+def _number(what: str, settings: Mapping[str, Any], key: str, usual: float = 0.0) -> float:
+    return number_of(f"{what}: {key}", settings.get(key, usual))
+
+
 def _check_units(what: str, settings: dict[str, Any]) -> None:
     """SceneError for flows and volumes that are most likely in l/min and l."""
-    full, stroke = (number_of(f"{what}: {key}", settings[key]) for key in ("full_area", "stroke"))
+    full, stroke = _number(what, settings, "full_area"), _number(what, settings, "stroke")
     for key in ("rated_flow", "rated_flow_rod"):
-        flow = number_of(f"{what}: {key}", settings.get(key, 0.0))
+        flow = _number(what, settings, key)
         if flow > FASTEST * full > 0.0:
             raise SceneError.of(
                 f"{what}: {key}",
@@ -198,7 +195,7 @@ def _check_units(what: str, settings: dict[str, Any]) -> None:
                 f"m3/s: {flow:g} l/min are {flow / 6e4:.3g}",
             )
     for key in ("hose_volume", "hose_volume_rod"):
-        volume = number_of(f"{what}: {key}", settings[key])
+        volume = _number(what, settings, key)
         if volume > LARGEST_HOSE * full * stroke > 0.0:
             raise SceneError.of(
                 f"{what}: {key}",
@@ -211,8 +208,8 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
     """At which the cylinder stands as described, m."""
     ends = ((settings[end], settings.get(f"{end}_point", ORIGIN)) for end in ("first", "second"))
     length = apart(scene, what, *ends)
-    shortest = number_of(f"{what}: retracted_length", settings["retracted_length"])
-    longest = shortest + number_of(f"{what}: stroke", settings["stroke"])
+    shortest = _number(what, settings, "retracted_length")
+    longest = shortest + _number(what, settings, "stroke")
     if not shortest - NEAR <= length <= longest + NEAR:
         raise SceneError(
             f"{what}: its points are {length:.6g} m apart as described, and it is {shortest:g} to "
@@ -222,11 +219,8 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
 
 
 def holding_pressures(cylinder: _core.HydraulicCylinder, force: float) -> tuple[float, float]:
-    """The pressures of the full side and of the rod side, Pa, by which a cylinder holds another force (N).
-
-    The rod side keeps the pressure that it is described with, unless the full side's would fall below the
-    tank's.
-    """
+    """The pressures of full side and rod side, Pa, by which a cylinder holds another force (N): the rod
+    side's as it is described, unless the full side's would fall below the tank's."""
     keys = ("full_area", "rod_side_area", "tank_pressure", "pump_pressure")
     settings = {key: getattr(cylinder, key) for key in keys}
     full = (force + cylinder.pressure_rod * cylinder.rod_side_area) / cylinder.full_area
@@ -241,10 +235,10 @@ def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, f
     full, ring = (
         positive_of(f"{what}: {area}", settings[area], "m2") for area in ("full_area", "rod_side_area")
     )
-    tank = number_of(f"{what}: tank_pressure", settings.get("tank_pressure", ATMOSPHERE))
-    back = max(tank, BACK_PRESSURE * number_of(f"{what}: pump_pressure", settings.get("pump_pressure", 0.0)))
+    tank = _number(what, settings, "tank_pressure", ATMOSPHERE)
+    back = max(tank, BACK_PRESSURE * _number(what, settings, "pump_pressure"))
     if "pressure" in settings:
-        given = number_of(f"{what}: pressure", settings["pressure"])
+        given = _number(what, settings, "pressure")
         if given > 0.0 and not given * full > force:
             raise SceneError.of(
                 f"{what}: pressure",
@@ -252,7 +246,7 @@ def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, f
                 f"give more than {force / full:.4g} Pa, or leave it out",
             )
         return {"pressure_rod": (given * full - force) / ring}
-    at_rod = number_of(f"{what}: pressure_rod", settings.get("pressure_rod", back))
+    at_rod = _number(what, settings, "pressure_rod", back)
     at_full = (force + at_rod * ring) / full
     if "pressure_rod" in settings or at_full >= back:
         return {"pressure": at_full, "pressure_rod": at_rod}

@@ -25,10 +25,8 @@ class LimitState:
 
     Attributes
     ----------
-    maximum, minimum : float or None
-        In the unit of the channel; None where there is no such bound.
-    names : mapping of str to str
-        Names along the channel's dimensions, such as ``{"cylinder": "main"}``; of a dimension that is not
+    maximum, minimum : In the unit of the channel; None where there is no such bound.
+    names : Names along the channel's dimensions, such as ``{"cylinder": "main"}``; of a dimension that is not
         named, the worst counts.
     """
 

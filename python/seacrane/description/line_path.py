@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Description
-from seacrane.inputs.frames import rotation_matrix
+from seacrane.description.places import described_pose
 
 Array = NDArray[np.float64]
 Pose = tuple[Array, Array]  # of a body's origin, m, and its axes as columns
@@ -21,31 +22,18 @@ LARGEST_PIECE = np.radians(15.0)  # of an arc that is drawn
 
 @dataclass(frozen=True, kw_only=True)
 class Sheave:
-    """A point of a path in inertial axes; a sheave if its radius is not zero.
+    """A point of a path in inertial axes; a sheave if its radius (m) is not zero."""
 
-    Attributes
-    ----------
-    center : (3,) m.
-    radius : m.
-    axis : (3,) Of length one; the line runs about it by the right hand. Zero at a point.
-    turns : Whole turns on it besides.
-    """
-
-    center: Array
+    center: Array  # m
     radius: float
-    axis: Array
-    turns: float
+    axis: Array  # of length one; the line runs about it by the right hand; zero at a point
+    turns: float  # whole ones on it besides
 
 
 @dataclass(frozen=True, kw_only=True)
 class Laid:
-    """A line as it runs over n points.
-
-    Attributes
-    ----------
-    starts, ends : (n - 1, 3) Of the straight parts, inertial axes, m.
-    wraps : (n,) Angle on each sheave, rad; 0 at points.
-    """
+    """A line as it runs over n points: starts and ends (n - 1, 3) of its straight parts, inertial axes, m,
+    and the angles (n,) on its sheaves, rad; 0 at points."""
 
     starts: Array
     ends: Array
@@ -54,11 +42,9 @@ class Laid:
 
     @property
     def length(self) -> float:
-        """The length of all of it, m."""
-        straight = np.linalg.norm(self.ends - self.starts, axis=1).sum()
-        return float(
-            straight + sum(one.radius * wrap for one, wrap in zip(self.sheaves, self.wraps, strict=True))
-        )
+        """Of all of it, m."""
+        arcs = sum(one.radius * wrap for one, wrap in zip(self.sheaves, self.wraps, strict=True))
+        return float(np.linalg.norm(self.ends - self.starts, axis=1).sum() + arcs)
 
     def arc(self, at: int) -> Array:
         """Points along the arc on the sheave at a point of the path, shape (m, 3), without whole turns."""
@@ -92,15 +78,8 @@ def laid(line: _core.Line, pose_of: Callable[[str], Pose]) -> Laid:
 
 
 def described_poses(scene: Description) -> Callable[[str], Pose]:
-    """The poses that bodies are described with; whatever is no body stands still, as the ground."""
-
-    def pose(body: str) -> Pose:
-        if body not in scene.bodies:
-            return np.zeros(3), np.eye(3)
-        one = scene.bodies[body]
-        return np.asarray(one.position), rotation_matrix(one.quaternion)
-
-    return pose
+    """The poses that bodies are described with."""
+    return partial(described_pose, scene)
 
 
 def path_length(scene: Description, line: _core.Line) -> float:

@@ -107,10 +107,8 @@ def without_compensation(loads: Mapping[str, Any]) -> dict[str, Any]:
 def springs_of(
     springs: Mapping[str, _core.Spring], loads: Mapping[str, Any]
 ) -> list[tuple[str, _core.Spring | _core.GasSpring]]:
-    """Names and elements of springs, and of the gas springs among loads, for drawings.
-
-    Springs whose ends are beyond any view, as those of moorings are, are left out.
-    """
+    """Names and elements of springs, and of the gas springs among loads, for drawings; without springs whose
+    ends are beyond any view, as those of moorings are."""
     near = [
         (name, one)
         for name, one in springs.items()

@@ -12,14 +12,11 @@ from contextvars import ContextVar
 from functools import wraps
 from itertools import chain
 from operator import attrgetter, is_, itemgetter, methodcaller
-from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from seacrane.description.description import ANSWERS, KINDS
+from seacrane.description.description import ANSWERS, KINDS, Description
+from seacrane.description.waves import Waves
 from seacrane.inputs.caller import Said, recorded, say_again
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description
-    from seacrane.description.waves import Waves
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -33,13 +30,8 @@ Known = dict[Any, dict[Hashable, tuple[Any, list[Said]]]]
 
 
 class Answers:
-    """What was worked out of one content: by function and arguments, with the warnings given on the way.
-
-    Attributes
-    ----------
-    known : Of the scene in its sea.
-    in_any_sea : Of all but the sea; scenes that differ in nothing else share it.
-    """
+    """What was worked out of one content, by function and arguments, with the warnings given on the way: of
+    the scene in its sea, and of all but the sea, which scenes that differ in nothing else share."""
 
     def __init__(self, content: list[Any], waves: Waves | None, in_any_sea: Known) -> None:
         self.content, self.waves = content, waves

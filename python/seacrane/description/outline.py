@@ -24,18 +24,12 @@ GYRATION = (0.36, 0.25)  # usual radii of gyration of ships: of the breadth in r
 def outline_of(scene: Description) -> dict[str, Any]:
     """Points that bodies are drawn through, as plain data.
 
-    Returns
-    -------
-    dict
-        "bodies": by name "points" (joints, m from the centre of mass, body axes) and "box" (edges of the box
-        of its mass and inertia, m); a vessel has "ship" instead of a box: length and breadth by its radii of
-        gyration, or those of a given ship, m, and its origin from the centre of mass. "links": bodies and
-        points of both ends, ground points in inertial axes.
+    "bodies": by name "points" (joints, m from the centre of mass, body axes) and "box" (edges of the box of
+    its mass and inertia, m); a vessel has "ship" instead of a box: length, breadth, m, and its origin from
+    the centre of mass. "links": bodies and points of both ends, ground points in inertial axes.
     """
     ships = floating_bodies(scene)
-    bodies = {name: _about(body, ship=name in ships) for name, body in scene.bodies.items()}
-    for name in given_vessels(scene):
-        bodies[name]["ship"] |= dict(zip(("length", "breadth"), shown_size(scene, name), strict=False))
+    bodies = {name: _about(scene, body, ship=name in ships) for name, body in scene.bodies.items()}
     joined = {name: joint_ends(one) for name, one in scene.joints.items()}
     for name, end in [*chain.from_iterable(joined.values()), *tips(scene).values()]:
         point = _relative(scene, name, end)
@@ -53,36 +47,28 @@ def outline_of(scene: Description) -> dict[str, Any]:
 def hung_notes(scene: Description) -> list[dict[str, Any]]:
     """What hangs, cranes first, as plain data.
 
-    Returns
-    -------
-    list of dict
-        "label" ("hook" after the crane's prefix, or that of the suspension), "crane" (its prefix, or None),
-        "suspension", "top" and "parts" (names, in the channels over `suspension`, of its lower end, its upper
-        end and all of it), "rung", "load", "from" and "to": body and point, m from its centre of mass, of the
-        tip or what else it hangs from, and of the load.
+    "crane" is a prefix, or None; "suspension", "top" and "parts" are names in the channels over `suspension`
+    of its lower end, its upper end and all of it; "from" and "to" are body and point, m from its centre of
+    mass, of the tip or what else it hangs from, and of the load.
     """
     return [
         {
-            "label": one.label,
-            "crane": None if one.crane is None else one.crane.prefix,
-            "suspension": one.suspension.channel,
-            "top": one.suspension.top,
-            "parts": sorted(one.suspension.parts | {one.suspension.channel, one.suspension.top}),
-            "rung": one.suspension.rung,
-            "load": one.load,
-            "from": [from_body, _relative(scene, from_body, from_point)],
+            "label": one.label, "crane": None if one.crane is None else one.crane.prefix,
+            "suspension": held.channel, "top": held.top,
+            "parts": sorted(held.parts | {held.channel, held.top}), "rung": held.rung, "load": one.load,
+            "from": [body, _relative(scene, body, point)],
             "to": [one.load, _relative(scene, one.load, one.point)],
         }
         for one in hung_loads(scene)
-        for from_body, from_point in [one.hangs_from]
-    ]
+        for held, (body, point) in [(one.suspension, one.hangs_from)]
+    ]  # fmt: skip
 
 
-def _about(body: _core.Body, *, ship: bool) -> dict[str, Any]:
+def _about(scene: Description, body: _core.Body, *, ship: bool) -> dict[str, Any]:
     """A body without its points."""
     if not ship:
         return {"points": [], "box": box_edges(body)}
-    length, breadth = ship_size(body)
+    length, breadth = size_of_ship(scene, body.name)
     origin = (-np.asarray(body.center_of_mass)).tolist()
     return {"points": [], "ship": {"length": length, "breadth": breadth, "origin": origin}}
 
@@ -117,14 +103,10 @@ def ship_size(body: _core.Body) -> tuple[float, float]:
 
 
 def bounds_of(scene: Description) -> list[dict[str, Any]]:
-    """What the scene keeps within bounds, as plain data.
+    """What the scene keeps within bounds (m or rad; None where there is none), as plain data.
 
-    Returns
-    -------
-    list of dict
-        "name", "kind" (wire, stop, seat, soft stop, range), "joint", "coordinate", "minimum" and "maximum" (m
-        or rad; None where there is none), "recorded": the name under which the coordinate is recorded, or
-        None.
+    "kind" is wire, stop, seat, soft stop or range; "recorded" the name under which the coordinate is
+    recorded.
     """
     loads = scene.loads.values()
     found: list[tuple[_core.Limit | _core.SoftStop | Range, str]] = [
@@ -135,16 +117,12 @@ def bounds_of(scene: Description) -> list[dict[str, Any]]:
     names = {place: name for name, place in scene.recorded.items()}
     return [
         {
-            "name": one.name,
-            "kind": kind,
-            "joint": one.joint,
-            "coordinate": one.coordinate,
-            "minimum": _bound(kind, one.minimum),
-            "maximum": _bound(kind, one.maximum),
+            "name": one.name, "kind": kind, "joint": one.joint, "coordinate": one.coordinate,
+            "minimum": _bound(kind, one.minimum), "maximum": _bound(kind, one.maximum),
             "recorded": names.get((one.joint, one.coordinate)),
         }
         for one, kind in found
-    ]
+    ]  # fmt: skip
 
 
 def _bound(kind: str, value: float) -> float | None:

@@ -35,20 +35,12 @@ ITEM = re.compile(r"""\s*(?:(\w+)\s*=\s*)?("[^"]*"|'[^']*'|[^,"']*?)\s*(?:,|$)""
 
 @dataclass(frozen=True, kw_only=True)
 class Pick:
-    """Curves of a channel.
-
-    Attributes
-    ----------
-    names : mapping of str to str
-        By dimension; dimensions that are not named are kept.
-    after : s: earlier outputs are left out; None: nothing is said of it.
-    stage : The outputs of this stage alone.
-    """
+    """Curves of a channel."""
 
     channel: str
-    names: Mapping[str, str] = field(default_factory=dict)
-    after: float | None = None
-    stage: str | None = None
+    names: Mapping[str, str] = field(default_factory=dict)  # by dimension; others are kept
+    after: float | None = None  # s: earlier outputs are left out; None: nothing is said of it
+    stage: str | None = None  # the outputs of this one alone
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", ReadOnly(self.names))
@@ -80,17 +72,8 @@ def pick_of(
     what: str, channel: str | Pick, names: Mapping[str, str] | None = None, *,
     held: Collection[str] | None = None,
 ) -> Pick:  # fmt: skip
-    """A selector as a value, from its text or from a channel with names.
-
-    Parameters
-    ----------
-    what : Who asks, for messages.
-    channel : str or Pick
-        The name of a channel, or a text as above.
-    names : mapping of str to str, optional
-        Along its dimensions, beside those in the text.
-    held : collection of str, optional
-        The channels of a result, of which it must be one.
+    """A selector as a value, from its text or from a channel with names along its dimensions beside those in
+    the text; `held` are the channels of a result, of which it must be one.
 
     Raises SceneError for a text that is none, a channel that does not exist, a dimension that it has not, or
     a name that none of its dimensions holds.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,9 +14,6 @@ from seacrane.description.expression import Curve
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of, text_of
 from seacrane.inputs.frames import cross, euler_matrix, rotation_matrix
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description
 
 ORIGIN = (0.0, 0.0, 0.0)
 Array = NDArray[np.float64]
@@ -35,7 +32,7 @@ def apart(scene: Description, what: str, *ends: tuple[str, Any]) -> float:
     return float(np.linalg.norm(second - first))
 
 
-def place_of(scene: Description, body: str, point: Any = (0.0, 0.0, 0.0)) -> NDArray[np.float64]:
+def place_of(scene: Description, body: str, point: Any = ORIGIN) -> Array:
     """Where a point is in the pose described, in the inertial frame, m.
 
     What hangs below a crane's tip is placed by it: ``x, y, z = scene.place_of("tip")``.
@@ -60,11 +57,8 @@ def place_of(scene: Description, body: str, point: Any = (0.0, 0.0, 0.0)) -> NDA
     return placed(scene, *on_body(scene, "place", body, point))
 
 
-def on_body(scene: Description, what: str, name: str, point: Any) -> tuple[str, NDArray[np.float64]]:
-    """A body and a point in its coordinates, m, of a body by its name or a point by its own.
-
-    Raises SceneError as `place_of`.
-    """
+def on_body(scene: Description, what: str, name: str, point: Any) -> tuple[str, Array]:
+    """A body and a point in its coordinates, m, by the name of a body or a point; errors as of `place_of`."""
     name = text_of(f"{what}: body", name)
     offset = np.array(shaped_of(f"{what} on {name!r}: point", point, (3,)))
     if name == GROUND or name in scene.bodies:
@@ -84,13 +78,21 @@ def _points(scene: Description) -> dict[str, tuple[str, Any]]:
     return tips | {name: (one.body, one.point) for name, one in scene.points.items()}
 
 
-def placed(scene: Description, body: str, point: Any) -> NDArray[np.float64]:
+def placed(scene: Description, body: str, point: Any) -> Array:
     """As `place_of`; whatever is no body is the ground."""
     local = np.asarray(point, dtype=float)
     if body not in scene.bodies:
         return local
+    origin, turn = described_pose(scene, body)
+    return np.asarray(origin + turn @ local)
+
+
+def described_pose(scene: Description, body: str) -> Pose:
+    """Origin and rotation of a body as described; whatever is no body stands still, as the ground."""
+    if body not in scene.bodies:
+        return np.zeros(3), np.eye(3)
     held = scene.bodies[body]
-    return np.asarray(np.asarray(held.position) + rotation_matrix(held.quaternion) @ local)
+    return np.asarray(held.position), rotation_matrix(held.quaternion)
 
 
 def position_of(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
@@ -171,7 +173,7 @@ def _side(scene: Description, body: str, frame: _core.Frame, pose: Callable[[str
 
 def start_pose(scene: Description, model: _core.Model, body: str) -> Pose:
     """Centre of mass (1, 3) and rotation (1, 3, 3) of a body at the assembled start."""
-    index = list(scene.bodies).index(body)
+    index = place_in(scene, body)
     size = model.twist_index(0) // len(scene.bodies)
     values = np.asarray(model.initial_state)[size * index : size * (index + 1)]
     turn = rotation_matrix(values[3:]) if size == 7 else euler_matrix(values[3:])

@@ -13,27 +13,18 @@ class VesselProvenance:
 
     Attributes
     ----------
-    database : str or None
-        Name of the hydrodynamic database.
-    omega : (float, float) or None
-        Its lowest and highest frequency, rad/s.
-    memory : str or None
-        Kind of fluid memory, as `Scene.add_vessel` takes it.
-    memory_error : float or None
-        What a memory fitted by motion changes of any motion: `MotionError.worst`.
-    motion : str or None
-        Of a vessel whose motion is given: "raos", "history" or "rest"; None for one that floats.
-    record : str or None
-        Where a measured motion comes from and what was done to it.
-    ramp, duration : float or None
-        Of that motion: s over which it grows from rest, and s at which it ends.
-    size : (float, float, float) or None
-        Length, breadth and draught of the ship that a light body stands for, m.
+    database : Name of the hydrodynamic database.
+    omega : Its lowest and highest frequency, rad/s.
+    memory : Kind of fluid memory, as `Scene.add_vessel` takes it.
+    memory_error : What a memory fitted by motion changes of any motion: `MotionError.worst`.
+    motion : Of a vessel whose motion is given: "raos", "history" or "rest"; None for one that floats.
+    record : Where a measured motion comes from and what was done to it.
+    ramp, duration : Of that motion: s over which it grows from rest, and s at which it ends.
+    size : Length, breadth and draught of the ship that a light body stands for, m.
     free_surface : (float, float, float) or None
         What the free surface of the database's roll tanks takes from C44, N m/rad: as the vessel has it, and
         the least and the most of the fits to the data.
-    slack_tanks : (float, float) or None
-        What tanks by `slack_moment` of `Scene.add_vessel` take from C44 and C55, N m/rad.
+    slack_tanks : What tanks by `slack_moment` of `Scene.add_vessel` take from C44 and C55, N m/rad.
     """
 
     database: str | None = None
@@ -62,18 +53,12 @@ class SeaProvenance:
 
     Attributes
     ----------
-    spectrum : str or None
-        Kind of the spectrum of a sea of one wave system.
-    hs, tp, gamma, wave_direction_deg : float or None
-        Its parameters: m, s, peak enhancement, deg.
-    spreading : mapping or None
-        Kind and exponent of its spreading.
-    sea : mapping or None
-        A `SeaState` in plain data, in place of all of these.
-    realised_hs_of_systems : mapping of str to float, or None
-        m, where there are several wave systems.
-    realised_hs : float or None
-        4 sqrt(sum a^2 / 2), m.
+    spectrum : Kind of the spectrum of a sea of one wave system.
+    hs, tp, gamma, wave_direction_deg : Its parameters: m, s, peak enhancement, deg.
+    spreading : Kind and exponent of its spreading.
+    sea : A `SeaState` in plain data, in place of all of these.
+    realised_hs_of_systems : m, where there are several wave systems.
+    realised_hs : 4 sqrt(sum a^2 / 2), m.
     wave_energy_without_load, load_variance_without_load : float or None
         Shares of the waves beyond the database's frequencies.
     """
@@ -96,15 +81,14 @@ class SeaProvenance:
 
     def settings(self) -> dict[str, Any]:
         """What the sea was made from, as far as it is known."""
-        return self._known(SEA_SETTINGS)
+        return {name: value for name, value in self._known().items() if name in SEA_SETTINGS}
 
     def stats(self) -> dict[str, Any]:
         """What its realisation came to, as far as it is known."""
-        return self._known(SEA_STATS)
+        return {name: value for name, value in self._known().items() if name not in SEA_SETTINGS}
 
-    def _known(self, names: tuple[str, ...]) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+    def _known(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if value is not None}
 
 
-SEA_NAMES = tuple(one.name for one in fields(SeaProvenance))
-SEA_SETTINGS, SEA_STATS = SEA_NAMES[:8], SEA_NAMES[8:]
+SEA_SETTINGS = tuple(one.name for one in fields(SeaProvenance))[:8]

@@ -5,22 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.given import given_vessels, require_described
+from seacrane.description.limit_state import Range
 from seacrane.description.once import once
 from seacrane.description.places import ANGLES, coordinate_at, start_pose, wrapped
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import DriverImpulseWarning
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description
-    from seacrane.description.limit_state import Range
 
 Array = NDArray[np.float64]
 JUMP = 1e-6  # m or rad: what projection closes without a word
@@ -28,6 +25,7 @@ RATE_JUMP = 1e-3  # m/s or rad/s, as much as matters
 BEYOND = 1e-9  # m or rad
 HALF_A_TURN = np.pi * (1.0 - 1e-9)
 PLACES = 17  # looked at in each piece of a reference
+WITHIN = 1.0 - 1e-12  # of a piece: its end, before the next one
 PER_PERIOD, MOST_PERIODS = 16, 100
 
 
@@ -54,21 +52,11 @@ def references(scene: Description) -> Iterator[Reference]:
 def check_references(
     scene: Description, model: _core.Model, *, start: float, end: float, described: bool
 ) -> None:
-    """Raise SceneError for references that cannot be meant, from `start` to `end` (s) of a run.
+    """Look at references from `start` to `end` (s) of a run; `described`: it starts at the described pose.
 
-    `described`: the run starts at the described pose.
-
-    Raises
-    ------
-    SceneError
-        A run is longer than a ship's given motion; a driver's curve jumps; a reference leaves the range of
-        its coordinate; an angle's reference starts
-        half a turn or more from it, or jumps by as much.
-
-    Warns
-    -----
-    DriverImpulseWarning
-        A driver's rate jumps.
+    Raises SceneError where a run is longer than a ship's given motion, a driver's curve jumps, a reference
+    leaves the range of its coordinate, or that of an angle starts half a turn or more from it, or jumps by as
+    much. Warns with DriverImpulseWarning where a driver's rate jumps.
     """
     require_described(scene, end)
     for reference in references(scene):
@@ -84,54 +72,32 @@ def check_references(
             _check_turns(scene, model, name, start, end, described)
 
 
-class _Pieces:
-    """A curve's pieces, to be evaluated up to their ends too."""
+def _jumps(curve: _core.Curve, start: float, end: float) -> tuple[Array, Array, Array]:
+    """Times within a run where a piece begins, and by what value and rate jump there."""
+    starts = np.asarray(curve.to_pieces()["starts"], dtype=float)
+    times = starts[(starts > start) & (starts < end)]
+    jumps = curve.evaluate(times) - curve.evaluate(np.nextafter(times, -np.inf))
+    return times, jumps[:, 0], jumps[:, 1]
 
-    def __init__(self, curve: _core.Curve) -> None:
-        data = curve.to_pieces()
-        self.starts = np.asarray(data["starts"], dtype=float)
-        self.coefficients = np.asarray(data["coefficients"], dtype=float)
-        self.cosines = np.zeros((len(self.starts), 3))
-        if len(data["cosines"]):
-            self.cosines[:] = data["cosines"]
 
-    def at(self, piece: NDArray[np.intp], time: Array) -> tuple[Array, Array]:
-        """Value and rate of some pieces, each at its time."""
-        s = time - self.starts[piece]
-        value, slope = np.zeros_like(s), np.zeros_like(s)
-        for c in self.coefficients[piece].T[::-1]:
-            slope = value + slope * s
-            value = c + value * s
-        amplitude, omega, phase = self.cosines[piece].T
-        angle = omega * s + phase
-        return value + amplitude * np.cos(angle), slope - amplitude * omega * np.sin(angle)
-
-    def jumps(self, start: float, end: float) -> tuple[Array, Array, Array]:
-        """Times within a run where a piece begins, and by what value and rate jump there."""
-        at = np.flatnonzero((self.starts > start) & (self.starts < end))
-        time = self.starts[at]
-        after = self.at(at, time)
-        before = self.at(np.maximum(at - 1, 0), time)
-        rate = np.where(at > 0, before[1], 0.0)  # held at rest before the first piece
-        return time, after[0] - before[0], after[1] - rate
-
-    def samples(self, start: float, end: float) -> tuple[Array, Array]:
-        """Times within a run, many in every piece, its ends among them, and the values there."""
-        first = max(int(np.searchsorted(self.starts, start, side="right")) - 1, 0)
-        last = max(int(np.searchsorted(self.starts, end, side="left")), first + 1)
-        begin = np.maximum(self.starts[first:last], start)
-        stop = np.append(self.starts[first + 1 : last], end)
-        periods = np.abs(self.cosines[first:last, 1]) * (stop - begin) / (2.0 * np.pi)
-        count = np.where(periods > 0.0, PER_PERIOD * np.minimum(periods, MOST_PERIODS), 0.0) + PLACES
-        count = count.astype(int)
-        piece = np.repeat(np.arange(first, last), count)
-        place = np.concatenate([np.linspace(0.0, 1.0, n) for n in count])
-        time = begin[piece - first] + place * np.maximum(stop - begin, 0.0)[piece - first]
-        return time, self.at(piece, time)[0]
+def _samples(curve: _core.Curve, start: float, end: float) -> tuple[Array, Array]:
+    """Times within a run, many in every piece, and the values there."""
+    data = curve.to_pieces()
+    starts = np.asarray(data["starts"], dtype=float)
+    first = max(int(np.searchsorted(starts, start, side="right")) - 1, 0)
+    last = max(int(np.searchsorted(starts, end, side="left")), first + 1)
+    begin, stop = np.maximum(starts[first:last], start), np.append(starts[first + 1 : last], end)
+    count = np.full(last - first, PLACES)
+    if len(data["cosines"]):
+        periods = np.abs(np.asarray(data["cosines"])[first:last, 1]) * (stop - begin) / (2.0 * np.pi)
+        count += (PER_PERIOD * np.clip(periods, 0.0, MOST_PERIODS)).astype(int)
+    piece, place = np.repeat(np.arange(last - first), count), [np.linspace(0.0, WITHIN, n) for n in count]
+    times = begin[piece] + np.concatenate(place) * np.maximum(stop - begin, 0.0)[piece]
+    return times, curve.evaluate(times)[:, 0]
 
 
 def _check_range(reference: Reference, limit: Range, start: float, end: float) -> None:
-    times, values = _Pieces(reference.curve).samples(start, end)
+    times, values = _samples(reference.curve, start, end)
     beyond = np.maximum(limit.minimum - values, values - limit.maximum)
     worst = int(beyond.argmax())
     if beyond[worst] <= BEYOND:
@@ -145,7 +111,7 @@ def _check_range(reference: Reference, limit: Range, start: float, end: float) -
 
 
 def _check_jumps(name: str, driver: _core.Driver, start: float, end: float) -> None:
-    times, value, rate = _Pieces(driver.curve).jumps(start, end)
+    times, value, rate = _jumps(driver.curve, start, end)
     what = f"driver {name!r}: {driver.joint}.{driver.coordinate}"
     unit = "m"
     if driver.coordinate in ANGLES:
@@ -173,7 +139,7 @@ def _check_turns(
     actuator = scene.actuators[name]
     what = f"actuator {name!r}: reference of {actuator.joint}.{actuator.coordinate}"
     fix = "lead it there by a curve, such as Curve.quintic, that the angle can follow"
-    times, jumps, _ = _Pieces(actuator.reference).jumps(start, end)
+    times, jumps, _ = _jumps(actuator.reference, start, end)
     if np.any(np.abs(jumps) >= HALF_A_TURN):
         at = int(np.argmax(np.abs(jumps)))
         raise SceneError(

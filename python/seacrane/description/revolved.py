@@ -9,11 +9,8 @@ Array = NDArray[np.float64]
 
 
 def revolved(profile: Array, around: int, *, closed: bool = False) -> tuple[Array, NDArray[np.int64]]:
-    """Vertices (n, 3) and triangles (m, 3), anticlockwise from outside, of a profile turned about z.
-
-    profile (k, 2): radii and heights, m, from the lower end outside to the upper one; `closed`: back to the
-    first.
-    """
+    """Vertices (n, 3) and triangles (m, 3), anticlockwise from outside, of a profile turned about z: radii
+    and heights (k, 2), m, from the lower end outside to the upper one; `closed`: back to the first."""
     angle = 2.0 * np.pi * np.arange(around) / around
     circle = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(around)])
     rings = profile[:, 0, None, None] * circle + profile[:, 1, None, None] * np.array([0.0, 0.0, 1.0])

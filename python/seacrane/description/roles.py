@@ -82,42 +82,26 @@ def require_cylinders(what: str, labels: Iterable[str], cylinders: Mapping[str, 
 
 
 def pressure(force: ArrayLike, areas: Areas) -> Array:
-    """Pressure (Pa) over the other chamber's, of the chamber that carries a force (N; positive pushes).
-
-    Positive: on the full side. Negative: on the rod side. The other chamber counts as relieved.
-    """
+    """Pressure (Pa) of the chamber that carries a force (N; positive pushes), the other one being relieved:
+    positive on the full side, negative on the rod side."""
     loads = np.asarray(force, dtype=float)
     return np.asarray(np.where(loads >= 0.0, loads / areas[0], loads / areas[1]))
 
 
 @dataclass(frozen=True, kw_only=True)
 class LuffingRope:
-    """A rope of several falls between blocks on both sides of a hinge.
+    """A rope of several falls between blocks on both sides of a hinge."""
 
-    Attributes
-    ----------
-    name : Of the line that stands for it once it is one, see `Scene.add_winch`.
-    falls : Parts of rope between the blocks; all carry the same tension.
-    EA : Axial stiffness of one fall, N.
-    first, second : (str, (float, float, float))
-        Body and point in its coordinates, m; the second one moves with the hinge.
-    """
-
-    name: str
-    falls: int
-    EA: float
-    first: Block
-    second: Block
+    name: str  # of the line that stands for it once it is one, see `Scene.add_winch`
+    falls: int  # parts of rope between the blocks; all carry the same tension
+    EA: float  # axial stiffness of one fall, N
+    first: Block  # body and point in its coordinates, m
+    second: Block  # which moves with the hinge
 
 
 def lengthening(hinge: Array, axis: Array, first: Array, second: Array) -> float:
-    """Rate of the distance between the blocks per rate of the hinge's angle, m/rad.
-
-    Parameters
-    ----------
-    hinge, axis, first, second : ndarray, shape (3,)
-        A point of the hinge, its unit vector, and both blocks; one frame, m.
-    """
+    """Rate of the distance between two blocks per rate of a hinge's angle, m/rad, by a point of the hinge and
+    its unit vector; (3,) in one frame, m."""
     along = (second - first) / np.linalg.norm(second - first)
     return float(along @ np.cross(axis, second - hinge))
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any, Literal
+from collections.abc import Mapping
+from typing import Literal
 
 from seacrane import _core
 from seacrane.description.description import Description, Some
@@ -34,11 +34,3 @@ def _with_rungs(scene: Some, rungs: tuple[tuple[str, str], ...]) -> Some:
     for name, rung in rungs:
         out.loads[name] = changed(out.loads[name], rung=rung)
     return out
-
-
-def compiled_loads(loads: Iterable[Any]) -> list[Any]:
-    """Loads as the core takes them: it knows no "auto"."""
-    return [
-        changed(load, rung=ELASTIC) if isinstance(load, _core.Line) and load.rung == AUTO else load
-        for load in loads
-    ]

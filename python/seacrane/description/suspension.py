@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import joint_ends, lines_of, path_of, springs_of, whole_of
 from seacrane.description.once import once_in_any_sea
+from seacrane.description.roles import CraneRoles
 from seacrane.description.rungs import RIGID, WITH_MASS
 from seacrane.description.wet_parts import buoyancy_of, water_in, wet_bodies
-
-if TYPE_CHECKING:
-    from seacrane import _core
-    from seacrane.description.description import Description
-    from seacrane.description.roles import CraneRoles
 
 ROD = "rod"
 Point = tuple[float, float, float]
@@ -26,29 +24,17 @@ Place = tuple[str, Point]  # a body, or the ground, and a point in its coordinat
 
 @dataclass(frozen=True, kw_only=True)
 class Suspension:
-    """One rod, wire or line, by what it holds at its lower end.
+    """One rod, wire or line, by what it holds at its lower end."""
 
-    Attributes
-    ----------
-    name : Of the joint, or of the line; of a line with mass the whole of it.
-    channel : Its name, or that of its lowest segment, in the channels over `suspension`.
-    top : That of its uppermost segment.
-    rung : "rod", which pushes too, or that of a line.
-    first, upper, lower : (str, (float, float, float))
-        Body and point, in its coordinates, m: where it begins, and both ends of its last straight part.
-    falls : Straight parts that hold the lower body.
-    parts : The elements that it is made of.
-    """
-
-    name: str
-    channel: str
-    top: str
-    rung: str
-    first: Place
-    upper: Place
+    name: str  # of the joint, or of the line; of a line with mass the whole of it
+    channel: str  # its name, or that of its lowest segment, in the channels over `suspension`
+    top: str  # that of its uppermost segment
+    rung: str  # "rod", which pushes too, or that of a line
+    first: Place  # where it begins
+    upper: Place  # both ends of its last straight part
     lower: Place
-    falls: int
-    parts: frozenset[str]
+    falls: int  # straight parts that hold the lower body
+    parts: frozenset[str]  # the elements that it is made of
 
     @property
     def held_at(self) -> Place:
@@ -58,24 +44,14 @@ class Suspension:
 
 @dataclass(frozen=True, kw_only=True)
 class Hung:
-    """A load that hangs on a crane, or on something else by itself.
+    """A load that hangs on a crane, or on something else by itself."""
 
-    Attributes
-    ----------
-    label : str
-        "hook" after the crane's prefix; of a load that hangs on no crane, the name of the suspension.
-    suspension : On which it hangs, with block and slings where it has them.
-    load : The body.
-    point : Of it, in its coordinates, m: where it is held, in the middle of its slings.
-    weight : Of all that the suspension carries, N; None where something else carries it too.
-    """
-
-    label: str
+    label: str  # "hook" after the crane's prefix; without a crane the name of the suspension
     crane: CraneRoles | None
-    suspension: Suspension
+    suspension: Suspension  # on which it hangs, with block and slings where it has them
     load: str
-    point: Point
-    weight: float | None
+    point: Point  # of it: where it is held, in the middle of its slings
+    weight: float | None  # N, of all that the suspension carries; None where something else carries it too
 
     @property
     def hangs_from(self) -> Place:
@@ -89,57 +65,62 @@ class Hung:
 def suspensions(scene: Description) -> tuple[Suspension, ...]:
     """Rods and wires, then lines, in the order of the scene."""
     wires = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "wire"}
-    rods = [
-        _of_joint(name, joint, RIGID if name in wires else ROD)
-        for name, joint in scene.joints.items()
-        if joint.kind == "distance"
-    ]
+    found = []
+    for name, joint in _distances(scene).items():
+        first, second = map(_place, joint_ends(joint))
+        found.append(Suspension(
+            name=name, channel=name, top=name, rung=RIGID if name in wires else ROD, first=first, upper=first,
+            lower=second, falls=1, parts=frozenset([name]),
+        ))  # fmt: skip
     whole: dict[str, dict[str, _core.Line]] = {}
     for name, line in lines_of(scene.loads).items():
         whole.setdefault(whole_of(name, line), {})[name] = line
-    taken = {one.name for one in rods}
-    return (*rods, *(_of_lines(name, segments, taken) for name, segments in whole.items()))
+    joints = [one.name for one in found]
+    return (*found, *(_of_lines(name, segments, joints) for name, segments in whole.items()))
 
 
 @once_in_any_sea
 def names_of_suspensions(scene: Description) -> Sequence[str]:
     """Along `suspension`: rods, wires, then lines; a line with the name of a joint is "<name> line"."""
-    joints = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
+    joints = list(_distances(scene))
     return [*joints, *(_beside(name, joints) for name in lines_of(scene.loads))]
 
 
 def lower_ends(scene: Description) -> list[Place]:
     """Where each of `names_of_suspensions` ends: of a line the last of its points on what hangs."""
-    joints = [joint for joint in scene.joints.values() if joint.kind == "distance"]
-    ends = [_place(joint_ends(joint)[1]) for joint in joints]
+    ends = [_place(joint_ends(joint)[1]) for joint in _distances(scene).values()]
     for line in lines_of(scene.loads).values():
         hooked = hooked_body(line)
         ends.append([_place(end) for end in path_of(line) if end[0] == hooked][-1])
     return ends
 
 
+def _distances(scene: Description) -> dict[str, _core.Joint]:
+    return {name: joint for name, joint in scene.joints.items() if joint.kind == "distance"}
+
+
 @once_in_any_sea
 def weights_on(scene: Description) -> Mapping[str, tuple[float, int]]:
     """Weight (N) on every suspension that alone carries it, and on how many falls, by its `channel`."""
     ties = _ties_of(scene)
-    held = [(one, ties.weight(one) or 0.0) for one in suspensions(scene)]
+    held = [(one, ties.weight_of(ties.below(one))) for one in suspensions(scene)]
     return {end: (weight, one.falls) for one, own in held for end, weight in _ends(scene, one, own)}
 
 
 @once_in_any_sea
 def static_weights(scene: Description) -> Mapping[str, tuple[float, int]]:
     """`weights_on`, without what hangs in water: that carries too, by how deep it is."""
-    known, wet = weights_on(scene), _wet_suspensions(scene)
-    return {channel: pair for channel, pair in known.items() if channel not in wet}
+    wet, ties = wet_bodies(scene), _ties_of(scene)
+    held = [one for one in suspensions(scene) if wet & set(ties.below(one))]
+    left_out = {name for one in held for name in (one.channel, one.top)}
+    return {channel: pair for channel, pair in weights_on(scene).items() if channel not in left_out}
 
 
 @once_in_any_sea
 def least_weights(scene: Description) -> Mapping[str, float]:
-    """Least weight (N) at rest on every suspension that alone carries it, by its `channel`.
-
-    The lesser of two: in air, with compartments empty, and with all parts in water, compartments full. None
-    of what floats.
-    """
+    """Least weight (N) at rest on every suspension that alone carries it, by its `channel`; none of what
+    floats: the lesser of that in air, compartments empty, and that with all parts in water, compartments
+    full."""
     ties = _ties_of(scene)
     held = [(one, _least_weight(scene, ties.below(one))) for one in suspensions(scene)]
     return {end: weight for one, own in held for end, weight in _ends(scene, one, own)}
@@ -160,18 +141,11 @@ def _least_weight(scene: Description, bodies: Sequence[str]) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Rig:
-    """What hangs on one suspension, or on several between the same two bodies, as slings do.
+    """What hangs on one suspension, or on several between the same two bodies, as slings do."""
 
-    Attributes
-    ----------
-    held : By which it hangs.
-    bodies : Those that it is made of, that at the lower end of `held` first.
-    inner : What hangs on what inside it, such as slings below a block.
-    """
-
-    held: tuple[Suspension, ...]
-    bodies: tuple[str, ...]
-    inner: tuple[Suspension, ...]
+    held: tuple[Suspension, ...]  # by which it hangs
+    bodies: tuple[str, ...]  # that it is made of, that at the lower end of `held` first
+    inner: tuple[Suspension, ...]  # what hangs on what inside it, such as slings below a block
 
 
 @once_in_any_sea
@@ -188,13 +162,6 @@ def rigs(scene: Description) -> Sequence[Rig]:
             inner = [one for one in suspensions(scene) if one not in held and one.lower[0] in bodies]
             out.append(Rig(held=held, bodies=tuple(bodies), inner=tuple(inner)))
     return [rig for rig in out if _least_weight(scene, rig.bodies) > 0.0]
-
-
-def _wet_suspensions(scene: Description) -> set[str]:
-    """Channels of suspensions below which are parts in water, or water in compartments."""
-    wet, ties = wet_bodies(scene), _ties_of(scene)
-    held = [one for one in suspensions(scene) if wet & set(ties.below(one))]
-    return {name for one in held for name in (one.channel, one.top)}
 
 
 @once_in_any_sea
@@ -217,30 +184,57 @@ def bodies_below(scene: Description) -> Sequence[tuple[Suspension, Sequence[str]
 def hung_loads(scene: Description) -> tuple[Hung, ...]:
     """What hangs on the cranes, then what hangs by itself on something else."""
     every, ties = suspensions(scene), _ties_of(scene)
-    found = [_on_crane(scene, roles, every, ties) for roles in scene.roles.values()]
-    on_cranes = [one for one in found if one is not None]
-    carried = {body for one in on_cranes for body in (one.load, *ties.below(one.suspension))}
-    others = []
+    found: list[Hung] = []
+    carried = set[str]()
+    for roles in scene.roles.values():
+        on_crane = _of_crane(roles, every, ties)
+        if on_crane is not None:
+            load = roles.payload if roles.payload in scene.bodies else _lowest(scene, on_crane)
+            if load in scene.bodies:
+                found.append(_hung(scene, f"{roles.prefix}hook", roles, on_crane, str(load)))
+                carried |= {str(load), *ties.below(on_crane)}
     for one in every:
-        weight, body = ties.weight(one), one.lower[0]
-        if weight is not None and body not in carried:
-            load = _lowest(scene, one, every, ties.below(one))
-            carried |= {load, *ties.below(one)}
-            others.append(_hung(scene, one.name, None, one, load, every, weight))
-    return (*on_cranes, *others)
+        if ties.weight(one) is not None and one.lower[0] not in carried:
+            found.append(_hung(scene, one.name, None, one, _lowest(scene, one)))
+            carried |= {found[-1].load, *ties.below(one)}
+    return tuple(found)
+
+
+def _of_crane(roles: CraneRoles, every: Sequence[Suspension], ties: _Ties) -> Suspension | None:
+    """On what the load of a crane hangs, by its role, or from its tip."""
+    if roles.link or roles.line:
+        return next((one for one in every if one.name == (roles.link or roles.line)), None)
+    tip = roles.tip and roles.tip[0]
+    from_tip = [one for one in every if one.upper[0] == tip and ties.below(one)]
+    return from_tip[0] if len(from_tip) == 1 else None
+
+
+def _lowest(scene: Description, one: Suspension) -> str:
+    """Among the bodies on a suspension, the heaviest that carries none of the others."""
+    below = _ties_of(scene).below(one) or [one.lower[0]]
+    carrying = {other.upper[0] for other in suspensions(scene) if other.name != one.name}
+    lowest = [body for body in below if body not in carrying] or below
+    return max(lowest, key=lambda body: scene.bodies[body].mass if body in scene.bodies else 0.0)
+
+
+def _hung(scene: Description, label: str, crane: CraneRoles | None, one: Suspension, load: str) -> Hung:
+    """With the middle of the points by which slings and hooks hold the load."""
+    points = [one.lower[1]]
+    if one.lower[0] != load:
+        points = [other.lower[1] for other in suspensions(scene) if other.lower[0] == load]
+        points += [
+            _place(joint_ends(joint)[1])[1]
+            for joint in scene.joints.values()
+            if joint.kind == "spherical" and joint.second == load
+        ]
+    x, y, z = [sum(axis) / len(points) for axis in zip(*points, strict=True)] or (0.0, 0.0, 0.0)
+    weight = _ties_of(scene).weight(one)
+    return Hung(label=label, crane=crane, suspension=one, load=load, point=(x, y, z), weight=weight)
 
 
 def hooked_body(line: Any) -> str:
     """The body that a line reaches last."""
     return str(list(dict.fromkeys(line.bodies))[-1])
-
-
-def _of_joint(name: str, joint: _core.Joint, rung: str) -> Suspension:
-    first, second = map(_place, joint_ends(joint))
-    return Suspension(
-        name=name, channel=name, top=name, rung=rung, first=first, upper=first, lower=second, falls=1,
-        parts=frozenset([name]),
-    )  # fmt: skip
 
 
 def _of_lines(name: str, segments: Mapping[str, _core.Line], joints: Iterable[str]) -> Suspension:
@@ -269,12 +263,8 @@ def _beside(name: str, joints: Iterable[str]) -> str:
 
 
 def _place(end: tuple[str, Any]) -> Place:
-    return end[0], _point(end[1])
-
-
-def _point(values: Any) -> Point:
-    x, y, z = map(float, values)
-    return x, y, z
+    x, y, z = map(float, end[1])
+    return end[0], (x, y, z)
 
 
 class _Ties:
@@ -282,8 +272,7 @@ class _Ties:
 
     def __init__(self, scene: Description) -> None:
         self._bodies, self._gravity = dict(scene.bodies), scene.gravity
-        self._held = floating_bodies(scene)
-        self._ties = list(_ties(scene))
+        self._held, self._ties = floating_bodies(scene), list(_ties(scene))
         self._below: dict[tuple[Suspension, ...], list[str]] = {}
 
     def weight(self, suspension: Suspension) -> float | None:
@@ -336,45 +325,3 @@ def _ties(scene: Description) -> Iterator[tuple[str, str, str]]:
         yield name, spring.first, spring.second
     for name, cylinder in hydraulic_cylinders(scene).items():
         yield name, cylinder.first, cylinder.second
-
-
-def _on_crane(scene: Description, roles: CraneRoles, every: Sequence[Suspension], ties: _Ties) -> Hung | None:
-    """What hangs on a crane, by its role, or from its tip."""
-    named = {one.name: one for one in every}
-    one = named.get(roles.link or roles.line or "")
-    if one is None and not (roles.link or roles.line) and roles.tip is not None:
-        from_tip = [one for one in every if one.upper[0] == roles.tip[0] and ties.below(one)]
-        one = from_tip[0] if len(from_tip) == 1 else None
-    if one is None:
-        return None
-    load = roles.payload if roles.payload in scene.bodies else _lowest(scene, one, every, ties.below(one))
-    if load not in scene.bodies:
-        return None
-    return _hung(scene, f"{roles.prefix}hook", roles, one, str(load), every, ties.weight(one))
-
-
-def _lowest(scene: Description, one: Suspension, every: Sequence[Suspension], below: Sequence[str]) -> str:
-    """Among the bodies on a suspension, the heaviest that carries none of the others."""
-    carrying = {other.upper[0] for other in every if other.name != one.name}
-    lowest = [body for body in below if body not in carrying] or below or [one.lower[0]]
-    return max(lowest, key=lambda body: scene.bodies[body].mass if body in scene.bodies else 0.0)
-
-
-def _hung(
-    scene: Description, label: str, crane: CraneRoles | None, one: Suspension, load: str,
-    every: Sequence[Suspension], weight: float | None,
-) -> Hung:  # fmt: skip
-    """With the middle of the points by which the load is held."""
-    points = [one.lower[1]] if one.lower[0] == load else list(_held_at(scene, load, every))
-    middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True)) or (0.0, 0.0, 0.0)
-    return Hung(label=label, crane=crane, suspension=one, load=load, point=_point(middle), weight=weight)
-
-
-def _held_at(scene: Description, load: str, every: Sequence[Suspension]) -> Iterator[Point]:
-    """Points of a body, in its coordinates, m, by which slings and hooks hold it."""
-    for one in every:
-        if one.lower[0] == load:
-            yield one.lower[1]
-    for joint in scene.joints.values():
-        if joint.kind == "spherical" and joint.second == load:
-            yield _point(joint.second_frame.point)

@@ -13,44 +13,14 @@ from seacrane import _core
 from seacrane.description.provenance import SeaProvenance
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
-from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import finite_of, not_negative_of
 from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 from seacrane.sea.current import Current
-from seacrane.warnings import RepeatingSeaWarning
 
 Array = NDArray[np.float64]
-OFF_GRID = 1e-9  # of a step: a phase of 6e-9 rad at the end of the period
-FINEST = 8  # parts of the smallest distance between frequencies that a step may be
-LARGEST_NUMBER = 2**18  # of a component on the grid: a week of waves, 100 MB of knots
 STRETCHING = ("wheeler", "none")
-EVALUATIONS = ("table", "exact", "fft")
-
-
-def grid_of(omega: Array) -> tuple[float, NDArray[np.int64]]:
-    """The widest step (rad/s) of which all frequencies (n,), rad/s, are multiples, and the multiples (n,).
-
-    The sea repeats after 2 pi / step. Raises ValueError if the frequencies are on no such grid.
-    """
-    distinct = np.unique(omega)
-    distance = np.diff(distinct)
-    # Frequencies that differ by rounding only are one.
-    distance = distance[distance > 1e-9 * distinct[-1]]
-    widest = float(distance.min()) if distance.size else float(distinct[0])
-    for parts in range(1, FINEST + 1):
-        step = widest / parts
-        number = np.rint(omega / step)
-        if number.max() > LARGEST_NUMBER or number.min() < 1.0:
-            continue
-        # The least-squares step removes the rounding of the smallest distance.
-        step = float(number @ omega / (number @ number))
-        if np.abs(omega / step - number).max() < OFF_GRID:
-            return step, number.astype(np.int64)
-    raise ValueError(
-        "evaluation 'fft' needs frequencies that are multiples of one step; realise the sea with "
-        "placement='uniform', or choose evaluation='table'"
-    )
+EVALUATIONS = ("table", "exact")
 
 
 class _ReadOnly:
@@ -74,8 +44,7 @@ class ByHeading(_ReadOnly):
 
     Attributes
     ----------
-    heading : ndarray, shape (m,)
-        rad, increasing within one turn, at most 45 deg apart.
+    heading : (m,) rad, increasing within one turn, at most 45 deg apart.
     values : ndarray, shape (m, n, 6), complex or real
         Force per amplitude (N/m, N m/m), or mean drift per squared amplitude (N/m2, N m/m2), at the
         frequencies of the n components.
@@ -99,17 +68,14 @@ class HullLoads(_ReadOnly):
     transfer : ndarray, shape (n, 6), complex
         Force RAO at each component's direction relative to `heading`, N/m and N m/m about the body origin in
         the vessel's axes, exp(+i w t).
-    position : tuple of float
-        Where the phase is taken, (x, y), m, inertial frame.
-    heading : float
-        rad, of the vessel where its loads are taken.
+    position : Where the phase is taken, (x, y), m, inertial frame.
+    heading : rad, of the vessel where its loads are taken.
     force_by_heading : ByHeading, optional
         Force RAOs over the heading. With them loads are those at the vessel's position and heading of the
         moment, summed exactly; `transfer` then only serves the linear model.
     drift : ndarray, shape (n, 6), optional
         Mean drift load per squared amplitude at each component, N/m2 and N m/m2: adds Newman's slow drift.
-    drift_by_heading : ByHeading, optional
-        The same over the heading, for loads at the actual or the slow position.
+    drift_by_heading : The same over the heading, for loads at the actual or the slow position.
     cutoff : float
         rad/s: with `force_by_heading`, loads are those at the position and heading below this frequency; 0:
         at those of the moment.
@@ -160,9 +126,7 @@ class Waves(_ReadOnly):
     depth : float
         Water depth, m, for the wavenumbers.
     evaluation : str
-        "table": knots made as a run reaches them. "fft": knots of a whole period made beforehand by FFT, for
-        long records of many components; frequencies must be multiples of one step. "exact": the sum in every
-        evaluation.
+        "table": knots made as a run reaches them. "exact": the sum in every evaluation.
     negligible : float
         Components whose magnitudes sum to no more than this share of all, in every load and the elevation,
         are left out when the scene is compiled, 0 to 0.1; 0 leaves out those that add nothing.
@@ -238,12 +202,9 @@ class Waves(_ReadOnly):
         if body is None and len(self.hulls) == 1:
             return next(iter(self.hulls))
         if body is None or body not in self.hulls:
-            asked = (
-                "name one of them" if body is None else f"no vessel {body!r} is in it; add_sea puts one in"
-            )
-            raise SceneError(
-                f"waves: the sea is on {', '.join(map(repr, self.hulls)) or 'no vessel'}; {asked}"
-            )
+            known = ", ".join(map(repr, self.hulls)) or "no vessel"
+            fix = "name one of them" if body is None else f"no vessel {body!r} is in it; add_sea puts one in"
+            raise SceneError(f"waves: the sea is on {known}; {fix}")
         return body
 
     def changed(self, body: str | None = None, **changes: Any) -> Waves:
@@ -263,26 +224,6 @@ class Waves(_ReadOnly):
             depth=self.depth, **flow,
         )  # fmt: skip
 
-    def field(self) -> _core.SeaField:
-        """What moving points see of the sea."""
-        return _core.SeaField(self.components(), stretching=self.stretching)
-
-    def calm(self) -> Waves | None:
-        """The same water without waves, at rest or on its current: what a scene rests in."""
-        return None if self.current is None else flowing_water(self.current, self.depth, self.stretching)
-
-    def warn_of_repeats(self, duration: float) -> None:
-        """Warn with RepeatingSeaWarning if a series made by FFT is shorter than a run (s)."""
-        if self.evaluation != "fft":
-            return
-        period = 2.0 * np.pi / grid_of(np.asarray(self.omega, dtype=float))[0]
-        if duration > period:
-            warn_caller(
-                f"waves: repeat after {period:.6g} s, the run takes {duration:.6g} s: what "
-                "comes later adds nothing to extremes or statistics; put more components into the same band",
-                RepeatingSeaWarning,
-            )
-
 
 def flowing_water(current: Current, depth: float, stretching: str) -> Waves:
     """A sea without waves that flows: one component of no height."""
@@ -294,5 +235,7 @@ def flowing_water(current: Current, depth: float, stretching: str) -> Waves:
 
 
 def calm_water(waves: Waves | None) -> Waves | None:
-    """The water of a scene without its waves."""
-    return None if waves is None else waves.calm()
+    """The water of a scene without its waves, at rest or on its current."""
+    if waves is None or waves.current is None:
+        return None
+    return flowing_water(waves.current, waves.depth, waves.stretching)

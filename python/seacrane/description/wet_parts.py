@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies, given_vessels, welded_to
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.places import place_in, placed, position_of
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.sea.dispersion import wavenumber
-
-if TYPE_CHECKING:
-    from seacrane.description.description import Description
 
 Array = NDArray[np.float64]
 SLACK = 0.01  # of sizes and volumes, between a compartment and what is around it
@@ -52,11 +49,9 @@ def displaced_volume(part: _core.ImmersedPart) -> float:
     """m3 that a part keeps water out of, where it is under water."""
     size = np.asarray(part.size, dtype=float)
     volumes = {
-        "box": np.prod(size),
-        "cylinder": np.pi / 4.0 * size[0] * size[1] ** 2,
-        "disc": 0.0,
+        "box": np.prod(size), "cylinder": np.pi / 4.0 * size[0] * size[1] ** 2, "disc": 0.0,
         "sphere": np.pi / 6.0 * size[0] ** 3,
-    }
+    }  # fmt: skip
     whole = volumes.get(part.shape)
     return float(part.fill * (np.asarray(part.volumes)[-1] if whole is None else whole))
 
@@ -131,17 +126,22 @@ def half_height(part: _core.ImmersedPart, turn: Array) -> Array:
     return np.full(turn.shape[:-2], 0.5 * size[2])
 
 
+def _heights(
+    scene: Description, arrays: Mapping[str, Array], part: _core.ImmersedPart
+) -> tuple[Array, Array]:
+    """Of the centre of a part over z = 0, and from its lowest point to there, m, (time,)."""
+    turn = rotation_matrix(arrays["quaternion"][:, place_in(scene, part.body)]) @ np.asarray(part.axes)
+    return position_of(scene, arrays, part.body, part.point)[:, 2], half_height(part, turn)
+
+
 def carried_by_water(scene: Description, arrays: Mapping[str, Array], bodies: Iterable[str]) -> Array:
     """N on bodies of parts that are wholly below z = 0, less the water in compartments there, (time,)."""
     held = set(bodies)
     total = np.zeros(len(arrays["position"]))
     for part in immersed_parts(scene).values():
         if part.body in held:
-            turn = rotation_matrix(arrays["quaternion"][:, place_in(scene, part.body)]) @ np.asarray(
-                part.axes
-            )
-            top = position_of(scene, arrays, part.body, part.point)[:, 2] + half_height(part, turn)
-            total += np.where(top < 0.0, scene.gravity * part.density * displaced_volume(part), 0.0)
+            height, half = _heights(scene, arrays, part)
+            total += np.where(height + half < 0.0, scene.gravity * part.density * displaced_volume(part), 0.0)
     for one in waters_in(scene):
         if one.body in held:
             top = np.asarray(one.point) + np.array([0.0, 0.0, one.height])
@@ -165,22 +165,9 @@ def immersed_depths(scene: Description, arrays: Mapping[str, Array]) -> Array | 
     parts = immersed_parts(scene)
     if not parts or not {"position", "quaternion"} <= set(arrays):
         return None
-    turns = {
-        body: rotation_matrix(arrays["quaternion"][:, place_in(scene, body)])
-        for body in {part.body for part in parts.values()}
-    }
-    depths = {
-        name: half_height(part, turns[part.body] @ np.asarray(part.axes))
-        - position_of(scene, arrays, part.body, part.point)[:, 2]
-        for name, part in parts.items()
-    }
+    heights = {name: _heights(scene, arrays, part) for name, part in parts.items()}
+    depths = {name: half - height for name, (height, half) in heights.items()}
     return np.stack([np.max([depths[one] for one in of], axis=0) for of in wet_names(scene).values()], axis=1)
-
-
-def refuse_contradictions_in_water(scene: Description) -> None:
-    """Raise SceneError for either."""
-    _refuse_parts_of_hulls(scene)
-    _refuse_seabeds(scene)
 
 
 def starts_wet(scene: Description, part: _core.ImmersedPart) -> tuple[float, float]:
@@ -190,7 +177,8 @@ def starts_wet(scene: Description, part: _core.ImmersedPart) -> tuple[float, flo
     return depth - half, depth + half
 
 
-def _refuse_parts_of_hulls(scene: Description) -> None:
+def refuse_contradictions_in_water(scene: Description) -> None:
+    """SceneError for parts of hulls that float, and for a sea of another depth than a seabed."""
     hulls = floating_bodies(scene) - set(given_vessels(scene))  # which go as they are given
     for part in immersed_parts(scene).values() if hulls else ():
         if part.body in hulls and displaced_volume(part) > 0.0 and starts_wet(scene, part)[1] > 0.0:
@@ -200,6 +188,7 @@ def _refuse_parts_of_hulls(scene: Description) -> None:
                 "Take it without volume for its drag and added mass alone (a box with fill=0, a table with "
                 "volumes of 0), or put what is no part of that hull on a body of its own, welded to it"
             )
+    _refuse_seabeds(scene)
 
 
 def _refuse_seabeds(scene: Description) -> None:

@@ -30,7 +30,7 @@ from seacrane.water.parts import PARTS
 
 CHOSEN: dict[str, dict[str, Any]] = {
     "spectrum": {"type": "text", "choices": SPECTRA},
-    "evaluation": {"choices": ("table", "fft", "exact")},
+    "evaluation": {"choices": ("table", "exact")},
     "placement": {"choices": ("jittered", "uniform")},
     "memory": {"choices": MEMORY},
     "kinematics": {"choices": ("yaw_following", "paper")},

@@ -8,7 +8,6 @@ from types import MappingProxyType
 from typing import Any
 
 from seacrane import _core
-from seacrane.crane.knuckle_boom import CYLINDERS
 from seacrane.crane.parts import Payload
 from seacrane.description import elements
 from seacrane.description.hydraulic_cylinders import VALUES
@@ -163,7 +162,7 @@ RAM = _call(
 )  # fmt: skip
 PLACED = ("name", "first", "second", "first_point", "second_point", "retracted_length", "stroke")
 OIL = tuple(replace(key, required=False) for key in RAM.keys if key.name not in PLACED)
-HYDRAULICS = tuple(Key(label, "table", keys=OIL) for label in CYLINDERS)
+HYDRAULICS = tuple(Key(label, "table", keys=OIL) for label in ("main", "knuckle"))
 CRANE = keys_of(
     add_crane,
     more=POSE

@@ -242,7 +242,7 @@ def _with_waves(scene: Scene, *, change: Callable[[Waves], Waves]) -> Scene:
 def coarse_table(scene: Scene) -> Iterator[Choice]:
     """Loads of waves from a table with a wide bound, in place of a fine one or of the sum itself."""
     waves = scene.waves
-    if waves is None or not waves.has_tables() or waves.evaluation == "fft":
+    if waves is None or not waves.has_tables():
         return
     if waves.evaluation == "exact" or waves.relative_bound < simpler.BOUND:
         script = f'dataclasses.replace(scene.waves, evaluation="table", relative_bound={simpler.BOUND!r})'

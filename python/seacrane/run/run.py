@@ -231,8 +231,6 @@ class Run:
     def _prepare(self) -> None:
         """What changes while it runs."""
         self.core = _core.Simulation(model=self.model, start=self.start, options=self._options)
-        if self.scene.waves is not None:
-            self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self.interrupted = False
         self.steered = set(self._steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end

@@ -9,21 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from seacrane import _core
-from seacrane.crane.crane import Crane, Vector
-from seacrane.crane.data import MeshData, RopeData
-from seacrane.crane.hydraulics import add_hydraulics, hydraulics_of
+from seacrane.crane.crane import Crane, Vector, add_hydraulics, hydraulics_of
+from seacrane.crane.data import JointData, MeshData, RopeData
 from seacrane.crane.load_crane import load_crane
-from seacrane.crane.parts import (
-    FAR,
-    STRUCTURE,
-    UP,
-    BodyRecord,
-    CraneParts,
-    JointRecord,
-    Lean,
-    Payload,
-    leaning,
-)
+from seacrane.crane.parts import FAR, STRUCTURE, UP, CraneParts, Lean, Payload, leaning
 from seacrane.description.description import Description
 from seacrane.description.elements import add_driver, add_joint, add_spring
 from seacrane.description.roles import CraneRoles, LuffingRope
@@ -128,7 +117,7 @@ def add_crane(
     lean = None
     if stiffness is not None:
         positive_of("crane: stiffness", stiffness, "N/m")
-        parts, lean = leaning(parts)
+        parts, lean = leaning(parts, crane.data.slew)
     bodies, joints = list(parts.bodies), list(parts.joints)
     if payload is not None:
         bodies.append(payload.under(parts.tip[1]))
@@ -136,15 +125,15 @@ def add_crane(
     oil = hydraulics_of(crane, hydraulics)
     names = {"": base} | {body.name: prefix + body.name for body in bodies}
     frame = _Frame(scene, base)
-    for body in bodies:
-        frame.add_body(body, names[body.name])
-    for one in joints:
-        frame.add_joint(one, prefix + one.name, names[one.first], names[one.second])
-    for joint, (low, high) in parts.ranges.items():
-        add_range(scene, prefix + joint, joint=prefix + joint, minimum=low, maximum=high)
-    for body_name, meshes in parts.meshes.items():
-        for mesh in meshes:
-            _draw(scene, mesh, names[body_name], prefix, parts)
+    for one in bodies:
+        frame.add_body(one, names[one.name])
+    for joint in joints:
+        frame.add_joint(joint, prefix + joint.name, names[joint.first], names[joint.second])
+    for name, (low, high) in parts.ranges.items():
+        add_range(scene, prefix + name, joint=prefix + name, minimum=low, maximum=high)
+    for body in crane.data.bodies:
+        for mesh in body.meshes:
+            _draw(scene, mesh, names[body.name], prefix, parts)
     load = 0.0 if payload is None else payload.mass
     add_hydraulics(scene, crane, oil, coordinates=place, payload_mass=load, prefix=prefix)
     tip = frame.in_body(prefix + parts.tip[0], parts.tip[1])
@@ -155,17 +144,18 @@ def add_crane(
             scene, names[PAYLOAD], payload.size, tip, ratio=payload.swing_damping_ratio,
             drag=payload.drag_coefficient,
         )  # fmt: skip
-    led = [joint for joint in parts.drives if joint not in {parts.cylinders[label] for label in oil}]
-    for joint in led if is_held else ():
-        add_driver(scene, joint=prefix + joint, curve=0.0)
-    for joint in parts.drives:
-        record_coordinate(scene, prefix + joint)
+    drives = crane.data.coordinates
+    led = [joint for label, joint in drives.items() if label not in oil]
+    for name in led if is_held else ():
+        add_driver(scene, joint=prefix + name, curve=0.0)
+    for name in drives.values():
+        record_coordinate(scene, prefix + name)
     return add_roles(
-        scene, prefix=prefix, slew=None if parts.slew is None else prefix + parts.slew,
-        cylinders={label: prefix + name for label, name in parts.cylinders.items()},
+        scene, prefix=prefix, slew=None if crane.data.slew is None else prefix + crane.data.slew,
+        cylinders={label: prefix + name for label, name in crane.data.cylinders.items()},
         link=None if payload is None else f"{prefix}link", tip=None if payload is not None else tip,
-        capacity=parts.capacity, areas=parts.areas,
-        luffs={label: prefix + name for label, name in parts.luffs.items()},
+        capacity=crane.data.capacity, areas=crane.data.areas,
+        luffs={label: prefix + name for label, name in crane.data.luffs.items()},
         ropes={rope.luff: frame.rope(rope, prefix, names) for rope in parts.ropes},
         held=is_held is not False, design_factor=design_factor,
         structure=None if lean is None else prefix + STRUCTURE,
@@ -217,15 +207,15 @@ class _Frame:
             self.turn = np.array(scene.bodies[base].quaternion)
         self.to_inertial = rotation_matrix(self.turn)
 
-    def add_body(self, body: BodyRecord, name: str) -> None:
+    def add_body(self, body: _core.Body, name: str) -> None:
         add_body(
             self.scene, name=name, mass=body.mass, inertia=body.inertia, center_of_mass=body.center_of_mass,
             position=self.origin + self.to_inertial @ body.position,
             quaternion=quaternion_product(self.turn, body.quaternion),
         )  # fmt: skip
 
-    def add_joint(self, joint: JointRecord, name: str, first: str, second: str) -> None:
-        given: dict[str, Any] = {key: getattr(joint, key) for key in (*POINTS, *AXES, "length")}
+    def add_joint(self, joint: JointData, name: str, first: str, second: str) -> None:
+        given: dict[str, Any] = {key: getattr(joint, key) for key in (*POINTS, *AXES)}
         used = {key: value for key, value in given.items() if value is not None}
         used |= {key: self.origin + self.to_inertial @ used[key] for key in POINTS if key in used}
         used |= {key: self.to_inertial @ used[key] for key in AXES if key in used}

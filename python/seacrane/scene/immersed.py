@@ -18,8 +18,7 @@ from seacrane.inputs.shown import shown
 from seacrane.inputs.values import made_of, told_by
 from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.mesh_part import from_mesh
-from seacrane.water.openings import Opening
-from seacrane.water.parts import PARTS, BoxPart, CylinderPart, Part, PlatePart, SpherePart, TablePart
+from seacrane.water.parts import PARTS, Opening, Part
 
 Array = NDArray[np.float64]
 
@@ -102,7 +101,7 @@ def add_immersed(
 
 
 def _part(what: str, given: Any) -> Part:
-    if isinstance(given, BoxPart | PlatePart | CylinderPart | SpherePart | TablePart):
+    if isinstance(given, Part):
         return given
     if not isinstance(given, Mapping):
         raise SceneError.of(f"{what}: parts", f"holds {shown(given)}; give parts of seacrane.water")

@@ -76,7 +76,7 @@ def add_sea(
     relative_bound : float
         Error bound of the load table over the sum of component magnitudes (1e-9).
     evaluation : str
-        "table" (default), "fft" (needs components of uniform placement) or "exact"; see `Waves`.
+        "table" (default) or "exact"; see `Waves`.
     phase : str
         "mean": loads at that position and heading. "actual": at those of the moment: a vessel under way meets
         the encounter frequency. "slow": at the slow part of those of the moment, since a motion in the waves

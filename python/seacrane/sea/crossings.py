@@ -6,16 +6,10 @@ import numpy as np
 
 
 def expected_crossings(level: float, *, cycles: float, bandwidth: float | None) -> float:
-    """Mean number of up-crossings of a level, or of clumps of them, by a Gaussian process.
+    """Mean number of up-crossings of a level (standard deviations above the mean) by a Gaussian process, of
+    which `cycles` cross the mean.
 
-    Parameters
-    ----------
-    level : float
-        In standard deviations above the mean.
-    cycles : float
-        Mean number of up-crossings of the mean.
-    bandwidth : float or None
-        Vanmarcke's, which gathers crossings into clumps; None: every crossing counts.
+    `bandwidth` is Vanmarcke's, which gathers crossings into clumps; None: every crossing counts.
     """
     single = float(cycles * np.exp(-0.5 * level**2))
     if bandwidth is None or level <= 0.0:

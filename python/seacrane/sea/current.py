@@ -14,6 +14,7 @@ from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.keywords import named
 
 Array = NDArray[np.float64]
+KEYS = ("depth", "speed", "direction_deg")
 
 
 @named
@@ -47,7 +48,7 @@ class Current:
 
     def __post_init__(self) -> None:
         size = np.atleast_1d(numbers_of("current: depth", self.depth)).size
-        for key in ("depth", "speed", "direction_deg"):
+        for key in KEYS:
             array = np.atleast_1d(numbers_of(f"current: {key}", getattr(self, key)))
             if array.shape not in ((size,), (1,)) or not np.all(np.isfinite(array)):
                 raise SceneError.of(
@@ -61,9 +62,7 @@ class Current:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Current):
             return NotImplemented
-        return all(
-            np.array_equal(getattr(self, k), getattr(other, k)) for k in ("depth", "speed", "direction_deg")
-        )
+        return all(np.array_equal(getattr(self, key), getattr(other, key)) for key in KEYS)
 
     __hash__ = None  # type: ignore[assignment]  # arrays have none
 

@@ -11,13 +11,8 @@ ITERATIONS = 50  # far more than Newton's method needs from either limit
 
 
 def wavenumber(omega: FloatArray, *, g: float, depth: float) -> FloatArray:
-    """k (n,) in 1/m of ``omega^2 = g k tanh(k depth)``, by Newton's method from the deep or shallow limit.
-
-    Parameters
-    ----------
-    omega : (n,) in rad/s, positive.
-    g, depth : m/s2 and m, positive; an infinite depth is deep water.
-    """
+    """k (n,) in 1/m of ``omega^2 = g k tanh(k depth)``, by Newton's method from the deep or shallow limit;
+    rad/s, m/s2 and m, an infinite depth is deep water."""
     k = np.asarray(omega, dtype=float) ** 2 / g
     if np.isinf(depth):
         return np.asarray(k)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +10,9 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
-from seacrane.inputs.checked import name_of, number_of, shaped_of, vector_of
+from seacrane.inputs.checked import finite_of, name_of, number_of, shaped_of, vector_of
 from seacrane.inputs.plausible import direction_of
-from seacrane.sea.spectra import tabulated_spectrum
-
-if TYPE_CHECKING:
-    from seacrane.sea.spreading import Spreading
+from seacrane.sea.spreading import Spreading
 
 Array = NDArray[np.float64]
 HIGHEST = 1e6  # m: no sea, and its squares do not overflow
@@ -86,11 +82,10 @@ class MeasuredWaves:
         self._check_steps()
         if not 0.0 <= number_of(f"{self._object}: taper", self.taper) <= 1.0:
             raise SceneError.of(f"{self._object}: taper", f"is {self.taper}; give a share from 0 to 1")
-        point = shaped_of(f"{self._object}: position", self.position, (2,))
-        angle = direction_of(f"{self._object}: direction_deg", self.direction_deg)
-        for name, value in (("direction_deg", angle), ("position", point)):
-            if not np.all(np.isfinite(value)):
-                raise SceneError.of(f"{self._object}: {name}", f"is {value}; give finite numbers")
+        for value in shaped_of(f"{self._object}: position", self.position, (2,)):
+            finite_of(f"{self._object}: position", value, "m")
+        what = f"{self._object}: direction_deg"
+        finite_of(what, direction_of(what, self.direction_deg))
         highest = float(np.abs(self.elevation).max())
         if highest > HIGHEST:
             raise SceneError(
@@ -142,29 +137,25 @@ class MeasuredWaves:
     @property
     def _kept(self) -> NDArray[np.bool_]:
         omega = self._harmonics
-        low, high = (
-            usual if value is None else number_of(f"{self._object}: {name}", value)
-            for name, value, usual in (
-                ("minimum_omega", self.minimum_omega, 0.0), ("maximum_omega", self.maximum_omega, np.inf),
-            )
-        )  # fmt: skip
-        return np.asarray((omega > 0.0) & (omega >= low) & (omega <= high))
+        kept = omega > 0.0
+        if self.minimum_omega is not None:
+            kept &= omega >= number_of(f"{self._object}: minimum_omega", self.minimum_omega)
+        if self.maximum_omega is not None:
+            kept &= omega <= number_of(f"{self._object}: maximum_omega", self.maximum_omega)
+        return kept
 
-    def band_passed(self) -> Array:
-        """The record that the waves reproduce, at its times, m, shape (n,)."""
-        kept = np.where(self._kept, np.fft.rfft(self._windowed()), 0.0)
-        return np.asarray(np.fft.irfft(kept, self.time.size), dtype=float)
-
-    def _windowed(self) -> Array:
-        from scipy.signal.windows import tukey
-
-        still = self.elevation - self.elevation.mean()
-        return np.asarray(still * tukey(self.time.size, self.taper) if self.taper else still)
+    @property
+    def count(self) -> int:
+        """Number of components."""
+        return int(np.count_nonzero(self._kept))
 
     def waves(self, *, direction: Array, depth: float) -> _core.WaveComponents:
         """Components with given directions of travel (rad), one for all or one for each."""
+        from scipy.signal.windows import tukey
+
         kept, omega, n = self._kept, self._harmonics, self.time.size
-        transform = np.fft.rfft(self._windowed())
+        still = self.elevation - self.elevation.mean()
+        transform = np.fft.rfft(still * tukey(n, self.taper) if self.taper else still)
         amplitude = np.abs(transform) * 2.0 / n
         if n % 2 == 0:
             amplitude[-1] *= 0.5  # the Nyquist harmonic has no conjugate partner
@@ -175,27 +166,3 @@ class MeasuredWaves:
         return _core.WaveComponents(
             omega=omega[kept], amplitude=amplitude[kept], phase=phase, direction=direction, depth=depth
         )
-
-    @property
-    def count(self) -> int:
-        """Number of components."""
-        return int(np.count_nonzero(self._kept))
-
-    def spectrum(self, *, segments: int = 16) -> _core.Spectrum:
-        """Spectrum of the record by Welch's method, for seas of the same energy but other phases.
-
-        Parameters
-        ----------
-        segments : int
-            Half-overlapping Hann-windowed pieces that are averaged: more are smoother and coarser.
-        """
-        from scipy.signal import welch
-
-        length = int(2 * self.time.size // (segments + 1)) if segments >= 1 else 0
-        if length < 8:
-            raise SceneError.of(
-                f"{self._object}: segments",
-                f"is {segments} for {self.time.size} samples; give 1 or more, with 8 samples or more in each",
-            )
-        hertz, density = welch(self.elevation, fs=1.0 / self.step, nperseg=min(length, self.time.size))
-        return tabulated_spectrum(frequency=hertz[1:], density=density[1:])

@@ -66,14 +66,13 @@ def bretschneider(
     SceneError
         Not exactly one period, or a parameter that is not finite or not above zero.
     """
-    given = {"tp": tp, "tz": tz, "t1": t1}
-    periods = {name: value for name, value in given.items() if value is not None}
+    given = {"tp": (tp, 1.0), "tz": (tz, PEAK_OVER_TZ), "t1": (t1, PEAK_OVER_T1)}
+    periods = {name: pair for name, pair in given.items() if pair[0] is not None}
     if len(periods) != 1:
         raise SceneError(
             f"Bretschneider spectrum: periods given are {sorted(periods)}; give one of tp, tz, t1"
         )
-    ((name, period),) = periods.items()
-    factor = {"tp": 1.0, "tz": PEAK_OVER_TZ, "t1": PEAK_OVER_T1}[name]
+    ((name, (period, factor)),) = periods.items()
     tp = factor * positive_of(f"Bretschneider spectrum: {name}", period, "s")
     return _core.pierson_moskowitz(hs=hs, tp=tp)
 

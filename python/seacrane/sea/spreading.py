@@ -89,11 +89,9 @@ class Spreading:
         if self.kind == "cos-2s":
             mean = self.exponent / (self.exponent + 1.0)
         else:
-            n = self.exponent
             # E cos = ratio of the normalisations of exponents n and n + 1.
-            logs = (0.5 * n + 1.0, 0.5 * n + 1.0, 0.5 * n + 1.5, 0.5 * n + 0.5)
-            a, b, c, d = (math.lgamma(value) for value in logs)
-            mean = math.exp(a + b - c - d)
+            a, b, c = (math.lgamma(0.5 * self.exponent + more) for more in (1.0, 1.5, 0.5))
+            mean = math.exp(2.0 * a - b - c)
         return math.sqrt(2.0 * (1.0 - mean))
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.checked import finite_of, number_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
@@ -65,39 +65,26 @@ class WaveSystem:
 
     def __post_init__(self) -> None:
         what = f"wave system {text_of('wave system: name', self.name)!r}"
-        if not isinstance(self.spectrum, _core.Spectrum):
-            raise SceneError.of(
-                f"{what}: spectrum", f"is {self.spectrum!r}; give a Spectrum, such as jonswap(...)"
-            )
-        if self.spreading is not None and not isinstance(self.spreading, Spreading):
-            raise SceneError.of(
-                f"{what}: spreading", f"is {self.spreading!r}; give cos_2s(...), cos_n(...) or None"
-            )
-        if not np.isfinite(direction_of(f"{what}: direction_deg", self.direction_deg)):
-            raise SceneError.of(
-                f"{what}: direction_deg", f"is {self.direction_deg}; give a finite angle in deg"
-            )
-        if not (type(self.count) is int or isinstance(self.count, np.integer)) or not (
-            1 <= self.count <= MOST_COMPONENTS
-        ):
-            raise SceneError.of(
-                f"{what}: count", f"is {shown(self.count)}; give a whole number from 1 to {MOST_COMPONENTS:,}"
-            )
+        whole = type(self.count) is int or isinstance(self.count, np.integer)
+        for key, sound, fix in (
+            ("spectrum", isinstance(self.spectrum, _core.Spectrum), "give a Spectrum, such as jonswap(...)"),
+            ("spreading", isinstance(self.spreading, Spreading | None), "give cos_2s(...) or cos_n(...)"),
+            ("count", whole and 1 <= self.count <= MOST_COMPONENTS,
+             f"give a whole number from 1 to {MOST_COMPONENTS:,}"),
+        ):  # fmt: skip
+            if not sound:
+                raise SceneError.of(f"{what}: {key}", f"is {shown(getattr(self, key))}; {fix}")
+        angle = f"{what}: direction_deg"
+        finite_of(angle, direction_of(angle, self.direction_deg), "deg")
         warn_if_breaking(what, self.spectrum)
 
     def waves(self, *, seed: int, system: int, depth: float, placement: str) -> _core.WaveComponents:
         """Long-crested components along the mean direction."""
         return _core.realise_waves(
-            self.spectrum,
-            seed=seed,
-            system=system,
-            direction=float(np.radians(self.direction_deg)),
-            count=self.count,
-            minimum_omega=self.minimum_omega,
-            maximum_omega=self.maximum_omega,
-            depth=depth,
+            self.spectrum, seed=seed, system=system, direction=float(np.radians(self.direction_deg)),
+            count=self.count, minimum_omega=self.minimum_omega, maximum_omega=self.maximum_omega, depth=depth,
             placement=placement,
-        )
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -193,18 +180,18 @@ class SeaState:
         for one in systems:
             if not isinstance(one, (WaveSystem, MeasuredWaves)):
                 raise SceneError(f"sea state: {one!r} is no wave system; give WaveSystem or MeasuredWaves")
-        if not number_of("sea state: depth", self.depth) > 0.0:
-            raise SceneError.of(
-                "sea state: depth", f"is {self.depth}; give a depth above zero in m, or infinity"
-            )
-        if self.placement not in ("jittered", "uniform"):
-            raise SceneError.of(
-                "sea state: placement", f"is {self.placement!r}; give 'jittered' or 'uniform'"
-            )
-        if not isinstance(self.seed, (int, np.integer)) or not 0 <= self.seed < 2**64:
-            raise SceneError.of(
-                "sea state: seed", f"is {self.seed!r}; give a whole number from 0 to 2^64 - 1"
-            )
+        whole = isinstance(self.seed, (int, np.integer))
+        for key, sound, fix in (
+            (
+                "depth",
+                number_of("sea state: depth", self.depth) > 0.0,
+                "give one above zero in m, or inf",
+            ),
+            ("placement", self.placement in ("jittered", "uniform"), "give 'jittered' or 'uniform'"),
+            ("seed", whole and 0 <= self.seed < 2**64, "give a whole number from 0 to 2^64 - 1"),
+        ):
+            if not sound:
+                raise SceneError.of(f"sea state: {key}", f"is {shown(getattr(self, key))}; {fix}")
         object.__setattr__(self, "systems", systems)
 
     def realise(self) -> RealisedSea:
@@ -237,12 +224,9 @@ class SeaState:
         if system.spreading is None:
             return plain
         return _core.WaveComponents(
-            omega=plain.omega,
-            amplitude=plain.amplitude,
-            phase=plain.phase,
+            omega=plain.omega, amplitude=plain.amplitude, phase=plain.phase, depth=self.depth,
             direction=mean + self._angles(j, len(plain), system.spreading),
-            depth=self.depth,
-        )
+        )  # fmt: skip
 
     def _angles(self, j: int, count: int, spreading: Spreading | None) -> Array:
         if spreading is None:
@@ -253,11 +237,9 @@ class SeaState:
     def description(self) -> dict[str, Any]:
         """The sea in plain data, for notes and files: depth None is deep water, a record its size."""
         return {
-            "seed": self.seed,
-            "depth": None if np.isinf(self.depth) else float(self.depth),
-            "placement": self.placement,
-            "systems": [_described(system) for system in self.systems],
-        }
+            "seed": self.seed, "depth": None if np.isinf(self.depth) else float(self.depth),
+            "placement": self.placement, "systems": [_described(system) for system in self.systems],
+        }  # fmt: skip
 
 
 def _described(system: WaveSystem | MeasuredWaves) -> dict[str, Any]:

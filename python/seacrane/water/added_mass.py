@@ -21,6 +21,8 @@ SPHERE_SOURCE = (
 )
 PLATES = ((1.0, 0.579), (0.5, 0.757), (0.25, 0.872), (0.1, 0.947), (0.0, 1.0))  # short side over long, factor
 ROUNDING = 0.25  # of the depth of a ramp, over which its end is rounded to either side
+RAMP_KNOTS = 40
+SETTLED = 0.1  # radii, over which wetting faster than that of a level surface goes over into it
 DEEPEST_CIRCLE = 40.0  # radii, at which the added mass is that of an unbounded fluid: 1 - 1/3042 of it before
 
 
@@ -75,6 +77,20 @@ def circle_table() -> tuple[Array, Array]:
     return depths, values
 
 
+def wetted_at(shares: Array, faster: float) -> Array:
+    """Depths at which a circle has the added mass that it has by itself at `shares`, radii: as if the first
+    of its depth were wetted `faster` times as deep."""
+    if faster == 1.0:
+        return shares
+    more = (faster - 1.0) * SETTLED
+    out = np.array(shares)
+    for _ in range(60):  # Newton's method for h + more (1 - exp(-h / SETTLED)) = share
+        left = out + more * (1.0 - np.exp(-out / SETTLED)) - shares
+        out -= left / (1.0 + (faster - 1.0) * np.exp(-out / SETTLED))
+    out[0] = 0.0
+    return np.asarray(out)
+
+
 def disc_added_mass(radius: float) -> float:
     """Added mass of one side of a disc along its axis, over the density, m3: 4/3 radius^3 (H. Lamb,
     Hydrodynamics, art. 102: 8/3 of both)."""
@@ -82,10 +98,8 @@ def disc_added_mass(radius: float) -> float:
 
 
 def ring_added_mass(radius: float, wall: float) -> float:
-    """Of one side of a ring of outer radius and width (m), along its axis, over the density, m3.
-
-    That of a flat strip, pi/8 wall^2 for each metre, along the ring's mean circle: for thin walls.
-    """
+    """Of one side of a ring of outer radius and width (m), along its axis, over the density, m3: that of a
+    flat strip, pi/8 wall^2 for each metre, along the ring's mean circle, for thin walls."""
     return np.pi / 8.0 * wall**2 * 2.0 * np.pi * (radius - 0.5 * wall)
 
 
@@ -154,6 +168,26 @@ def box_deep(size: Array) -> Array:
         tall = 1.0 + np.sqrt((1.0 - share**2) / (2.0 * (1.0 + share**2)))
         out[i] = tall * plate_factor(short / long) * np.pi / 4.0 * short**2 * long
     return out
+
+
+def box_growth(size: Array, deep: Array, *, density: float, holes: float, slam: float) -> tuple[Array, Array]:
+    """Depths (n,), m, and the added masses (n, 3), kg, of a box at them, up to those far below (3,), kg.
+
+    `holes`: what they leave of the added mass; `slam`: C_S of its bottom, by which the first part is gained.
+    """
+    area, height = size[0] * size[1], size[2]
+    short, long = sorted(size[:2])
+    plate = density * plate_factor(short / long if long else 1.0) * np.pi / 4.0 * short**2 * long
+    bottom = min(0.5 * holes * plate, deep[2])
+    over = 2.0 * bottom / (density * slam * area) if area else 0.0
+    root = float(np.sqrt(area)) or float(np.max(size))
+    over = over or 1e-3 * root
+    awash, sides, end = max(height, (1.0 + ROUNDING) * over), max(height, over), 1.0 + ROUNDING
+    smooth = [(0.0, end * over), (0.0, end * sides), (awash, awash + root)]  # over each of them
+    depths = np.unique(np.round(np.concatenate([np.linspace(*one, RAMP_KNOTS + 1) for one in smooth]), 12))
+    upright = bottom * ramp(depths, over) + (deep[2] - bottom) * step(depths, awash, root)
+    along = ramp(depths, sides)
+    return depths, np.stack([deep[0] * along, deep[1] * along, upright], axis=1)
 
 
 def sphere_table(*, slow: bool = False) -> tuple[Array, Array]:

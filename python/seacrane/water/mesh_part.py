@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,11 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import finite_of, number_of, shaped_of, text_of, vector_of
+from seacrane.inputs.checked import number_of, shaped_of, text_of, vector_of
 from seacrane.inputs.shown import shown
 from seacrane.warnings import MeshConvergenceWarning
-from seacrane.water.added_mass import ROUNDING, perforation_factor, ramp
+from seacrane.water.added_mass import RAMP_KNOTS, ROUNDING, perforation_factor, ramp
 from seacrane.water.density import SEA_WATER, density_of
+from seacrane.water.flat_parts import LEAST_SLAM, MOST_PERFORATION, Piece, check_slam, share_of
 from seacrane.water.panel_added_mass import (
     MOST_PANELS,
     MeshShape,
@@ -27,7 +27,7 @@ from seacrane.water.panel_added_mass import (
     panel_ladder,
     volumes_below,
 )
-from seacrane.water.parts import LEAST_SLAM, MOST_PERFORATION, RAMP_KNOTS, Piece, TablePart, share_of
+from seacrane.water.parts import TablePart
 
 Array = NDArray[np.float64]
 
@@ -92,20 +92,12 @@ class MeshPart(TablePart):
 
 
 def from_mesh(
-    mesh: str | os.PathLike[str] | ArrayLike,
-    *,
-    scale: float = 1.0,
-    draughts: ArrayLike | None = None,
-    wetting: float = 1.0,
-    slam: float | None = None,
-    perforation: float = 0.0,
-    drag_area: ArrayLike = (0.0, 0.0, 0.0),
-    panels: int = 400,
-    source: str = "",
+    mesh: str | os.PathLike[str] | ArrayLike, *, scale: float = 1.0, draughts: ArrayLike | None = None,
+    wetting: float = 1.0, slam: float | None = None, perforation: float = 0.0,
+    drag_area: ArrayLike = (0.0, 0.0, 0.0), panels: int = 400, source: str = "",
     point: ArrayLike = (0.0, 0.0, 0.0),
-    axes: ArrayLike = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
-    density: float = SEA_WATER,
-) -> MeshPart:
+    axes: ArrayLike = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), density: float = SEA_WATER,
+) -> MeshPart:  # fmt: skip
     """A part of a load from a closed mesh: volume over depth exactly, added mass over depth by Capytaine.
 
     The tables are those of the mesh as it is drawn, z upwards, and hold at whatever attitude. Buoyancy and
@@ -194,12 +186,9 @@ def _checked(what: str, wetting: Any, slam: Any, perforation: Any, panels: Any) 
     if not 1.0 <= number_of(f"{what}: wetting", wetting) <= MOST_WETTING:
         raise SceneError.of(
             f"{what}: wetting",
-            f"is {number_of(what, wetting):g}; give 1, without pile-up, to "
-            f"{MOST_WETTING:g}, such as pi/2 of a wedge",
+            f"is {wetting:g}; give 1, without pile-up, to {MOST_WETTING:g}, such as pi/2 of a wedge",
         )
-    hit = LEAST_SLAM if slam is None else finite_of(f"{what}: slam", slam)
-    if hit < LEAST_SLAM:
-        raise SceneError.of(f"{what}: slam", f"is {hit:g}; a C_S of {LEAST_SLAM:g} or more is meant (flat)")
+    check_slam(what, LEAST_SLAM if slam is None else slam, LEAST_SLAM)
     share_of(f"{what}: perforation", perforation, MOST_PERFORATION)
     whole = isinstance(panels, int | np.integer) and not isinstance(panels, bool)
     if not whole or not FEWEST_PANELS <= int(panels) <= MOST_PANELS:
@@ -207,29 +196,19 @@ def _checked(what: str, wetting: Any, slam: Any, perforation: Any, panels: Any) 
             f"{what}: panels",
             f"is {shown(panels)}; give a whole number from {FEWEST_PANELS} to {MOST_PANELS}",
         )
-    return hit
+    return LEAST_SLAM if slam is None else float(slam)
 
 
 def _draughts_of(what: str, draughts: Any, height: float) -> Array | None:
     if draughts is None:
         return None
     values = np.array(vector_of(f"{what}: draughts", draughts))
-    if not 1 <= len(values) <= MOST_DRAUGHTS:
-        raise SceneError.of(f"{what}: draughts", f"has {len(values)} values; give 1 to {MOST_DRAUGHTS}")
-    for value in values:
-        if not (np.isfinite(value) and value > 0.0):
-            raise SceneError.of(
-                f"{what}: draughts", f"holds {value:g} m; depths of the lowest point are positive"
-            )
-    for before, after in pairwise(values):
-        if after <= before:
-            raise SceneError.of(
-                f"{what}: draughts", f"has {after:g} m after {before:g} m; give them in increasing order"
-            )
-    if values[-1] < height * (1.0 - 1e-9):
-        raise SceneError(
-            f"{what}: draughts ends at {values[-1]:g} m, above its top, which goes under at {height:g} m; go "
-            "on to there, or below"
+    rising = np.all(np.diff(values, prepend=0.0) > 0.0) and np.all(np.isfinite(values))
+    if not (rising and 1 <= len(values) <= MOST_DRAUGHTS and values[-1] >= height * (1.0 - 1e-9)):
+        raise SceneError.of(
+            f"{what}: draughts",
+            f"is {shown(draughts)}; give 1 to {MOST_DRAUGHTS} depths of its lowest point, m, above zero and "
+            f"increasing, on to {height:g}, where its top goes under, or below",
         )
     return values
 
@@ -267,12 +246,8 @@ def _warn(what: str, part: MeshPart) -> None:
 class _DepthTable:
     """Added mass over density (m3) over depth, from a ladder of a mesh; wetting and C_S as of `from_mesh`.
 
-    Attributes
-    ----------
-    rungs : (n,) depths of the ladder, m, from 0 to where the fluid is unbounded.
-    added, low : (n, 3) at the rungs, m3, before pile-up and ramp.
-    over : m, of the ramp of a flat bottom; 0 without.
-    mended : largest change of added mass so that it grows, over the largest of all.
+    `added` and `low` (n, 3) are those at the `rungs` (n,), m, from 0 to where the fluid is unbounded, before
+    pile-up and ramp; `over` is the ramp of a flat bottom, m.
     """
 
     def __init__(self, ladder: PanelLadder, shape: MeshShape, *, wetting: float, slam: float) -> None:
@@ -332,10 +307,8 @@ def between(rungs: Array, values: Array, depths: Array) -> Array:
 
 
 def at_touch(draughts: Array, values: Array, flat: float) -> Array:
-    """Added mass (3,) as the bottom touches: half of a plate's across a flat one, else none.
-
-    The sides add as depth times the logarithm of depth, as of a plate with a thin edge.
-    """
+    """Added mass (3,) as the bottom touches: half of a plate's across a flat one, else none. The sides add as
+    depth times the logarithm of depth, as of a plate with a thin edge."""
     out = np.zeros(3)
     if flat > 0.0:
         x = draughts[:2] * np.log(np.sqrt(flat) * np.e / draughts[:2])

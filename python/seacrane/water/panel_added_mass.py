@@ -33,7 +33,7 @@ from seacrane.inputs.shown import shown
 from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 
 Array = NDArray[np.float64]
-VERSION = 3  # raised with every change of what is solved
+VERSION = 4  # raised with every change of what is solved
 KIND, SUFFIX = "added_mass", ".ladder"
 AXES = ("Surge", "Sway", "Heave")
 MOST_PANELS = 3000  # 16 bytes for each pair of them, two matrices: 0.3 GB
@@ -52,32 +52,32 @@ NO_VOLUME = 1e-9  # of the cube of the size
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MeshShape:
-    """A closed mesh with the centre of its volume over the origin, its lowest point at z = 0.
+    """A closed mesh with the centre of its volume over the origin, its lowest point at z = 0; m."""
 
-    Attributes
-    ----------
-    triangles : (n, 3, 3) m, anticlockwise from outside.
-    size : (3,) its extent, m.
-    center : (3,) half its height above its lowest point, in the coordinates that it was given in, m.
-    flat : area of what is flat at its lowest level, m2.
-    kinks : (k,) levels of its largest horizontal faces, m.
-    """
-
-    triangles: Array
-    size: Array
-    center: Array
-    flat: float
-    kinks: Array
+    triangles: Array  # (n, 3, 3), anticlockwise from outside
+    size: Array  # (3,), its extent
+    center: Array  # (3,), half its height above its lowest point, in the coordinates that it was given in
+    flat: float  # area of what is flat at its lowest level, m2
+    kinks: Array  # (k,), levels of its largest horizontal faces
 
     @staticmethod
     def of(triangles: Array) -> MeshShape:
+        """Of the mesh as it is given."""
         corners = triangles.reshape(-1, 3)
-        size, lowest = np.ptp(corners, axis=0), float(corners[:, 2].min())
-        x, y, _ = centroid(triangles)
-        moved = triangles - np.array([x, y, lowest])
+        size, low = np.ptp(corners, axis=0), float(corners[:, 2].min())
+        middle = corners.mean(axis=0)
+        near = triangles - middle
+        parts = np.einsum("ij,ij->i", near[:, 0], np.cross(near[:, 1], near[:, 2]))
+        x, y, _ = middle + parts @ near.sum(axis=1) / (4.0 * parts.sum())
+        moved = triangles - np.array([x, y, low])
+        areas = area_vectors(moved)[:, 2]
+        flat = (moved[..., 2] <= FLAT * size.max()).all(axis=1)
+        level = np.ptp(moved[..., 2], axis=1) <= 1e-9 * size[2]
+        at, which = np.unique(np.round(moved[level][:, 0, 2], 9), return_inverse=True)
+        across = np.bincount(which.ravel(), weights=np.abs(areas[level]), minlength=len(at))
         return MeshShape(
-            triangles=moved, size=size, center=np.array([x, y, lowest + 0.5 * size[2]]),
-            flat=flat_bottom(moved), kinks=flat_levels(moved),
+            triangles=moved, size=size, center=np.array([x, y, low + 0.5 * size[2]]),
+            flat=max(0.0, -float(areas[flat].sum())), kinks=np.sort(at[np.argsort(-across)[:MOST_FLATS]]),
         )  # fmt: skip
 
 
@@ -105,48 +105,19 @@ def _mean_depths(corners: Array) -> Array:
     return np.select([least >= 0.0, middle > 0.0, most > 0.0], [mean, mean - dry, low], 0.0)
 
 
-def centroid(triangles: Array) -> Array:
-    """Centre (3,) of the volume of a closed mesh, m."""
-    middle = triangles.reshape(-1, 3).mean(axis=0)
-    near = triangles - middle
-    parts = np.einsum("ij,ij->i", near[:, 0], np.cross(near[:, 1], near[:, 2]))
-    return np.asarray(middle + parts @ near.sum(axis=1) / (4.0 * parts.sum()))
-
-
-def flat_bottom(triangles: Array) -> float:
-    """Area of what is flat at the lowest level of a mesh, m2."""
-    low = triangles[..., 2].min() + FLAT * np.ptp(triangles.reshape(-1, 3), axis=0).max()
-    bottom = triangles[(triangles[..., 2] <= low).all(axis=1)]
-    return max(0.0, -float(area_vectors(bottom)[:, 2].sum()))
-
-
-def flat_levels(triangles: Array) -> Array:
-    """Levels of the largest horizontal faces, where the volume below a level has a kink, m."""
-    areas = area_vectors(triangles)
-    level = np.ptp(triangles[..., 2], axis=1) <= 1e-9 * np.ptp(triangles[..., 2])
-    at, which = np.unique(np.round(triangles[level][:, 0, 2], 9), return_inverse=True)
-    size = np.bincount(which.ravel(), weights=np.abs(areas[level][:, 2]), minlength=len(at))
-    return np.asarray(np.sort(at[np.argsort(-size)[:MOST_FLATS]]))
-
-
 def closed_mesh(mesh: Any, scale: Any) -> tuple[str, Array]:
-    """What messages call a mesh, and its triangles (n, 3, 3), m, anticlockwise from outside.
-
-    Raises
-    ------
-    SceneError, FileFormatError : as `seacrane.water.from_mesh`.
-    """
+    """What messages call a mesh, and its triangles (n, 3, 3), m, anticlockwise from outside; errors as of
+    `seacrane.water.from_mesh`."""
     what, triangles = _triangles_of(mesh)
     factor = positive_of(f"{what}: scale", scale)
     with np.errstate(over="ignore", invalid="ignore"):
         triangles = factor * triangles
         size = float(np.ptp(triangles.reshape(-1, 3), axis=0).max())
-    if not size <= LARGEST:
+    if not SMALLEST <= size <= LARGEST:
         raise SceneError(
-            f"{what}: is {size:.4g} m large, above {LARGEST:g} m; if it is in mm give scale={1e-3 * factor:g}"
+            f"{what}: is {size:.4g} m large with scale={factor:g}, and loads have {SMALLEST:g} to "
+            f"{LARGEST:g} m; if it is in mm give scale={1e-3 * factor:g}"
         )
-    if size < SMALLEST:
-        raise SceneError(f"{what}: is {size:.4g} m large, below {SMALLEST:g} m; check scale={factor:g}")
     try:
         triangles = closed_below(what, triangles, np.inf, "")
     except ValueError as error:
@@ -188,46 +159,22 @@ def _outwards(what: str, triangles: Array, size: float) -> Array:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PanelLadder:
-    """Added mass over density, m3.
+    """Added mass over density, m3."""
 
-    Attributes
-    ----------
-    draughts : (n,) m, of the lowest point.
-    added, low : (n, 3) along the axes, at infinite and at zero frequency.
-    unbounded : (3, 3) without a surface.
-    coarse : (3,) its diagonal with half the panels.
-    panels : most that a draught took.
-    code : the program and its version.
-    """
-
-    draughts: Array
-    added: Array
-    low: Array
-    unbounded: Array
-    coarse: Array
-    panels: int
-    code: str
-
-    @property
-    def error(self) -> float:
-        """Largest change of the unbounded added mass with half the panels, over the largest of its axes."""
-        fine = np.diag(self.unbounded)
-        return float(np.max(np.abs(self.coarse - fine)) / fine.max())
+    draughts: Array  # (n,), m, of the lowest point
+    added: Array  # (n, 3), along the axes, at infinite frequency
+    low: Array  # the same at zero frequency
+    unbounded: Array  # (3, 3), without a surface
+    error: float  # largest change of its diagonal with half the panels, over the largest of its axes
+    panels: int  # most that a draught took
+    code: str  # the program and its version
 
 
 def panel_ladder(what: str, shape: MeshShape, draughts: Array | None, panels: int) -> PanelLadder:
-    """The ladder of a closed mesh; kept on disk.
+    """The ladder of a closed mesh, kept on disk; without draughts (n,), m, from touch down to where the
+    surface no longer counts.
 
-    Parameters
-    ----------
-    what : The mesh, for messages.
-    draughts : (n,) m; None: from touch down to where the surface no longer counts.
-    panels : About how many a draught takes.
-
-    Raises
-    ------
-    ImportError : without Capytaine, for what was not solved before.
-    SceneError : too many triangles for a panel code.
+    ImportError without Capytaine, for what was not solved before; SceneError for too many triangles.
     """
     folder, name = user_cache(KIND), f"{_digest(shape.triangles, draughts, panels)}{SUFFIX}"
     if folder is not None:
@@ -252,44 +199,36 @@ def _digest(triangles: Array, draughts: Array | None, panels: int) -> str:
 
 def _solved(surface: _Panels, draughts: Array | None) -> PanelLadder:
     unbounded = surface.solved(None, np.inf)
-    coarse = surface.solved(None, np.inf, share=0.5)
-    rungs = default_draughts(surface.shape) if draughts is None else _with_touch(surface.shape, draughts)
-    height = surface.shape.size[2]
+    deep = np.diag(unbounded)
+    coarse = np.diag(surface.solved(None, np.inf, share=0.5))
+    rungs, height = _rungs(surface.shape, draughts), surface.shape.size[2]
     added: list[Array] = []
     for draught in rungs:
-        added.append(surface.solved(float(draught), np.inf))
-        left = np.diag(unbounded) - np.diag(added[-1])
-        if draughts is None and draught > height and np.all(left <= SETTLED * np.diag(unbounded)):
+        added.append(np.diag(surface.solved(float(draught), np.inf)))
+        if draughts is None and draught > height and np.all(deep - added[-1] <= SETTLED * deep):
             break
     used = rungs[: len(added)]
-    low = [surface.solved(float(draught), 0.0) for draught in used]
+    low = [np.diag(surface.solved(float(draught), 0.0)) for draught in used]
     return PanelLadder(
-        draughts=used, added=np.array([np.diag(one) for one in added]),
-        low=np.array([np.diag(one) for one in low]), unbounded=unbounded, coarse=np.diag(coarse).copy(),
-        panels=surface.most, code=surface.code,
+        draughts=used, added=np.array(added), low=np.array(low), unbounded=unbounded,
+        error=float(np.max(np.abs(coarse - deep)) / deep.max()), panels=surface.most, code=surface.code,
     )  # fmt: skip
 
 
-def default_draughts(shape: MeshShape) -> Array:
-    """Draughts (n,): denser near touch, and on below awash."""
+def _rungs(shape: MeshShape, given: Array | None) -> Array:
+    """Draughts (n,): those given, or denser near touch and on below awash.
+
+    Before them those near the touch of a flat bottom, from which its added mass there follows.
+    """
     long, wide, height = shape.size
+    first = np.sqrt(shape.flat) * np.array(FIRST_FLAT)
+    first = first[(first > 0.0) & (first < 0.9 * height)]
+    if given is not None:
+        return np.concatenate([first[first < 0.9 * given[0]], given])
     above = height * (np.arange(1, RUNGS + 1) / RUNGS) ** CLUSTERED
-    first = _near_touch(shape)
     above = above[above > 1.2 * first.max(initial=0.0)]
     below = height + np.sqrt(long * wide) * np.array(CLEARANCES)
     return np.concatenate([first, above, below])
-
-
-def _near_touch(shape: MeshShape) -> Array:
-    """Draughts near touch, from which that of a flat bottom as it touches follows; none of another bottom."""
-    first = np.sqrt(shape.flat) * np.array(FIRST_FLAT)
-    return np.asarray(first[(first > 0.0) & (first < 0.9 * shape.size[2])])
-
-
-def _with_touch(shape: MeshShape, draughts: Array) -> Array:
-    """Draughts that were given, after those near touch."""
-    first = _near_touch(shape)
-    return np.concatenate([first[first < 0.9 * draughts[0]], draughts])
 
 
 class _Panels:
@@ -319,15 +258,14 @@ class _Panels:
         mesh = self.capytaine.Mesh(vertices=panels.reshape(-1, 3), faces=faces)
         dofs = self.capytaine.rigid_body_dofs(only=AXES, rotation_center=(0.0, 0.0, 0.0))
         body = self.capytaine.FloatingBody(mesh=mesh, dofs=dofs)
-        rows = [self._row(body, omega, surface, axis) for axis in AXES]
-        return np.array(rows, dtype=float)
-
-    def _row(self, body: Any, omega: float, surface: float, axis: str) -> list[float]:
-        problem = self.capytaine.RadiationProblem(
-            body=body, omega=omega, free_surface=surface, water_depth=np.inf, radiating_dof=axis, rho=1.0
-        )
-        masses = self.solver.solve(problem, method="direct", keep_details=False).added_masses
-        return [float(masses[one]) for one in AXES]
+        rows = []
+        for axis in AXES:
+            problem = self.capytaine.RadiationProblem(
+                body=body, omega=omega, free_surface=surface, water_depth=np.inf, radiating_dof=axis, rho=1.0
+            )
+            masses = self.solver.solve(problem, method="direct", keep_details=False).added_masses
+            rows.append([float(masses[one]) for one in AXES])
+        return np.array(rows)
 
     def _wet(self, draught: float) -> Array:
         """Triangles of what is below the surface z = 0 at a draught."""
