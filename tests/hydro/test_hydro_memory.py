@@ -62,8 +62,8 @@ def test_a_known_system_is_recovered_and_the_lowest_sufficient_order_taken() -> 
         assert fit.added_mass_infinite == pytest.approx(5.0, rel=1e-4)
         assert fit.worst > 1.0 - 1e-8
     data = known_system()
-    fit = fit_lowest_order(data, r2=0.999, orders=range(2, 7))
-    below, _ = fit_order(data, order=fit.order - 1, starts=[])
+    fit = fit_lowest_order(data, orders=range(2, 7), error=lambda fit: -fit.worst, limit=-0.999)
+    below, _ = fit_order(data, order=len(fit.denominator) - 2, starts=[])
     assert fit.worst >= 0.999 > below.worst
     values = np.array([1.0, 2.0, 4.0])
     assert r_squared(values, np.full(3, values.mean())) == pytest.approx(0.0)

@@ -56,7 +56,7 @@ from seacrane.hydro.readers.veres_hydrostatics import read_veres_hydrostatics as
 from seacrane.hydro.readers.wamit import read_wamit as read_wamit
 from seacrane.hydro.vessel.parameters import RigidPart as RigidPart
 from seacrane.hydro.vessel.parameters import VesselParameters as VesselParameters
-from seacrane.hydro.vessel.vessel_parameters import vessel_parameters as vessel_parameters
+from seacrane.hydro.vessel.parameters import vessel_parameters as vessel_parameters
 from seacrane._core import RetardationFunctions as RetardationFunctions
 from seacrane._core import StateSpaceBlock as StateSpaceBlock
 from seacrane._core import TwistHistory as TwistHistory

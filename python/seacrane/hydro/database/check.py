@@ -20,7 +20,7 @@ from seacrane.hydro.data.relations import (
 from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 from seacrane.hydro.memory.motion_judge import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel
-from seacrane.hydro.vessel.parameters import largest_growth_rate
+from seacrane.hydro.vessel.parameters import growth_rate, time_domain_vessel
 from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]
@@ -89,7 +89,7 @@ def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
     rows.append(at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
     rows.append(info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0)))
     rows += passivity_rows(model)
-    growth = largest_growth_rate(database, model)
+    growth = growth_rate(time_domain_vessel(database, memory=model))
     rows.append(at_most("vessel_with_memory_growth_per_s", growth, GROWTH_LIMIT))
     known = database.infinite_frequency_added_mass
     if known is not None:

@@ -24,10 +24,11 @@ from seacrane.hydro.memory.identification import (
     IdentificationData,
     RationalFit,
     dissipation_limit,
-    fit_order,
+    fit_lowest_order,
     fit_row,
     memory_entries,
     motion_groups,
+    pair_r2,
     symmetric,
     within,
 )
@@ -70,10 +71,15 @@ def fit_by_motion(
     limit : of `MotionError.worst`.
     """
     judge = motion_judge(database, band)
-    grid = _grid(database, judge, band)
+    below = database.omega[database.omega < BEYOND_BAND * band[1]]
+    about = judge.about_peaks[(judge.about_peaks > band[0]) & (judge.about_peaks < band[1])]
+    grid = np.unique(np.concatenate([below, about]))
     kept, left_out = felt_pairs(database, judge, limit)
     blocks: list[MemoryBlock] = []
-    infinite = _constant(database, judge)
+    infinite = judge.added_mass.mean(axis=0)  # of entries without memory
+    if database.port_starboard_symmetric:
+        motion = np.arange(len(infinite))
+        infinite = np.where(np.add.outer(motion, motion) % 2, 0.0, infinite)
     of_motions = partial(_Group, judge, grid, band, known)
     for group in motion_groups(kept):
         fit = of_motions(group)
@@ -137,23 +143,6 @@ def _without(judge: MotionJudge, pairs: Pairs) -> ComplexArray:
         variation = judge.added_mass[:, j, k] - judge.added_mass[:, j, k].mean()
         out[:, j, k] = out[:, k, j] = w**2 * variation - 1j * w * judge.damping[:, j, k]
     return out
-
-
-def _constant(database: Hydrodynamics, judge: MotionJudge) -> FloatArray:
-    """Added mass (6, 6) of entries without memory: its mean over the band, zero where symmetry says so."""
-    mean = judge.added_mass.mean(axis=0)
-    if database.port_starboard_symmetric:
-        motion = np.arange(len(mean))
-        mean = np.where(np.add.outer(motion, motion) % 2, 0.0, mean)
-    return np.asarray(mean)
-
-
-def _grid(database: Hydrodynamics, judge: MotionJudge, band: tuple[float, float]) -> FloatArray:
-    """Frequencies of the fit: the database's, and some about each resonance."""
-    low, high = band
-    below = database.omega[database.omega < BEYOND_BAND * high]
-    about = judge.about_peaks[(judge.about_peaks > low) & (judge.about_peaks < high)]
-    return np.unique(np.concatenate([below, about]))
 
 
 def _by_hull(
@@ -262,10 +251,9 @@ def _additional(
     from scipy.interpolate import CubicSpline
 
     a, b = symmetric(part.added_mass), symmetric(part.damping)
+    w = judge.omega
     inside = within(omega, band)
-    at_grid, at_judge = (
-        [CubicSpline(database.omega, table)(w) for table in (a, b)] for w in (omega, judge.omega)
-    )
+    at_grid, at_judge = ([CubicSpline(database.omega, table)(at) for table in (a, b)] for at in (omega, w))
     blocks: list[MemoryBlock] = []
     fits: dict[tuple[int, int], RationalFit] = {}
     mass, stiffness = np.zeros_like(a[0]), np.zeros_like(a[0])
@@ -282,42 +270,23 @@ def _additional(
             dissipation_limit=dissipation_limit(fits, j, k),
             weight=np.linalg.norm(lever[inside], axis=(1, 2)),
         )
-        inertia = float(np.sqrt(database.mass_matrix[j, j] * database.mass_matrix[k, k]))
-        fit = fits[j, k] = _lowest_additional(data, judge, (j, k), at_judge, limit, inertia)
+        most = MOST_INERTIA * float(np.sqrt(database.mass_matrix[j, j] * database.mass_matrix[k, k]))
+
+        def error(fit: RationalFit, j: int = j, k: int = k) -> float:
+            model = 1j * w * fit.kernel(w) - w**2 * fit.added_mass_infinite + fit.static_stiffness
+            given = 1j * w * at_judge[1][:, j, k] - w**2 * at_judge[0][:, j, k]
+            out = np.zeros(judge.damping.shape, dtype=complex)
+            out[:, j, k] = out[:, k, j] = model - given
+            return judge.error(out).worst
+
+        fit = fits[j, k] = fit_lowest_order(
+            data, orders=ADDITIONAL_ORDERS, error=error, limit=limit, gain=GAIN,
+            allowed=lambda fit, most=most: abs(fit.added_mass_infinite) <= most,
+        )  # fmt: skip
         mass[j, k] = mass[k, j] = fit.added_mass_infinite
         stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
         blocks += realise_pair(fit, j, k, part.cause)
     return blocks, mass, stiffness
-
-
-def _lowest_additional(
-    data: IdentificationData,
-    judge: MotionJudge,
-    pair: tuple[int, int],
-    table: list[FloatArray],
-    limit: float,
-    inertia: float,
-) -> RationalFit:
-    """Fit of the lowest order that keeps the limit, or the best; none takes much of the vessel's inertia."""
-    best: tuple[float, RationalFit] | None = None
-    start: list[FloatArray] = []
-    w, (j, k) = judge.omega, pair
-    for order in ADDITIONAL_ORDERS:
-        fit, parameters = fit_order(data, order=order, starts=start)
-        start = [parameters]
-        kernel = np.polyval(fit.numerator, 1j * w) / np.polyval(fit.denominator, 1j * w)
-        model = 1j * w * kernel - w**2 * fit.added_mass_infinite + fit.static_stiffness
-        out = np.zeros(judge.damping.shape, dtype=complex)
-        out[:, j, k] = out[:, k, j] = model - (1j * w * table[1][:, j, k] - w**2 * table[0][:, j, k])
-        error = judge.error(out).worst
-        if best is not None and abs(fit.added_mass_infinite) > MOST_INERTIA * inertia:
-            continue
-        if best is None or error < (1.0 - GAIN) * best[0]:
-            best = (error, fit)
-        if error <= limit:
-            break
-    assert best is not None
-    return best[1]
 
 
 def _rows(database: Hydrodynamics, model: MemoryModel, pairs: Pairs, reached: bool) -> Iterator[FitRow]:
@@ -336,4 +305,5 @@ def _rows(database: Hydrodynamics, model: MemoryModel, pairs: Pairs, reached: bo
     for (cause, j, k), block in blocks.items():
         if cause != RADIATION or (j, k) in pairs:
             least = -np.inf if reached else np.inf
-            yield fit_row(cause, (j, k), block.poles, tables[cause], fitted[cause], inside, least)
+            quality = pair_r2((j, k), tables[cause], fitted[cause], inside)
+            yield fit_row(cause, (j, k), block.poles, quality, least)

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import PassivityError
 from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.memory.realisation import states_at
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
@@ -100,7 +101,10 @@ def certify(blocks: Sequence[MemoryBlock]) -> PassivityCertificate:
     skewed = _skew_limit(a, b, c, origin=origin, infinity=infinity)
     if skewed:
         return verdict(passive=False, margin=-np.inf, reason=skewed)
-    shaped, feed = _divide_out(a, b, c, d, origin=origin, infinity=infinity)
+    shaped = b - np.linalg.solve(a, np.linalg.solve(a, b)) if origin else b
+    if infinity:  # both zeros are divided out: B' and D'
+        d, shaped = -c @ a @ shaped, shaped - a @ (a @ shaped)
+    feed = d + d.T
     least = float(np.linalg.eigvalsh(feed)[0])
     if least <= 0.0:
         reason = f"its damping is not positive towards infinite frequency ({least:.3g})"
@@ -151,20 +155,15 @@ def _skew_limit(a: FloatArray, b: FloatArray, c: FloatArray, *, origin: bool, in
     return ""
 
 
-def _divide_out(
-    a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, *, origin: bool, infinity: bool
-) -> tuple[FloatArray, FloatArray]:
-    """B' and D' + D'^T of the model with its zeros divided out."""
-    if origin:
-        b = b - np.linalg.solve(a, np.linalg.solve(a, b))
-    if infinity:
-        d, b = -c @ a @ b, b - a @ (a @ b)
-    return b, d + d.T
-
-
 def _examine(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> dict[str, Any]:
-    """Samples between all frequencies where a sign could change, and on a grid for the margin."""
-    at = _singular_frequencies(a, b, c, feed)
+    """Samples between all frequencies near which the Hamiltonian matrix has imaginary eigenvalues, where
+    alone a sign could change, and on a grid for the margin."""
+    inner = a - b @ np.linalg.solve(feed, c)
+    hamiltonian = np.block(
+        [[inner, -b @ np.linalg.solve(feed, b.T)], [c.T @ np.linalg.solve(feed, c), -inner.T]]
+    )
+    values = np.linalg.eigvals(hamiltonian)
+    at = np.sort(np.abs(values.imag[np.abs(values.real) < NEAR_AXIS * (1.0 + np.abs(values))]))
     ends = np.concatenate([[0.0], at, [1e4 * (1.0 + np.abs(np.linalg.eigvals(a)).max())]])
     middles = 0.5 * (ends[1:] + ends[:-1])
     omega = np.unique(np.concatenate([[0.0], at, middles, np.geomspace(1e-4, 1e4, 2001)]))
@@ -180,41 +179,33 @@ def _examine(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> d
     return {"passive": False, "margin": margin, "reason": reason, "crossings": crossings}
 
 
-def _singular_frequencies(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> FloatArray:
-    """Positive frequencies (k,) near which the Hamiltonian matrix has imaginary eigenvalues."""
-    inner = a - b @ np.linalg.solve(feed, c)
-    hamiltonian = np.block(
-        [[inner, -b @ np.linalg.solve(feed, b.T)], [c.T @ np.linalg.solve(feed, c), -inner.T]]
-    )
-    values = np.linalg.eigvals(hamiltonian)
-    near = np.abs(values.real) < NEAR_AXIS * (1.0 + np.abs(values))
-    return np.sort(np.abs(values.imag[near]))
-
-
 def _transfer(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, omega: FloatArray) -> ComplexArray:
-    resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
-    states = np.linalg.solve(resolvent, np.broadcast_to(b.astype(complex), (len(omega), *b.shape)))
-    return np.asarray(c @ states + d)
+    return np.asarray(c @ states_at(a, b, omega) + d)
 
 
-def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[float, float]) -> Passivity:
-    """Smallest eigenvalue of the radiation blocks' damping together, which no pair's own fit keeps positive.
+def smallest_damping(
+    blocks: Sequence[MemoryBlock], damping: FloatArray, omega: FloatArray
+) -> tuple[float, float]:
+    """Smallest eigenvalue of the radiation blocks' damping together at ``omega`` (n,), and where, rad/s.
 
-    Scaled by the largest diagonals of the data's ``damping``, from 1e-3 to 1e3 rad/s and over ``band``.
+    Scaled by the largest diagonals of the data's ``damping``. No pair's own fit keeps it positive.
     """
     peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 1e-300))
     active = peak > 1e-6 * peak.max()
-    radiation = [block for block in blocks if block.cause == RADIATION]
-
-    def smallest(omega: FloatArray) -> tuple[float, float]:
-        total = np.zeros((len(omega), *damping.shape[1:]))
-        for block in radiation:
+    total = np.zeros((len(omega), *damping.shape[1:]))
+    for block in blocks if np.any(damping) else ():
+        if block.cause == RADIATION:
             total[:, block.outputs[:, None], block.inputs] += block.transfer(omega).real
-        scaled = (0.5 * (total + total.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
-        lowest = np.linalg.eigvalsh(scaled)[:, 0]
-        where = int(lowest.argmin())
-        return float(lowest[where]), float(omega[where])
+    scaled = (0.5 * (total + total.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
+    lowest = np.linalg.eigvalsh(scaled)[:, 0]
+    where = int(lowest.argmin())
+    return float(lowest[where]), float(omega[where])
 
-    minimum, at = smallest(np.geomspace(1e-3, 1e3, 4001))
-    in_band, in_band_at = smallest(np.linspace(*band, 1001))
+
+def joint_passivity(
+    blocks: Sequence[MemoryBlock], damping: FloatArray, band: tuple[float, float]
+) -> Passivity:
+    """`smallest_damping` from 1e-3 to 1e3 rad/s, and over ``band``."""
+    minimum, at = smallest_damping(blocks, damping, np.geomspace(1e-3, 1e3, 4001))
+    in_band, in_band_at = smallest_damping(blocks, damping, np.linspace(*band, 1001))
     return Passivity(minimum=minimum, omega=at, in_band=in_band, in_band_omega=in_band_at)

@@ -32,6 +32,8 @@ from seacrane.hydro.memory.identification import (
     RationalFit,
     dissipation_limit,
     fit_lowest_order,
+    fit_row,
+    judged_band,
     memory_entries,
     symmetric,
     within,
@@ -128,14 +130,7 @@ def fit_memory(
             "keeps all motions together passive"
         )
     target = _target(kind, r2=r2, limit=limit)
-    given = band or database.trusted_band or (database.omega[0], database.omega[-1])
-    low, high = (float(end) for end in given)
-    inside = np.count_nonzero(within(database.omega, (low, high)))
-    if inside < FEWEST_FREQUENCIES:
-        raise ValueError(
-            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside} "
-            "frequencies; widen it to eight or more"
-        )
+    judged, _ = judged_band(database, band)
     known = database.infinite_frequency_added_mass if infinite_frequency == "known" else None
     if infinite_frequency == "known" and known is None:
         raise ValueError(
@@ -151,7 +146,7 @@ def fit_memory(
         )
     settings: dict[str, Any] = {
         "kind": kind,
-        "band": (low, high),
+        "band": judged,
         "target": target,  # the R2, or the limit
         "known": infinite_frequency == "known",
     }
@@ -160,9 +155,9 @@ def fit_memory(
     if model is None:
         if not isinstance(database, HydroData) or kind == BY_MOTION:
             inner = None if known is None else symmetric(known)
-            model = fit_by_motion(database=database, band=(low, high), known=inner, limit=target)
+            model = fit_by_motion(database=database, band=judged, known=inner, limit=target)
         else:
-            model = _fit_per_pair(database, known, (low, high), target)
+            model = _fit_per_pair(database, known, judged, target)
         _of_process[name] = model
         keep_file(user_cache(FOLDER), f"{name}{SUFFIX}", packed(model))
     return model
@@ -180,21 +175,46 @@ def _target(kind: str, *, r2: float | None, limit: float | None) -> float:
         raise ValueError(
             f"limit is {limit}, and memory of kind {kind!r} is asked for an R2; give r2, or kind='by-motion'"
         )
-    usual = LIMIT if kind == BY_MOTION else R2
-    for name, value in (("r2", r2), ("limit", limit)):
-        if value is not None and not 0.0 < value < 1.0:
-            raise ValueError(f"{name} is {value}; give a number between 0 and 1")
-    return next((value for value in (r2, limit) if value is not None), usual)
+    name, value, usual = ("limit", limit, LIMIT) if kind == BY_MOTION else ("r2", r2, R2)
+    if value is not None and not 0.0 < value < 1.0:
+        raise ValueError(f"{name} is {value}; give a number between 0 and 1")
+    return usual if value is None else value
 
 
 def _fit_per_pair(
     database: HydroData, known: FloatArray | None, band: tuple[float, float], r2: float
 ) -> MemoryModel:
-    blocks, rows, infinite, _ = _fit_cause(database, RADIATION, database, known, band, r2)
+    """Entries without memory keep their (constant) added mass where that at infinity is not known."""
+    blocks: list[MemoryBlock] = []
+    rows: list[FitRow] = []
+    trusted = within(database.omega, band)
+    infinite = symmetric(database.added_mass[-1] if known is None else known)
     stiffness = np.zeros((6, 6))
-    for part in database.additional:
-        more = _fit_cause(database, part.cause, part, np.zeros((6, 6)), band, r2)
-        blocks, rows, stiffness = blocks + more[0], rows + more[1], stiffness + more[3]
+    for part in (database, *database.additional):
+        cause = part.cause if isinstance(part, AdditionalMatrices) else RADIATION
+        radiation, tank = cause == RADIATION, cause != RADIATION
+        added_mass, damping = symmetric(part.added_mass), symmetric(part.damping)
+        fits: dict[tuple[int, int], RationalFit] = {}
+        mirrored = radiation and database.port_starboard_symmetric
+        for j, k in memory_entries(added_mass, damping, database.omega, mirrored=mirrored):
+            data = IdentificationData(
+                omega=database.omega,
+                added_mass=added_mass[:, j, k],
+                damping=damping[:, j, k],
+                trusted=trusted,
+                added_mass_infinite=0.0 if tank else None if known is None else float(infinite[j, k]),
+                zero_at_origin=radiation,
+                static_stiffness=tank,
+                dissipation_limit=dissipation_limit(fits, j, k),
+            )
+            fit = fits[j, k] = fit_lowest_order(data, orders=ORDERS, error=lambda fit: -fit.worst, limit=-r2)
+            if radiation:
+                infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
+            else:
+                stiffness[j, k] += fit.static_stiffness
+                stiffness[k, j] = stiffness[j, k]
+            blocks += realise_pair(fit, j, k, cause)
+            rows.append(fit_row(cause, (j, k), np.roots(fit.denominator), fit.quality, r2))
     return MemoryModel(
         blocks=tuple(blocks),
         added_mass=infinite,
@@ -211,60 +231,6 @@ def enough_frequencies(database: Hydrodynamics) -> bool:
     """Whether `fit_memory` has data: no forward speed, and eight frequencies in the trusted band."""
     inside = in_trusted_band(database)
     return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
-
-
-def _fit_cause(
-    database: HydroData,
-    cause: str,
-    table: HydroData | AdditionalMatrices,
-    known: FloatArray | None,
-    band: tuple[float, float],
-    r2: float,
-) -> tuple[list[MemoryBlock], list[FitRow], FloatArray, FloatArray]:
-    """Blocks, rows, infinite-frequency added mass and static stiffness (6, 6) of one cause.
-
-    Entries without memory keep their (constant) added mass where that at infinite frequency is not known.
-    """
-    blocks: list[MemoryBlock] = []
-    rows: list[FitRow] = []
-    fits: dict[tuple[int, int], RationalFit] = {}
-    radiation, trusted = cause == RADIATION, within(database.omega, band)
-    added_mass, damping = symmetric(table.added_mass), symmetric(table.damping)
-    infinite = added_mass[-1].copy() if known is None else symmetric(known)
-    stiffness = np.zeros((6, 6))
-    mirrored = radiation and database.port_starboard_symmetric
-    for j, k in memory_entries(added_mass, damping, database.omega, mirrored=mirrored):
-        data = IdentificationData(
-            omega=database.omega,
-            added_mass=added_mass[:, j, k],
-            damping=damping[:, j, k],
-            trusted=trusted,
-            added_mass_infinite=None if known is None else float(infinite[j, k]),
-            zero_at_origin=radiation,
-            static_stiffness=not radiation,
-            dissipation_limit=dissipation_limit(fits, j, k),
-        )
-        fit = fits[j, k] = fit_lowest_order(data, r2=r2, orders=ORDERS)
-        infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
-        stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
-        blocks += realise_pair(fit, j, k, cause)
-        poles = np.roots(fit.denominator)
-        rows.append(
-            FitRow(
-                cause=cause,
-                output=j,
-                input=k,
-                order=fit.order,
-                r2_added_mass=fit.r2_added_mass,
-                r2_damping=fit.r2_damping,
-                r2_added_mass_all=fit.r2_added_mass_all,
-                r2_damping_all=fit.r2_damping_all,
-                slowest_decay=float(-poles.real.max()),
-                fastest_pole=float(np.abs(poles).max()),
-                accepted=fit.worst >= r2,
-            )
-        )
-    return blocks, rows, infinite, stiffness
 
 
 def shipped_folder() -> Path:

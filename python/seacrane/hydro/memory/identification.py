@@ -20,10 +20,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import FitRow
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
+Tables = tuple[FloatArray, FloatArray]  # of added mass and of damping
 ComplexArray = NDArray[np.complex128]
 OUTSIDE_WEIGHT = 0.2
 AUDIT_WEIGHT = 3.0
@@ -35,31 +37,23 @@ FEWEST_FREQUENCIES = 8
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RationalFit:
-    """Coefficients, highest power first: ``numerator`` (n,), ``denominator`` (n + 1,); fit quality as R2."""
+    """``numerator`` (n,) and ``denominator`` (n + 1,), highest power first; `four_r2` of the fit."""
 
     numerator: FloatArray
     denominator: FloatArray
     added_mass_infinite: float
     static_stiffness: float
-    r2_added_mass: float
-    r2_damping: float
-    r2_added_mass_all: float
-    r2_damping_all: float
+    quality: dict[str, float]
 
-    @property
-    def order(self) -> int:
-        """Number of states."""
-        return len(self.denominator) - 1
-
-    def damping(self, omega: FloatArray) -> FloatArray:
-        """Real part of the retardation function at ``omega`` (n,)."""
+    def kernel(self, omega: FloatArray) -> ComplexArray:
+        """Retardation function at ``omega`` (n,)."""
         s = 1j * omega
-        return np.asarray((np.polyval(self.numerator, s) / np.polyval(self.denominator, s)).real)
+        return np.asarray(np.polyval(self.numerator, s) / np.polyval(self.denominator, s))
 
     @property
     def worst(self) -> float:
         """The smaller R2 of the trusted band."""
-        return min(self.r2_added_mass, self.r2_damping)
+        return worst_r2(self.quality)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -82,20 +76,33 @@ class IdentificationData:
     weight: FloatArray | None = None
 
 
-def fit_lowest_order(data: IdentificationData, *, r2: float, orders: range) -> RationalFit:
-    """Fit of the lowest order whose A *and* B reach ``r2`` over the trusted band, else the best one found."""
-    best: RationalFit | None = None
+def fit_lowest_order(
+    data: IdentificationData,
+    *,
+    orders: range,
+    error: Callable[[RationalFit], float],
+    limit: float,
+    gain: float = 0.0,
+    allowed: Callable[[RationalFit], bool] = lambda fit: True,
+) -> RationalFit:
+    """Fit of the lowest of some orders whose ``error`` keeps ``limit``, else the best one found.
+
+    Higher orders are better by the share ``gain``, and ``allowed``; or else they are not taken.
+    """
+    best: tuple[float, RationalFit] | None = None
     start: list[FloatArray] = []
     for order in orders:
         fit, parameters = fit_order(data, order=order, starts=start)
         start = [parameters]
-        if best is None or fit.worst > best.worst:
-            best = fit
-        if fit.worst >= r2:
-            return fit
-    if best is None:
-        raise ValueError(f"no order to try in {orders}")
-    return best
+        found = error(fit)
+        if best is not None and not allowed(fit):
+            continue
+        if best is None or found < (1.0 - gain) * best[0]:
+            best = (found, fit)
+        if found <= limit:
+            break
+    assert best is not None
+    return best[1]
 
 
 def fit_order(
@@ -127,8 +134,10 @@ class _Problem:
         self.pairs, self.real = divmod(order, 2)
         inside = data.trusted
         weight = np.where(inside, 1.0, OUTSIDE_WEIGHT)
-        self.scale_a = weight / _spread(data.added_mass[inside])
-        self.scale_b = weight / _spread(data.damping[inside])
+        self.scale_a, self.scale_b = (
+            weight / (float(np.sqrt(np.sum((x - x.mean()) ** 2))) or 1.0)
+            for x in (data.added_mass[inside], data.damping[inside])
+        )
         if data.weight is not None:
             self.scale_b, self.scale_a = data.weight, data.weight * data.omega
         known = data.added_mass_infinite
@@ -138,21 +147,17 @@ class _Problem:
         s = 1j * data.omega
         first = 1 if data.zero_at_origin else 0
         self.powers = np.stack([s**k for k in range(first, order)], axis=1)
-        self.extra = self._extra_columns()
+        zero = np.zeros_like(data.omega)
+        extra = [np.zeros((2 * len(zero), 0))]  # columns of A_inf and K_0 where they are unknown
+        if known is None:
+            extra.append(np.concatenate([zero, self.scale_a])[:, None])
+        if data.static_stiffness:
+            extra.append(np.concatenate([zero, -self.scale_a / data.omega**2])[:, None])
+        self.extra = np.hstack(extra)
         self.audit = np.geomspace(0.02, 50.0, 80)
         self.audit_powers = np.stack([(1j * self.audit) ** k for k in range(first, order)], axis=1)
         if data.dissipation_limit is not None:
             self.audit_low, self.audit_high = data.dissipation_limit(self.audit)
-
-    def _extra_columns(self) -> FloatArray:
-        """Columns of A_inf and K_0 where they are unknown."""
-        zero = np.zeros_like(self.data.omega)
-        columns = []
-        if self.data.added_mass_infinite is None:
-            columns.append(np.concatenate([zero, self.scale_a]))
-        if self.data.static_stiffness:
-            columns.append(np.concatenate([zero, -self.scale_a / self.data.omega**2]))
-        return np.stack(columns, axis=1) if columns else np.zeros((2 * len(zero), 0))
 
     def bounds(self) -> tuple[FloatArray, FloatArray]:
         """Box of the parameters: natural frequencies, then damping ratios, then the real pole."""
@@ -225,16 +230,12 @@ class _Problem:
         numerator[:count] = coefficients[:count][::-1]
         kernel = np.polyval(numerator, 1j * data.omega) / np.polyval(denominator, 1j * data.omega)
         added_mass = infinite + kernel.imag / data.omega - stiffness / data.omega**2
-        inside = data.trusted
         return RationalFit(
             numerator=numerator,
             denominator=denominator,
             added_mass_infinite=float(infinite),
             static_stiffness=float(stiffness),
-            r2_added_mass=r_squared(data.added_mass[inside], added_mass[inside]),
-            r2_damping=r_squared(data.damping[inside], kernel.real[inside]),
-            r2_added_mass_all=r_squared(data.added_mass, added_mass),
-            r2_damping_all=r_squared(data.damping, kernel.real),
+            quality=four_r2((data.added_mass, data.damping), (added_mass, kernel.real), data.trusted),
         )
 
 
@@ -246,49 +247,43 @@ def r_squared(data: FloatArray, model: FloatArray) -> float:
     return 1.0 - float(np.sum((data - model) ** 2)) / total
 
 
-def fit_row(
-    cause: str,
-    pair: tuple[int, int],
-    poles: ComplexArray,
-    data: tuple[FloatArray, FloatArray],
-    fitted: tuple[FloatArray, FloatArray],
-    inside: NDArray[np.bool_],
-    least: float,
-) -> FitRow:
-    """Row of a pair (j, k): added mass and damping (n, m, m) of the data, made symmetric, and of the model.
+def four_r2(data: Tables, fitted: Tables, inside: NDArray[np.bool_]) -> dict[str, float]:
+    """R2 of added mass and damping (n,), by their names in `FitRow`: of those ``inside`` (n,), and of all."""
+    names = ("r2_added_mass", "r2_damping")
+    both = list(zip(names, data, fitted, strict=True))
+    return {name: r_squared(x[inside], model[inside]) for name, x, model in both} | {
+        f"{name}_all": r_squared(x, model) for name, x, model in both
+    }
 
-    It is accepted where both R2 over the frequencies ``inside`` (n,) are not below ``least``.
-    """
-    r2 = pair_r2(pair, data, fitted, inside)
-    r2_all = pair_r2(pair, data, fitted, np.ones_like(inside))
+
+def worst_r2(quality: dict[str, float]) -> float:
+    """The smaller of those ``inside``."""
+    return min(quality["r2_added_mass"], quality["r2_damping"])
+
+
+def pair_r2(
+    pair: tuple[int, int], data: Tables, fitted: Tables, inside: NDArray[np.bool_]
+) -> dict[str, float]:
+    """`four_r2` of a pair (j, k) of tables (n, m, m), those of the data made symmetric."""
+    j, k = pair
+    a, b = (0.5 * (x[:, j, k] + x[:, k, j]) for x in data)
+    return four_r2((a, b), (fitted[0][:, j, k], fitted[1][:, j, k]), inside)
+
+
+def fit_row(
+    cause: str, pair: tuple[int, int], poles: ComplexArray, quality: dict[str, float], least: float
+) -> FitRow:
+    """Row of a pair with a `four_r2`, accepted where the worst is not below ``least``."""
     return FitRow(
         cause=cause,
         output=pair[0],
         input=pair[1],
         order=len(poles),
-        r2_added_mass=r2[0],
-        r2_damping=r2[1],
-        r2_added_mass_all=r2_all[0],
-        r2_damping_all=r2_all[1],
+        **quality,
         slowest_decay=float(-poles.real.max()),
         fastest_pole=float(np.abs(poles).max()),
-        accepted=min(r2) >= least,
+        accepted=worst_r2(quality) >= least,
     )
-
-
-def pair_r2(
-    pair: tuple[int, int],
-    data: tuple[FloatArray, FloatArray],
-    fitted: tuple[FloatArray, FloatArray],
-    inside: NDArray[np.bool_],
-) -> tuple[float, float]:
-    """R2 of added mass and damping of a pair; see `fit_row`."""
-    j, k = pair
-    a, b = (
-        r_squared((0.5 * (x[:, j, k] + x[:, k, j]))[inside], model[inside, j, k])
-        for x, model in zip(data, fitted, strict=True)
-    )
-    return a, b
 
 
 def symmetric(matrices: FloatArray) -> FloatArray:
@@ -296,14 +291,26 @@ def symmetric(matrices: FloatArray) -> FloatArray:
     return np.asarray(0.5 * (matrices + matrices.swapaxes(-1, -2)))
 
 
+def judged_band(
+    database: Hydrodynamics, band: tuple[float, float] | None = None
+) -> tuple[tuple[float, float], NDArray[np.bool_]]:
+    """``band``, or the trusted one, or that of all frequencies, in rad/s; and which (n,) lie in it.
+
+    Raises ValueError: too few do.
+    """
+    low, high = map(float, band or database.trusted_band or database.omega[[0, -1]])
+    inside = within(database.omega, (low, high))
+    if inside.sum() < FEWEST_FREQUENCIES:
+        raise ValueError(
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside.sum()} "
+            f"frequencies; a memory needs {FEWEST_FREQUENCIES} or more: widen it"
+        )
+    return (low, high), inside
+
+
 def within(omega: FloatArray, band: tuple[float, float]) -> NDArray[np.bool_]:
     """Which frequencies (n,) lie in a band, ends included."""
     return np.asarray((omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9))
-
-
-def _spread(values: FloatArray) -> float:
-    """Root of the sum of squared deviations, the unit in which 1 - R2 is the squared misfit."""
-    return float(np.sqrt(np.sum((values - values.mean()) ** 2))) or 1.0
 
 
 def memory_entries(
@@ -346,9 +353,8 @@ def dissipation_limit(
             return np.zeros_like(omega), np.full_like(omega, np.inf)
         bound = np.zeros_like(omega)
         if (j, j) in fits and (k, k) in fits:
-            bound = np.sqrt(
-                np.maximum(fits[j, j].damping(omega), 0.0) * np.maximum(fits[k, k].damping(omega), 0.0)
-            )
+            a, b = (np.maximum(fits[i, i].kernel(omega).real, 0.0) for i in (j, k))
+            bound = np.sqrt(a * b)
         return -bound, bound
 
     return limit

@@ -23,6 +23,7 @@ from seacrane.hydro.memory.identification import (
     pair_r2,
     symmetric,
     within,
+    worst_r2,
 )
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
@@ -112,7 +113,8 @@ def judged_rows(model: MemoryModel, database: Hydrodynamics) -> tuple[FitRow, ..
         poles = [block.poles for block in radiation if j in block.outputs and k in block.inputs]
         if poles:
             least = -np.inf if before else model.r2
-            rows.append(fit_row(RADIATION, (j, k), np.concatenate(poles), data, fitted, inside, least))
+            quality = pair_r2((j, k), data, fitted, inside)
+            rows.append(fit_row(RADIATION, (j, k), np.concatenate(poles), quality, least))
     return (*rows, *kept)
 
 
@@ -155,7 +157,7 @@ def _mismatch(database: HydroData, model: MemoryModel) -> str:
         pair, claimed = (row.output, row.input), min(row.r2_added_mass, row.r2_damping)
         if row.cause != RADIATION or claimed < CLAIMED_R2:
             continue
-        found = min(pair_r2(pair, data, fitted, inside))
+        found = worst_r2(pair_r2(pair, data, fitted, inside))
         if found < claimed - LOST_R2:
             name = f"{pair[0] + 1}{pair[1] + 1}"
             return f"it states R2 = {claimed:.3f} for pair {name}, and follows these with {found:.3f}"

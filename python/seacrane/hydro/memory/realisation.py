@@ -12,6 +12,7 @@ from seacrane.hydro.memory.identification import RationalFit
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 TYPICAL_VELOCITY = np.array([0.1, 0.1, 0.1, 0.01, 0.01, 0.01])
 MOST_STATES = 12  # of parts that share a block: each block costs its motions besides, each state the others
 
@@ -45,7 +46,8 @@ def realise(
     with one_thread:
         reach = solve_continuous_lyapunov(a, -b @ b.T)
         observe = solve_continuous_lyapunov(a.T, -c.T @ c)
-    left = _square_root(reach)
+    values, vectors = np.linalg.eigh(0.5 * (reach + reach.T))
+    left = vectors * np.sqrt(np.maximum(values, 0.0))
     rotation, hankel, _ = np.linalg.svd(left.T @ observe @ left)
     transform = left @ rotation / np.sqrt(np.sqrt(hankel))
     inverse = np.linalg.inv(transform)
@@ -64,12 +66,6 @@ def realise(
     )
 
 
-def _square_root(gramian: FloatArray) -> FloatArray:
-    """Matrix L with L L^T the symmetric, positive semi-definite ``gramian``."""
-    values, vectors = np.linalg.eigh(0.5 * (gramian + gramian.T))
-    return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0)))
-
-
 def realise_pair(fit: RationalFit, j: int, k: int, cause: str) -> list[MemoryBlock]:
     """Blocks (j, k) and (k, j) of one fit."""
     return [
@@ -78,13 +74,16 @@ def realise_pair(fit: RationalFit, j: int, k: int, cause: str) -> list[MemoryBlo
     ]
 
 
+def states_at(a: FloatArray, b: FloatArray, omega: FloatArray) -> ComplexArray:
+    """``(i omega - A)^-1 B`` (n, states, inputs) at ``omega`` (n,)."""
+    resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
+    return np.linalg.solve(resolvent, np.broadcast_to(b.astype(complex), (len(omega), *b.shape)))
+
+
 @one_thread
 def largest_states(a: FloatArray, b: FloatArray) -> FloatArray:
     """Largest amplitude of every state under a unit harmonic input of any frequency."""
-    omega = np.geomspace(1e-2, 1e2, 400)
-    resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
-    states = np.linalg.solve(resolvent, np.broadcast_to(b.astype(complex), (len(omega), *b.shape)))
-    return np.asarray(np.abs(states).max(axis=(0, 2)))
+    return np.asarray(np.abs(states_at(a, b, np.geomspace(1e-2, 1e2, 400))).max(axis=(0, 2)))
 
 
 def independent_blocks(block: MemoryBlock) -> list[MemoryBlock]:
@@ -99,12 +98,12 @@ def independent_blocks(block: MemoryBlock) -> list[MemoryBlock]:
     sizes = np.bincount(part_of, minlength=count)
     shared: list[list[int]] = []
     for part in np.argsort(-sizes, kind="stable"):
-        room = (one for one in shared if sizes[one].sum() + sizes[part] <= MOST_STATES)
-        found = next(room, None)
-        if found is None:
-            shared.append([part])
+        for parts in shared:
+            if sizes[parts].sum() + sizes[part] <= MOST_STATES:
+                parts.append(part)
+                break
         else:
-            found.append(part)
+            shared.append([part])
     blocks = []
     for place, parts in enumerate(shared):
         own = np.flatnonzero(np.isin(part_of, parts))

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.hydro_data import AdditionalMatrices
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.memory.identification import FEWEST_FREQUENCIES, memory_entries, symmetric, within
+from seacrane.hydro.memory.identification import judged_band, memory_entries, symmetric
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
@@ -122,16 +122,10 @@ def retardation_functions(
             f"retardation functions: step is {step} s, more than half a period of the database's highest "
             f"frequency, {database.omega[-1]:.4g} rad/s; make it shorter"
         )
-    durations = (
-        DURATIONS if duration is None else (positive_of("retardation functions: duration", duration, "s"),)
-    )
-    low, high = database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
-    inside = within(database.omega, (low, high))
-    if inside.sum() < FEWEST_FREQUENCIES:
-        raise ValueError(
-            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside.sum()} "
-            f"frequencies; retardation functions need {FEWEST_FREQUENCIES} or more"
-        )
+    durations = DURATIONS
+    if duration is not None:
+        durations = (positive_of("retardation functions: duration", duration, "s"),)
+    band, inside = judged_band(database)
     added_mass, damping = symmetric(database.added_mass), symmetric(database.damping)
     active = np.zeros(added_mass.shape[1:], dtype=bool)
     for j, k in memory_entries(added_mass, damping, database.omega):
@@ -144,7 +138,6 @@ def retardation_functions(
     response = transformer(radiation, step)(database.omega)
     estimates = added_mass - response.imag / database.omega[:, None, None]
     infinite = np.where(active, estimates[inside].mean(axis=0), added_mass[-1])
-    misfit = estimates - infinite
     additional, mass, stiffness = np.zeros_like(radiation), np.zeros_like(infinite), np.zeros_like(infinite)
     for part in database.additional:
         more = _additional(database, part, tau[:samples], inside)
@@ -156,9 +149,9 @@ def retardation_functions(
         added_mass=infinite,
         additional_added_mass=mass,
         additional_stiffness=stiffness,
-        band=(float(low), float(high)),
+        band=band,
         error_damping=_relative(response.real[inside] - damping[inside], damping[inside], active),
-        error_added_mass=_relative(misfit[inside], added_mass[inside], active),
+        error_added_mass=_relative(estimates[inside] - infinite, added_mass[inside], active),
         tail_share=_ratio(tail_at_zero, whole[0]),
     )
 
