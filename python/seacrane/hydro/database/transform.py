@@ -14,11 +14,13 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.errors import SceneError
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, mirrored_heading, phase_at
 from seacrane.hydro.data.hydro_data import HydroData, Part, axes_of
 from seacrane.hydro.data.rigid_mass import cross_matrix, weight_restoring
 from seacrane.hydro.memory.moved_memory import mirrored_memory, moved_memory
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import finite_of, shaped_of
 from seacrane.warnings import QuadraticDampingWarning
 
 FloatArray = NDArray[np.float64]
@@ -58,7 +60,8 @@ def _with_arrays(database: Data, change: Change, of_drift: Change | None = None,
 
 def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_lift: float) -> Data:
     """Move the reference point. The docstring of `HydroDatabase.at` says what each part becomes."""
-    r = _point(database, point, net_lift)
+    r = point_of(f"database {database.name!r}: reference point", point)
+    net_lift = finite_of(f"database {database.name!r}: net_lift", net_lift, "N")
     if r[1] != 0.0 and database.port_starboard_symmetric:
         database = _unfolded(database)
     transform = motion_transform(r)
@@ -135,17 +138,12 @@ def _unfolded(database: Data) -> Data:
     return _with_arrays(database, unfold(database.heading), drift, port_starboard_symmetric=False)
 
 
-def _point(database: HydroData, point: ArrayLike, net_lift: float) -> FloatArray:
-    """The new reference point (3,), or a ValueError."""
-    r = np.asarray(point, dtype=float)
-    if r.shape != (3,) or not np.all(np.isfinite(r)):
-        raise ValueError(
-            f"database {database.name!r}: reference point {point!r} is not three finite numbers; give "
-            "(x, y, z) in m from the present one"
-        )
-    if not np.isfinite(net_lift):
-        raise ValueError(f"database {database.name!r}: net_lift is {net_lift}; give buoyancy - weight in N")
-    return r
+def point_of(what: str, value: Any) -> FloatArray:
+    """Three finite numbers (3,), m; raises SceneError."""
+    point = shaped_of(what, value, (3,))
+    if not np.all(np.isfinite(point)):
+        raise SceneError.of(what, f"is {point}; give three finite numbers in m")
+    return point
 
 
 def warn_of_quadratic(what: str, damping: FloatArray, transform: FloatArray) -> None:

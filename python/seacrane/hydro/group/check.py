@@ -29,8 +29,6 @@ from seacrane.hydro.database.check import (
 from seacrane.hydro.group.gap import clearance, gaps, long_wave_lift, radiating, spikes
 from seacrane.inputs.frames import MOTIONS
 
-FloatArray = NDArray[np.float64]
-
 COUPLING_LIMIT = 0.1  # thin plates and narrow gaps: codes differ by 25 % on coupling
 LIFT_LIMIT = 0.1
 
@@ -41,8 +39,7 @@ def check_group(group: HydroGroupData) -> list[CheckRow]:
         *_matrix_rows(group),
         *_far_field_rows(group),
         *_dispersion_rows(group),
-        *_lift_rows(group),
-        *_gap_rows(group),
+        *_water_rows(group),
         *([] if group.memory is None else fit_rows(group.memory) + passivity_rows(group.memory)),
     ]
 
@@ -66,7 +63,7 @@ def _matrix_rows(group: HydroGroupData) -> list[CheckRow]:
     return rows
 
 
-def _smallest_damping(damping: FloatArray) -> float:
+def _smallest_damping(damping: NDArray[np.float64]) -> float:
     """Smallest eigenvalue of B over all frequencies, scaled by the square roots of its largest diagonals."""
     peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 0.0))
     active = peak > 0.0
@@ -115,34 +112,26 @@ def _by_motion_and_pair(
     return rows
 
 
-def _lift_rows(group: HydroGroupData) -> list[CheckRow]:
-    """Each hull's C33 against the force of a long wave on it: hydrostatics of another hull fail it."""
-    lift = long_wave_lift(group)
-    if lift is None:
-        return []
-    return [
-        at_most(f"c33_against_long_wave_{body.name}", abs(body.restoring[2, 2] / force - 1.0), LIFT_LIMIT)
-        for body, force in zip(group.bodies, lift, strict=True)
-    ]
-
-
-def _gap_rows(group: HydroGroupData) -> list[CheckRow]:
-    """Widths of the gaps, their piston modes, and what explains each narrow peak of the damping.
+def _water_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Each hull's C33 against the force of a long wave on it, which hydrostatics of another hull fail; widths
+    of the gaps, their piston modes, and what explains each narrow peak of the damping.
 
     An irregular frequency within the trusted band is an error of the source; a resonance of a gap is water,
     too high without a damping lid.
     """
+    lift = long_wave_lift(group)
     rows = [
-        info(f"clearance_{a.name}_{b.name}_m", clearance(a, b)[0]) for a, b in combinations(group.bodies, 2)
+        at_most(f"c33_against_long_wave_{body.name}", abs(body.restoring[2, 2] / force - 1.0), LIFT_LIMIT)
+        for body, force in zip(group.bodies, () if lift is None else lift, strict=lift is not None)
     ]
+    for a, b in combinations(group.bodies, 2):
+        rows.append(info(f"clearance_{a.name}_{b.name}_m", clearance(a, b)[0]))
     rows += [info(f"gap_{gap.first}_{gap.second}_piston_rad_s", gap.piston) for gap in gaps(group)]
-    inside = in_trusted_band(group, np.array([spike.omega for spike in spikes(group)]))
-    for spike, within in zip(spikes(group), inside, strict=True):
+    for spike in spikes(group):
         label = f"{spike.cause}_frequency{'_' if spike.of else ''}{spike.of}_rad_s"
-        if spike.cause == "irregular" and within:
-            rows.append(CheckRow(check=label, value=spike.omega, limit=None, verdict="fail"))
-        else:
-            rows.append(info(label, spike.omega))
+        wrong = spike.cause == "irregular" and in_trusted_band(group, np.array(spike.omega))
+        verdict = "fail" if wrong else "info"
+        rows.append(CheckRow(check=label, value=spike.omega, limit=None, verdict=verdict))
     if group.lid_damping is not None:
         rows.append(info("lid_damping", group.lid_damping))
     return rows

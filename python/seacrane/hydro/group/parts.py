@@ -16,9 +16,8 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import GroupBody, HydroGroupData
 from seacrane.hydro.data.memory_model import MODEL_MATRICES, MemoryModel
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.database.transform import motion_transform, warn_of_quadratic
+from seacrane.hydro.database.transform import motion_transform, point_of, warn_of_quadratic
 from seacrane.hydro.memory.moved_memory import moved_memory
-from seacrane.inputs.checked import shaped_of
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -239,7 +238,10 @@ def moved_group(group: Group, points: Mapping[str, ArrayLike]) -> Group:
         raise SceneError(f"group {group.name!r}: has no body {unknown[0]!r}; it has {', '.join(group.names)}")
     from scipy.linalg import block_diag
 
-    levers = [_lever(group, body, points.get(body.name)) for body in group.bodies]
+    levers = [
+        point_of(f"group {group.name!r}: point of {name!r}", points.get(name, (0.0, 0.0, 0.0)))
+        for name in group.names
+    ]
     if not np.any(levers):
         return group
     transforms = [motion_transform(lever) for lever in levers]
@@ -263,15 +265,6 @@ def afloat(group: Group) -> Group:
     """The group with every reference point on the still water, above or below where it was."""
     away = {body.name: (0.0, 0.0, -body.position[2]) for body in group.bodies}
     return moved_group(group, {name: point for name, point in away.items() if abs(point[2]) > ON_WATER})
-
-
-def _lever(group: HydroGroupData, body: GroupBody, point: ArrayLike | None) -> FloatArray:
-    if point is None:
-        return np.zeros(3)
-    found = shaped_of(f"group {group.name!r}: point of {body.name!r}", point, (3,))
-    if not np.all(np.isfinite(found)):
-        raise SceneError(f"group {group.name!r}: point of {body.name!r} is {found}; give finite m")
-    return found
 
 
 def _moved_body(body: GroupBody, lever: FloatArray, transform: FloatArray) -> GroupBody:

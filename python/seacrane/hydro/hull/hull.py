@@ -16,10 +16,9 @@ from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
 from seacrane.hydro.hull.panels import (
     Slice,
     along,
+    closed_loft,
     cut_panels,
-    end_cap,
     fractions,
-    lofted,
     mesh_triangles,
     require_closed,
     slices,
@@ -142,14 +141,9 @@ class Hull:
                 f"hull {self.name!r}: at x = {hanging[0]:.4g} m something hangs apart under water; remeshing "
                 "takes one outline: use the mesh as it is"
             )
-        even = around([s.section for s in cut], girth)
-        parts = [
-            lofted(x.tolist(), even),
-            end_cap(float(x[0]), even[0], forward=False),
-            end_cap(float(x[-1]), even[-1], forward=True),
-        ]
+        panels = closed_loft(x.tolist(), around([s.section for s in cut], girth))
         source = f"{self.source}; remeshed with {stations} x {girth} panels on each side"
-        return Hull(name=self.name, panels=np.concatenate(parts), source=source)
+        return Hull(name=self.name, panels=panels, source=source)
 
     @staticmethod
     def from_parametric(

@@ -8,7 +8,7 @@ import numpy as np
 
 from seacrane.errors import SceneError
 from seacrane.hydro.hull.hull import Hull
-from seacrane.inputs.checked import number_of, positive_of
+from seacrane.inputs.checked import not_negative_of, number_of, positive_of
 from seacrane.inputs.plausible import swing_of
 
 STATIONS = 41
@@ -138,10 +138,14 @@ def ikeda_roll_damping(
     if not isinstance(ship, MainParticulars):
         raise SceneError(f"roll damping: {type(hull).__name__} is no hull; give a Hull or MainParticulars")
     keels = (bilge_keel_length, bilge_keel_breadth)
-    _require_numbers(
-        positive={"amplitude_deg": amplitude_deg, "omega": omega, "rho": rho, "g": g, "viscosity": viscosity},
-        not_negative={"bilge_keel_length": keels[0], "bilge_keel_breadth": keels[1], "speed": speed},
-    )
+    positive = {"amplitude_deg": amplitude_deg, "omega": omega, "rho": rho, "g": g, "viscosity": viscosity}
+    for name, value in positive.items():
+        positive_of(f"roll damping: {name}", value)
+    for name, value in zip(
+        ("bilge_keel_length", "bilge_keel_breadth", "speed"), (*keels, speed), strict=True
+    ):
+        not_negative_of(f"roll damping: {name}", value)
+    number_of("roll damping: axis_height", axis_height)
     swing_of("roll damping: amplitude_deg", amplitude_deg)
     _require_range(ship, amplitude_deg, omega * np.sqrt(ship.breadth / 2.0 / g), -axis_height, keels)
 
@@ -156,9 +160,12 @@ def ikeda_roll_damping(
             f"roll damping: eddies come out at {found['eddy']:.4g} N m s/rad, below zero: block_coefficient "
             f"{ship.block_coefficient:.4g} is at the end of the formulas. Take roll damping from a model test"
         )
-    linear, quadratic = _pair(
-        sum(found.values()), sum(at(0.5 * amplitude_deg).values()), omega * np.radians(amplitude_deg)
-    )
+    whole, half = sum(found.values()), sum(at(0.5 * amplitude_deg).values())
+    rate = float(omega * np.radians(amplitude_deg))
+    quadratic = max((whole - half) / (HARMONIC * 0.5 * rate), 0.0)
+    linear = whole - HARMONIC * rate * quadratic
+    if linear < 0.0:
+        linear, quadratic = 0.0, whole / (HARMONIC * rate)
     return IkedaDamping(
         **found, linear=linear, quadratic=quadratic, amplitude_deg=float(amplitude_deg), omega=float(omega)
     )
@@ -186,39 +193,19 @@ def _components(
     ratios = {"cb": cb, "cm": cm, "bd": breadth / draught, "og": depth / draught}
     swing = {"amplitude": amplitude, "frequency": frequency}
     on = keels[0] > 0.0 and keels[1] > 0.0
+    eddies = (0.04 * omega * length) ** 2  # shed downstream: Ikeda, Himeno and Tanaka (1978)
+    full = max(cm - 0.91, 0.0)
+    kappa = 106.0 * full**2 - 700.0 * full**3
+    slope = float(2.0 * np.pi * draught / length + kappa * (4.1 * breadth / length - 0.045))
     parts = {
         "friction": friction_at_speed(speed, omega, length)
         * friction(radius=radius, surface=surface, amplitude=amplitude, omega=omega, rho=rho, viscosity=nu),
-        "eddy": unit * eddy_at_speed(speed, omega, length) * eddy(**ratios, **swing),
-        "lift": lift(
-            length=length,
-            draught=draught,
-            speed=speed,
-            og=depth,
-            slope=lift_slope(length=length, breadth=breadth, draught=draught, cm=cm),
-            rho=rho,
-        ),
+        "eddy": unit * (eddies / (speed**2 + eddies)) * eddy(**ratios, **swing),
+        "lift": lift(length=length, draught=draught, speed=speed, og=depth, slope=slope, rho=rho),
         "bilge_keels": unit
         * (bilge_keels(**ratios, **swing, breadth=keels[1] / breadth, length=keels[0] / length) if on else 0),
     }
     return {name: float(value) for name, value in parts.items()}
-
-
-def _pair(whole: float, half: float, rate: float) -> tuple[float, float]:
-    """Linear and quadratic damping with these equivalents at a rate's amplitude (rad/s) and at half of it."""
-    quadratic = max((whole - half) / (HARMONIC * 0.5 * rate), 0.0)
-    linear = whole - HARMONIC * rate * quadratic
-    if linear < 0.0:
-        return 0.0, whole / (HARMONIC * rate)
-    return float(linear), float(quadratic)
-
-
-def _require_numbers(*, positive: dict[str, float], not_negative: dict[str, float]) -> None:
-    for name, given in (positive | not_negative).items():
-        value = number_of(f"roll damping: {name}", given)
-        if not np.isfinite(value) or value < 0.0 or (name in positive and value == 0.0):
-            wanted = "a positive number" if name in positive else "zero or more"
-            raise SceneError(f"roll damping: {name} is {value:g}; give {wanted}")
 
 
 def _require_range(
@@ -313,18 +300,6 @@ def lift(*, length: float, draught: float, speed: float, og: float, slope: float
     return 0.5 * rho * length * draught * speed * slope * force * point * shape
 
 
-def lift_slope(*, length: float, breadth: float, draught: float, cm: float) -> float:
-    """2 pi T / L + kappa (4.1 B / L - 0.045) with kappa = 106 (Cm - 0.91)^2 - 700 (Cm - 0.91)^3."""
-    full = max(cm - 0.91, 0.0)
-    kappa = 106.0 * full**2 - 700.0 * full**3
-    return float(2.0 * np.pi * draught / length + kappa * (4.1 * breadth / length - 0.045))
-
-
 def friction_at_speed(speed: float, omega: float, length: float) -> float:
     """Factor on friction (Tamiya and Komura 1972)."""
     return 1.0 + 4.1 * speed / (omega * length)
-
-
-def eddy_at_speed(speed: float, omega: float, length: float) -> float:
-    """Factor on eddies, which are shed downstream: (0.04 K)^2 / (1 + (0.04 K)^2), K = w L / U."""
-    return (0.04 * omega * length) ** 2 / (speed**2 + (0.04 * omega * length) ** 2)

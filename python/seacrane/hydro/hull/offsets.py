@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -11,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.hull.panels import end_cap, lofted
+from seacrane.hydro.data.reading import reading
+from seacrane.hydro.hull.panels import closed_loft
 from seacrane.inputs.brief import brief
-from seacrane.inputs.checked import positive_of
+from seacrane.inputs.checked import finite_of, positive_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole
 
@@ -91,24 +91,16 @@ class OffsetTable:
         ValueError : a draught that is not positive, or a station whose outline begins under water.
         """
         keel = min(float(section[:, 1].min()) for section in self.sections)
-        what = f"offset table {self.name!r}: draught"
-        waterline = 0.0 if draught is None else keel + positive_of(what, draught, "m")
-        level = np.array([0.0, waterline])
+        what = f"offset table {self.name!r}"
+        waterline = 0.0 if draught is None else keel + positive_of(f"{what}: draught", draught, "m")
         tolerance = 1e-6 * float(np.ptp(self.x))
         for x, section in zip(self.x, self.sections, strict=True):
             if section[0, 1] < waterline - tolerance:
                 raise ValueError(
-                    f"offset table {self.name!r}: station x = {x:.6g} m begins "
-                    f"{waterline - section[0, 1]:.4g} m below the waterline; continue it upwards, or leave "
-                    "it out (a bulb ahead of the stem needs a mesh)"
+                    f"{what}: station x = {x:.6g} m begins {waterline - section[0, 1]:.4g} m below the "
+                    "waterline; continue it upwards, or leave it out (a bulb ahead of the stem needs a mesh)"
                 )
-        sections = [section - level for section in self.sections]
-        x_aft, x_fore = float(self.x[0]), float(self.x[-1])
-        ends = [
-            end_cap(x_aft, sections[0], forward=False),
-            end_cap(x_fore, sections[-1], forward=True),
-        ]
-        return np.concatenate([lofted(self.x.tolist(), sections), *ends])
+        return closed_loft(self.x.tolist(), [section - [0.0, waterline] for section in self.sections])
 
 
 def read_offset_table(path: str | PathLike[str]) -> OffsetTable:
@@ -129,43 +121,26 @@ def read_offset_table(path: str | PathLike[str]) -> OffsetTable:
     stations: dict[float, list[list[float]]] = {}
     last: float | None = None
     for number, line in enumerate(lines, start=1):
-        if _skipped(line, first=not stations):
+        cells = [cell.strip() for cell in line.split(",")]
+        named = not stations and [cell.lower() for cell in cells] == ["x", "y", "z"]
+        if named or not line.strip() or line.strip().startswith("#"):
             continue
-        x, y, z = _numbers(source, number, line)
+        try:
+            x, y, z = (finite_of("a cell", float(cell)) for cell in cells)
+        except ValueError as error:
+            raise FileFormatError(
+                f"{source}: line {number}: {line.strip()[:80]!r} is not three finite numbers x,y,z (in m, "
+                "separated by commas)"
+            ) from error
         if x != last and x in stations:
             raise FileFormatError(
                 f"{source}: line {number}: station x = {x:g} comes back; keep its points together"
             )
         stations.setdefault(x, []).append([y, z])
         last = x
-    try:
-        return _table(source.stem, stations)
-    except ValueError as error:
-        raise FileFormatError(f"{source}: {error}") from error
-
-
-def _skipped(line: str, *, first: bool) -> bool:
-    text = line.strip().lower()
-    header = [column.strip() for column in text.split(",")]
-    return not text or text.startswith("#") or (first and header == ["x", "y", "z"])
-
-
-def _numbers(source: Path, number: int, line: str) -> list[float]:
-    try:
-        values = [float(column) for column in line.split(",")]
-    except ValueError:
-        values = []
-    if len(values) != 3 or not np.all(np.isfinite(values)):
-        raise FileFormatError(
-            f"{source}: line {number}: {line.strip()[:80]!r} is not three finite numbers x,y,z (in m, "
-            "separated by commas)"
-        )
-    return values
-
-
-def _table(name: str, stations: dict[float, list[list[float]]]) -> OffsetTable:
-    """Stations given forward or aft; any other order is for `OffsetTable` to refuse."""
-    x: Sequence[float] = list(stations)
-    if len(x) > 1 and x[0] > x[-1]:
-        x = x[::-1]
-    return OffsetTable(x=np.array(x), sections=tuple(np.array(stations[v]) for v in x), name=name)
+    order = list(stations)
+    if len(order) > 1 and order[0] > order[-1]:
+        order = order[::-1]
+    with reading(source):  # stations that neither rise nor fall are for the table to refuse
+        sections = tuple(np.array(stations[x]) for x in order)
+        return OffsetTable(x=np.array(order), sections=sections, name=source.stem)

@@ -104,7 +104,13 @@ def along(section: FloatArray, fraction: FloatArray) -> FloatArray:
     return np.column_stack([np.interp(fraction, at, points[:, i]) for i in (0, 1)])
 
 
-def end_cap(x: float, section: FloatArray, *, forward: bool) -> FloatArray:
+def closed_loft(x: list[float], sections: list[FloatArray]) -> FloatArray:
+    """`lofted`, with flat ends."""
+    ends = [_end_cap(x[0], sections[0], forward=False), _end_cap(x[-1], sections[-1], forward=True)]
+    return np.concatenate([lofted(x, sections), *ends])
+
+
+def _end_cap(x: float, section: FloatArray, *, forward: bool) -> FloatArray:
     """Flat end of both sides: rings from the outline towards the middle of its waterline."""
     radius = np.hypot(*section.T)
     steps = np.hypot(*np.diff(section, axis=0).T)

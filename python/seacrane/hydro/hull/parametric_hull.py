@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.hull.hydrostatics import panel_hydrostatics
-from seacrane.hydro.hull.panels import mirrored
+from seacrane.hydro.hull.panels import lofted, mirrored
 
 FloatArray = NDArray[np.float64]
 
@@ -80,52 +78,9 @@ class ParametricHull:
         transom's panels last.
         """
         x = np.linspace(-self.origin_from_transom, self.length - self.origin_from_transom, stations + 1)
-        port = np.empty((stations + 1, girth + 1, 3))
-        for i, station in enumerate(x):
-            port[i, :, 0] = station
-            port[i, :, 1:] = self.section(float(station), girth)
-        corners = [port[:-1, :-1], port[1:, :-1], port[1:, 1:], port[:-1, 1:]]
-        side = np.stack(corners, axis=2).reshape(-1, 4, 3)
-        return np.concatenate([side, mirrored(side), _transom_panels(port[0])])
-
-    def scaled_to_volume(self, volume: float, *, stations: int, girth: int) -> ParametricHull:
-        """Hull whose panel mesh encloses ``volume`` (m3), by solving the entrance length, origin at its LCB.
-
-        Raises
-        ------
-        ValueError : no entrance length between 5 % of the length and the whole length ahead of the run
-            encloses it.
-        """
-        low, high = 0.05 * self.length, self.length - self.run_length
-
-        def excess(entrance: float) -> float:
-            hull = replace(self, entrance_length=entrance)
-            return panel_hydrostatics(hull.panels(stations=stations, girth=girth)).volume - volume
-
-        if excess(low) < 0.0 or excess(high) > 0.0:
-            raise ValueError(
-                f"ParametricHull: volume {volume} m3 is out of reach for length {self.length}, breadth "
-                f"{self.breadth}, "
-                f"draught {self.draught} m; change the volume or the section exponent"
-            )
-        entrance = _bisect(excess, low, high)
-        hull = replace(self, entrance_length=entrance, origin_from_transom=0.0)
-        lcb = panel_hydrostatics(hull.panels(stations=stations, girth=girth)).center_of_buoyancy[0]
-        return replace(hull, origin_from_transom=float(lcb))
-
-
-def _transom_panels(edge: FloatArray) -> FloatArray:
-    """Cap (2 * girth - 2, 4, 3) of the transom, ``edge`` (girth + 1, 3) its half section; upright strips."""
-    top = edge * np.array([1.0, 1.0, 0.0])
-    strips = np.stack([top[1:-1], edge[1:-1], edge[2:], top[2:]], axis=1)
-    # The outermost strip would be a sliver: it is joined to its neighbour.
-    strips[0, 0], strips[0, 1] = edge[0], edge[1]
-    return np.concatenate([strips, mirrored(strips)])
-
-
-def _bisect(function: Callable[[float], float], low: float, high: float) -> float:
-    """Root of a continuous function with a sign change between ``low`` and ``high``, to rounding."""
-    sign = function(low) > 0.0
-    while (middle := 0.5 * (low + high)) not in (low, high):
-        low, high = (middle, high) if (function(middle) > 0.0) == sign else (low, middle)
-    return middle
+        sections = [self.section(float(station), girth) for station in x]
+        edge = np.column_stack([np.full(girth + 1, x[0]), sections[0]])
+        top = edge * np.array([1.0, 1.0, 0.0])
+        transom = np.stack([top[1:-1], edge[1:-1], edge[2:], top[2:]], axis=1)  # upright strips
+        transom[0, :2] = edge[:2]  # the outermost, which would be a sliver, is joined to its neighbour
+        return np.concatenate([lofted(x.tolist(), sections), transom, mirrored(transom)])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.hydro.database.transform import point_of
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
 from seacrane.hydro.hull.panels import cut_panels, mesh_triangles, require_closed
 from seacrane.inputs.brief import brief
@@ -88,9 +89,7 @@ def righting_arms(
     if draught is not None:
         depth = positive_of(f"hull {name!r}: draught", draught, "m")
         triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
-    centre = np.asarray(center_of_gravity, dtype=float)
-    if centre.shape != (3,) or not np.all(np.isfinite(centre)):
-        raise ValueError(f"hull {name!r}: center_of_gravity is {center_of_gravity!r}; give x, y and z, m")
+    centre = point_of(f"hull {name!r}: center_of_gravity", center_of_gravity)
     if trim not in TRIMS:
         raise ValueError(f"hull {name!r}: trim is {trim!r}; give {' or '.join(map(repr, TRIMS))}")
     if not triangles[..., 2].min() < 0.0 < triangles[..., 2].max():

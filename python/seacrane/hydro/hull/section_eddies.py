@@ -75,15 +75,11 @@ def section_eddy_damping(
             "draughts below the waterline; give an area of at most 1 and an axis above the keel"
         )
     half = 0.5 * breadth / draught
-    radius = _bilge_radius(half, area_coefficient) if bilge_radius is None else bilge_radius / draught
+    two_arcs = 2.0 * math.sqrt(half * (1.0 - area_coefficient) / (4.0 - math.pi))  # which give the area
+    radius = min(two_arcs, 1.0, half) if bilge_radius is None else bilge_radius / draught
     coefficient = eddy_coefficient(half=half, area=area_coefficient, depth=depth, radius=radius)
     swing = omega * np.radians(amplitude_deg)
     return float(4.0 / (3.0 * np.pi) * rho * draught**4 * swing * coefficient)
-
-
-def _bilge_radius(half: float, area: float) -> float:
-    """Over the draught: of two quarter circles that give the area."""
-    return min(2.0 * math.sqrt(half * (1.0 - area) / (4.0 - math.pi)), 1.0, half)
 
 
 def eddy_coefficient(*, half: float, area: float, depth: float, radius: float) -> float:

@@ -9,7 +9,7 @@ from seacrane.hydro.hull.parametric_hull import ParametricHull
 
 VOLUME = 14.0e6 / 1025.0  # m3
 STATIONS, GIRTH = 56, 20
-# Scaled to the volume by `ParametricHull.scaled_to_volume`, about its centre of buoyancy.
+# Of the entrance that encloses the volume, about its centre of buoyancy.
 LINES = ParametricHull(
     length=115.0,
     breadth=25.0,

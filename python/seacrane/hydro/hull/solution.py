@@ -26,6 +26,7 @@ class HullSolution:
 
     Attributes
     ----------
+    omega, heading, rho, g : (n,) rad/s and (m,) rad at which it was found, and kg/m3, m/s2 of its water.
     added_mass, damping : (n, 6, 6).
     added_mass_zero, added_mass_infinite : (6, 6) limits, or None where the method has none.
     force : (m, n, 6) complex, per metre of wave amplitude.
@@ -33,6 +34,10 @@ class HullSolution:
     trusted_band : (low, high) in rad/s within which the method and its panels can be relied upon.
     """
 
+    omega: FloatArray
+    heading: FloatArray
+    rho: float
+    g: float
     added_mass: FloatArray
     damping: FloatArray
     added_mass_zero: FloatArray | None
@@ -42,14 +47,21 @@ class HullSolution:
     trusted_band: tuple[float, float]
 
 
-def symmetric_solution(solution: HullSolution, heading: FloatArray) -> HullSolution:
+def symmetric_solution(solution: HullSolution) -> HullSolution:
     """The solution with symmetric matrices, and zero where port-starboard symmetry forbids it to be other.
 
     Its text says how much that took.
     """
     zero = solution.added_mass_zero
-    removed = max(_asymmetry(m) for m in (solution.added_mass, solution.damping))
-    force, noise = _symmetrised_force(solution.force, heading)
+    removed = []
+    for matrix in (solution.added_mass, solution.damping):
+        scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)).max(axis=0))
+        change = np.abs(matrix - _symmetrised(matrix))
+        removed.append(_largest_share(change, np.outer(scale, scale)))
+    force = solution.force.copy()
+    force[np.abs(np.sin(solution.heading)) < ALONG, :, 1::2] = 0.0  # sway, roll, yaw in head, following seas
+    change = np.abs(solution.force - force).max(axis=(0, 1))
+    noise = _largest_share(change, np.abs(solution.force).max(axis=(0, 1)))
     return replace(
         solution,
         added_mass=_symmetrised(solution.added_mass),
@@ -58,9 +70,9 @@ def symmetric_solution(solution: HullSolution, heading: FloatArray) -> HullSolut
         added_mass_infinite=_symmetrised(solution.added_mass_infinite),
         force=force,
         method=(
-            f"{solution.method}; matrices made symmetric, which removed up to {removed:.4f} of the geometric "
-            "mean of the largest diagonals; motions that port-starboard symmetry forbids set to zero, which "
-            f"removed up to {noise:.1e} of the largest force"
+            f"{solution.method}; matrices made symmetric, which removed up to {max(removed):.4f} of the "
+            "geometric mean of the largest diagonals; motions that port-starboard symmetry forbids set to "
+            f"zero, which removed up to {noise:.1e} of the largest force"
         ),
     )
 
@@ -72,21 +84,8 @@ def _symmetrised(matrix: FloatArray) -> FloatArray:
     return np.asarray(0.5 * (kept + kept.swapaxes(-1, -2)))
 
 
-def _asymmetry(matrix: FloatArray) -> float:
-    """Largest change by `_symmetrised`, by the geometric mean of the largest diagonals."""
-    scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)).max(axis=0))
-    product = np.outer(scale, scale)
-    change = np.abs(matrix - _symmetrised(matrix))
-    return float((change / np.where(product > 0.0, product, 1.0)).max())
-
-
-def _symmetrised_force(force: ComplexArray, heading: FloatArray) -> tuple[ComplexArray, float]:
-    """Forces (m, n, 6) with sway, roll and yaw zero in head and following seas, and the share removed."""
-    clean = force.copy()
-    clean[np.abs(np.sin(heading)) < ALONG, :, 1::2] = 0.0
-    largest = np.abs(force).max(axis=(0, 1))
-    change = np.abs(force - clean).max(axis=(0, 1))
-    return clean, float((change / np.where(largest > 0.0, largest, 1.0)).max())
+def _largest_share(change: FloatArray, whole: FloatArray) -> float:
+    return float((change / np.where(whole > 0.0, whole, 1.0)).max())
 
 
 def capytaine_solution(
@@ -120,17 +119,23 @@ def capytaine_solution(
     dofs = capytaine.rigid_body_dofs(rotation_center=(0.0, 0.0, 0.0))
     body = capytaine.FloatingBody(mesh=mesh, lid_mesh=lid, dofs=dofs, name=hull.name)
     solved = _solved(capytaine, body, omega, heading, rho, g)
-    order = ("omega", "influenced_dof", "radiating_dof")
     names = list(MOTION_NAMES)
-    matrices = {"influenced_dof": names, "radiating_dof": names}
-    added_mass = solved.added_mass.transpose(*order).sel(matrices)
-    damping = solved.radiation_damping.transpose(*order).sel(matrices).sel(omega=omega)
+    added_mass, damping = (
+        table.transpose("omega", "influenced_dof", "radiating_dof").sel(
+            influenced_dof=names, radiating_dof=names
+        )
+        for table in (solved.added_mass, solved.radiation_damping)
+    )
     force = (solved.diffraction_force + solved.Froude_Krylov_force).sel(omega=omega, influenced_dof=names)
     force = force.transpose("wave_direction", "omega", "influenced_dof")
     shortest = PANELS_PER_WAVE * hull.panel_size
     return HullSolution(
+        omega=omega,
+        heading=heading,
+        rho=rho,
+        g=g,
         added_mass=added_mass.sel(omega=omega).values,
-        damping=damping.values,
+        damping=damping.sel(omega=omega).values,
         added_mass_zero=added_mass.sel(omega=0.0).values,
         added_mass_infinite=added_mass.sel(omega=np.inf).values,
         force=np.conj(force.values),  # Capytaine's time factor is exp(-i omega t)

@@ -78,8 +78,8 @@ def fit_by_motion(
     blocks: list[MemoryBlock] = []
     infinite = judge.added_mass.mean(axis=0)  # of entries without memory
     if database.port_starboard_symmetric:
-        motion = np.arange(len(infinite))
-        infinite = np.where(np.add.outer(motion, motion) % 2, 0.0, infinite)
+        places = np.arange(len(infinite))
+        infinite = np.where(np.add.outer(places, places) % 2, 0.0, infinite)
     of_motions = partial(_Group, judge, grid, band, known)
     for group in motion_groups(kept):
         fit = of_motions(group)
@@ -279,10 +279,12 @@ def _additional(
             out[:, j, k] = out[:, k, j] = model - given
             return judge.error(out).worst
 
+        def light(fit: RationalFit, most: float = most) -> bool:
+            return abs(fit.added_mass_infinite) <= most
+
         fit = fits[j, k] = fit_lowest_order(
-            data, orders=ADDITIONAL_ORDERS, error=error, limit=limit, gain=GAIN,
-            allowed=lambda fit, most=most: abs(fit.added_mass_infinite) <= most,
-        )  # fmt: skip
+            data, orders=ADDITIONAL_ORDERS, error=error, limit=limit, gain=GAIN, allowed=light
+        )
         mass[j, k] = mass[k, j] = fit.added_mass_infinite
         stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
         blocks += realise_pair(fit, j, k, part.cause)

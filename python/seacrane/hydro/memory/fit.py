@@ -190,7 +190,8 @@ def _fit_per_pair(
     trusted = within(database.omega, band)
     infinite = symmetric(database.added_mass[-1] if known is None else known)
     stiffness = np.zeros((6, 6))
-    for part in (database, *database.additional):
+    parts: tuple[HydroData | AdditionalMatrices, ...] = (database, *database.additional)
+    for part in parts:
         cause = part.cause if isinstance(part, AdditionalMatrices) else RADIATION
         radiation, tank = cause == RADIATION, cause != RADIATION
         added_mass, damping = symmetric(part.added_mass), symmetric(part.damping)
@@ -214,7 +215,8 @@ def _fit_per_pair(
                 stiffness[j, k] += fit.static_stiffness
                 stiffness[k, j] = stiffness[j, k]
             blocks += realise_pair(fit, j, k, cause)
-            rows.append(fit_row(cause, (j, k), np.roots(fit.denominator), fit.quality, r2))
+            poles = np.asarray(np.roots(fit.denominator), dtype=complex)
+            rows.append(fit_row(cause, (j, k), poles, fit.quality, r2))
     return MemoryModel(
         blocks=tuple(blocks),
         added_mass=infinite,

@@ -7,13 +7,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData, in_trusted_band
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData
 from seacrane.hydro.data.memory_model import MemoryModel, MotionError
-from seacrane.hydro.data.motion import motion_errors, motion_response
 from seacrane.hydro.memory.identification import symmetric, within
 from seacrane.hydro.memory.retardation import RetardationModel
-from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -132,16 +129,10 @@ class _Table:
         self.added_mass = spline(symmetric(database.added_mass))
         self.damping = spline(symmetric(database.damping))
         w = database.omega[:, None, None]
-        nothing = np.zeros(database.added_mass.shape, dtype=complex)
-        self.additional = spline(
-            sum(
-                (
-                    -(w**2) * part.added_mass + 1j * w * part.damping + part.restoring
-                    for part in database.additional
-                ),
-                nothing,
-            )
-        )
+        additional = np.zeros(database.added_mass.shape, dtype=complex)
+        for part in database.additional:
+            additional = additional + (-(w**2) * part.added_mass + 1j * w * part.damping + part.restoring)
+        self.additional = spline(additional)
         self.force = spline(database.force, 1)
         roll = database.roll_damping
         self.roll = None if roll is None else spline(roll.linear + roll.linearised, 1)
@@ -211,31 +202,9 @@ def length_of(database: Hydrodynamics) -> float:
 
 
 def _sea_energies(omega: FloatArray, periods: FloatArray) -> FloatArray:
-    """Energy (seas, n) of every sea at every frequency, on a scale of its own."""
-    steps = np.gradient(omega)
-    return np.stack([_jonswap(omega, tp) * steps for tp in periods])
-
-
-def _jonswap(omega: FloatArray, tp: float) -> FloatArray:
-    """Shape of the spectrum; its size does not matter here."""
-    peak = 2.0 * np.pi / tp
+    """Energy (seas, n) of every sea (JONSWAP) at every frequency, on a scale of its own."""
+    peak = 2.0 * np.pi / periods[:, None]
     width = np.where(omega <= peak, 0.07, 0.09)
     near = np.exp(-0.5 * ((omega - peak) / (width * peak)) ** 2)
-    return np.asarray(omega**-5.0 * np.exp(-1.25 * (peak / omega) ** 4) * PEAK_ENHANCEMENT**near)
-
-
-@one_thread
-def memory_motion_errors(database: HydroData, model: MemoryModel | RetardationModel) -> FloatArray:
-    """Motions (6,) with the memory's matrices against those with the data, within the trusted band.
-
-    As `motion_errors`: the largest difference by the largest motion.
-    """
-    added_mass, damping = model.frequency_response(database.omega)
-    more_mass, more_damping = model.additional_response(database.omega)
-    static = sum((part.restoring for part in database.additional), np.zeros((len(database.omega), 6, 6)))
-    fitted = motion_response(
-        database,
-        added_mass=added_mass + more_mass - static / database.omega[:, None, None] ** 2,
-        damping=damping + more_damping,
-    )
-    return motion_errors(database, fitted, motion_response(database), inside=in_trusted_band(database))
+    shape = omega**-5.0 * np.exp(-1.25 * (peak / omega) ** 4) * PEAK_ENHANCEMENT**near
+    return np.asarray(shape * np.gradient(omega))

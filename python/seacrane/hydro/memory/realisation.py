@@ -77,7 +77,8 @@ def realise_pair(fit: RationalFit, j: int, k: int, cause: str) -> list[MemoryBlo
 def states_at(a: FloatArray, b: FloatArray, omega: FloatArray) -> ComplexArray:
     """``(i omega - A)^-1 B`` (n, states, inputs) at ``omega`` (n,)."""
     resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
-    return np.linalg.solve(resolvent, np.broadcast_to(b.astype(complex), (len(omega), *b.shape)))
+    inputs = np.broadcast_to(b.astype(complex), (len(omega), *b.shape))
+    return np.asarray(np.linalg.solve(resolvent, inputs))
 
 
 @one_thread

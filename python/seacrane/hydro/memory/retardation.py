@@ -122,7 +122,7 @@ def retardation_functions(
             f"retardation functions: step is {step} s, more than half a period of the database's highest "
             f"frequency, {database.omega[-1]:.4g} rad/s; make it shorter"
         )
-    durations = DURATIONS
+    durations: tuple[float, ...] = DURATIONS
     if duration is not None:
         durations = (positive_of("retardation functions: duration", duration, "s"),)
     band, inside = judged_band(database)
