@@ -62,7 +62,7 @@ _PASSIVITY = [entry.name for entry in fields(Passivity)]
 
 
 def save_database(database: HydroData, path: str | PathLike[str]) -> None:
-    """Write ``database`` to ``path``: complete under its name, or not at all."""
+    """Write everything, the memory model included, to a NetCDF file, atomically and without loss."""
     import netCDF4
 
     with atomic_write(Path(path)) as draft:
@@ -103,8 +103,8 @@ def _arrays(part: Part) -> Iterator[Any]:
             yield name, getattr(part, name), tuple(_DIMENSIONS[axis] for axis in axes), ARRAYS[name][1]
 
 
-def to_xarray(database: HydroData) -> xarray.Dataset:
-    """Labelled copies of the database's arrays."""
+def dataset_of(database: HydroData) -> xarray.Dataset:
+    """The arrays as a labelled dataset (copies), complex values kept complex; needs xarray."""
     import xarray
 
     variables: dict[str, Any] = {}

@@ -19,10 +19,9 @@ from seacrane.hydro.data.hydro_group_data import HydroGroupData
 from seacrane.hydro.data.motion import motion_response
 from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
 from seacrane.hydro.data.reading import reading
-from seacrane.hydro.database.check import CheckRow
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.check import check_group
-from seacrane.hydro.group.gap import Gap, GroupMode, clearance, gaps, natural_modes_of
+from seacrane.hydro.group.gap import Gap, clearance, gaps, natural_modes_of
 from seacrane.hydro.group.lid import group_with_lid
 from seacrane.hydro.group.parts import (
     group_of_databases,
@@ -48,6 +47,14 @@ FILES: dict[float | None, str] = {None: "alone", 0.01: "lid_0.01", 0.03: "lid_0.
 
 class HydroGroup(HydroGroupData):
     __doc__ = HydroGroupData.__doc__
+
+    __getitem__ = hull_of
+    at = moved_group
+    ordered = ordered_group
+    without_coupling = uncoupled_group
+    natural_modes = natural_modes_of
+    with_lid_damping = group_with_lid
+    check = check_group
 
     @staticmethod
     def from_databases(
@@ -77,14 +84,6 @@ class HydroGroup(HydroGroupData):
         require_apart(group)
         return group
 
-    def __getitem__(self, name: str) -> HydroDatabase:
-        """One hull while the others are held at rest beside it: its own blocks, forces with shielding.
-
-        It is not the hull alone: the others reflect its waves, and shield it. Waves have zero phase at its
-        reference point, headings count from its own x axis.
-        """
-        return hull_of(self, name)
-
     @property
     def hulls(self) -> Mapping[str, HydroDatabase]:
         """`group[name]` of every body, by name."""
@@ -95,43 +94,6 @@ class HydroGroup(HydroGroupData):
 
     def __len__(self) -> int:
         return len(self.bodies)
-
-    def at(self, points: Mapping[str, ArrayLike]) -> HydroGroup:
-        """The same hulls about other reference points; nothing is fitted or interpolated anew.
-
-        Matrices, forces and the memory model (with the same states) are moved exactly; waves keep their zero
-        phase at the group's origin.
-
-        Parameters
-        ----------
-        points : by body, (3,) m from its present reference point, in its own axes; a hull that is not named
-            keeps its own. Off the group's x axis the headings of both sides are written out.
-
-        Warns
-        -----
-        seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
-
-        Raises
-        ------
-        SceneError : no body of a name, or a point that is not three finite numbers.
-        """
-        return moved_group(self, points)
-
-    def ordered(self, names: Sequence[str]) -> HydroGroup:
-        """The same group with its bodies in another order; a memory moves along.
-
-        Raises
-        ------
-        ValueError : not each body once.
-        """
-        return ordered_group(self, names)
-
-    def without_coupling(self) -> HydroGroup:
-        """The group whose hulls do not feel each other's motions: no blocks beside the diagonal, no memory.
-
-        Forces stay as they are, with the shielding.
-        """
-        return uncoupled_group(self)
 
     @cached_property
     def motion_rao(self) -> ComplexArray:
@@ -144,47 +106,12 @@ class HydroGroup(HydroGroupData):
         motions.setflags(write=False)
         return motions
 
-    def natural_modes(self) -> tuple[GroupMode, ...]:
-        """Modes of all hulls together without damping, within the frequencies, by rising frequency.
-
-        A mode that water in a gap makes is among them. Motions that nothing restores have none.
-        """
-        return natural_modes_of(self)
-
     def gaps(self) -> list[Gap]:
         """The gaps between hulls that are narrower than these, with the piston mode of their water by Molin.
 
         Main dimensions are those of the bodies' boxes. A hull within another's ring has no gap here.
         """
         return gaps(self)
-
-    def with_lid_damping(self, damping: float) -> HydroGroup:
-        """The group with a damping lid on the water between its hulls, put in where the source had none.
-
-        Potential theory makes the water in a gap rise two to five times too high. How much a lid should damp
-        it no theory tells: compare answers of two values.
-
-        Parameters
-        ----------
-        damping : of the lid, as a share of the frequency: ``(1 - i damping) w^2 phi = g d(phi)/dz``. Values
-            of 0.01 to 0.03 are in use.
-
-        Returns
-        -------
-        HydroGroup : the poles of the gap's modes, found in matrices and forces, have ``damping`` times their
-            frequency more; without a memory, as that is of the data before.
-
-        Raises
-        ------
-        ValueError : no peak is one of a gap, the source has a lid already, or the frequencies are too far
-            apart to show the resonance.
-        SceneError : ``damping`` is not positive.
-        """
-        return group_with_lid(self, damping)
-
-    def check(self) -> list[CheckRow]:
-        """Self-check over all motions; see `check_group`."""
-        return check_group(self)
 
     def require(
         self,
@@ -214,19 +141,20 @@ class HydroGroup(HydroGroupData):
             raise SceneError(
                 f"{what}: holds {', '.join(self.names)}, not {', '.join(map(str, names))}; {fix}"
             )
-        for asked, given in (("positions", positions), ("draughts", draughts)):
-            for name in [one for one in given or {} if one not in self.names]:
+        positions, draughts = positions or {}, draughts or {}
+        for asked, given in (("positions", [*positions]), ("draughts", [*draughts])):
+            for name in [one for one in given if one not in self.names]:
                 raise SceneError(
                     f"{what}: {asked} name {name!r}, which it has not; it has {', '.join(self.names)}"
                 )
         for body in self.bodies:
-            place = np.asarray((positions or {}).get(body.name, body.position), dtype=float)
+            place = np.asarray(positions.get(body.name, body.position), dtype=float)
             if place.shape != (3,) or not np.allclose(place, body.position, rtol=0.0, atol=SAME_PLACE):
                 raise SceneError(
                     f"{what}: {body.name} has its reference point at {place_of(body.position)} m, not at "
                     f"{place_of(place)}: its matrices are about another point; use that one, or compute anew"
                 )
-            draught = float((draughts or {}).get(body.name, body.draught))
+            draught = float(draughts.get(body.name, body.draught))
             if not abs(draught - body.draught) <= SAME_DRAUGHT * body.draught:
                 raise SceneError(
                     f"{what}: {body.name} was computed with a draught of {body.draught:.4g} m, and "

@@ -15,6 +15,7 @@ from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_h
 from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
 from seacrane.hydro.hull.panels import (
     Slice,
+    afloat,
     along,
     closed_loft,
     cut_panels,
@@ -193,10 +194,7 @@ class Hull:
         """
         triangles = mesh_triangles(name, vertices, faces)
         _require_metres(name, triangles)
-        if draught is not None:
-            depth = positive_of(f"hull {name!r}: draught", draught, "m")
-            triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
-        triangles = require_closed(name, triangles)
+        triangles = require_closed(name, afloat(name, triangles, draught))
         return Hull(name=name, panels=_wetted(name, triangles[:, [0, 1, 2, 2]]), source=source)
 
     @staticmethod
@@ -248,9 +246,9 @@ def _require_panels(name: str, panels: FloatArray) -> None:
 
 def _require_closed(name: str, panels: FloatArray) -> None:
     """A volume that is the same by x, y and z, and positive."""
-    triangles = triangles_of(panels)
+    triangles, points = triangles_of(panels), panels.reshape(-1, 3)
     centre, flux = triangles.mean(axis=1), area_vectors(triangles)
-    middle = 0.5 * (panels.reshape(-1, 3).min(axis=0) + panels.reshape(-1, 3).max(axis=0)) * [1, 1, 0]
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0)) * [1, 1, 0]
     volumes = np.sum((centre - middle) * flux, axis=0)
     if np.all(volumes < 0.0):
         raise ValueError(
@@ -258,7 +256,7 @@ def _require_closed(name: str, panels: FloatArray) -> None:
             "order of the vertices of every face"
         )
     leak = np.abs(flux[:, :2].sum(axis=0)).max() / max(np.abs(flux).sum(), 1e-300)
-    smallest = FLAT * float(np.ptp(panels.reshape(-1, 3), axis=0).max()) ** 3
+    smallest = FLAT * float(np.ptp(points, axis=0).max()) ** 3
     if not (volumes.max() > smallest and np.ptp(volumes) <= CLOSED * volumes.max() and leak <= CLOSED):
         raise ValueError(
             f"hull {name!r}: volume by x, y and z is {volumes[0]:.6g}, {volumes[1]:.6g}, {volumes[2]:.6g} "
@@ -297,13 +295,18 @@ def around(sections: Sequence[FloatArray], count: int) -> list[FloatArray]:
     line of the mesh. A section of another kind, such as a stem, has even points where its corners are not.
     """
     corners = [knuckles(section) for section in sections]
-    usual = _usual_number(corners)
-    lengths = np.mean([np.diff([0.0, *c, 1.0]) for c in corners if len(c) == usual], axis=0)
-    shares = _shared_out(lengths, count) if usual < count else np.array([count])
+    number, times = np.unique([len(own) for own in corners], return_counts=True)
+    usual = int(number[times.argmax()])  # that most sections have
+    lengths = np.mean([np.diff([0.0, *own, 1.0]) for own in corners if len(own) == usual], axis=0)
+    pieces = np.ones(len(lengths), dtype=np.intp)  # at least one for each part, in proportion to its length
+    for _ in range(count - len(lengths)):
+        pieces[np.argmax(lengths / pieces)] += 1
     made = []
     for section, own in zip(sections, corners, strict=True):
-        if len(own) == usual and usual < count:
-            at = _between([0.0, *own, 1.0], shares)
+        if len(own) == usual < count:
+            ends = [0.0, *own, 1.0]
+            parts = [np.linspace(*ends[i : i + 2], n + 1)[bool(i) :] for i, n in enumerate(pieces.tolist())]
+            at = np.concatenate(parts)
         else:
             at = _snapped(np.linspace(0.0, 1.0, count + 1), own)
         made.append(along(section, at))
@@ -322,33 +325,12 @@ def knuckles(section: FloatArray) -> FloatArray:
     return np.asarray(at[1:-1][turn > KNUCKLE])
 
 
-def _usual_number(corners: Sequence[FloatArray]) -> int:
-    """How many corners most sections have."""
-    number, times = np.unique([len(c) for c in corners], return_counts=True)
-    return int(number[times.argmax()])
-
-
-def _shared_out(lengths: FloatArray, count: int) -> NDArray[np.intp]:
-    """Pieces for each part, at least one, in proportion to its length."""
-    pieces = np.ones(len(lengths), dtype=np.intp)
-    for _ in range(count - len(lengths)):
-        pieces[np.argmax(lengths / pieces)] += 1
-    return pieces
-
-
-def _between(corners: Sequence[float], pieces: NDArray[np.intp]) -> FloatArray:
-    parts = [np.linspace(corners[i], corners[i + 1], n + 1)[bool(i) :] for i, n in enumerate(pieces.tolist())]
-    return np.concatenate(parts)
-
-
 def _snapped(even: FloatArray, corners: FloatArray) -> FloatArray:
     """Even shares, the nearest of which moves to each corner."""
     at = even.copy()
     free = np.ones(len(at), dtype=bool)
     free[[0, -1]] = False
-    for corner in corners:
-        if not free.any():
-            break
+    for corner in corners[: len(at) - 2]:
         nearest = int(np.argmin(np.where(free, np.abs(at - corner), np.inf)))
         at[nearest], free[nearest] = corner, False
     return np.sort(at)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.hull.hydrostatics import area_vectors, triangles_of
+from seacrane.inputs.checked import positive_of
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -71,20 +72,18 @@ def lofted(x: Sequence[float], sections: Sequence[FloatArray]) -> FloatArray:
     Neighbours with as many points each are joined point by point, others by the share of the length from the
     first to the last point; every point of every section is kept.
     """
-    port = [_strip(x[i], sections[i], x[i + 1], sections[i + 1]) for i in range(len(sections) - 1)]
+    port = []
+    for i in range(len(sections) - 1):
+        aft, fore = sections[i : i + 2]
+        if len(aft) != len(fore):
+            at = np.union1d(fractions(aft), fractions(fore))
+            at = at[np.append(True, np.diff(at) > SAME_FRACTION)]
+            aft, fore = along(aft, at), along(fore, at)
+        a = np.column_stack([np.full(len(aft), x[i]), aft])
+        b = np.column_stack([np.full(len(fore), x[i + 1]), fore])
+        port.append(np.stack([a[:-1], b[:-1], b[1:], a[1:]], axis=1))
     side = without_slivers(np.concatenate(port))
     return np.concatenate([side, mirrored(side)])
-
-
-def _strip(x_aft: float, aft: FloatArray, x_fore: float, fore: FloatArray) -> FloatArray:
-    """Panels (n, 4, 3) of the port side between two sections."""
-    if len(aft) != len(fore):
-        at = np.union1d(fractions(aft), fractions(fore))
-        at = at[np.append(True, np.diff(at) > SAME_FRACTION)]
-        aft, fore = along(aft, at), along(fore, at)
-    a = np.column_stack([np.full(len(aft), x_aft), aft])
-    b = np.column_stack([np.full(len(fore), x_fore), fore])
-    return np.stack([a[:-1], b[:-1], b[1:], a[1:]], axis=1)
 
 
 def fractions(section: FloatArray) -> FloatArray:
@@ -164,8 +163,16 @@ def mesh_triangles(name: str, vertices: ArrayLike, faces: ArrayLike) -> FloatArr
         bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise ValueError(f"hull {name!r}: vertex {bad} is {points[bad]}; give finite coordinates in m")
     if corners.shape[1] == 4:
-        corners = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+        return triangles_of(points[corners])
     return np.asarray(points[corners])
+
+
+def afloat(name: str, triangles: FloatArray, draught: float | None) -> FloatArray:
+    """The triangles with their lowest point ``draught`` (m) below z = 0; as they are where it is None."""
+    if draught is None:
+        return triangles
+    depth = positive_of(f"hull {name!r}: draught", draught, "m")
+    return triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
 
 
 def require_closed(name: str, triangles: FloatArray) -> FloatArray:
@@ -256,9 +263,13 @@ def slices(name: str, panels: FloatArray, x: FloatArray) -> list[Slice]:
 def _slice(name: str, triangles: FloatArray, x: float, aft: bool, tolerance: float) -> Slice:
     """One slice; vertices on the plane count to the nearer end, so that the end itself is a section."""
     chains = _chains(name, x, _segments(triangles, x, aft, tolerance), tolerance)
-    piercing = [_downwards(c) for c in chains if max(c[0, 1], c[-1, 1]) >= -tolerance]
-    piercing = [c for c in piercing if c[:, 1].min() < -tolerance]  # else: a bottom that just comes up
-    apart = sum(_half_area(c) for c in chains if max(c[0, 1], c[-1, 1]) < -tolerance)
+    piercing, apart = [], 0.0
+    for chain in chains:
+        if max(chain[0, 1], chain[-1, 1]) < -tolerance:
+            y, z = np.append(chain[:, 0], [0.0, 0.0]), np.append(chain[:, 1], chain[[-1, 0], 1])
+            apart += float(0.5 * abs(np.sum(y * np.roll(z, -1) - z * np.roll(y, -1))))
+        elif chain[:, 1].min() < -tolerance:  # else: a bottom that just comes up
+            piercing.append(chain if chain[0, 1] >= chain[-1, 1] else chain[::-1].copy())
     if not piercing:
         return Slice(section=np.zeros((3, 2)), apart=apart)
     if len(piercing) > 1 or piercing[0][-1, 0] > tolerance:
@@ -317,15 +328,3 @@ def _chains(name: str, x: float, segments: FloatArray, tolerance: float) -> list
             i = after
         chains.append(np.array(chain))
     return chains
-
-
-def _downwards(chain: FloatArray) -> FloatArray:
-    """The chain from its end on the waterline."""
-    return chain if chain[0, 1] >= chain[-1, 1] else chain[::-1].copy()
-
-
-def _half_area(chain: FloatArray) -> float:
-    """Area (m2) between a chain and the centre line."""
-    y, z = np.append(chain[:, 0], 0.0), np.append(chain[:, 1], chain[-1, 1])
-    y, z = np.append(y, 0.0), np.append(z, chain[0, 1])
-    return float(0.5 * abs(np.sum(y * np.roll(z, -1) - z * np.roll(y, -1))))

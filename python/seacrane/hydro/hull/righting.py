@@ -9,9 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.database.transform import point_of
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
-from seacrane.hydro.hull.panels import cut_panels, mesh_triangles, require_closed
+from seacrane.hydro.hull.panels import afloat, cut_panels, mesh_triangles, require_closed
 from seacrane.inputs.brief import brief
-from seacrane.inputs.checked import positive_of
 from seacrane.plotting.table import Answer, Column, Table
 
 FloatArray = NDArray[np.float64]
@@ -44,10 +43,13 @@ class RightingArms(Answer):
     __repr__ = brief
 
     def _shown(self) -> Table:
-        units = {"GZ": "m", "sinkage": "m", "trim": "rad"}
+        units = {"heel": "rad", "GZ": "m", "sinkage": "m", "trim": "rad"}
+        heel, *others = (
+            Column(name=key, values=getattr(self, key), unit=unit) for key, unit in units.items()
+        )
         return Table(
-            axes=[Column(name="heel", values=self.heel, unit="rad")],
-            columns=[Column(name=key, values=getattr(self, key), unit=unit) for key, unit in units.items()],
+            axes=[heel],
+            columns=others,
             title=f"displacement {self.volume:.6g} m3, GM {self.GM:.4g} m",
             attributes={"volume": self.volume, "GM": self.GM},
         )
@@ -85,10 +87,7 @@ def righting_arms(
     ValueError : an open surface, or one that is wholly above or under water; angles beyond 90 deg; a hull
         that does not come to rest, such as one that founders.
     """
-    triangles = require_closed(name, mesh_triangles(name, vertices, faces))
-    if draught is not None:
-        depth = positive_of(f"hull {name!r}: draught", draught, "m")
-        triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
+    triangles = afloat(name, require_closed(name, mesh_triangles(name, vertices, faces)), draught)
     centre = point_of(f"hull {name!r}: center_of_gravity", center_of_gravity)
     if trim not in TRIMS:
         raise ValueError(f"hull {name!r}: trim is {trim!r}; give {' or '.join(map(repr, TRIMS))}")
@@ -100,7 +99,11 @@ def righting_arms(
     heels = np.atleast_1d(np.asarray(heel_deg, dtype=float))
     if not np.all(np.abs(heels) <= LARGEST):
         raise ValueError(f"hull {name!r}: heel_deg has {heels}; give angles within {LARGEST:g} deg")
-    return _Heeled(name, triangles, centre, free=trim == "free").arms(np.radians(heels))
+    hull = _Heeled(name, triangles, centre, free=trim == "free")
+    heels = np.radians(heels)
+    gz, sinkage, trims = np.array([hull.arm(float(heel)) for heel in heels]).reshape(-1, 3).T
+    height = hull.upright.metacentric_height(float(centre[2]))
+    return RightingArms(heel=heels, GZ=gz, sinkage=sinkage, trim=trims, volume=hull.upright.volume, GM=height)
 
 
 class _Heeled:
@@ -109,37 +112,29 @@ class _Heeled:
     def __init__(self, name: str, triangles: FloatArray, centre: FloatArray, *, free: bool) -> None:
         self.name, self.triangles, self.centre, self.free = name, triangles, centre, free
         self.length = float(np.ptp(triangles.reshape(-1, 3), axis=0).max())
-        self.upright = self.under(np.eye(3), 0.0)
+        self.upright = self.under(triangles)
         if self.upright.volume <= 0.0:
             raise ValueError(
                 f"hull {name!r}: encloses {self.upright.volume:.4g} m3, so its normals point inwards; "
                 "reverse the order of the vertices of every face"
             )
 
-    def under(self, turn: FloatArray, sinkage: float) -> Hydrostatics:
-        """The properties of what is under water, in axes of the water."""
-        placed = self.triangles @ turn.T - np.array([0.0, 0.0, sinkage])
+    def under(self, placed: FloatArray) -> Hydrostatics:
+        """The properties of what of it is under water, in axes of the water."""
         wet = cut_panels(placed[:, [0, 1, 2, 2]], axis=2, side=-1, tolerance=1e-12 * self.length)
         if not len(wet):
             raise ValueError(f"hull {self.name!r}: leaves the water; correct its draught")
         return panel_hydrostatics(wet)
 
-    def arms(self, heels: FloatArray) -> RightingArms:
-        rows = [self.arm(float(heel)) for heel in heels]
-        gz, sinkage, trim = np.array(rows).reshape(-1, 3).T
-        up = self.upright
-        metacentre = up.center_of_buoyancy[2] + up.waterplane_inertia_roll / up.volume
-        return RightingArms(
-            heel=heels, GZ=gz, sinkage=sinkage, trim=trim, volume=up.volume,
-            GM=float(metacentre - self.centre[2]),
-        )  # fmt: skip
-
     def arm(self, heel: float) -> tuple[float, float, float]:
         """GZ, sinkage and trim at a heel, by Newton's method with the waterplane as its Jacobian."""
         trim, sinkage = 0.0, 0.0
         for _ in range(ROUNDS):
-            turn = _turn(heel, trim)
-            under, weight = self.under(turn, sinkage), turn @ self.centre
+            (c, s), (ct, st) = (np.cos(heel), np.sin(heel)), (np.cos(trim), np.sin(trim))
+            roll = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+            turn = np.array([[ct, 0.0, st], [0.0, 1.0, 0.0], [-st, 0.0, ct]]) @ roll
+            under = self.under(self.triangles @ turn.T - np.array([0.0, 0.0, sinkage]))
+            weight = turn @ self.centre
             x, y, _ = under.center_of_buoyancy - weight
             missing = self.upright.volume - under.volume
             needs_trim = self.free and abs(x) > EXACT * self.length
@@ -170,10 +165,3 @@ class _Heeled:
         matrix = np.array([[area, first], [first - weight[0] * area, second]])
         down, bow = np.linalg.lstsq(matrix, np.array([missing, -off * under.volume]), rcond=1e-12)[0]
         return float(np.clip(down, -farthest, farthest)), float(np.clip(bow, -0.1, 0.1))
-
-
-def _turn(heel: float, trim: float) -> FloatArray:
-    """Heel about x, then trim about y."""
-    (c, s), (ct, st) = (np.cos(heel), np.sin(heel)), (np.cos(trim), np.sin(trim))
-    roll = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-    return np.asarray(np.array([[ct, 0.0, st], [0.0, 1.0, 0.0], [-st, 0.0, ct]]) @ roll)
