@@ -39,10 +39,9 @@ class RetardationModel:
     added_mass : (6, 6) infinite-frequency added mass that belongs to ``radiation``.
     additional_added_mass, additional_stiffness : (6, 6) instantaneous parts of the additional causes.
     band : (low, high) rad/s over which A_inf and the errors below are taken.
-    error_damping, error_added_mass : (6, 6) root mean square over the band of what the samples return less
-        what the database holds (radiation, made symmetric), over the standard deviation of the data; zero
-        where there is no memory. The second also holds the data's own breach of the Kramers-Kronig relation.
-    tail_share : (6, 6) part of K(0) that the assumed damping above the last frequency contributes.
+    error_damping : (6, 6) root mean square over the band of what the samples return less what the database
+        holds (radiation, made symmetric), over the standard deviation of the data; zero where there is no
+        memory.
     """
 
     step: float
@@ -53,8 +52,6 @@ class RetardationModel:
     additional_stiffness: FloatArray
     band: tuple[float, float]
     error_damping: FloatArray
-    error_added_mass: FloatArray
-    tail_share: FloatArray
 
     __repr__ = brief
 
@@ -132,7 +129,7 @@ def retardation_functions(
         active[j, k] = active[k, j] = True
     damping = damping * active
     tau: FloatArray = step * np.arange(_samples(durations[-1], step), dtype=float)
-    whole, tail_at_zero = cosine_transform(database.omega, damping, tau)
+    whole = cosine_transform(database.omega, damping, tau)
     samples = _shortest(database.omega, damping, whole, step, [_samples(d, step) for d in durations])
     radiation = _tapered(whole[:samples])
     response = transformer(radiation, step)(database.omega)
@@ -142,6 +139,11 @@ def retardation_functions(
     for part in database.additional:
         more = _additional(database, part, tau[:samples], inside)
         additional, mass, stiffness = additional + more[0], mass + more[1], stiffness + more[2]
+    lost, spread = (
+        np.sqrt(np.mean((response.real - damping)[inside] ** 2, axis=0)),
+        damping[inside].std(axis=0),
+    )
+    error = np.divide(lost, spread, out=np.zeros_like(lost), where=spread != 0.0)
     return RetardationModel(
         step=step,
         radiation=radiation,
@@ -150,23 +152,22 @@ def retardation_functions(
         additional_added_mass=mass,
         additional_stiffness=stiffness,
         band=band,
-        error_damping=_relative(response.real[inside] - damping[inside], damping[inside], active),
-        error_added_mass=_relative(estimates[inside] - infinite, added_mass[inside], active),
-        tail_share=_ratio(tail_at_zero, whole[0]),
+        error_damping=error * active,
     )
 
 
-def cosine_transform(
-    omega: FloatArray, damping: FloatArray, tau: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """``2 / pi integral B cos(omega tau) domega`` (n, ...) at ``tau`` (n,), and its tail's part at 0 (...).
+def cosine_transform(omega: FloatArray, damping: FloatArray, tau: FloatArray) -> FloatArray:
+    """``2 / pi integral B cos(omega tau) domega`` (n, ...) at ``tau`` (n,).
 
     ``damping`` (m, ...) at ``omega`` (m,), positive; see `retardation_functions` for the rest of the axis.
     """
     from scipy.interpolate import CubicSpline
 
     end, last = float(omega[-1]), damping[-1]
-    exponent = _tail_exponent(omega, damping)
+    # The local exponent of decay at the last frequency, within bounds; 3 where there is no damping.
+    slope = np.gradient(damping[-4:], omega[-4:], axis=0)[-1]
+    local = np.where(last == 0.0, 3.0, -slope * end / np.where(last == 0.0, 1.0, last))
+    exponent = np.clip(local, *TAIL_EXPONENTS)
     spline = CubicSpline(
         np.concatenate([[0.0], omega]),
         np.concatenate([np.zeros_like(damping[:1]), damping]),
@@ -178,7 +179,7 @@ def cosine_transform(
     values = (half[:, None] * weights).ravel()[:, None] * spline(at).reshape(len(at), -1)
     inner = (np.cos(np.outer(tau, at)) @ values).reshape(-1, *last.shape)
     outer = last * _power_law_transform(exponent, end, tau)
-    return np.asarray(2.0 / np.pi * (inner + outer)), np.asarray(2.0 / np.pi * outer[0])
+    return np.asarray(2.0 / np.pi * (inner + outer))
 
 
 def _power_law_transform(exponent: FloatArray, end: float, tau: FloatArray) -> FloatArray:
@@ -217,15 +218,6 @@ def transformer(kernel: FloatArray, step: float) -> Callable[[FloatArray], Compl
     return of
 
 
-def _tail_exponent(omega: FloatArray, damping: FloatArray) -> FloatArray:
-    """Local exponent of decay at the last frequency, within bounds (3 where there is no damping)."""
-    slope = np.gradient(damping[-4:], omega[-4:], axis=0)[-1]
-    last = damping[-1]
-    safe = np.where(last == 0.0, 1.0, last)
-    exponent = np.where(last == 0.0, 3.0, -slope * omega[-1] / safe)
-    return np.asarray(np.clip(exponent, *TAIL_EXPONENTS))
-
-
 def _shortest(
     omega: FloatArray, damping: FloatArray, kernel: FloatArray, step: float, candidates: list[int]
 ) -> int:
@@ -252,7 +244,7 @@ def _additional(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Kernel (n, 6, 6), instantaneous added mass and static stiffness (6, 6) of one additional cause."""
     damping, added_mass = symmetric(part.damping), symmetric(part.added_mass)
-    kernel = _tapered(cosine_transform(database.omega, damping, tau)[0])
+    kernel = _tapered(cosine_transform(database.omega, damping, tau))
     omega = database.omega[inside]
     transfer = transformer(kernel, float(tau[1]))(omega)
     rest = (added_mass[inside] - transfer.imag / omega[:, None, None]) * omega[:, None, None] ** 2
@@ -264,15 +256,6 @@ def _additional(
         target = rest[:, j, k] * weight
         mass[j, k], stiffness[j, k] = np.linalg.lstsq(columns * weight[:, None], target, rcond=None)[0]
     return kernel, mass, stiffness
-
-
-def _relative(misfit: FloatArray, data: FloatArray, active: NDArray[np.bool_]) -> FloatArray:
-    """Root mean square (6, 6) of the misfit over the standard deviation of the data."""
-    return _ratio(np.sqrt(np.mean(misfit**2, axis=0)), data.std(axis=0)) * active
-
-
-def _ratio(part: FloatArray, whole: FloatArray) -> FloatArray:
-    return np.asarray(np.divide(part, whole, out=np.zeros_like(part), where=whole != 0.0))
 
 
 def _samples(duration: float, step: float) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -13,7 +12,7 @@ from seacrane.hydro.data.data_warnings import warn_of_matrices, warn_of_resonanc
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import PEAK_ALLOWANCE, MemoryModel
 from seacrane.hydro.data.motion import natural_frequency, require_zero_speed
-from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix, weight_restoring
+from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
 from seacrane.hydro.memory.certificate import smallest_damping
 from seacrane.hydro.memory.fit import fit_memory
 from seacrane.hydro.memory.moved_memory import warn_of_mismatch
@@ -32,16 +31,6 @@ SCALED_DAMPING_LIMIT = -0.05
 GROWTH_LIMIT = 1e-6  # 1/s, a factor e in eleven days: above the round-off of eigenvalues at zero
 ROUNDING = 1e-9
 AUDIT = np.geomspace(2e-2, 2e1, 201)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class RigidPart:
-    """A rigid part about its own centre: ``mass`` (kg), ``position`` (3,) of its centre (m) from the
-    database's reference point, ``inertia`` (3, 3) about its centre (kg m2), all in the vessel's axes."""
-
-    mass: float
-    position: FloatArray
-    inertia: FloatArray
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,20 +60,14 @@ class VesselParameters:
 
 @one_thread
 def vessel_parameters(
-    database: HydroData,
-    *,
-    memory: MemoryModel | RetardationModel | None = None,
-    take_out: Sequence[RigidPart] = (),
+    database: HydroData, *, memory: MemoryModel | RetardationModel | None = None
 ) -> VesselParameters:
-    """Parameters of the vessel without the parts that the scene models as bodies of their own.
+    """Parameters of the vessel in the time domain.
 
     Parameters
     ----------
     database : hydrodynamics; its own fitted memory is used, else one is fitted here.
     memory : a fit, or retardation functions, to use in place of it.
-    take_out : parts that the database's mass and restoring include and the scene models itself (a crane):
-        their mass and inertia leave the mass matrix and their weight leaves the restoring (C44 and C55 grow
-        by m g z, C46 and C56 lose theirs; buoyancy stays as it is).
 
     Returns
     -------
@@ -98,28 +81,40 @@ def vessel_parameters(
 
     Raises
     ------
-    ValueError : what is left after taking parts out has no positive mass or inertia, or the database is of
-        a forward speed.
+    ValueError : no positive inertia about the centre of mass, or a database of a forward speed.
     """
-    vessel = time_domain_vessel(database, memory=memory, take_out=take_out)
-    _warn(database, vessel)
+    vessel = time_domain_vessel(database, memory=memory)
+    warn_of_matrices(database)
+    warn_of_resonance_below_band(database)
+    if isinstance(vessel.memory, MemoryModel):
+        _warn_of_misfits(database.name, vessel.memory)
+        warn_of_mismatch(database, vessel.memory)
+        _warn_of_lost_passivity(database, vessel)
+    else:
+        _warn_of_lost_damping(database.name, vessel.memory)
+    if vessel.linear_damping[3, 3] == 0.0 and vessel.quadratic_damping[3] == 0.0:
+        warn_caller(
+            f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far "
+            "too large. Add linear_damping or quadratic_damping for roll",
+            RollDampingWarning,
+        )
+    elif database.roll_damping is not None and natural_frequency(database, 3) is None:
+        warn_caller(
+            f"database {database.name!r}: roll resonance lies outside {database.omega[0]:.4g} to "
+            f"{database.omega[-1]:.4g} rad/s; the tabulated roll damping is taken in the middle of the "
+            "table, and roll near its resonance is off by as much as the damping varies",
+            RollDampingWarning,
+        )
     return vessel
 
 
 def time_domain_vessel(
-    database: HydroData,
-    *,
-    memory: MemoryModel | RetardationModel | None = None,
-    take_out: Sequence[RigidPart] = (),
+    database: HydroData, *, memory: MemoryModel | RetardationModel | None = None
 ) -> VesselParameters:
     """`vessel_parameters` without its warnings."""
     require_zero_speed(database)
     model = memory or database.memory or fit_memory(database=database)
-    mass_matrix, restoring = database.mass_matrix.copy(), database.restoring.copy()
-    for part in take_out:
-        position = np.asarray(part.position, float)
-        mass_matrix -= rigid_mass_matrix(part.mass, position, np.asarray(part.inertia, float))
-        restoring -= weight_restoring(part.mass * database.g, position)
+    restoring = database.restoring.copy()
     restoring += sum(part.restoring[0] for part in database.additional) + model.additional_stiffness
     linear, quadratic = database.linear_damping.copy(), database.quadratic_damping.copy()
     if (tabulated := database.roll_damping) is not None:
@@ -127,12 +122,13 @@ def time_domain_vessel(
         at = resonance if resonance is not None else float(np.median(database.omega))
         linear[3, 3] += float(np.interp(at, database.omega, tabulated.linear))
         quadratic[3] += float(np.interp(at, database.omega, tabulated.quadratic))
-    mass, centre, inertia, rest = _split_mass_matrix(mass_matrix, database.name)
+    mass, centre, inertia, rest = _split_mass_matrix(database)
+    added_mass = model.added_mass + model.additional_added_mass
     return VesselParameters(
         mass=mass,
         center_of_mass=centre,
         inertia=inertia,
-        added_mass=_without_round_off(model.added_mass + model.additional_added_mass, mass_matrix) + rest,
+        added_mass=_without_round_off(added_mass, database.mass_matrix) + rest,
         linear_damping=linear,
         quadratic_damping=quadratic,
         restoring=restoring,
@@ -156,7 +152,7 @@ def _without_round_off(added_mass: FloatArray, mass_matrix: FloatArray) -> Float
 
 def rigid_part(database: HydroData) -> tuple[float, FloatArray]:
     """Mass (kg) of a database's rigid body, and what its mass matrix (6, 6) holds beyond such a body."""
-    mass, *_, rest = _split_mass_matrix(database.mass_matrix, database.name)
+    mass, *_, rest = _split_mass_matrix(database)
     return mass, rest
 
 
@@ -171,24 +167,23 @@ def following_yaw(restoring: FloatArray) -> FloatArray:
     return kept
 
 
-def _split_mass_matrix(matrix: FloatArray, name: str) -> tuple[float, FloatArray, FloatArray, FloatArray]:
-    """Mass, centre of mass, inertia about it, and what the matrix (6, 6) holds beyond a rigid body.
+def _split_mass_matrix(database: HydroData) -> tuple[float, FloatArray, FloatArray, FloatArray]:
+    """Mass, centre of mass, inertia about it, and what the mass matrix (6, 6) holds beyond a rigid body.
 
     The last is added mass, so that the sum stays as given, and zero up to the digits of files. Measured or
     rounded matrices break the rules of a mass distribution: the WAMIT tanker has a yaw inertia above the sum
     of roll and pitch, and M35 without its M26.
     """
+    matrix = database.mass_matrix
     mass = float(np.trace(matrix[:3, :3]) / 3.0)
-    if mass <= 0.0:
-        raise ValueError(f"database {name!r}: {mass:.6g} kg are left after taking parts out; take out less")
     lever = 0.5 * (matrix[3:, :3] - matrix[:3, 3:]) / mass
     centre = np.array([lever[2, 1], lever[0, 2], lever[1, 0]])
     cross = cross_matrix(centre)
     inertia = 0.5 * (matrix[3:, 3:] + matrix[3:, 3:].T) + mass * cross @ cross
     if np.any(np.linalg.eigvalsh(inertia) <= 0.0):
         raise ValueError(
-            f"database {name!r}: the inertia about the centre of mass has eigenvalues "
-            f"{np.linalg.eigvalsh(inertia)}; check the mass matrix, or take out less"
+            f"database {database.name!r}: the inertia about the centre of mass has eigenvalues "
+            f"{np.linalg.eigvalsh(inertia)}; check the mass matrix"
         )
     moments, axes = np.linalg.eigh(inertia)
     excess = moments[2] - moments[0] - moments[1]
@@ -238,31 +233,6 @@ def free_vessel_system(vessel: VesselParameters) -> FloatArray:
     return system
 
 
-def _warn(database: HydroData, vessel: VesselParameters) -> None:
-    """Name fits that miss their aim, a memory of other data or that delivers energy, and roll damping."""
-    warn_of_matrices(database)
-    warn_of_resonance_below_band(database)
-    if isinstance(vessel.memory, MemoryModel):
-        _warn_of_misfits(database.name, vessel.memory)
-        warn_of_mismatch(database, vessel.memory)
-        warn_of_lost_passivity(database, vessel)
-    else:
-        _warn_of_lost_damping(database.name, vessel.memory)
-    if vessel.linear_damping[3, 3] == 0.0 and vessel.quadratic_damping[3] == 0.0:
-        warn_caller(
-            f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far "
-            "too large. Add linear_damping or quadratic_damping for roll",
-            RollDampingWarning,
-        )
-    elif database.roll_damping is not None and natural_frequency(database, 3) is None:
-        warn_caller(
-            f"database {database.name!r}: roll resonance lies outside {database.omega[0]:.4g} to "
-            f"{database.omega[-1]:.4g} rad/s; the tabulated roll damping is taken in the middle of the "
-            "table, and roll near its resonance is off by as much as the damping varies",
-            RollDampingWarning,
-        )
-
-
 def _warn_of_misfits(name: str, model: MemoryModel) -> None:
     for row in model.rows if model.motion is None else ():
         if not row.accepted:
@@ -303,7 +273,7 @@ def _warn_of_lost_damping(name: str, model: RetardationModel) -> None:
         )
 
 
-def warn_of_lost_passivity(database: HydroData, vessel: VesselParameters) -> None:
+def _warn_of_lost_passivity(database: HydroData, vessel: VesselParameters) -> None:
     """Warn where the radiation memory can feed a motion, beyond what fits per pair usually leave.
 
     Where the smallest eigenvalue of the fitted damping, scaled by the largest diagonals of the data, is below
