@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from seacrane.hydro import Hull, HydroDatabase, fit_memory
+from seacrane.hydro.hull.hull import LINES, VOLUME, shipped_hull
 from seacrane.hydro.hull.hull_database import database_of_solution
-from seacrane.hydro.hull.shipped_hull import LINES, VOLUME, shipped_hull
 from seacrane.hydro.hull.solution import HullSolution, capytaine_solution, symmetric_solution
 
 RHO, G = 1025.0, 9.81

@@ -18,7 +18,7 @@ from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 from seacrane import Scene, SceneError, cases, simulate, view
 from seacrane.crane import load_crane
 from seacrane.hydro import shipped_database
-from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
+from seacrane.hydro.hull.hull import VOLUME, shipped_hull
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.pictures.caption import sea_components
 from seacrane.pictures.drawing import drawing_of

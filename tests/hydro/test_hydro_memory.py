@@ -26,10 +26,9 @@ from seacrane.hydro import (
     vessel_parameters,
 )
 from seacrane.hydro.data.memory_model import RADIATION
-from seacrane.hydro.memory.certificate import certify
+from seacrane.hydro.memory.certificate import certify, realise
 from seacrane.hydro.memory.identification import IdentificationData, fit_lowest_order, fit_order, r_squared
 from seacrane.hydro.memory.oscillators import MotionData, MotionProblem, Oscillators, fit_to_motions
-from seacrane.hydro.memory.realisation import realise
 from seacrane.warnings import InfiniteFrequencyWarning, MemoryFitWarning, RollDampingWarning
 
 OMEGA = np.linspace(0.1, 3.0, 59)

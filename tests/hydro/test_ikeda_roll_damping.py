@@ -18,9 +18,9 @@ from seacrane.hydro import (
     section_eddy_damping,
     shipped_database,
 )  # fmt: skip
+from seacrane.hydro.hull.hull import shipped_hull
 from seacrane.hydro.hull.ikeda import bilge_keels, eddy, friction, friction_at_speed, lift
 from seacrane.hydro.hull.section_eddies import eddy_coefficient
-from seacrane.hydro.hull.shipped_hull import shipped_hull
 
 Array = NDArray[np.float64]
 SHIP = MainParticulars(

@@ -35,8 +35,8 @@ from seacrane.hydro.hull.offsets import OffsetTable as OffsetTable
 from seacrane.hydro.hull.offsets import read_offset_table as read_offset_table
 from seacrane.hydro.hull.parametric_hull import ParametricHull as ParametricHull
 from seacrane.hydro.hull.section_eddies import section_eddy_damping as section_eddy_damping
-from seacrane.hydro.hull.righting import RightingArms as RightingArms
-from seacrane.hydro.hull.righting import righting_arms as righting_arms
+from seacrane.hydro.hull.hydrostatics import RightingArms as RightingArms
+from seacrane.hydro.hull.hydrostatics import righting_arms as righting_arms
 from seacrane.hydro.memory.certificate import PassivityCertificate as PassivityCertificate
 from seacrane.hydro.memory.certificate import passivity_certificate as passivity_certificate
 from seacrane.hydro.memory.certificate import require_passive as require_passive

@@ -27,9 +27,8 @@ from seacrane.hydro import (
 from seacrane.hydro.data.data_warnings import warn_of_water
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock
-from seacrane.hydro.memory.certificate import is_energy_form
+from seacrane.hydro.memory.certificate import independent_blocks, is_energy_form
 from seacrane.hydro.memory.fit import enough_frequencies
-from seacrane.hydro.memory.realisation import independent_blocks
 from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw, time_domain_vessel
 from seacrane.inputs.checked import name_of, shaped_of
 from seacrane.inputs.frames import rotation_about_z

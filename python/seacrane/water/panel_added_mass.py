@@ -24,8 +24,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
-from seacrane.hydro.hull.hydrostatics import area_vectors, triangles_of
-from seacrane.hydro.hull.panels import closed_below, cut_panels
+from seacrane.hydro.hull.panels import area_vectors, closed_below, cut_panels, triangles_of
 from seacrane.hydro.hull.solution import import_capytaine
 from seacrane.inputs.checked import numbers_of, positive_of
 from seacrane.inputs.mesh_files import MOST_TRIANGLES, READERS

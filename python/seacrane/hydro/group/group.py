@@ -15,13 +15,30 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import HydroGroupData
+from seacrane.hydro.data.hydro_group_data import HydroGroupData, in_trusted_band
 from seacrane.hydro.data.motion import motion_response
 from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
 from seacrane.hydro.data.reading import reading
+from seacrane.hydro.data.relations import (
+    damping_from_forces,
+    infinite_added_mass_from_damping,
+    resolved_by_headings,
+)
+from seacrane.hydro.database.check import (
+    DAMPING_LIMIT,
+    FORCE_DAMPING_LIMIT,
+    KRAMERS_KRONIG_LIMIT,
+    SYMMETRY_LIMIT,
+    CheckRow,
+    at_least,
+    at_most,
+    fit_rows,
+    info,
+    passivity_rows,
+    skewness,
+)
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.group.check import check_group
-from seacrane.hydro.group.gap import Gap, clearance, gaps, natural_modes_of
+from seacrane.hydro.group.gap import Gap, clearance, gaps, long_wave_lift, natural_modes_of, radiating, spikes
 from seacrane.hydro.group.lid import group_with_lid
 from seacrane.hydro.group.parts import (
     group_of_databases,
@@ -32,6 +49,7 @@ from seacrane.hydro.group.parts import (
     uncoupled_group,
 )
 from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.shown import shown
 from seacrane.inputs.user_cache import read_kept
 
@@ -54,7 +72,6 @@ class HydroGroup(HydroGroupData):
     without_coupling = uncoupled_group
     natural_modes = natural_modes_of
     with_lid_damping = group_with_lid
-    check = check_group
 
     @staticmethod
     def from_databases(
@@ -112,6 +129,18 @@ class HydroGroup(HydroGroupData):
         Main dimensions are those of the bodies' boxes. A hull within another's ring has no gap here.
         """
         return gaps(self)
+
+    def check(self) -> list[CheckRow]:
+        """All checks that the group's content allows, over all motions; docs/hull-hydrodynamics.md says what
+        each value means."""
+        memory = self.memory
+        return [
+            *_matrix_rows(self),
+            *_far_field_rows(self),
+            *_dispersion_rows(self),
+            *_water_rows(self),
+            *([] if memory is None else fit_rows(memory) + passivity_rows(memory)),
+        ]
 
     def require(
         self,
@@ -260,3 +289,100 @@ def two_barges(*, lid_damping: float | None) -> HydroGroup:
     return HydroGroup.load(
         Path(str(files("seacrane") / "data" / "two_barges" / f"{FILES[lid_damping]}.hydro"))
     )
+
+
+COUPLING_LIMIT = 0.1  # thin plates and narrow gaps: codes differ by 25 % on coupling
+LIFT_LIMIT = 0.1
+
+
+def _matrix_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Symmetry of the hulls' own blocks and of what couples them, and damping that takes energy from all.
+
+    Of motions that radiate: what a file holds for others is noise.
+    """
+    own = np.kron(np.eye(len(group.bodies)), np.ones((6, 6))).astype(bool)
+    inside, felt = in_trusted_band(group), radiating(group)
+    both = np.outer(felt, felt)
+    rows = []
+    for name, matrix in (("added_mass", group.added_mass), ("damping", group.damping)):
+        skew = np.where(both, skewness(matrix[inside]), 0.0)
+        rows.append(at_most(f"symmetry_{name}", float(skew[own].max()), SYMMETRY_LIMIT))
+        rows.append(at_most(f"symmetry_{name}_coupling", float(skew[~own].max()), COUPLING_LIMIT))
+    damping = group.damping[inside][:, felt][:, :, felt]
+    if damping.size:
+        rows.append(at_least("damping_smallest_eigenvalue", _smallest_damping(damping), DAMPING_LIMIT))
+    return rows
+
+
+def _smallest_damping(damping: NDArray[np.float64]) -> float:
+    """Smallest eigenvalue of B over all frequencies, scaled by the square roots of its largest diagonals."""
+    peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 0.0))
+    active = peak > 0.0
+    if not np.any(active):
+        return 0.0
+    scaled = (damping[:, active][:, :, active]) / np.outer(peak[active], peak[active])
+    return float(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0].min())
+
+
+def _far_field_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Damping (own and coupled) against the waves that the exciting forces say are radiated."""
+    radiated = damping_from_forces(group)
+    inside = in_trusted_band(group) & resolved_by_headings(group)
+    if radiated is None or not np.any(inside):
+        return []
+    peak = np.sqrt(np.abs(np.diagonal(group.damping, axis1=1, axis2=2)).max(axis=0))
+    felt = radiating(group)
+    error = np.abs(radiated - 0.5 * (group.damping + group.damping.swapaxes(1, 2)))[inside].max(axis=0)
+    share = np.where(np.outer(felt, felt), error / np.maximum(np.outer(peak, peak), 1e-300), 0.0)
+    return _by_motion_and_pair(group, "damping_from_forces", share, felt, FORCE_DAMPING_LIMIT)
+
+
+def _dispersion_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Infinite-frequency added mass against what the damping implies, by the range of the motions' own."""
+    if group.infinite_frequency_added_mass is None:
+        return []
+    known = group.infinite_frequency_added_mass
+    difference = np.abs(infinite_added_mass_from_damping(group) - known)
+    span = np.ptp(np.diagonal(group.added_mass, axis1=1, axis2=2), axis=0)
+    felt = radiating(group) & (span > 0.0)
+    share = np.where(
+        np.outer(felt, felt), difference / np.maximum(np.sqrt(np.outer(span, span)), 1e-300), 0.0
+    )
+    return _by_motion_and_pair(group, "kramers_kronig", share, felt, KRAMERS_KRONIG_LIMIT)
+
+
+def _by_motion_and_pair(
+    group: HydroGroupData, name: str, share: NDArray[np.float64], felt: NDArray[np.bool_], limit: float
+) -> list[CheckRow]:
+    """A row for each motion that is felt, and one for the largest entry between each two hulls."""
+    labels = [f"{hull}_{motion}" for hull in group.names for motion in MOTIONS]
+    rows = [at_most(f"{name}_{labels[i]}", float(share[i, i]), limit) for i in np.flatnonzero(felt)]
+    for (i, a), (j, b) in combinations(enumerate(group.names), 2):
+        block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
+        rows.append(at_most(f"{name}_{a}_{b}", float(block.max()), limit))
+    return rows
+
+
+def _water_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Each hull's C33 against the force of a long wave on it, which hydrostatics of another hull fail; widths
+    of the gaps, their piston modes, and what explains each narrow peak of the damping.
+
+    An irregular frequency within the trusted band is an error of the source; a resonance of a gap is water,
+    too high without a damping lid.
+    """
+    lift = long_wave_lift(group)
+    rows = [
+        at_most(f"c33_against_long_wave_{body.name}", abs(body.restoring[2, 2] / force - 1.0), LIFT_LIMIT)
+        for body, force in zip(group.bodies, () if lift is None else lift, strict=lift is not None)
+    ]
+    for a, b in combinations(group.bodies, 2):
+        rows.append(info(f"clearance_{a.name}_{b.name}_m", clearance(a, b)[0]))
+    rows += [info(f"gap_{gap.first}_{gap.second}_piston_rad_s", gap.piston) for gap in gaps(group)]
+    for spike in spikes(group):
+        label = f"{spike.cause}_frequency{'_' if spike.of else ''}{spike.of}_rad_s"
+        wrong = spike.cause == "irregular" and in_trusted_band(group, np.array(spike.omega))
+        verdict = "fail" if wrong else "info"
+        rows.append(CheckRow(check=label, value=spike.omega, limit=None, verdict=verdict))
+    if group.lid_damping is not None:
+        rows.append(info("lid_damping", group.lid_damping))
+    return rows

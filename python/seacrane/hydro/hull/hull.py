@@ -4,25 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_hydrostatics, triangles_of
+from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
 from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
 from seacrane.hydro.hull.panels import (
     Slice,
     afloat,
     along,
+    area_vectors,
     closed_loft,
     cut_panels,
     fractions,
     mesh_triangles,
     require_closed,
     slices,
+    triangles_of,
     without_slivers,
 )
 from seacrane.hydro.hull.parametric_hull import ParametricHull
@@ -334,3 +336,25 @@ def _snapped(even: FloatArray, corners: FloatArray) -> FloatArray:
         nearest = int(np.argmin(np.where(free, np.abs(at - corner), np.inf)))
         at[nearest], free[nearest] = corner, False
     return np.sort(at)
+
+
+VOLUME = 14.0e6 / 1025.0  # m3
+STATIONS, GIRTH = 56, 20
+# Of the entrance that encloses the volume, about its centre of buoyancy.
+LINES = ParametricHull(
+    length=115.0,
+    breadth=25.0,
+    draught=6.4,
+    entrance_length=46.77395891238753,
+    run_length=34.5,
+    transom_breadth_fraction=0.75,
+    transom_draught_fraction=0.2,
+    section_exponent=6.0,
+    origin_from_transom=55.298818409692544,
+)
+
+
+@cache
+def shipped_hull() -> Hull:
+    """The hull of 115 m of `shipped_database`, its origin the database's reference point; made once."""
+    return Hull.from_parametric(LINES, stations=STATIONS, girth=GIRTH, name="hull_115")

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.hull.hydrostatics import area_vectors, triangles_of
 from seacrane.inputs.checked import positive_of
 
 FloatArray = NDArray[np.float64]
@@ -26,6 +25,17 @@ NO_AREA = 1e-12  # of the square of the hull's size
 MERGE = 1e-7  # of the size: vertices closer than this are one
 ON_PLANE = 1e-7  # of the length: closer points are one, or on the waterline, or on the centre line
 NEXT_TO_PLANE = 10.0  # of that: vertices this close to a slice are on it, so that their edges meet there
+
+
+def triangles_of(panels: FloatArray) -> FloatArray:
+    """Two triangles (2 n, 3, 3) of every quadrilateral (n, 4, 3)."""
+    return np.concatenate([panels[:, [0, 1, 2]], panels[:, [0, 2, 3]]])
+
+
+def area_vectors(triangles: FloatArray) -> FloatArray:
+    """Area times normal (n, 3) of triangles (n, 3, 3), m2."""
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    return 0.5 * np.cross(b - a, c - a)
 
 
 def cut_panels(panels: FloatArray, *, axis: int, side: int, tolerance: float) -> FloatArray:

@@ -19,7 +19,7 @@ from seacrane.hydro.data.memory_model import (
     MotionError,
     MotionFit,
 )
-from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.memory.certificate import TYPICAL_VELOCITY, joint_passivity, largest_states, realise_pair
 from seacrane.hydro.memory.identification import (
     IdentificationData,
     RationalFit,
@@ -41,7 +41,6 @@ from seacrane.hydro.memory.oscillators import (
     joined,
     with_more,
 )
-from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states, realise_pair
 from seacrane.hydro.memory.retardation import retardation_functions
 
 FloatArray = NDArray[np.float64]

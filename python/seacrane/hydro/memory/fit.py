@@ -25,7 +25,7 @@ from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, Mem
 from seacrane.hydro.data.motion import require_zero_speed
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
 from seacrane.hydro.memory.by_motion import fit_by_motion
-from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.memory.certificate import joint_passivity, realise_pair
 from seacrane.hydro.memory.identification import (
     FEWEST_FREQUENCIES,
     IdentificationData,
@@ -39,7 +39,6 @@ from seacrane.hydro.memory.identification import (
     within,
 )
 from seacrane.hydro.memory.motion_judge import SHIP, length_of, peak_periods
-from seacrane.hydro.memory.realisation import realise_pair
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 from seacrane.one_thread import one_thread

@@ -15,7 +15,7 @@ from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
-from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.memory.certificate import TYPICAL_VELOCITY, joint_passivity, largest_states
 from seacrane.hydro.memory.identification import (
     FEWEST_FREQUENCIES,
     fit_row,
@@ -26,7 +26,6 @@ from seacrane.hydro.memory.identification import (
     worst_r2,
 )
 from seacrane.hydro.memory.motion_judge import motion_judge
-from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
 from seacrane.hydro.memory.retardation import retardation_functions
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
