@@ -101,8 +101,9 @@ class HydroDatabase(HydroData):
         for what, value in (("linear", linear), ("quadratic", quadratic), ("fraction", fraction)):
             not_negative_of(f"database {self.name!r}: roll damping, {what}", value)
         whole, squares = self.linear_damping.copy(), self.quadratic_damping.copy()
-        whole[3, 3] = linear + (fraction and roll_damping_of(self, fraction))
-        squares[3] = quadratic
+        whole[3, 3], squares[3] = linear, quadratic
+        if fraction:
+            whole[3, 3] = linear + _roll_damping_of(self, fraction)
         return replace(self, linear_damping=whole, quadratic_damping=squares, roll_damping=None)
 
     def plot(self, what: str | Sequence[str] | None = None) -> dict[str, Figure]:
@@ -135,16 +136,11 @@ class HydroDatabase(HydroData):
             f"{omega[-1]:.4g} rad/s, {self.heading.size} headings>"
         )
 
-    def _table(self) -> Table:
-        """The facts, names beside values."""
-        rows = [(name, shorten(format_value(value), LETTERS)) for name, value in _facts(self)]
-        return facts(rows, f"HydroDatabase {self.name!r}")
-
     def __str__(self) -> str:
-        return str(self._table())
+        return str(_facts(self))
 
     def _repr_html_(self) -> str:
-        return self._table()._repr_html_()
+        return _facts(self)._repr_html_()
 
     @staticmethod
     def load(path: str | PathLike[str]) -> HydroDatabase:
@@ -157,7 +153,7 @@ class HydroDatabase(HydroData):
         return load_database_file(HydroDatabase, path)
 
 
-def roll_damping_of(database: HydroData, fraction: float) -> float:
+def _roll_damping_of(database: HydroData, fraction: float) -> float:
     """N m s/rad: a fraction of the critical roll damping at the roll natural frequency."""
     resonance = natural_frequency(database, 3)
     if resonance is None:
@@ -169,13 +165,11 @@ def roll_damping_of(database: HydroData, fraction: float) -> float:
     return float(fraction * 2.0 * np.sqrt(database.restoring[3, 3] * inertia))
 
 
-def _facts(database: HydroData) -> list[tuple[str, Any]]:
+def _facts(database: HydroData) -> Table:
     """Main figures, what it holds, and where it comes from."""
     omega, heading = database.omega, np.rad2deg(database.heading)
-    band = database.trusted_band
-    memory = database.memory
-    causes = ", ".join(one.cause for one in database.additional)
-    return [
+    band, memory = database.trusted_band, database.memory
+    rows: list[tuple[str, Any]] = [
         ("length, breadth, draught [m]", f"{database.length:g}, {database.breadth:g}, {database.draught:g}"),
         ("mass [t]", float(f"{database.mass_matrix[0, 0] / 1e3:.6g}")),
         ("GM of its C44 and mass [m]", float(f"{metacentric_height(database):.4g}")),
@@ -184,15 +178,14 @@ def _facts(database: HydroData) -> list[tuple[str, Any]]:
         ("trusted band [rad/s]", "not stated" if band is None else f"{band[0]:.4g} to {band[1]:.4g}"),
         ("water depth [m]", "deep" if np.isinf(database.depth) else database.depth),
         ("forward speed [m/s]", database.speed),
-        (
-            "fitted fluid memory",
-            "none" if memory is None else f"{sum(len(b.A) for b in memory.blocks)} states",
-        ),
-        ("additional matrices", causes or "none"),
+        ("fitted fluid memory", "none" if memory is None else f"{memory.states} states"),
+        ("additional matrices", ", ".join(one.cause for one in database.additional) or "none"),
         ("slow drift", "none" if database.drift is None else "coefficients"),
         ("reference point", database.origin),
         ("source", database.source),
     ]
+    shown = [(name, shorten(format_value(value), LETTERS)) for name, value in rows]
+    return facts(shown, f"HydroDatabase {database.name!r}")
 
 
 @named

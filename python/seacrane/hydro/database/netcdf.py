@@ -131,21 +131,21 @@ def _write(file: Any, database: HydroData) -> None:
     sizes = {"omega": len(database.omega), "heading": len(database.heading)}
     for name, size in {**sizes, "motion": 6, "motion_of": 6, "reim": 2}.items():
         file.createDimension(name, size)
-    _put_all(file, database)
+    places: list[tuple[Any, Part]] = [(file, database)]
     for i, part in enumerate(database.additional):
-        group = file.createGroup(f"additional_{i}")
-        group.cause = part.cause
-        _put_all(group, part)
-    if database.roll_damping is not None:
-        group = file.createGroup("roll_damping")
-        if database.roll_damping.linearised_amplitude is not None:
-            group.linearised_amplitude = float(database.roll_damping.linearised_amplitude)
-        _put_all(group, database.roll_damping)
-    if database.drift is not None:
-        group = file.createGroup("drift")
-        group.createDimension("heading", len(database.drift.heading))
-        group.createDimension("omega", len(database.drift.omega))
-        _put_all(group, database.drift)
+        places.append((file.createGroup(f"additional_{i}"), part))
+        places[-1][0].cause = part.cause
+    if (roll := database.roll_damping) is not None:
+        places.append((file.createGroup("roll_damping"), roll))
+        if roll.linearised_amplitude is not None:
+            places[-1][0].linearised_amplitude = float(roll.linearised_amplitude)
+    if (drift := database.drift) is not None:
+        places.append((file.createGroup("drift"), drift))
+        places[-1][0].createDimension("heading", len(drift.heading))
+        places[-1][0].createDimension("omega", len(drift.omega))
+    for group, one in places:
+        for name, array, dimensions, unit in _arrays(one):
+            _put(group, name, array, dimensions).units = unit
     if database.memory is not None:
         _write_memory(file.createGroup("memory"), database.memory)
 
@@ -216,11 +216,6 @@ def _read_motion(group: Any) -> MotionFit:
         floor=float(group.floor),
         left_out=tuple((int(pair[0]) - 1, int(pair[1]) - 1) for pair in str(group.left_out).split()),
     )
-
-
-def _put_all(group: Any, part: Part) -> None:
-    for name, array, dimensions, unit in _arrays(part):
-        _put(group, name, array, dimensions).units = unit
 
 
 def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:

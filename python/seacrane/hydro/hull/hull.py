@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
-from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
+from seacrane.hydro.hull.lines import OffsetTable, ParametricHull, read_offset_table
 from seacrane.hydro.hull.panels import (
     Slice,
     afloat,
@@ -27,7 +27,6 @@ from seacrane.hydro.hull.panels import (
     triangles_of,
     without_slivers,
 )
-from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.mesh_files import read_stl

@@ -14,7 +14,7 @@ from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.database.transform import point_of
 from seacrane.hydro.hull.hull import Hull
-from seacrane.hydro.hull.parametric_hull import ParametricHull
+from seacrane.hydro.hull.lines import ParametricHull
 from seacrane.hydro.hull.solution import HullSolution, capytaine_solution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of

@@ -254,18 +254,12 @@ def _digest(database: Hydrodynamics, settings: dict[str, Any]) -> str:
     length = length_of(database)
     if length < SHIP:  # whose fit is judged in seas of its own
         parts.update(peak_periods(length).tobytes())
-    for name in USED:
-        _add(parts, name, getattr(database, name))
-    if database.roll_damping is not None:
-        for entry in fields(database.roll_damping):
-            _add(parts, entry.name, getattr(database.roll_damping, entry.name))
-    for part in database.additional:
-        for name in ("cause", "added_mass", "damping", "restoring"):
-            _add(parts, name, getattr(part, name))
+    values = [(name, getattr(database, name)) for name in USED]
+    for part in (database.roll_damping, *database.additional):
+        if part is not None:
+            values += [(entry.name, getattr(part, entry.name)) for entry in fields(part)]
+    for name, value in values:
+        array = np.asarray("none" if value is None else value)
+        parts.update(f"{name} {array.dtype} {array.shape} ".encode())
+        parts.update(np.ascontiguousarray(array).tobytes())
     return parts.hexdigest()
-
-
-def _add(parts: Any, name: str, value: Any) -> None:
-    array = np.asarray("none" if value is None else value)
-    parts.update(f"{name} {array.dtype} {array.shape} ".encode())
-    parts.update(np.ascontiguousarray(array).tobytes())

@@ -99,13 +99,6 @@ class Oscillators:
         )
 
 
-def _first_guess(data: MotionData) -> Oscillators:
-    """One uncoupled mass per motion, at the peak of its damping."""
-    peaks = data.omega[np.diagonal(data.damping, axis1=1, axis2=2).argmax(axis=0)]
-    w = np.clip(peaks, LOWEST_FREQUENCY, None)
-    return Oscillators(w=w, dampers=np.diag(w), coupling=np.diag(np.sqrt(w)))
-
-
 class MotionProblem:
     """Least squares of the misfit of the motions, and a little of that of B and A, over log w, L and b.
 
@@ -178,15 +171,11 @@ class MotionProblem:
         y_left, y_right = y[:, :, self.j].swapaxes(1, 2), y[:, :, self.k].swapaxes(1, 2)
         p, q = self.lower
         d_factor = -(s**2) * (left[:, :, p] * y_right[:, :, q] + y_left[:, :, q] * right[:, :, p])
-        return np.concatenate([d_w, d_factor, self._by_coupling(s, left, right)], axis=2)
-
-    def _by_coupling(self, s: ComplexArray, left: ComplexArray, right: ComplexArray) -> ComplexArray:
-        """Derivatives (n, entries, masses * m) of the kernel with respect to b."""
-        out = np.zeros((len(s), len(self.j), self.n, self.m), dtype=complex)
+        d_b = np.zeros((len(s), len(self.j), self.n, self.m), dtype=complex)
         entry = np.arange(len(self.j))
-        out[:, entry, :, self.j] += np.moveaxis(right, 1, 0)
-        out[:, entry, :, self.k] += np.moveaxis(left, 1, 0)
-        return np.asarray(s * out.reshape(len(s), len(self.j), -1))
+        d_b[:, entry, :, self.j] += np.moveaxis(right, 1, 0)
+        d_b[:, entry, :, self.k] += np.moveaxis(left, 1, 0)
+        return np.concatenate([d_w, d_factor, s * d_b.reshape(len(s), len(self.j), -1)], axis=2)
 
     def _weights(self, lever: ComplexArray) -> FloatArray:
         """Weights (n, 2 p, 2 p) of the kernel's real and imaginary parts: of the motions, and of the data."""
@@ -205,21 +194,21 @@ class MotionProblem:
         weighted = self.weigh @ parts.reshape(*parts.shape[:2], -1)
         return np.asarray(weighted.reshape(-1, *kernel.shape[2:]))
 
-    def _left(self, rows: FloatArray) -> FloatArray:
-        """What the best infinite-frequency added mass leaves; in place, the rows are large."""
-        if self.data.added_mass_infinite is None:
-            rows -= self.unit @ (self.unit.T @ rows)
-        return rows
-
     def misfit(self, parameters: FloatArray) -> FloatArray:
         """Rows of the model less the data, and the dampers' sizes."""
         kernel = self.oscillators(parameters).transfer(self.data.omega)[:, self.j, self.k]
-        return np.concatenate([self._left(self._rows(kernel - self.target)), self.sizes(parameters)[0]])
+        return np.concatenate([self._left(kernel - self.target), self.sizes(parameters)[0]])
 
     def slope(self, parameters: FloatArray) -> FloatArray:
         """Derivative of `misfit`."""
-        rows = self._left(self._rows(self.kernel_slope(parameters)))
-        return np.concatenate([rows, self.sizes(parameters)[1]])
+        return np.concatenate([self._left(self.kernel_slope(parameters)), self.sizes(parameters)[1]])
+
+    def _left(self, kernel: ComplexArray) -> FloatArray:
+        """What the best infinite-frequency added mass leaves of a kernel's rows."""
+        rows = self._rows(kernel)
+        if self.data.added_mass_infinite is None:
+            rows -= self.unit @ (self.unit.T @ rows)
+        return rows
 
     def infinite(self, model: Oscillators) -> FloatArray:
         """Infinite-frequency added mass (m, m) that goes best with a model."""
@@ -257,7 +246,12 @@ class MotionProblem:
 @one_thread
 def fit_to_motions(data: MotionData, lower: Oscillators | None) -> Oscillators:
     """Best fit with one mass more than ``lower``, or with one per motion where there is no lower one."""
-    guesses = [_first_guess(data)] if lower is None else _one_more(data, lower)
+    if lower is None:  # one uncoupled mass per motion, at the peak of its damping
+        peaks = data.omega[np.diagonal(data.damping, axis1=1, axis2=2).argmax(axis=0)]
+        w = np.clip(peaks, LOWEST_FREQUENCY, None)
+        guesses = [Oscillators(w=w, dampers=np.diag(w), coupling=np.diag(np.sqrt(w)))]
+    else:
+        guesses = _one_more(data, lower)
     problem = MotionProblem(data, len(guesses[0].w))
     found = [problem.search(problem.pack(guess), GLANCE) for guess in guesses]
     found = [problem.search(each[0], LOOK) for each in sorted(found, key=lambda each: each[1])[:2]]
@@ -293,10 +287,8 @@ def joined(data: MotionData, parts: list[tuple[list[int], Oscillators]]) -> Osci
         own = slice(start, start + len(part.w))
         dampers[own, own], coupling[own, motions] = part.dampers, part.coupling
         start = own.stop
-    return _searched(
-        data,
-        Oscillators(w=np.concatenate([part.w for _, part in parts]), dampers=dampers, coupling=coupling),
-    )
+    w = np.concatenate([part.w for _, part in parts])
+    return _searched(data, Oscillators(w=w, dampers=dampers, coupling=coupling))
 
 
 @one_thread
