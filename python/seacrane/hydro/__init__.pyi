@@ -34,7 +34,7 @@ from seacrane.hydro.hull.ikeda import ikeda_roll_damping as ikeda_roll_damping
 from seacrane.hydro.hull.lines import OffsetTable as OffsetTable
 from seacrane.hydro.hull.lines import read_offset_table as read_offset_table
 from seacrane.hydro.hull.lines import ParametricHull as ParametricHull
-from seacrane.hydro.hull.section_eddies import section_eddy_damping as section_eddy_damping
+from seacrane.hydro.hull.ikeda import section_eddy_damping as section_eddy_damping
 from seacrane.hydro.hull.hydrostatics import RightingArms as RightingArms
 from seacrane.hydro.hull.hydrostatics import righting_arms as righting_arms
 from seacrane.hydro.memory.certificate import PassivityCertificate as PassivityCertificate

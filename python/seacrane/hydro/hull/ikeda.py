@@ -1,4 +1,4 @@
-"""`ikeda_roll_damping`: roll damping that waves do not explain, from a hull or its main particulars."""
+"""Roll damping that waves do not explain: of a hull or its main particulars, and eddies of one section."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seacrane.inputs.plausible import swing_of
 
 STATIONS = 41
 HARMONIC = 8.0 / (3.0 * np.pi)  # of v |v| over a period
-RANGES = {
+RANGES = {  # in the order in which they are asked for; the last two of ships that have bilge keels
     "block_coefficient": (0.5, 0.85),
     "midship_coefficient": (0.9, 0.99),
     "breadth / draught": (2.5, 4.5),
@@ -61,15 +61,10 @@ class IkedaDamping:
 
     Attributes
     ----------
-    friction, eddy, lift, bilge_keels : float
-        N m s/rad at the amplitude and frequency asked for.
-    linear : float
-        N m s/rad, and
-    quadratic : float
-        N m s2/rad2, of rate and rate |rate|: the pair that does the method's work at the amplitude and at
-        half of it.
-    amplitude_deg, omega : float
-        deg and rad/s, for which all this holds.
+    friction, eddy, lift, bilge_keels : N m s/rad at the amplitude and frequency asked for.
+    linear, quadratic : N m s/rad and N m s2/rad2, of rate and rate |rate|: the pair that does the method's
+        work at the amplitude and at half of it.
+    amplitude_deg, omega : deg and rad/s, for which all this holds.
     """
 
     friction: float
@@ -109,30 +104,20 @@ def ikeda_roll_damping(
 
     Parameters
     ----------
-    hull : Hull or MainParticulars
-        A hull counts with its wetted length.
-    amplitude_deg : float
-        Of roll, deg.
-    omega : float
-        Of roll, rad/s.
-    axis_height : float
-        Of the roll axis, commonly the centre of gravity, above the waterline, m.
-    bilge_keel_length, bilge_keel_breadth : float
-        m, of the keel on one side; both sides have one. Default: none.
-    speed : float
-        m/s.
-    rho, g, viscosity : float
-        kg/m3, m/s2, m2/s.
+    hull : a hull counts with its wetted length.
+    amplitude_deg, omega : of roll, deg and rad/s.
+    axis_height : of the roll axis, commonly the centre of gravity, above the waterline, m.
+    bilge_keel_length, bilge_keel_breadth : m, of the keel on one side; both sides have one. Default: none.
+    speed : m/s.
+    rho, g, viscosity : kg/m3, m/s2, m2/s.
 
     Warns
     -----
-    AngleUnitWarning
-        An amplitude that looks like radians.
+    AngleUnitWarning : an amplitude that looks like radians.
 
     Raises
     ------
-    SceneError
-        Outside the range that the formulas were fitted to, which the message states.
+    SceneError : outside the range that the formulas were fitted to, which the message states.
     """
     ship = MainParticulars.of(hull) if isinstance(hull, Hull) else hull
     if not isinstance(ship, MainParticulars):
@@ -211,22 +196,15 @@ def _components(
 def _require_range(
     ship: MainParticulars, amplitude: float, frequency: float, depth: float, keels: tuple[float, float]
 ) -> None:
-    values = {
-        "block_coefficient": ship.block_coefficient,
-        "midship_coefficient": ship.midship_coefficient,
-        "breadth / draught": ship.breadth / ship.draught,
-        "depth of the roll axis / draught": depth / ship.draught,
-        "omega sqrt(B / 2 g)": frequency,
-    }
+    ratios = (ship.breadth / ship.draught, depth / ship.draught, frequency)
+    values = [ship.block_coefficient, ship.midship_coefficient, *ratios]
     if (keels[0] > 0.0) != (keels[1] > 0.0):
         raise SceneError(
             f"roll damping: bilge keels are {keels[0]:g} m long and {keels[1]:g} m broad; give both, or none"
         )
     if keels[0] > 0.0:
-        values["bilge_keel_breadth / breadth"] = keels[1] / ship.breadth
-        values["bilge_keel_length / length"] = keels[0] / ship.length
-    for name, value in values.items():
-        low, high = RANGES[name]
+        values += [keels[1] / ship.breadth, keels[0] / ship.length]
+    for value, (name, (low, high)) in zip(values, RANGES.items(), strict=False):
         if not low - 1e-9 <= value <= high + 1e-9:
             raise SceneError(
                 f"roll damping: {name} is {value:.4g}; the formulas hold from {low:g} to {high:g}. Take roll "
@@ -303,3 +281,111 @@ def lift(*, length: float, draught: float, speed: float, og: float, slope: float
 def friction_at_speed(speed: float, omega: float, length: float) -> float:
     """Factor on friction (Tamiya and Komura 1972)."""
     return 1.0 + 4.1 * speed / (omega * length)
+
+
+def section_eddy_damping(
+    *,
+    breadth: float,
+    draught: float,
+    area_coefficient: float,
+    amplitude_deg: float,
+    omega: float,
+    axis_height: float = 0.0,
+    bilge_radius: float | None = None,
+    rho: float = 1025.0,
+) -> float:
+    """Eddies of a naked section that rolls without speed, as linear damping of the same work per period.
+
+    The section counts as the Lewis form of its breadth, draught and area. Integrated over the length of a
+    ship this is what the simple formulas of `ikeda_roll_damping` were fitted to, and it has none of their
+    ranges. docs/measurements.md compares it with sections in a tank.
+
+    Parameters
+    ----------
+    breadth, draught : at the waterline, m.
+    area_coefficient : area over breadth times draught, up to 1.
+    amplitude_deg, omega : of roll, deg and rad/s.
+    axis_height : of the roll axis above the waterline, m.
+    bilge_radius : m. Default: the one that gives the area, at most the draught or half of the breadth.
+    rho : kg/m3.
+
+    Returns
+    -------
+    float : N m s/rad for each metre of length.
+
+    Raises
+    ------
+    SceneError : a size that is not positive, an area that no Lewis form has, a roll axis below the keel.
+
+    Notes
+    -----
+    B = 4 rho d^4 w phi C_r / (3 pi); Y. Ikeda, On eddy making component of roll damping force on naked hull,
+    J. SNAJ 142 (1978), in the form of ITTC 7.5-02-07-04.5 (2011), 2.2.4. Neither was at hand: the equations
+    agree with a public program but for the brackets of gamma, where the measured sections decided.
+    """
+    names = ("breadth", "draught", "area_coefficient", "amplitude_deg", "omega", "rho")
+    sizes = (breadth, draught, area_coefficient, amplitude_deg, omega, rho)
+    for name, value in zip(names, sizes, strict=True):
+        positive_of(f"section eddies: {name}", value)
+    if bilge_radius is not None:
+        not_negative_of("section eddies: bilge_radius", bilge_radius)
+    depth = -number_of("section eddies: axis_height", axis_height) / draught
+    if area_coefficient > 1.0 or not depth < 1.0:
+        raise SceneError(
+            f"section eddies: area_coefficient is {area_coefficient:.4g} and the roll axis {depth:.4g} "
+            "draughts below the waterline; give an area of at most 1 and an axis above the keel"
+        )
+    half = 0.5 * breadth / draught
+    two_arcs = 2.0 * float(np.sqrt(half * (1.0 - area_coefficient) / (4.0 - np.pi)))  # which give the area
+    radius = min(two_arcs, 1.0, half) if bilge_radius is None else bilge_radius / draught
+    coefficient = eddy_coefficient(half=half, area=area_coefficient, depth=depth, radius=radius)
+    swing = omega * np.radians(amplitude_deg)
+    return float(4.0 / (3.0 * np.pi) * rho * draught**4 * swing * coefficient)
+
+
+def eddy_coefficient(*, half: float, area: float, depth: float, radius: float) -> float:
+    """C_r of a section with its ``area`` coefficient; over the draught: ``half`` of its breadth, ``depth`` of
+    the roll axis, bilge ``radius``."""
+    reach, speed = _fastest(half, area)
+    fullness = 1.0 + 4.0 * np.exp(-1.65e5 * (1.0 - area) ** 2)
+    below = (half / (1.0 - depth)) * (area - depth) / (1.0 - depth)
+    if below <= 0.0:
+        raise SceneError(
+            f"section eddies: the roll axis is {depth:.4g} draughts below the waterline, where a section of "
+            f"the area coefficient {area:.4g} has no area below it; raise the axis"
+        )
+    gamma = np.sqrt(np.pi) * fullness / (2.0 * (1.0 - depth) * np.sqrt(below)) * (reach + speed)
+    pressure = 0.5 * (0.87 * np.exp(-gamma) - 4.0 * np.exp(-0.187 * gamma) + 3.0)
+    f1 = 0.5 * (1.0 + np.tanh(20.0 * (area - 0.7)))
+    f2 = 0.5 * (1.0 - np.cos(np.pi * area))
+    f2 -= 1.5 * (1.0 - np.exp(-5.0 * (1.0 - area))) * np.sin(np.pi * area) ** 2
+    lever = (1.0 - f1 * radius) * (1.0 - depth - f1 * radius) + f2 * (half - f1 * radius) ** 2
+    return float(lever * pressure * reach**2)
+
+
+def _fastest(half: float, area: float) -> tuple[float, float]:
+    """Over the draught: the largest radius of a Lewis form, and the potential flow there over the rate of
+    roll."""
+    slim = (half - 1.0) / (half + 1.0)
+    d = 3.0 + 4.0 * area / np.pi + (1.0 - 4.0 * area / np.pi) * slim**2
+    if d > 4.5:
+        raise SceneError(
+            f"section eddies: no Lewis form has the area coefficient {area:.4g} with B/2T {half:.4g}"
+        )
+    a3 = (3.0 - d + np.sqrt(9.0 - 2.0 * d)) / d
+    a1 = (1.0 + a3) * slim
+    scale = half / (1.0 + a1 + a3)
+    turn = 0.5 * np.arccos(np.clip(a1 * (1.0 + a3) / (4.0 * a3), -1.0, 1.0)) if a3 else 0.0
+
+    def radius(psi: float) -> float:
+        across = (1.0 + a1) * np.sin(psi) - a3 * np.sin(3.0 * psi)
+        down = (1.0 - a1) * np.cos(psi) + a3 * np.cos(3.0 * psi)
+        return float(scale * np.hypot(across, down))
+
+    psi = max((0.0, turn), key=radius)
+    stretch = 1.0 + a1**2 + 9.0 * a3**2 + 2.0 * a1 * (1.0 - 3.0 * a3) * np.cos(2.0 * psi)
+    stretch -= 6.0 * a3 * np.cos(4.0 * psi)
+    even, odd = 6.0 * a3**2 + a1**2 * (1.0 + a3), 3.0 * a1 * a3 * (1.0 + a3)
+    down = a1 * (1.0 - a3) * np.cos(3.0 * psi) + (even - odd) * np.cos(psi) - 2.0 * a3 * np.cos(5.0 * psi)
+    across = a1 * (1.0 - a3) * np.sin(3.0 * psi) + (even + odd) * np.sin(psi) - 2.0 * a3 * np.sin(5.0 * psi)
+    return radius(psi), float(2.0 * scale / stretch * np.hypot(down, across))
