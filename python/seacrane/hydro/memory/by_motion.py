@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -25,10 +25,9 @@ from seacrane.hydro.memory.identification import (
     RationalFit,
     dissipation_limit,
     fit_lowest_order,
-    fit_row,
+    judged_rows,
     memory_entries,
     motion_groups,
-    pair_r2,
     symmetric,
     within,
 )
@@ -104,9 +103,14 @@ def fit_by_motion(
     )
     floor = judge.error_of(retardation_functions(database=database)).worst
     motion = MotionFit(limit=limit, error=judge.error_of(model), floor=floor, left_out=left_out)
-    rows = tuple(_rows(database, model, kept, motion.reached))
+    rows: list[FitRow] = []
+    for cause in dict.fromkeys(block.cause for block in blocks):
+        own = [block for block in blocks if block.cause == cause]
+        pairs = [(int(j), int(k)) for block in own for j in block.outputs for k in block.inputs if j <= k]
+        felt = [pair for pair in pairs if cause != RADIATION or pair in kept]
+        rows += judged_rows(model, database, cause, felt, -np.inf if motion.reached else np.inf)
     worst = min((min(row.r2_added_mass, row.r2_damping) for row in rows), default=1.0)
-    return dataclasses.replace(model, rows=rows, r2=max(worst, 0.0), motion=motion)
+    return dataclasses.replace(model, rows=tuple(rows), r2=max(worst, 0.0), motion=motion)
 
 
 def felt_pairs(
@@ -288,23 +292,3 @@ def _additional(
         stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
         blocks += realise_pair(fit, j, k, part.cause)
     return blocks, mass, stiffness
-
-
-def _rows(database: Hydrodynamics, model: MemoryModel, pairs: Pairs, reached: bool) -> Iterator[FitRow]:
-    inside = within(database.omega, model.band)
-    tables = {RADIATION: (database.added_mass, database.damping)}
-    tables |= {part.cause: (part.added_mass, part.damping) for part in database.additional}
-    fitted = {RADIATION: model.frequency_response(database.omega)}
-    fitted |= {part.cause: model.additional_response(database.omega) for part in database.additional}
-    blocks: dict[tuple[str, int, int], MemoryBlock] = {
-        (block.cause, int(j), int(k)): block
-        for block in model.blocks
-        for j in block.outputs
-        for k in block.inputs
-        if j <= k
-    }
-    for (cause, j, k), block in blocks.items():
-        if cause != RADIATION or (j, k) in pairs:
-            least = -np.inf if reached else np.inf
-            quality = pair_r2((j, k), tables[cause], fitted[cause], inside)
-            yield fit_row(cause, (j, k), block.poles, quality, least)

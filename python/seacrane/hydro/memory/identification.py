@@ -14,14 +14,15 @@ for ships compare Perez & Fossen 2009, doi 10.4173/mic.2009.1.1).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.hydro_data import AdditionalMatrices
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.data.memory_model import FitRow
+from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryModel
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
@@ -284,6 +285,28 @@ def fit_row(
         fastest_pole=float(np.abs(poles).max()),
         accepted=worst_r2(quality) >= least,
     )
+
+
+def judged_rows(
+    model: MemoryModel,
+    database: Hydrodynamics,
+    cause: str,
+    pairs: Iterable[tuple[int, int]],
+    least: float,
+) -> list[FitRow]:
+    """Rows of pairs (j <= k) of a cause that the model has blocks for, against a database's data."""
+    radiation = cause == RADIATION
+    parts: dict[str, Hydrodynamics | AdditionalMatrices] = {RADIATION: database}
+    part = (parts | {one.cause: one for one in database.additional})[cause]
+    fitted = (model.frequency_response if radiation else model.additional_response)(database.omega)
+    data, inside = (part.added_mass, part.damping), within(database.omega, model.band)
+    rows = []
+    for j, k in pairs:
+        of_pair = [one for one in model.blocks if one.cause == cause and j in one.outputs and k in one.inputs]
+        if of_pair:
+            poles = np.concatenate([one.poles for one in of_pair])
+            rows.append(fit_row(cause, (j, k), poles, pair_r2((j, k), data, fitted, inside), least))
+    return rows
 
 
 def symmetric(matrices: FloatArray) -> FloatArray:

@@ -5,7 +5,7 @@ And whether a model is that of a database.
 
 from __future__ import annotations
 
-import dataclasses
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
+from seacrane.hydro.data.memory_model import MODEL_MATRICES, RADIATION, MemoryBlock, MemoryModel
 from seacrane.hydro.memory.certificate import TYPICAL_VELOCITY, joint_passivity, largest_states
 from seacrane.hydro.memory.identification import (
     FEWEST_FREQUENCIES,
-    fit_row,
+    judged_rows,
     memory_entries,
     pair_r2,
     symmetric,
@@ -32,7 +32,6 @@ from seacrane.one_thread import one_thread
 from seacrane.warnings import MemoryMismatchWarning
 
 FloatArray = NDArray[np.float64]
-MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 CLAIMED_R2 = 0.9  # pairs that never followed their data say nothing about where the model belongs
 LOST_R2 = 0.05
 
@@ -45,18 +44,22 @@ def moved_memory(model: MemoryModel, transform: FloatArray, moved: Hydrodynamics
     ----------
     model : of the database before it was moved.
     transform : (6, 6) T, of a group (6 k, 6 k), motions at the old point from those at the new one.
-    moved : the database about the new point, against which the quality of each pair is judged anew.
+    moved : the database about the new point, against which the quality of each pair is judged anew: it is
+        accepted if all fits that the model came from were, or if it reaches the model's R2 itself.
     """
     blocks = tuple(_moved_block(block, transform) for block in model.blocks)
-    matrices = {name: transform.T @ getattr(model, name) @ transform for name in MATRICES}
+    matrices = {name: transform.T @ getattr(model, name) @ transform for name in MODEL_MATRICES}
     passivity = joint_passivity(list(blocks), moved.damping, model.band)
-    about = dataclasses.replace(model, blocks=blocks, passivity=passivity, **matrices)
+    about = replace(model, blocks=blocks, passivity=passivity, **matrices)
     if model.motion is not None:
         judge = motion_judge(moved, model.band)
         floor = judge.error_of(retardation_functions(database=moved)).worst
-        motion = dataclasses.replace(model.motion, error=judge.error_of(about), floor=floor)
-        about = dataclasses.replace(about, motion=motion)
-    return dataclasses.replace(about, rows=judged_rows(about, moved))
+        motion = replace(model.motion, error=judge.error_of(about), floor=floor)
+        about = replace(about, motion=motion)
+    before = all(row.accepted for row in model.rows if row.cause == RADIATION)
+    pairs = memory_entries(symmetric(moved.added_mass), symmetric(moved.damping), moved.omega)
+    rows = judged_rows(about, moved, RADIATION, pairs, -np.inf if before else model.r2)
+    return replace(about, rows=(*rows, *(row for row in model.rows if row.cause != RADIATION)))
 
 
 def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
@@ -68,7 +71,7 @@ def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
     d = transform[block.outputs].T @ block.D @ transform[block.inputs]
     inputs = np.flatnonzero(np.any(b, axis=0) | np.any(d, axis=0))
     outputs = np.flatnonzero(np.any(c, axis=1) | np.any(d, axis=1))
-    return dataclasses.replace(
+    return replace(
         block,
         inputs=inputs,
         outputs=outputs,
@@ -81,40 +84,10 @@ def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
 
 def mirrored_memory(model: MemoryModel) -> MemoryModel:
     """Sway, roll and yaw with their signs changed; fits, passivity and states stay as they are."""
-    sign = np.outer(PORT_STARBOARD, PORT_STARBOARD)
-    blocks = tuple(
-        dataclasses.replace(
-            block,
-            B=block.B * PORT_STARBOARD[block.inputs],
-            C=block.C * PORT_STARBOARD[block.outputs, None],
-            D=block.D * sign[np.ix_(block.outputs, block.inputs)],
-        )
-        for block in model.blocks
-    )
-    return dataclasses.replace(
-        model, blocks=blocks, **{name: getattr(model, name) * sign for name in MATRICES}
-    )
-
-
-def judged_rows(model: MemoryModel, database: Hydrodynamics) -> tuple[FitRow, ...]:
-    """Rows of a model's radiation pairs against another database's data, beside its other rows as they are.
-
-    A pair is accepted if all fits that the model came from were, or if it reaches the model's R2 itself.
-    Pairs (j <= k) are those that the model has blocks for, and in which the data vary.
-    """
-    kept = tuple(row for row in model.rows if row.cause != RADIATION)
-    before = all(row.accepted for row in model.rows if row.cause == RADIATION)
-    data = database.added_mass, database.damping
-    fitted, inside = model.frequency_response(database.omega), within(database.omega, model.band)
-    radiation = [block for block in model.blocks if block.cause == RADIATION]
-    rows = []
-    for j, k in memory_entries(symmetric(data[0]), symmetric(data[1]), database.omega):
-        poles = [block.poles for block in radiation if j in block.outputs and k in block.inputs]
-        if poles:
-            least = -np.inf if before else model.r2
-            quality = pair_r2((j, k), data, fitted, inside)
-            rows.append(fit_row(RADIATION, (j, k), np.concatenate(poles), quality, least))
-    return (*rows, *kept)
+    mirror = np.diag(PORT_STARBOARD)
+    blocks = [replace(_moved_block(one, mirror), state_scale=one.state_scale) for one in model.blocks]
+    matrices = {name: mirror @ getattr(model, name) @ mirror for name in MODEL_MATRICES}
+    return replace(model, blocks=tuple(blocks), **matrices)
 
 
 def warn_of_mismatch(database: HydroData, model: MemoryModel) -> None:
