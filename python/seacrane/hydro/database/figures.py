@@ -67,16 +67,12 @@ def _sheet(
 ) -> Sheet:
     """Panels over the frequency with its trusted band, or over time."""
     return Sheet(
-        title=f"{title}, {database.name}",
-        caption=caption,
+        title=f"{title}, {database.name}", caption=caption,
         abscissa=database.omega if time is None else time,
-        abscissa_name="omega" if time is None else "time",
-        abscissa_unit="rad/s" if time is None else "s",
-        panels=tuple(panels),
-        columns=2,
-        shaded=database.trusted_band if time is None else None,
+        abscissa_name="omega" if time is None else "time", abscissa_unit="rad/s" if time is None else "s",
+        panels=tuple(panels), columns=2, shaded=database.trusted_band if time is None else None,
         shaded_name=BAND,
-    )
+    )  # fmt: skip
 
 
 ENTRIES = "x forward, y to port, z up; upper triangle, entries that are not negligible."

@@ -199,14 +199,11 @@ def _read_memory(group: Any) -> MemoryModel:
         raise ValueError("memory: band, passivity or r2 is not a number")
     motion = group.groups.get("motion")
     return MemoryModel(
-        blocks=tuple(blocks),
-        **{name: _get(group, name) for name in MODEL_MATRICES},
-        band=(float(group.band[0]), float(group.band[1])),
-        r2=float(group.r2),
-        rows=tuple(rows),
+        blocks=tuple(blocks), **{name: _get(group, name) for name in MODEL_MATRICES},
+        band=(float(group.band[0]), float(group.band[1])), r2=float(group.r2), rows=tuple(rows),
         passivity=Passivity(**dict(zip(_PASSIVITY, passivity, strict=True))),
         motion=None if motion is None else _read_motion(motion),
-    )
+    )  # fmt: skip
 
 
 def _read_motion(group: Any) -> MotionFit:

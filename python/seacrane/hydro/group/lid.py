@@ -90,14 +90,10 @@ def group_with_lid(group: Group, damping: float) -> Group:
         dynamic = dynamic - (w**2 * change)[:, None, None] * matrix
         force = force + change[None, :, None] * wave[:, None, :]
     return replace(
-        group,
-        added_mass=-dynamic.real / w[:, None, None] ** 2,
-        damping=dynamic.imag / w[:, None, None],
-        force=force,
-        lid_damping=damping,
-        memory=None,
+        group, added_mass=-dynamic.real / w[:, None, None] ** 2, damping=dynamic.imag / w[:, None, None],
+        force=force, lid_damping=damping, memory=None,
         source=f"{group.source}; gap with a lid of damping {damping:g}",
-    )
+    )  # fmt: skip
 
 
 def _pole(w: FloatArray, omega: float, rate: float) -> ComplexArray:

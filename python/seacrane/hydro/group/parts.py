@@ -170,18 +170,11 @@ def group_of_databases(
     bands = [database.trusted_band for database in databases.values() if database.trusted_band is not None]
     band = (max(low for low, _ in bands), min(high for _, high in bands)) if bands else None
     group = kind(
-        name=name,
-        bodies=bodies,
-        omega=first.omega,
-        heading=circle,
-        **matrices,
-        force=force,
-        **_entries(first, WATER),
-        trusted_band=band,
-        port_starboard_symmetric=keeps,
+        name=name, bodies=bodies, omega=first.omega, heading=circle, **matrices, force=force,
+        **_entries(first, WATER), trusted_band=band, port_starboard_symmetric=keeps,
         origin="group's origin, on the still waterline",
         source="hulls without interaction: " + "; ".join(data.source for data in databases.values()),
-    )
+    )  # fmt: skip
     phases = np.concatenate([np.repeat(phase_at_body(group, body), 6, axis=2) for body in bodies], axis=2)
     return replace(group, force=force / phases)
 

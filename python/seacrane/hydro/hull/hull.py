@@ -341,16 +341,10 @@ VOLUME = 14.0e6 / 1025.0  # m3
 STATIONS, GIRTH = 56, 20
 # Of the entrance that encloses the volume, about its centre of buoyancy.
 LINES = ParametricHull(
-    length=115.0,
-    breadth=25.0,
-    draught=6.4,
-    entrance_length=46.77395891238753,
-    run_length=34.5,
-    transom_breadth_fraction=0.75,
-    transom_draught_fraction=0.2,
-    section_exponent=6.0,
+    length=115.0, breadth=25.0, draught=6.4, entrance_length=46.77395891238753, run_length=34.5,
+    transom_breadth_fraction=0.75, transom_draught_fraction=0.2, section_exponent=6.0,
     origin_from_transom=55.298818409692544,
-)
+)  # fmt: skip
 
 
 @cache

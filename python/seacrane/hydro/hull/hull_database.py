@@ -167,25 +167,16 @@ def database_of_solution(
     if roll_damping_fraction != 0.0:
         source += f"; linear roll damping of {roll_damping_fraction} of critical added in linear_damping"
     bare = HydroDatabase(
-        name=name,
-        omega=solution.omega,
-        heading=solution.heading,
-        added_mass=solution.added_mass,
-        damping=solution.damping,
-        zero_frequency_added_mass=solution.added_mass_zero,
+        name=name, omega=solution.omega, heading=solution.heading, added_mass=solution.added_mass,
+        damping=solution.damping, zero_frequency_added_mass=solution.added_mass_zero,
         infinite_frequency_added_mass=solution.added_mass_infinite,
         restoring=_restoring(hull, mass, center_of_gravity, solution.rho, solution.g),
-        mass_matrix=rigid_mass_matrix(mass, center_of_gravity, inertia),
-        force=solution.force,
-        length=hull.length,
-        breadth=hull.breadth,
-        draught=hull.draught,
-        rho=solution.rho,
-        g=solution.g,
+        mass_matrix=rigid_mass_matrix(mass, center_of_gravity, inertia), force=solution.force,
+        length=hull.length, breadth=hull.breadth, draught=hull.draught, rho=solution.rho, g=solution.g,
         trusted_band=solution.trusted_band if trusted_band is None else trusted_band,
         origin=f"origin of the hull on the still waterline, {-hull.extent[0, 0]:.4f} m ahead of its aft end",
         source=source,
-    )
+    )  # fmt: skip
     if roll_damping_fraction == 0.0:
         return bare
     return bare.with_roll_damping(fraction=roll_damping_fraction)
@@ -267,18 +258,11 @@ def strip_solution(
     waves = np.array([hull.length, PANELS_PER_WAVE * girth / PANELS])
     low, high = np.sqrt(2.0 * np.pi * g / waves).tolist()
     return HullSolution(
-        omega=omega,
-        heading=heading,
-        rho=rho,
-        g=g,
-        added_mass=solved["added_mass"],
-        damping=solved["damping"],
-        added_mass_zero=None,
-        added_mass_infinite=solved["infinite_frequency_added_mass"],
-        force=solved["force"],
-        method=f"strip theory, {stations} stations, surge without radiation",
-        trusted_band=(low, high),
-    )
+        omega=omega, heading=heading, rho=rho, g=g, added_mass=solved["added_mass"],
+        damping=solved["damping"], added_mass_zero=None,
+        added_mass_infinite=solved["infinite_frequency_added_mass"], force=solved["force"],
+        method=f"strip theory, {stations} stations, surge without radiation", trusted_band=(low, high),
+    )  # fmt: skip
 
 
 def convergence_told(

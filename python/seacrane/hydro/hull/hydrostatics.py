@@ -118,16 +118,11 @@ def panel_hydrostatics(panels: FloatArray) -> Hydrostatics:
     # x z and z^2 / 2 are the z-primitives of x and z; cubic terms are left to the triangle's own exact rule.
     centre = np.array([integral(x * z), integral(y * z), integral(0.5 * z * z)]) / volume
     return Hydrostatics(
-        volume=volume,
-        center_of_buoyancy=centre,
-        waterplane_area=-integral(np.ones_like(z)),
-        waterplane_moment_x=-integral(x),
-        waterplane_moment_y=-integral(y),
-        waterplane_inertia_roll=-integral(y * y),
-        waterplane_inertia_pitch=-integral(x * x),
-        waterplane_product=-integral(x * y),
-        wetted_surface=float(np.linalg.norm(area, axis=1).sum()),
-    )
+        volume=volume, center_of_buoyancy=centre, waterplane_area=-integral(np.ones_like(z)),
+        waterplane_moment_x=-integral(x), waterplane_moment_y=-integral(y),
+        waterplane_inertia_roll=-integral(y * y), waterplane_inertia_pitch=-integral(x * x),
+        waterplane_product=-integral(x * y), wetted_surface=float(np.linalg.norm(area, axis=1).sum()),
+    )  # fmt: skip
 
 
 LARGEST = 90.0  # deg

@@ -63,18 +63,15 @@ def symmetric_solution(solution: HullSolution) -> HullSolution:
     change = np.abs(solution.force - force).max(axis=(0, 1))
     noise = _largest_share(change, np.abs(solution.force).max(axis=(0, 1)))
     return replace(
-        solution,
-        added_mass=_symmetrised(solution.added_mass),
-        damping=_symmetrised(solution.damping),
+        solution, added_mass=_symmetrised(solution.added_mass), damping=_symmetrised(solution.damping),
         added_mass_zero=None if zero is None else _symmetrised(zero),
-        added_mass_infinite=_symmetrised(solution.added_mass_infinite),
-        force=force,
+        added_mass_infinite=_symmetrised(solution.added_mass_infinite), force=force,
         method=(
             f"{solution.method}; matrices made symmetric, which removed up to {max(removed):.4f} of the "
             "geometric mean of the largest diagonals; motions that port-starboard symmetry forbids set to "
             f"zero, which removed up to {noise:.1e} of the largest force"
         ),
-    )
+    )  # fmt: skip
 
 
 def _symmetrised(matrix: FloatArray) -> FloatArray:

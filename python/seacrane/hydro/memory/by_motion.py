@@ -92,15 +92,10 @@ def fit_by_motion(
         blocks += more
         mass, stiffness = mass + inertia, stiffness + spring
     model = MemoryModel(
-        blocks=tuple(blocks),
-        added_mass=infinite,
-        additional_added_mass=mass,
-        additional_stiffness=stiffness,
-        band=band,
-        r2=0.0,
-        rows=(),
+        blocks=tuple(blocks), added_mass=infinite, additional_added_mass=mass,
+        additional_stiffness=stiffness, band=band, r2=0.0, rows=(),
         passivity=joint_passivity(blocks, database.damping, band),
-    )
+    )  # fmt: skip
     floor = judge.error_of(retardation_functions(database=database)).worst
     motion = MotionFit(limit=limit, error=judge.error_of(model), floor=floor, left_out=left_out)
     rows: list[FitRow] = []
@@ -184,13 +179,10 @@ class _Group:
         self.scale = np.sqrt(np.maximum(b.max(axis=0).diagonal(), 1e-300))
         self.product = np.outer(self.scale, self.scale)
         self.data = MotionData(
-            omega=omega,
-            added_mass=a / self.product,
-            damping=b / self.product,
-            trusted=within(omega, band),
+            omega=omega, added_mass=a / self.product, damping=b / self.product, trusted=within(omega, band),
             added_mass_infinite=None if known is None else known[np.ix_(group, group)] / self.product,
             lever=judge.lever(omega, group) * self.product[np.triu_indices(len(group))],
-        )
+        )  # fmt: skip
 
     def lowest_order(self, limit: float, parts: list[tuple[list[int], Oscillators]]) -> Oscillators:
         """Model of the fewest masses that keeps the limit, beginning with those of ``parts`` together."""
@@ -231,15 +223,10 @@ class _Group:
         b = b * self.scale
         motions = np.array(self.group)
         return MemoryBlock(
-            cause=RADIATION,
-            outputs=motions,
-            inputs=motions,
-            A=a,
-            B=b,
-            C=b.T.copy(),
+            cause=RADIATION, outputs=motions, inputs=motions, A=a, B=b, C=b.T.copy(),
             D=np.zeros((len(motions), len(motions))),
             state_scale=largest_states(a, b * TYPICAL_VELOCITY[motions % 6]),
-        )
+        )  # fmt: skip
 
 
 def _additional(
@@ -263,16 +250,11 @@ def _additional(
     for j, k in memory_entries(a, b, database.omega):
         lever = judge.lever(omega, [j]) if j == k else judge.lever(omega, [j, k])[:, :, 1:2]
         data = IdentificationData(
-            omega=omega[inside],
-            added_mass=at_grid[0][inside, j, k],
-            damping=at_grid[1][inside, j, k],
-            trusted=np.ones(np.count_nonzero(inside), dtype=bool),
-            added_mass_infinite=None,
-            zero_at_origin=False,
-            static_stiffness=True,
-            dissipation_limit=dissipation_limit(fits, j, k),
+            omega=omega[inside], added_mass=at_grid[0][inside, j, k], damping=at_grid[1][inside, j, k],
+            trusted=np.ones(np.count_nonzero(inside), dtype=bool), added_mass_infinite=None,
+            zero_at_origin=False, static_stiffness=True, dissipation_limit=dissipation_limit(fits, j, k),
             weight=np.linalg.norm(lever[inside], axis=(1, 2)),
-        )
+        )  # fmt: skip
         most = MOST_INERTIA * float(np.sqrt(database.mass_matrix[j, j] * database.mass_matrix[k, k]))
 
         def error(fit: RationalFit, j: int = j, k: int = k) -> float:

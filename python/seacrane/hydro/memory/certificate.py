@@ -253,15 +253,9 @@ def realise(
     size = float(np.linalg.norm(c))
     b, c = b * size, c / size
     return MemoryBlock(
-        cause=cause,
-        outputs=np.array([output]),
-        inputs=np.array([input]),
-        A=a,
-        B=b,
-        C=c,
-        D=np.zeros((1, 1)),
-        state_scale=largest_states(a, b) * TYPICAL_VELOCITY[input],
-    )
+        cause=cause, outputs=np.array([output]), inputs=np.array([input]), A=a, B=b, C=c,
+        D=np.zeros((1, 1)), state_scale=largest_states(a, b) * TYPICAL_VELOCITY[input],
+    )  # fmt: skip
 
 
 def realise_pair(fit: RationalFit, j: int, k: int, cause: str) -> list[MemoryBlock]:

@@ -198,15 +198,12 @@ def _fit_per_pair(
         mirrored = radiation and database.port_starboard_symmetric
         for j, k in memory_entries(added_mass, damping, database.omega, mirrored=mirrored):
             data = IdentificationData(
-                omega=database.omega,
-                added_mass=added_mass[:, j, k],
-                damping=damping[:, j, k],
+                omega=database.omega, added_mass=added_mass[:, j, k], damping=damping[:, j, k],
                 trusted=trusted,
                 added_mass_infinite=0.0 if tank else None if known is None else float(infinite[j, k]),
-                zero_at_origin=radiation,
-                static_stiffness=tank,
+                zero_at_origin=radiation, static_stiffness=tank,
                 dissipation_limit=dissipation_limit(fits, j, k),
-            )
+            )  # fmt: skip
             fit = fits[j, k] = fit_lowest_order(data, orders=ORDERS, error=lambda fit: -fit.worst, limit=-r2)
             if radiation:
                 infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
@@ -217,15 +214,10 @@ def _fit_per_pair(
             poles = np.asarray(np.roots(fit.denominator), dtype=complex)
             rows.append(fit_row(cause, (j, k), poles, fit.quality, r2))
     return MemoryModel(
-        blocks=tuple(blocks),
-        added_mass=infinite,
-        additional_added_mass=np.zeros((6, 6)),
-        additional_stiffness=stiffness,
-        band=band,
-        r2=r2,
-        rows=tuple(rows),
+        blocks=tuple(blocks), added_mass=infinite, additional_added_mass=np.zeros((6, 6)),
+        additional_stiffness=stiffness, band=band, r2=r2, rows=tuple(rows),
         passivity=joint_passivity(blocks, database.damping, band),
-    )
+    )  # fmt: skip
 
 
 def enough_frequencies(database: Hydrodynamics) -> bool:

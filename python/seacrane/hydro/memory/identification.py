@@ -276,23 +276,14 @@ def fit_row(
 ) -> FitRow:
     """Row of a pair with a `four_r2`, accepted where the worst is not below ``least``."""
     return FitRow(
-        cause=cause,
-        output=pair[0],
-        input=pair[1],
-        order=len(poles),
-        **quality,
-        slowest_decay=float(-poles.real.max()),
-        fastest_pole=float(np.abs(poles).max()),
+        cause=cause, output=pair[0], input=pair[1], order=len(poles), **quality,
+        slowest_decay=float(-poles.real.max()), fastest_pole=float(np.abs(poles).max()),
         accepted=worst_r2(quality) >= least,
-    )
+    )  # fmt: skip
 
 
 def judged_rows(
-    model: MemoryModel,
-    database: Hydrodynamics,
-    cause: str,
-    pairs: Iterable[tuple[int, int]],
-    least: float,
+    model: MemoryModel, database: Hydrodynamics, cause: str, pairs: Iterable[tuple[int, int]], least: float
 ) -> list[FitRow]:
     """Rows of pairs (j <= k) of a cause that the model has blocks for, against a database's data."""
     radiation = cause == RADIATION

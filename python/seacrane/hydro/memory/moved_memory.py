@@ -72,14 +72,9 @@ def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
     inputs = np.flatnonzero(np.any(b, axis=0) | np.any(d, axis=0))
     outputs = np.flatnonzero(np.any(c, axis=1) | np.any(d, axis=1))
     return replace(
-        block,
-        inputs=inputs,
-        outputs=outputs,
-        B=b[:, inputs],
-        C=c[outputs],
-        D=d[np.ix_(outputs, inputs)],
+        block, inputs=inputs, outputs=outputs, B=b[:, inputs], C=c[outputs], D=d[np.ix_(outputs, inputs)],
         state_scale=largest_states(block.A, b[:, inputs] * TYPICAL_VELOCITY[inputs % 6]),
-    )
+    )  # fmt: skip
 
 
 def mirrored_memory(model: MemoryModel) -> MemoryModel:

@@ -145,15 +145,9 @@ def retardation_functions(
     )
     error = np.divide(lost, spread, out=np.zeros_like(lost), where=spread != 0.0)
     return RetardationModel(
-        step=step,
-        radiation=radiation,
-        additional=additional,
-        added_mass=infinite,
-        additional_added_mass=mass,
-        additional_stiffness=stiffness,
-        band=band,
-        error_damping=error * active,
-    )
+        step=step, radiation=radiation, additional=additional, added_mass=infinite,
+        additional_added_mass=mass, additional_stiffness=stiffness, band=band, error_damping=error * active,
+    )  # fmt: skip
 
 
 def cosine_transform(omega: FloatArray, damping: FloatArray, tau: FloatArray) -> FloatArray:

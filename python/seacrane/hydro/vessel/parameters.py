@@ -125,15 +125,10 @@ def time_domain_vessel(
     mass, centre, inertia, rest = _split_mass_matrix(database)
     added_mass = model.added_mass + model.additional_added_mass
     return VesselParameters(
-        mass=mass,
-        center_of_mass=centre,
-        inertia=inertia,
-        added_mass=_without_round_off(added_mass, database.mass_matrix) + rest,
-        linear_damping=linear,
-        quadratic_damping=quadratic,
-        restoring=restoring,
-        memory=model,
-    )
+        mass=mass, center_of_mass=centre, inertia=inertia,
+        added_mass=_without_round_off(added_mass, database.mass_matrix) + rest, linear_damping=linear,
+        quadratic_damping=quadratic, restoring=restoring, memory=model,
+    )  # fmt: skip
 
 
 def _without_round_off(added_mass: FloatArray, mass_matrix: FloatArray) -> FloatArray:
