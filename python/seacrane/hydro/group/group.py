@@ -143,13 +143,9 @@ class HydroGroup(HydroGroupData):
         ]
 
     def require(
-        self,
-        *,
-        names: Sequence[str] | None = None,
-        positions: Mapping[str, ArrayLike] | None = None,
-        draughts: Mapping[str, float] | None = None,
-        apart: bool = False,
-    ) -> None:
+        self, *, names: Sequence[str] | None = None, positions: Mapping[str, ArrayLike] | None = None,
+        draughts: Mapping[str, float] | None = None, apart: bool = False,
+    ) -> None:  # fmt: skip
         """Raise unless the group is what its user takes it for.
 
         Parameters

@@ -174,13 +174,9 @@ class Hull:
 
     @staticmethod
     def from_mesh(
-        *,
-        vertices: ArrayLike,
-        faces: ArrayLike,
-        draught: float | None = None,
-        name: str = "mesh",
+        *, vertices: ArrayLike, faces: ArrayLike, draught: float | None = None, name: str = "mesh",
         source: str = "mesh",
-    ) -> Hull:
+    ) -> Hull:  # fmt: skip
         """From a surface of triangles or quadrilaterals, cut at the waterline.
 
         Parameters

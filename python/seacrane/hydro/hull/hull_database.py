@@ -34,23 +34,12 @@ TRIM_LIMIT = 0.001  # rad
 
 
 def hydro_from_hull(
-    hull: Hull | ParametricHull,
-    *,
-    center_of_gravity: ArrayLike,
-    mass: float | None = None,
-    radii_of_gyration: ArrayLike | None = None,
-    omega: ArrayLike | None = None,
-    heading: ArrayLike | None = None,
-    speed: float = 0.0,
-    method: Literal["strip", "capytaine"] = "strip",
-    roll_damping_fraction: float = 0.0,
-    trusted_band: tuple[float, float] | None = None,
-    stations: int = 41,
-    check: bool = False,
-    rho: float = 1025.0,
-    g: float = 9.81,
-    name: str | None = None,
-) -> HydroDatabase:
+    hull: Hull | ParametricHull, *, center_of_gravity: ArrayLike, mass: float | None = None,
+    radii_of_gyration: ArrayLike | None = None, omega: ArrayLike | None = None,
+    heading: ArrayLike | None = None, speed: float = 0.0, method: Literal["strip", "capytaine"] = "strip",
+    roll_damping_fraction: float = 0.0, trusted_band: tuple[float, float] | None = None, stations: int = 41,
+    check: bool = False, rho: float = 1025.0, g: float = 9.81, name: str | None = None,
+) -> HydroDatabase:  # fmt: skip
     """Hydrodynamic database of a hull at its drawn waterline in deep water, about the hull's origin.
 
     Parameters
@@ -146,16 +135,10 @@ def hydro_from_hull(
 
 
 def database_of_solution(
-    hull: Hull,
-    solution: HullSolution,
-    *,
-    center_of_gravity: FloatArray,
-    mass: float,
-    radii_of_gyration: FloatArray,
-    roll_damping_fraction: float,
-    trusted_band: tuple[float, float] | None,
+    hull: Hull, solution: HullSolution, *, center_of_gravity: FloatArray, mass: float,
+    radii_of_gyration: FloatArray, roll_damping_fraction: float, trusted_band: tuple[float, float] | None,
     name: str,
-) -> HydroDatabase:
+) -> HydroDatabase:  # fmt: skip
     """The database of a solution that is symmetric already; see `hydro_from_hull`."""
     inertia, statics = mass * np.diag(radii_of_gyration**2), hull.hydrostatics
     height = float(center_of_gravity[2])

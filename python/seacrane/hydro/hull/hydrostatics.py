@@ -67,14 +67,9 @@ class Hydrostatics:
         return self.metacentre_transverse - center_of_gravity_z
 
     def restoring(
-        self,
-        *,
-        rho: float,
-        g: float,
-        center_of_gravity_z: float,
-        center_of_gravity_x: float | None = None,
+        self, *, rho: float, g: float, center_of_gravity_z: float, center_of_gravity_x: float | None = None,
         mass: float | None = None,
-    ) -> FloatArray:
+    ) -> FloatArray:  # fmt: skip
         """Restoring matrix about the origin, equations (13)-(16) of the paper for the freely floating hull.
 
         Parameters
@@ -167,15 +162,9 @@ class RightingArms(Answer):
 
 
 def righting_arms(
-    *,
-    vertices: ArrayLike,
-    faces: ArrayLike,
-    center_of_gravity: ArrayLike,
-    heel_deg: ArrayLike,
-    draught: float | None = None,
-    trim: str = "free",
-    name: str = "hull",
-) -> RightingArms:
+    *, vertices: ArrayLike, faces: ArrayLike, center_of_gravity: ArrayLike, heel_deg: ArrayLike,
+    draught: float | None = None, trim: str = "free", name: str = "hull",
+) -> RightingArms:  # fmt: skip
     """GZ over heel of a closed surface, deck included, that keeps its displacement.
 
     The hull is turned about its x axis, then sinks, and with free trim turns about the horizontal axis

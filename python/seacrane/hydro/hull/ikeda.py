@@ -83,18 +83,10 @@ class IkedaDamping:
 
 
 def ikeda_roll_damping(
-    hull: Hull | MainParticulars,
-    *,
-    amplitude_deg: float,
-    omega: float,
-    axis_height: float = 0.0,
-    bilge_keel_length: float = 0.0,
-    bilge_keel_breadth: float = 0.0,
-    speed: float = 0.0,
-    rho: float = 1025.0,
-    g: float = 9.81,
-    viscosity: float = 1.19e-6,
-) -> IkedaDamping:
+    hull: Hull | MainParticulars, *, amplitude_deg: float, omega: float, axis_height: float = 0.0,
+    bilge_keel_length: float = 0.0, bilge_keel_breadth: float = 0.0, speed: float = 0.0,
+    rho: float = 1025.0, g: float = 9.81, viscosity: float = 1.19e-6,
+) -> IkedaDamping:  # fmt: skip
     """Friction, eddies, bilge keels and, at speed, lift: what joins a database's radiation damping.
 
     Friction and lift follow ITTC 7.5-02-07-04.5; eddies and bilge keels follow the simple formulas that
@@ -157,17 +149,9 @@ def ikeda_roll_damping(
 
 
 def _components(
-    ship: MainParticulars,
-    amplitude: float,
-    omega: float,
-    depth: float,
-    keels: tuple[float, float],
-    *,
-    speed: float,
-    rho: float,
-    g: float,
-    nu: float,
-) -> dict[str, float]:
+    ship: MainParticulars, amplitude: float, omega: float, depth: float, keels: tuple[float, float], *,
+    speed: float, rho: float, g: float, nu: float,
+) -> dict[str, float]:  # fmt: skip
     """By name, N m s/rad; ``depth`` of the roll axis below the waterline, m."""
     length, breadth, draught = ship.length, ship.breadth, ship.draught
     cb, cm = ship.block_coefficient, ship.midship_coefficient
@@ -246,16 +230,9 @@ def eddy(*, cb: float, cm: float, bd: float, og: float, amplitude: float, freque
 
 
 def bilge_keels(
-    *,
-    cb: float,
-    cm: float,
-    bd: float,
-    og: float,
-    breadth: float,
-    length: float,
-    amplitude: float,
+    *, cb: float, cm: float, bd: float, og: float, breadth: float, length: float, amplitude: float,
     frequency: float,
-) -> float:
+) -> float:  # fmt: skip
     """Bilge keels of both sides, their pressure on the hull included, without dimensions.
 
     ``breadth`` and ``length`` are shares of the ship's. The formula counts the amplitude in degrees.
@@ -284,16 +261,9 @@ def friction_at_speed(speed: float, omega: float, length: float) -> float:
 
 
 def section_eddy_damping(
-    *,
-    breadth: float,
-    draught: float,
-    area_coefficient: float,
-    amplitude_deg: float,
-    omega: float,
-    axis_height: float = 0.0,
-    bilge_radius: float | None = None,
-    rho: float = 1025.0,
-) -> float:
+    *, breadth: float, draught: float, area_coefficient: float, amplitude_deg: float, omega: float,
+    axis_height: float = 0.0, bilge_radius: float | None = None, rho: float = 1025.0,
+) -> float:  # fmt: skip
     """Eddies of a naked section that rolls without speed, as linear damping of the same work per period.
 
     The section counts as the Lewis form of its breadth, draught and area. Integrated over the length of a

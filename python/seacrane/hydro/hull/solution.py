@@ -86,14 +86,9 @@ def _largest_share(change: FloatArray, whole: FloatArray) -> float:
 
 
 def capytaine_solution(
-    hull: Hull,
-    *,
-    omega: FloatArray,
-    heading: FloatArray,
-    rho: float,
-    g: float,
+    hull: Hull, *, omega: FloatArray, heading: FloatArray, rho: float, g: float,
     lid_panel_radius: float | None = None,
-) -> HullSolution:
+) -> HullSolution:  # fmt: skip
     """Radiation and diffraction with a lid on the waterplane against irregular frequencies.
 
     The trusted band ends where the wave is eight panels long.

@@ -165,13 +165,9 @@ class _Group:
     """One group of coupled motions: its data, and what a model of it does to its motions."""
 
     def __init__(
-        self,
-        judge: MotionJudge,
-        omega: FloatArray,
-        band: tuple[float, float],
-        known: FloatArray | None,
+        self, judge: MotionJudge, omega: FloatArray, band: tuple[float, float], known: FloatArray | None,
         group: list[int],
-    ) -> None:
+    ) -> None:  # fmt: skip
         self.judge, self.group = judge, group
         a, b = (
             table(omega)[:, group][:, :, group] for table in (judge.table.added_mass, judge.table.damping)
@@ -230,13 +226,9 @@ class _Group:
 
 
 def _additional(
-    database: Hydrodynamics,
-    part: AdditionalMatrices,
-    judge: MotionJudge,
-    omega: FloatArray,
-    band: tuple[float, float],
-    limit: float,
-) -> tuple[list[MemoryBlock], FloatArray, FloatArray]:
+    database: Hydrodynamics, part: AdditionalMatrices, judge: MotionJudge, omega: FloatArray,
+    band: tuple[float, float], limit: float,
+) -> tuple[list[MemoryBlock], FloatArray, FloatArray]:  # fmt: skip
     """Blocks, instantaneous added mass and static stiffness (6, 6) of one additional cause."""
     from scipy.interpolate import CubicSpline
 

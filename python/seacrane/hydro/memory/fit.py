@@ -69,14 +69,10 @@ _of_process: dict[str, MemoryModel] = {}
 
 @one_thread
 def fit_memory(
-    *,
-    database: Hydrodynamics,
-    band: tuple[float, float] | None = None,
-    r2: float | None = None,
-    infinite_frequency: Literal["estimated", "known"] = "estimated",
-    kind: str = BY_MOTION,
+    *, database: Hydrodynamics, band: tuple[float, float] | None = None, r2: float | None = None,
+    infinite_frequency: Literal["estimated", "known"] = "estimated", kind: str = BY_MOTION,
     limit: float | None = None,
-) -> MemoryModel:
+) -> MemoryModel:  # fmt: skip
     """Identify the fluid memory of ``database``.
 
     Parameters

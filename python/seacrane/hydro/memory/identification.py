@@ -78,14 +78,9 @@ class IdentificationData:
 
 
 def fit_lowest_order(
-    data: IdentificationData,
-    *,
-    orders: range,
-    error: Callable[[RationalFit], float],
-    limit: float,
-    gain: float = 0.0,
-    allowed: Callable[[RationalFit], bool] = lambda fit: True,
-) -> RationalFit:
+    data: IdentificationData, *, orders: range, error: Callable[[RationalFit], float], limit: float,
+    gain: float = 0.0, allowed: Callable[[RationalFit], bool] = lambda fit: True,
+) -> RationalFit:  # fmt: skip
     """Fit of the lowest of some orders whose ``error`` keeps ``limit``, else the best one found.
 
     Higher orders are better by the share ``gain``, and ``allowed``; or else they are not taken.
