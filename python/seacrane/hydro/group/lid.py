@@ -68,7 +68,14 @@ def group_with_lid(group: Group, damping: float) -> Group:
             f"group {group.name!r}: no narrow peak of the damping is one of a gap, so that a lid has nothing "
             "to damp; see group.gaps() and group.check()"
         )
-    inside = _window(group, places)
+    low, high = (1.0 - WINDOW) * min(places), (1.0 + WINDOW) * max(places)
+    inside = np.flatnonzero((group.omega >= low) & (group.omega <= high))
+    needed = 3 * (DEGREE + 2 * len(places))
+    if len(inside) < needed:
+        raise ValueError(
+            f"group {group.name!r}: {len(inside)} frequencies lie about the resonances of the gap, {low:.3g} "
+            f"to {high:.3g} rad/s, and {needed} are needed to tell their poles; compute with a finer step"
+        )
     w = group.omega[inside]
     omega, rate, residues, left = _poles_of_matrices(group, inside, np.array(places))
     if left > WORST:
@@ -122,19 +129,6 @@ def _poles_of_matrices(
     positive = np.einsum("pij,pj,pkj->pik", vectors, np.maximum(values, 0.0), vectors)
     varies = np.linalg.norm(data - data.mean(axis=0))
     return omega, rate, np.asarray(positive * product), float(np.linalg.norm(data - fitted) / varies)
-
-
-def _window(group: HydroGroupData, places: list[float]) -> NDArray[np.intp]:
-    """Frequencies about the peaks, or a ValueError where they are too few to tell the poles."""
-    low, high = (1.0 - WINDOW) * min(places), (1.0 + WINDOW) * max(places)
-    inside = np.flatnonzero((group.omega >= low) & (group.omega <= high))
-    needed = 3 * (DEGREE + 2 * len(places))
-    if len(inside) < needed:
-        raise ValueError(
-            f"group {group.name!r}: {len(inside)} frequencies lie about the resonances of the gap, {low:.3g} "
-            f"to {high:.3g} rad/s, and {needed} are needed to tell their poles; compute with a finer step"
-        )
-    return inside
 
 
 def _searched(w: FloatArray, data: ComplexArray, places: FloatArray) -> tuple[FloatArray, FloatArray]:

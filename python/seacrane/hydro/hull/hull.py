@@ -18,11 +18,11 @@ from seacrane.hydro.hull.panels import (
     afloat,
     along,
     area_vectors,
+    closed_below,
     closed_loft,
     cut_panels,
     fractions,
     mesh_triangles,
-    require_closed,
     slices,
     triangles_of,
     without_slivers,
@@ -168,7 +168,7 @@ class Hull:
         ValueError, seacrane.errors.FileFormatError : as `OffsetTable`, `read_offset_table` and `Hull`.
         """
         offsets = table if isinstance(table, OffsetTable) else read_offset_table(table)
-        panels = _wetted(offsets.name, offsets.panels(draught=draught))
+        panels = _wetted(offsets.panels(draught=draught))
         source = f"offset table {offsets.name!r}, {len(offsets.x)} stations"
         return Hull(name=offsets.name, panels=panels, source=source)
 
@@ -189,10 +189,9 @@ class Hull:
         ------
         ValueError : as `seacrane.hydro.hull.panels` (open, overlapping or badly oriented) and `Hull`.
         """
-        triangles = mesh_triangles(name, vertices, faces)
-        _require_metres(name, triangles)
-        triangles = require_closed(name, afloat(name, triangles, draught))
-        return Hull(name=name, panels=_wetted(name, triangles[:, [0, 1, 2, 2]]), source=source)
+        triangles = afloat(name, mesh_triangles(name, vertices, faces), draught)
+        triangles = closed_below(f"hull {name!r}", triangles)
+        return Hull(name=name, panels=_wetted(triangles[:, [0, 1, 2, 2]]), source=source)
 
     @staticmethod
     def from_stl(path: str | PathLike[str], *, draught: float | None = None, scale: float = 1.0) -> Hull:
@@ -212,19 +211,10 @@ class Hull:
         )
 
 
-def _wetted(name: str, panels: FloatArray) -> FloatArray:
+def _wetted(panels: FloatArray) -> FloatArray:
     """The panels below z = 0."""
-    _require_metres(name, panels)
     tolerance = ON_WATERLINE * float(np.ptp(panels[..., 0]))
     return without_slivers(cut_panels(panels, axis=2, side=-1, tolerance=tolerance))
-
-
-def _require_metres(name: str, panels: FloatArray) -> None:
-    longest = float(np.ptp(panels.reshape(-1, 3), axis=0).max())
-    if longest > LONGEST:
-        raise ValueError(
-            f"hull {name!r}: is {longest:.6g} m long; in mm, perhaps? Multiply the coordinates (scale=0.001)"
-        )
 
 
 def _require_panels(name: str, panels: FloatArray) -> None:
@@ -236,7 +226,10 @@ def _require_panels(name: str, panels: FloatArray) -> None:
         raise ValueError(
             f"hull {name!r}: nothing is below the waterline z = 0; lower it, or give the draught"
         )
-    _require_metres(name, panels)
+    if (longest := float(np.ptp(panels.reshape(-1, 3), axis=0).max())) > LONGEST:
+        raise ValueError(
+            f"hull {name!r}: is {longest:.6g} m long; in mm, perhaps? Multiply the coordinates (scale=0.001)"
+        )
     if (top := float(panels[..., 2].max())) > ON_WATERLINE * float(np.ptp(panels[..., 0])):
         raise ValueError(f"hull {name!r}: a panel reaches z = {top:.4g} m; cut the surface at z = 0")
 
@@ -301,8 +294,10 @@ def around(sections: Sequence[FloatArray], count: int) -> list[FloatArray]:
     made = []
     for section, own in zip(sections, corners, strict=True):
         if len(own) == usual < count:
-            ends = [0.0, *own, 1.0]
-            parts = [np.linspace(*ends[i : i + 2], n + 1)[bool(i) :] for i, n in enumerate(pieces.tolist())]
+            ends = np.array([0.0, *own, 1.0])
+            parts = [
+                np.linspace(ends[i], ends[i + 1], n + 1)[bool(i) :] for i, n in enumerate(pieces.tolist())
+            ]
             at = np.concatenate(parts)
         else:
             at = _snapped(np.linspace(0.0, 1.0, count + 1), own)

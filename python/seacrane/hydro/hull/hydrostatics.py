@@ -11,9 +11,9 @@ from seacrane.hydro.database.transform import point_of
 from seacrane.hydro.hull.panels import (
     afloat,
     area_vectors,
+    closed_below,
     cut_panels,
     mesh_triangles,
-    require_closed,
     triangles_of,
 )
 from seacrane.inputs.brief import brief
@@ -187,7 +187,8 @@ def righting_arms(
     ValueError : an open surface, or one that is wholly above or under water; angles beyond 90 deg; a hull
         that does not come to rest, such as one that founders.
     """
-    triangles = afloat(name, require_closed(name, mesh_triangles(name, vertices, faces)), draught)
+    closed = closed_below(f"hull {name!r}", mesh_triangles(name, vertices, faces))
+    triangles = afloat(name, closed, draught)
     centre = point_of(f"hull {name!r}: center_of_gravity", center_of_gravity)
     if trim not in TRIMS:
         raise ValueError(f"hull {name!r}: trim is {trim!r}; give {' or '.join(map(repr, TRIMS))}")

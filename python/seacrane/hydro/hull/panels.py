@@ -182,22 +182,20 @@ def afloat(name: str, triangles: FloatArray, draught: float | None) -> FloatArra
     if draught is None:
         return triangles
     depth = positive_of(f"hull {name!r}: draught", draught, "m")
-    return triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
+    return np.asarray(triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth]))
 
 
-def require_closed(name: str, triangles: FloatArray) -> FloatArray:
-    """The triangles (n, 3, 3) of a hull with joined vertices, once they are known to be closed below z = 0.
+def closed_below(
+    what: str, triangles: FloatArray, level: float = 0.0, where: str = " below the waterline"
+) -> FloatArray:
+    """The triangles (n, 3, 3) of a surface with joined vertices, once they are known to be closed below z =
+    `level` (m), which messages call `where`.
 
     Raises
     ------
-    ValueError : an edge below the waterline with one face or more than two, or two faces that run along
-        their common edge in the same direction; names the number of edges and the place of the first.
+    ValueError : an edge there with one face or more than two, or two faces that run along their common edge
+        in the same direction; names the number of edges and the place of the first.
     """
-    return closed_below(f"hull {name!r}", triangles, 0.0, " below the waterline")
-
-
-def closed_below(what: str, triangles: FloatArray, level: float, where: str) -> FloatArray:
-    """As `require_closed`, of any surface below z = `level`, m, which messages call `where`."""
     flat = triangles.reshape(-1, 3)
     tolerance = MERGE * float(np.ptp(flat, axis=0).max())
     labels = merged_points(flat, tolerance)

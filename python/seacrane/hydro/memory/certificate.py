@@ -98,9 +98,11 @@ def certify(blocks: Sequence[MemoryBlock]) -> PassivityCertificate:
     origin = bool(np.abs(static).max() < SYMMETRY * max(np.abs(c @ b).max(), np.abs(d).max()))
     infinity = not np.any(d)
     verdict = partial(verdict, zero_at_origin=origin, zero_at_infinity=infinity)
-    skewed = _skew_limit(a, b, c, origin=origin, infinity=infinity)
-    if skewed:
-        return verdict(passive=False, margin=-np.inf, reason=skewed)
+    slope = c @ np.linalg.solve(a, np.linalg.solve(a, b))
+    for zero, leading, where in ((infinity, c @ b, "infinite"), (origin, slope, "zero")):
+        if zero and np.abs(leading - leading.T).max() > SYMMETRY * np.abs(leading).max():
+            reason = f"it is not symmetric towards {where} frequency, so that its damping is indefinite there"
+            return verdict(passive=False, margin=-np.inf, reason=reason)
     shaped = b - np.linalg.solve(a, np.linalg.solve(a, b)) if origin else b
     if infinity:  # both zeros are divided out: B' and D'
         d, shaped = -c @ a @ shaped, shaped - a @ (a @ shaped)
@@ -144,15 +146,6 @@ def _side_by_side(blocks: Sequence[MemoryBlock]) -> tuple[FloatArray, FloatArray
     b, c, d = (b / peak)[:, used], (c / peak[:, None])[used], (d / np.outer(peak, peak))[np.ix_(used, used)]
     size = np.sqrt(np.linalg.norm(b, axis=1).mean() / max(np.linalg.norm(c, axis=0).mean(), 1e-300)) or 1.0
     return a, b / size, c * size, d
-
-
-def _skew_limit(a: FloatArray, b: FloatArray, c: FloatArray, *, origin: bool, infinity: bool) -> str:
-    """What is wrong where a leading term near zero or infinite frequency is not symmetric, else nothing."""
-    slope = c @ np.linalg.solve(a, np.linalg.solve(a, b))
-    for asked, matrix, where in ((infinity, c @ b, "infinite"), (origin, slope, "zero")):
-        if asked and np.abs(matrix - matrix.T).max() > SYMMETRY * np.abs(matrix).max():
-            return f"it is not symmetric towards {where} frequency, so that its damping is indefinite there"
-    return ""
 
 
 def _examine(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> dict[str, Any]:

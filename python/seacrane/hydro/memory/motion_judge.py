@@ -24,7 +24,71 @@ RESONANT = (2, 3, 4)
 FAINT = 1e-4  # share of the largest motion below which a motion is not there
 
 
-class MotionJudge:
+class _Table:
+    """Splines of a database over the frequency."""
+
+    def __init__(self, database: Hydrodynamics) -> None:
+        from scipy.interpolate import CubicSpline
+
+        def spline(values: FloatArray | ComplexArray, axis: int = 0) -> CubicSpline:
+            return CubicSpline(database.omega, values, axis=axis)
+
+        self.database = database
+        self.added_mass = spline(symmetric(database.added_mass))
+        self.damping = spline(symmetric(database.damping))
+        w = database.omega[:, None, None]
+        additional = np.zeros(database.added_mass.shape, dtype=complex)
+        for part in database.additional:
+            additional = additional + (-(w**2) * part.added_mass + 1j * w * part.damping + part.restoring)
+        self.additional = spline(additional)
+        self.force = spline(database.force, 1)
+        roll = database.roll_damping
+        self.roll = None if roll is None else spline(roll.linear + roll.linearised, 1)
+
+
+class _Solved:
+    """Impedance and motions of a database at some frequencies."""
+
+    def __init__(self, table: _Table, omega: FloatArray) -> None:
+        database = table.database
+        self.table, self.omega = table, omega
+        w = omega[:, None, None]
+        self.added_mass, self.damping = table.added_mass(omega), table.damping(omega)
+        self.additional, self.force = table.additional(omega), table.force(omega)
+        self.memory = -(w**2) * self.added_mass + 1j * w * self.damping + self.additional
+        nothing = np.zeros(database.mass_matrix.shape)
+        self.static = sum((part.restoring[0] for part in database.additional), nothing)
+        held = np.isin(np.arange(len(nothing)) % 6, (0, 1, 5))
+        heavy = np.where(held, np.diag(database.mass_matrix + self.added_mass[-1]), 0.0)
+        spring = 2.0 * np.pi / SPRING_PERIOD
+        still = -(w**2) * database.mass_matrix + 1j * w * database.linear_damping + database.restoring
+        still = still + np.diag(heavy) * (spring**2 + 2j * w * SPRING_DAMPING * spring)
+        if table.roll is None:
+            self.impedance = still + self.memory
+        else:
+            whole = np.broadcast_to(still + self.memory, (len(database.heading), *self.memory.shape)).copy()
+            whole[:, :, 3, 3] += 1j * omega * table.roll(omega)
+            self.impedance = whole
+        self.motion = np.linalg.solve(self.impedance, self.force[..., None])[..., 0]
+        middle = self.impedance if self.impedance.ndim == 3 else self.impedance.mean(axis=0)
+        self.receptance = np.linalg.inv(middle)
+
+    def peak_frequencies(self) -> list[tuple[float, float]]:
+        """Frequency and half width over it of the resonances of heave, roll and pitch."""
+        found = []
+        for i in resonant_motions(len(self.static)):
+            size = np.abs(self.receptance[:, i, i])
+            at = int(size.argmax())
+            if not 0 < at < len(size) - 1:
+                continue
+            dynamic = 1.0 / self.receptance[at, i, i]
+            slope = abs((1.0 / self.receptance[at + 1, i, i] - 1.0 / self.receptance[at - 1, i, i]).real)
+            width = abs(dynamic.imag) * (self.omega[at + 1] - self.omega[at - 1]) / max(slope, 1e-300)
+            found.append((float(self.omega[at]), float(np.clip(width / self.omega[at], 1e-3, 0.2))))
+        return found
+
+
+class MotionJudge(_Solved):
     """The motions of a database or a group, with springs and viscous damping, and the seas that weigh them.
 
     Attributes
@@ -40,15 +104,12 @@ class MotionJudge:
     """
 
     def __init__(self, database: Hydrodynamics, band: tuple[float, float]) -> None:
-        self.table = _Table(database)
-        coarse = np.linspace(*band, 4 * GRID)
-        peaks = _Solved(self.table, coarse).peak_frequencies()
+        table = _Table(database)
+        peaks = _Solved(table, np.linspace(*band, 4 * GRID)).peak_frequencies()
         inner = database.omega[within(database.omega, band)]
         self.about_peaks = np.concatenate([[w * (1.0 + z * ABOUT_PEAK)] for w, z in peaks] or [[]]).ravel()
         every = np.concatenate([inner, np.linspace(*band, GRID), self.about_peaks])
-        self.omega = np.unique(np.clip(every, *band))
-        solved = self.solved = _Solved(self.table, self.omega)
-        self.added_mass, self.damping, self.motion = solved.added_mass, solved.damping, solved.motion
+        super().__init__(table, np.unique(np.clip(every, *band)))
         self.periods = peak_periods(length_of(database))
         self.weights = _sea_energies(self.omega, self.periods)
         variance = np.einsum("sn,mni->smi", self.weights, np.abs(self.motion) ** 2).max(axis=1)
@@ -59,7 +120,7 @@ class MotionJudge:
 
     def error(self, difference: ComplexArray) -> MotionError:
         """The error of a difference (n, 6, 6) of impedance, the model's less the data's."""
-        changed = np.linalg.solve(self.solved.impedance + difference, self.solved.force[..., None])[..., 0]
+        changed = np.linalg.solve(self.impedance + difference, self.force[..., None])[..., 0]
         apart = np.abs(changed - self.motion)
         variance = np.einsum("sn,mni->smi", self.weights, apart**2)
         share = np.sqrt(variance.max(axis=1) / self.variance)
@@ -77,7 +138,7 @@ class MotionJudge:
         added_mass, damping = model.frequency_response(self.omega)
         more_mass, more_damping = model.additional_response(self.omega)
         fitted = -(w**2) * (added_mass + more_mass) + 1j * w * (damping + more_damping)
-        return self.error(fitted + self.solved.static - self.solved.memory)
+        return self.error(fitted + self.static - self.memory)
 
     def lever(self, omega: FloatArray, group: list[int]) -> ComplexArray:
         """Weighted motions (n, p, p) by misfit of the kernel's pairs of a group at ``omega`` (n,).
@@ -114,70 +175,6 @@ def motion_judge(database: Hydrodynamics, band: tuple[float, float]) -> MotionJu
 def resonant_motions(count: int) -> list[int]:
     """Heave, roll and pitch of each hull, of ``count`` motions."""
     return [i for i in range(count) if i % 6 in RESONANT]
-
-
-class _Table:
-    """Splines of a database over the frequency."""
-
-    def __init__(self, database: Hydrodynamics) -> None:
-        from scipy.interpolate import CubicSpline
-
-        def spline(values: FloatArray | ComplexArray, axis: int = 0) -> CubicSpline:
-            return CubicSpline(database.omega, values, axis=axis)
-
-        self.database = database
-        self.added_mass = spline(symmetric(database.added_mass))
-        self.damping = spline(symmetric(database.damping))
-        w = database.omega[:, None, None]
-        additional = np.zeros(database.added_mass.shape, dtype=complex)
-        for part in database.additional:
-            additional = additional + (-(w**2) * part.added_mass + 1j * w * part.damping + part.restoring)
-        self.additional = spline(additional)
-        self.force = spline(database.force, 1)
-        roll = database.roll_damping
-        self.roll = None if roll is None else spline(roll.linear + roll.linearised, 1)
-
-
-class _Solved:
-    """Impedance and motions of a database at some frequencies."""
-
-    def __init__(self, table: _Table, omega: FloatArray) -> None:
-        database = table.database
-        self.omega = omega
-        w = omega[:, None, None]
-        self.added_mass, self.damping = table.added_mass(omega), table.damping(omega)
-        self.additional, self.force = table.additional(omega), table.force(omega)
-        self.memory = -(w**2) * self.added_mass + 1j * w * self.damping + self.additional
-        nothing = np.zeros(database.mass_matrix.shape)
-        self.static = sum((part.restoring[0] for part in database.additional), nothing)
-        held = np.isin(np.arange(len(nothing)) % 6, (0, 1, 5))
-        heavy = np.where(held, np.diag(database.mass_matrix + self.added_mass[-1]), 0.0)
-        spring = 2.0 * np.pi / SPRING_PERIOD
-        still = -(w**2) * database.mass_matrix + 1j * w * database.linear_damping + database.restoring
-        still = still + np.diag(heavy) * (spring**2 + 2j * w * SPRING_DAMPING * spring)
-        if table.roll is None:
-            self.impedance = still + self.memory
-        else:
-            whole = np.broadcast_to(still + self.memory, (len(database.heading), *self.memory.shape)).copy()
-            whole[:, :, 3, 3] += 1j * omega * table.roll(omega)
-            self.impedance = whole
-        self.motion = np.linalg.solve(self.impedance, self.force[..., None])[..., 0]
-        middle = self.impedance if self.impedance.ndim == 3 else self.impedance.mean(axis=0)
-        self.receptance = np.linalg.inv(middle)
-
-    def peak_frequencies(self) -> list[tuple[float, float]]:
-        """Frequency and half width over it of the resonances of heave, roll and pitch."""
-        found = []
-        for i in resonant_motions(len(self.static)):
-            size = np.abs(self.receptance[:, i, i])
-            at = int(size.argmax())
-            if not 0 < at < len(size) - 1:
-                continue
-            dynamic = 1.0 / self.receptance[at, i, i]
-            slope = abs((1.0 / self.receptance[at + 1, i, i] - 1.0 / self.receptance[at - 1, i, i]).real)
-            width = abs(dynamic.imag) * (self.omega[at + 1] - self.omega[at - 1]) / max(slope, 1e-300)
-            found.append((float(self.omega[at]), float(np.clip(width / self.omega[at], 1e-3, 0.2))))
-        return found
 
 
 def peak_periods(length: float) -> FloatArray:
