@@ -28,7 +28,7 @@ from seacrane.hydro.hull.panels import (
     without_slivers,
 )
 from seacrane.inputs.brief import brief
-from seacrane.inputs.checked import positive_of
+from seacrane.inputs.checked import finite_of, positive_of
 from seacrane.inputs.mesh_files import read_stl
 
 FloatArray = NDArray[np.float64]
@@ -109,9 +109,8 @@ class Hull:
 
     def moved(self, x: float) -> Hull:
         """The same hull ``x`` metres further forward: what lay at -x becomes the origin."""
-        if not np.isfinite(x):
-            raise ValueError(f"hull {self.name!r}: moved by {x} m; give a finite number")
-        return replace(self, panels=self.panels + np.array([x, 0.0, 0.0]))
+        ahead = finite_of(f"hull {self.name!r}: x", x, "m")
+        return replace(self, panels=self.panels + np.array([ahead, 0.0, 0.0]))
 
     def at_centre_of_buoyancy(self) -> Hull:
         """The same hull with the origin on the waterline over its centre of buoyancy."""

@@ -256,13 +256,11 @@ class _Heeled:
 
         The waterplane tells how the volume changes, and its moment about the centre of gravity at `weight`.
         """
-        area = max(under.waterplane_area, 1e-9 * self.length**2)
-        farthest = 0.1 * self.length
-        if not self.free:
-            return float(np.clip(missing / area, -farthest, farthest)), 0.0
-        first = under.waterplane_moment_x
-        lever = float(under.center_of_buoyancy[2] - weight[2])
-        second = under.waterplane_inertia_pitch - weight[0] * first + under.volume * lever
-        matrix = np.array([[area, first], [first - weight[0] * area, second]])
-        down, bow = np.linalg.lstsq(matrix, np.array([missing, -off * under.volume]), rcond=1e-12)[0]
+        area, first = max(under.waterplane_area, 1e-9 * self.length**2), under.waterplane_moment_x
+        farthest, down, bow = 0.1 * self.length, missing / area, 0.0
+        if self.free:
+            lever = float(under.center_of_buoyancy[2] - weight[2])
+            second = under.waterplane_inertia_pitch - weight[0] * first + under.volume * lever
+            matrix = np.array([[area, first], [first - weight[0] * area, second]])
+            down, bow = np.linalg.lstsq(matrix, np.array([missing, -off * under.volume]), rcond=1e-12)[0]
         return float(np.clip(down, -farthest, farthest)), float(np.clip(bow, -0.1, 0.1))

@@ -47,7 +47,6 @@ class PassivityCertificate:
         ``(w^2 + a^2)^2 / w^2 Re K(i w)`` (a = 1 rad/s; without the factor of a zero that the model does not
         have), each motion scaled by the square root of its largest damping.
     crossings : rad/s where an eigenvalue of Re K changes sign.
-    zero_at_origin, zero_at_infinity : the zeros divided out.
     reason : in words.
     """
 
@@ -55,8 +54,6 @@ class PassivityCertificate:
     energy: bool
     margin: float
     crossings: tuple[float, ...] = ()
-    zero_at_origin: bool = False
-    zero_at_infinity: bool = False
     reason: str
 
 
@@ -97,7 +94,6 @@ def certify(blocks: Sequence[MemoryBlock]) -> PassivityCertificate:
     static = d - c @ np.linalg.solve(a, b)
     origin = bool(np.abs(static).max() < SYMMETRY * max(np.abs(c @ b).max(), np.abs(d).max()))
     infinity = not np.any(d)
-    verdict = partial(verdict, zero_at_origin=origin, zero_at_infinity=infinity)
     slope = c @ np.linalg.solve(a, np.linalg.solve(a, b))
     for zero, leading, where in ((infinity, c @ b, "infinite"), (origin, slope, "zero")):
         if zero and np.abs(leading - leading.T).max() > SYMMETRY * np.abs(leading).max():
