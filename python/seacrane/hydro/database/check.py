@@ -56,12 +56,13 @@ def check_database(database: HydroData) -> list[CheckRow]:
     A database without a memory model has one fitted here, if its band holds enough frequencies and its speed
     is zero.
     """
+    natural = {name: natural_frequency(database, MOTIONS.index(name)) for name in ("heave", "roll", "pitch")}
     rows = [
         info("mass_t", database.mass_matrix[0, 0] / 1e3),
         info("GM_of_C44_and_mass_m", metacentric_height(database)),
         *_closure_rows(database),
         *_matrix_rows(database),
-        *_natural_period_rows(database),
+        *(info(f"natural_period_{name}_s", 2.0 * np.pi / w) for name, w in natural.items() if w is not None),
         *_relation_rows(database),
     ]
     model = database.memory
@@ -181,11 +182,6 @@ def skewness(matrices: FloatArray) -> FloatArray:
 
 def _surge_is_missing(database: HydroData) -> bool:
     return not (np.any(database.added_mass[:, 0, :]) or np.any(database.damping[:, 0, :]))
-
-
-def _natural_period_rows(database: HydroData) -> list[CheckRow]:
-    found = {name: natural_frequency(database, MOTIONS.index(name)) for name in ("heave", "roll", "pitch")}
-    return [info(f"natural_period_{name}_s", 2.0 * np.pi / w) for name, w in found.items() if w is not None]
 
 
 def _relation_rows(database: HydroData) -> list[CheckRow]:

@@ -197,22 +197,18 @@ def _read_memory(group: Any) -> MemoryModel:
     passivity = [float(value) for value in group.passivity]
     if np.isnan([*group.band, *passivity]).any() or not np.isfinite(group.r2):
         raise ValueError("memory: band, passivity or r2 is not a number")
-    motion = group.groups.get("motion")
+    motion: MotionFit | None = None
+    if (of_motion := group.groups.get("motion")) is not None:
+        left_out = tuple((int(pair[0]) - 1, int(pair[1]) - 1) for pair in str(of_motion.left_out).split())
+        error = MotionError(seas=np.asarray(of_motion.seas), peaks=np.asarray(of_motion.peaks))
+        limit, floor = float(of_motion.limit), float(of_motion.floor)
+        motion = MotionFit(limit=limit, error=error, floor=floor, left_out=left_out)
     return MemoryModel(
         blocks=tuple(blocks), **{name: _get(group, name) for name in MODEL_MATRICES},
         band=(float(group.band[0]), float(group.band[1])), r2=float(group.r2), rows=tuple(rows),
         passivity=Passivity(**dict(zip(_PASSIVITY, passivity, strict=True))),
-        motion=None if motion is None else _read_motion(motion),
+        motion=motion,
     )  # fmt: skip
-
-
-def _read_motion(group: Any) -> MotionFit:
-    return MotionFit(
-        limit=float(group.limit),
-        error=MotionError(seas=np.asarray(group.seas), peaks=np.asarray(group.peaks)),
-        floor=float(group.floor),
-        left_out=tuple((int(pair[0]) - 1, int(pair[1]) - 1) for pair in str(group.left_out).split()),
-    )
 
 
 def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:

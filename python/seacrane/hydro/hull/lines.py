@@ -44,11 +44,6 @@ class ParametricHull:
         shape = (1.0 - entrance**2) * (1.0 - (1.0 - self.transom_breadth_fraction) * run**2)
         return np.asarray(0.5 * self.breadth * shape)
 
-    def local_draught(self, x: FloatArray) -> FloatArray:
-        """Draught of the keel line (m) at the stations ``x`` (n,) in m."""
-        _, run = self._end_parameters(x)
-        return np.asarray(self.draught * (1.0 - (1.0 - self.transom_draught_fraction) * run**2))
-
     def _end_parameters(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Fractions (0 midbody side, 1 end) along the entrance and along the run."""
         from_transom = np.asarray(x, dtype=float) + self.origin_from_transom
@@ -64,7 +59,8 @@ class ParametricHull:
         power = 2.0 / self.section_exponent
         station = np.array([x])
         y = self.half_breadth(station)[0] * np.cos(angle) ** power
-        z = -self.local_draught(station)[0] * np.sin(angle) ** power
+        run = self._end_parameters(station)[1][0]
+        z = -(self.draught * (1.0 - (1.0 - self.transom_draught_fraction) * run**2)) * np.sin(angle) ** power
         y[-1] = 0.0
         arc = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(y), np.diff(z)))])
         wanted = np.linspace(0.0, arc[-1], count + 1)
