@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -61,12 +60,8 @@ def fit_by_motion(
 ) -> MemoryModel:
     """Radiation as damped oscillators per group of motions, other causes per pair; orders as `limit` allows.
 
-    Parameters
-    ----------
-    database : of zero speed.
-    band : (low, high) in rad/s over which motions are judged.
-    known : (6, 6) infinite-frequency added mass, or None to estimate it.
-    limit : of `MotionError.worst`.
+    It is one of `MotionError.worst` over ``band`` (rad/s). ``known``: infinite-frequency added mass (6, 6),
+    None: estimated.
     """
     judge = motion_judge(database, band)
     below = database.omega[database.omega < BEYOND_BAND * band[1]]
@@ -81,7 +76,15 @@ def fit_by_motion(
     of_motions = partial(_Group, judge, grid, band, known)
     for group in motion_groups(kept):
         fit = of_motions(group)
-        masses = fit.lowest_order(SHARE * limit, _by_hull(of_motions, group, SHARE * limit))
+        parts: list[tuple[list[int], Oscillators]] = []
+        hulls = sorted({motion // 6 for motion in group})
+        # Of several hulls first surge, heave and pitch of each, and sway, roll and yaw: found quickly.
+        for hull, side in [(hull, side) for hull in hulls for side in (0, 1) if len(hulls) > 1]:
+            own = [motion for motion in group if motion // 6 == hull and motion % 2 == side]
+            if own:
+                model = of_motions(own).lowest_order(SHARE * limit, [])
+                parts.append(([group.index(motion) for motion in own], model))
+        masses = fit.lowest_order(SHARE * limit, parts)
         blocks.append(fit.block(masses))
         infinite[np.ix_(group, group)] = fit.infinite(masses)
     if known is not None:
@@ -91,21 +94,21 @@ def fit_by_motion(
         more, inertia, spring = _additional(database, part, judge, grid, band, 0.5 * limit)
         blocks += more
         mass, stiffness = mass + inertia, stiffness + spring
-    model = MemoryModel(
+    memory = MemoryModel(
         blocks=tuple(blocks), added_mass=infinite, additional_added_mass=mass,
         additional_stiffness=stiffness, band=band, r2=0.0, rows=(),
         passivity=joint_passivity(blocks, database.damping, band),
     )  # fmt: skip
     floor = judge.error_of(retardation_functions(database=database)).worst
-    motion = MotionFit(limit=limit, error=judge.error_of(model), floor=floor, left_out=left_out)
+    motion = MotionFit(limit=limit, error=judge.error_of(memory), floor=floor, left_out=left_out)
     rows: list[FitRow] = []
     for cause in dict.fromkeys(block.cause for block in blocks):
-        own = [block for block in blocks if block.cause == cause]
-        pairs = [(int(j), int(k)) for block in own for j in block.outputs for k in block.inputs if j <= k]
+        of = [block for block in blocks if block.cause == cause]
+        pairs = [(int(j), int(k)) for block in of for j in block.outputs for k in block.inputs if j <= k]
         felt = [pair for pair in pairs if cause != RADIATION or pair in kept]
-        rows += judged_rows(model, database, cause, felt, -np.inf if motion.reached else np.inf)
+        rows += judged_rows(memory, database, cause, felt, -np.inf if motion.reached else np.inf)
     worst = min((min(row.r2_added_mass, row.r2_damping) for row in rows), default=1.0)
-    return dataclasses.replace(model, rows=tuple(rows), r2=max(worst, 0.0), motion=motion)
+    return dataclasses.replace(memory, rows=tuple(rows), r2=max(worst, 0.0), motion=motion)
 
 
 def felt_pairs(
@@ -141,24 +144,6 @@ def _without(judge: MotionJudge, pairs: Pairs) -> ComplexArray:
         variation = judge.added_mass[:, j, k] - judge.added_mass[:, j, k].mean()
         out[:, j, k] = out[:, k, j] = w**2 * variation - 1j * w * judge.damping[:, j, k]
     return out
-
-
-def _by_hull(
-    of_motions: Callable[[list[int]], _Group], group: list[int], limit: float
-) -> list[tuple[list[int], Oscillators]]:
-    """Models of the motions that a hull alone keeps apart, where a group has motions of several hulls.
-
-    Surge, heave and pitch of each hull, and sway, roll and yaw: a few masses each, found quickly.
-    """
-    hulls = sorted({motion // 6 for motion in group})
-    if len(hulls) < 2:
-        return []
-    sets = [[m for m in group if m // 6 == hull and m % 2 == side] for hull in hulls for side in (0, 1)]
-    return [
-        ([group.index(m) for m in motions], of_motions(motions).lowest_order(limit, []))
-        for motions in sets
-        if motions
-    ]
 
 
 class _Group:

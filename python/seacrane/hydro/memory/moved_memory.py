@@ -40,12 +40,8 @@ LOST_R2 = 0.05
 def moved_memory(model: MemoryModel, transform: FloatArray, moved: Hydrodynamics) -> MemoryModel:
     """``T^T K T``: every block drives, and is driven by, all motions that its own are made of.
 
-    Parameters
-    ----------
-    model : of the database before it was moved.
-    transform : (6, 6) T, of a group (6 k, 6 k), motions at the old point from those at the new one.
-    moved : the database about the new point, against which the quality of each pair is judged anew: it is
-        accepted if all fits that the model came from were, or if it reaches the model's R2 itself.
+    T (6, 6), of a group (6 k, 6 k), gives motions at the old point from those at the new one. Pairs are
+    judged anew against the ``moved`` database: accepted if all fits were, or if they reach the model's R2.
     """
     blocks = tuple(_moved_block(block, transform) for block in model.blocks)
     matrices = {name: transform.T @ getattr(model, name) @ transform for name in MODEL_MATRICES}
