@@ -129,6 +129,7 @@ GONE = {
     "add_bridle": "slings are lines: add_line for each, or slings=Slings(...) of add_hoist",
     "add_relative": 'it is add_channel(name, expression="<point>.z in <body> - <to>.z in <body>")',
     "add_slack_tank": "it is add_vessel(..., slack_moment=...), of all tanks together",
+    "RigidPart": "no part is taken out of a vessel's mass: give vessel_parameters a database without it",
     "JointedCrane": "JointedCrane is Crane, as of load_crane; crane.tip(coordinates=x) is crane.tip(**x)",
     "coefficient_scatter": "it is ensemble(partial(needs.scattered, scene), over={'case': [...]}, keep=...)",
     "model_error": "model_error is the difference of a run with memory='convolution'",
