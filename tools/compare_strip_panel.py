@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from seacrane.hydro import HydroDatabase, hydro_from_hull, shipped_database
-from seacrane.hydro.hull.shipped_hull import shipped_hull
+from seacrane.hydro.hull.hull import shipped_hull
 
 ENTRIES = ((1, 1), (2, 2), (3, 3), (4, 4), (5, 5), (1, 3), (2, 4), (1, 5))
 HEADINGS_DEG = (180, 135, 90)

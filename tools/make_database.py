@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from seacrane.hydro import Hull, HydroDatabase, fit_memory
+from seacrane.hydro.hull.hull import LINES, VOLUME, shipped_hull
 from seacrane.hydro.hull.hull_database import database_of_solution
-from seacrane.hydro.hull.shipped_hull import LINES, VOLUME, shipped_hull
 from seacrane.hydro.hull.solution import HullSolution, capytaine_solution, symmetric_solution
 
 RHO, G = 1025.0, 9.81
@@ -40,16 +40,12 @@ def main() -> None:
     hull = shipped_hull()
     database = database_of_solution(
         hull,
-        symmetric_solution(solve_or_reuse(hull, arguments.raw), HEADING),
-        omega=OMEGA,
-        heading=HEADING,
+        symmetric_solution(solve_or_reuse(hull, arguments.raw)),
         center_of_gravity=np.array([0.0, 0.0, hull.hydrostatics.metacentre_transverse - GM_TRANSVERSE]),
         mass=MASS,
         radii_of_gyration=np.array([0.36 * LINES.breadth, 0.25 * LINES.length, 0.25 * LINES.length]),
         roll_damping_fraction=ROLL_DAMPING_FRACTION,
         trusted_band=TRUSTED_BAND,
-        rho=RHO,
-        g=G,
         name="hull_115",
     )
     database = replace(database, source=source_of(database))
@@ -65,7 +61,7 @@ def solve_or_reuse(hull: Hull, raw: Path | None) -> HullSolution:
     if raw is not None and raw.exists():
         with np.load(raw) as stored:
             values = {name: stored[name] for name in stored}
-        values["method"] = str(values["method"])
+        values |= {"method": str(values["method"]), "rho": RHO, "g": G}
         values["trusted_band"] = tuple(values["trusted_band"].tolist())
         return HullSolution(**values)
     solution = capytaine_solution(

@@ -132,9 +132,9 @@ GONE = {
     "add_slack_tank": "it is add_vessel(..., slack_moment=...), of all tanks together",
     "BodyRecord": "crane.parts(...).bodies are Body, as in Scene.bodies",
     "JointRecord": "crane.parts(...).joints are JointData",
+    "RigidPart": "no part is taken out of a vessel's mass: give vessel_parameters a database without it",
     "JointedCrane": "JointedCrane is Crane, as of load_crane; crane.tip(coordinates=x) is crane.tip(**x)",
     "coefficient_scatter": "it is ensemble(partial(needs.scattered, scene), over={'case': [...]}, keep=...)",
-    "model_error": "model_error is the difference of a run with memory='convolution'",
 }
 
 

@@ -254,7 +254,7 @@ _ALL = [
     Target("wamit-listing", "wamit", "box.out", _wamit_pair, _WAMIT),
     *_set_targets("nemoh-group", _NEMOH_PAIR, _of_nemoh, _NEMOH),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
-    Target("offsets", "offsets", "hull.txt", Hull.from_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
+    Target("offsets", "offsets", "hull.txt", Hull.from_offsets, ("hydro/hull/lines.py",), refusals=_SHAPE),
     Target("stl", "stl", "hull.stl", Hull.from_stl, ("inputs/mesh_files.py",), refusals=_SHAPE),
     Target("gltf", "gltf", "box.gltf", _of(read_gltf, most=1000), ("inputs/mesh_files.py",), mutate_json),
     Target("gltf-bytes", "gltf", "box.glb", _of(read_gltf, most=1000), ("inputs/mesh_files.py",), None),

@@ -11,7 +11,6 @@ from hull_shapes import ascii_stl, box, joined, moved, sphere, stl, wigley_mesh,
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro import Hull, Hydrostatics, OffsetTable, ParametricHull, read_offset_table, read_stl
-from seacrane.hydro.hull.hydrostatics import panel_hydrostatics
 
 RHO, G = 1025.0, 9.81
 SHIP = (100.0, 16.0, 6.0)
@@ -139,20 +138,13 @@ def test_remeshing_keeps_the_shape_bilges_and_waterlines() -> None:
             assert np.any(np.all(np.isclose(fine.panels.reshape(-1, 3)[:, 1:], corner, atol=1e-9), axis=1))
 
 
-def test_a_parametric_hull_is_scaled_to_its_volume() -> None:
+def test_a_parametric_hull_has_its_main_dimensions() -> None:
     shape = ParametricHull(
         length=115.0, breadth=25.0, draught=6.4, entrance_length=40.0, run_length=34.5,
         transom_breadth_fraction=0.75, transom_draught_fraction=0.2, section_exponent=6.0,
     )  # fmt: skip
-    volume, mesh = 14.0e6 / RHO, {"stations": 30, "girth": 9}
-    panels = shape.scaled_to_volume(volume, **mesh).panels(**mesh)
-    statics = panel_hydrostatics(panels)
-    assert statics.volume == pytest.approx(volume, rel=1e-12)
-    assert statics.center_of_buoyancy[:2] == pytest.approx([0.0, 0.0], abs=1e-9)
     points = shape.panels(stations=56, girth=20).reshape(-1, 3)
     assert np.ptp(points, axis=0) == pytest.approx([115.0, 25.0, 6.4], rel=2e-3)
-    with pytest.raises(ValueError, match="out of reach"):
-        shape.scaled_to_volume(115.0 * 25.0 * 6.4, stations=16, girth=4)
 
 
 def half_area(section: np.ndarray) -> float:

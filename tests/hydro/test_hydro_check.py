@@ -231,7 +231,7 @@ def test_retardation_of_the_memory_is_its_impulse_response() -> None:
 def test_fits_in_the_figures_are_those_of_the_memory() -> None:
     database = shipped_database()
     memory = database.memory
-    drawn = [radiation_sheet(database, memory, 0), retardation_sheet(database, memory)]
+    drawn = [radiation_sheet(database, 0), retardation_sheet(database)]
     a35, k33 = (
         {line.label: line.values for panel in sheet.panels if panel.quantity == name for line in panel.lines}
         for sheet, name in zip(drawn, ("A35", "K33"), strict=True)

@@ -17,7 +17,7 @@ from seacrane import cases
 from seacrane.crane import Payload
 from seacrane.hydro import passivity_certificate, shipped_database
 from seacrane.hydro.memory.fit import fit_memory
-from seacrane.hydro.vessel.vessel_parameters import _smallest_damping
+from seacrane.hydro.vessel.parameters import _smallest_damping
 from seacrane.one_thread import one_thread
 
 BEFORE = 2

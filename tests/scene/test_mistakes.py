@@ -27,7 +27,7 @@ from seacrane import Curve, MotionRaos, SampledController, Scene, Stage, Until, 
 from seacrane.analysis import balance, driven, equilibrium, reflected_inertia
 from seacrane.crane import Payload
 from seacrane.hydro import HydroGroup, ikeda_roll_damping, shipped_database
-from seacrane.hydro.hull.shipped_hull import shipped_hull
+from seacrane.hydro.hull.hull import shipped_hull
 from seacrane.scene import Chamber, Gas, Piston, Pump, Rupture, Valve
 from seacrane.scene.wind_current import FlowCoefficients
 from seacrane.sea import SeaState, WaveSystem, jonswap

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, response_statistics
 from seacrane.hydro import HydroDatabase, hydro_from_hull, natural_frequency, shipped_database
-from seacrane.hydro.hull.shipped_hull import shipped_hull
+from seacrane.hydro.hull.hull import shipped_hull
 from seacrane.inputs.frames import MOTIONS
 from seacrane.scene.sea_loads import without_load
 from seacrane.sea import jonswap, realise_waves

@@ -229,7 +229,7 @@ def test_kernel_of_sampled_damping_converges_to_the_closed_form() -> None:
     for spacing, end in ((0.1, 6.0), (0.05, 12.0), (0.025, 24.0)):
         omega = spacing * np.arange(1, round(end / spacing) + 1)
         damping = (1j * omega / ((1j * omega + a) ** 2 + b**2)).real[:, None, None]
-        errors.append(np.abs(cosine_transform(omega, damping, tau)[0][:, 0, 0] - exact).max())
+        errors.append(np.abs(cosine_transform(omega, damping, tau)[:, 0, 0] - exact).max())
     assert errors[0] < 1e-2
     assert errors[1] < errors[0] / 4.0
     assert errors[2] < errors[1] / 4.0

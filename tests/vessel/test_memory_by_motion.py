@@ -25,7 +25,7 @@ from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.fit import LIMIT
 from seacrane.hydro.memory.motion_judge import motion_judge
-from seacrane.hydro.vessel.parameters import largest_growth_rate
+from seacrane.hydro.vessel.parameters import growth_rate, time_domain_vessel
 from seacrane.scene.file import scene_digest
 from seacrane.sea import jonswap
 from seacrane.warnings import MemoryFitWarning
@@ -45,7 +45,7 @@ def test_the_shipped_hull_keeps_the_limit_with_few_states() -> None:
     assert model.motion.floor < 0.005
     assert model.states <= 32
     assert passivity_certificate(model).passive
-    assert largest_growth_rate(shipped_database(), model) < 1e-9
+    assert growth_rate(time_domain_vessel(shipped_database(), memory=model)) < 1e-9
     judge = motion_judge(shipped_database(), model.band)
     assert judge.error_of(per_pair).worst > 3.0 * model.motion.error.worst
     floor = judge.error_of(retardation_functions(database=shipped_database())).worst

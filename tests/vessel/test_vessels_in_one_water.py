@@ -24,7 +24,7 @@ from seacrane.hydro import (
     two_barges,
 )
 from seacrane.hydro.data.memory_model import MODEL_MATRICES, MemoryBlock, MemoryModel
-from seacrane.hydro.memory.realisation import independent_blocks
+from seacrane.hydro.memory.certificate import independent_blocks
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.validity.hull_range import gap_between, relative_findings
 from seacrane.warnings import RelativePlaceWarning

@@ -72,6 +72,7 @@ class SectionModel:
         force[1] = force[0] * np.array([1.0, -1.0, 1.0, -1.0, 1.0, 1.0])
         infinite = infinite_added_mass(self.outline, depth=self.depth, rho=RHO, fineness=self.fineness)
         solution = HullSolution(
+            omega=omega, heading=ACROSS, rho=RHO, g=G,
             added_mass=self.along(np.array([one.added_mass for one in solved])),
             damping=self.along(np.array([one.damping for one in solved])),
             added_mass_zero=None,
@@ -79,12 +80,12 @@ class SectionModel:
             force=force,
             method="two-dimensional panels in the flume's depth, tools/flume_section",
             trusted_band=(float(omega[0]), float(omega[-1])),
-        )
+        )  # fmt: skip
         plain = database_of_solution(
-            self.hull, solution, omega=omega, heading=ACROSS, mass=self.mass,
+            self.hull, solution, mass=self.mass,
             center_of_gravity=np.array([0.0, 0.0, self.center]),
             radii_of_gyration=np.array([self.gyration, 0.25 * self.length, 0.25 * self.length]),
-            roll_damping_fraction=0.0, trusted_band=None, rho=RHO, g=G, name=self.name,
+            roll_damping_fraction=0.0, trusted_band=None, name=self.name,
         )  # fmt: skip
         drift = np.zeros((2, len(solved), 6))
         drift[0, :, 1] = [self.drift(one) for one in solved]

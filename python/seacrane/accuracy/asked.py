@@ -15,6 +15,7 @@ from seacrane.accuracy.case import Case
 from seacrane.accuracy.expected import unit_error
 from seacrane.accuracy.quantities import Quantity, channels_of, compare, limits_of, quantities_of
 from seacrane.analysis.linearise import fastest_mode
+from seacrane.arrays import Array
 from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from seacrane.run.outputs import Outputs
     from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 EVENT_TIMES = "event_times"  # a quantity: the largest shift of an event, s
 BESIDE = 1.5  # the error of one of two methods that are as good as each other, over their difference
 STABLE = 3.0  # steps of an explicit method times the fastest mode

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.accuracy.case import Case, OutOfTime, timed
 from seacrane.accuracy.methods import TIGHT
 from seacrane.accuracy.quantities import Quantity, channels_of, compare, motion_of
 from seacrane.accuracy.row import COMPLETED, NOT_FINITE, REFUSED, SLOW, STOPPED, UNKNOWN, Row
+from seacrane.arrays import Array
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
@@ -20,7 +20,6 @@ from seacrane.run.method import Method
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
 
-Array = NDArray[np.float64]
 CHECKS = ("constraint_error", "constraint_error_before_projection", "energy_balance", "absolute_work",
           "quaternion", "velocity", "angular_velocity")  # fmt: skip
 COUNTED = ("steps", "rejected_steps", "evaluations", "dense_solves")

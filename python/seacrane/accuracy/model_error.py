@@ -12,12 +12,13 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.analysis.drag_in_sea import drag_in_components
 from seacrane.analysis.frequency_domain import SummedResponse, response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
+from seacrane.arrays import Array
 from seacrane.description.crane_parts import payloads
 from seacrane.description.databases import database_of
 from seacrane.description.given import given_vessels
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
     from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 QUANTITIES = ("payload_position", "roll")
 GREGORY = np.array([3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0])  # weights of the first samples, of order 4
 LONGEST = 3600.0  # s of a run whose error is carried step by step

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, DERIVED, unit_of
 from seacrane.description.crane_parts import cylinders, payloads
 from seacrane.description.given import given_vessels
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from seacrane.result import Result
     from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 GENERIC = ("position", "velocity")
 STAGE = re.compile(r"stage\[\s*([^\[\]]+?)\s*\]\.(start|end|duration)")
 ENDS = {"min": 0, "max": 1}

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.accuracy.case import Case
 from seacrane.accuracy.quantities import channels_of, compare, motion_of, quantities_of
+from seacrane.arrays import Array
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.keywords import named
 from seacrane.run.advance import finished
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from seacrane.accuracy.quantities import Quantity
     from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 CONFIRMED = 0.5  # of a difference: how far it may be from what the next longer step and the order make of it
 ROUNDING = 1e-11  # of the motion: differences below it are rounding, and show no order
 LONGER, SHORTER = (1.0, 2.0, 4.0), (0.25, 0.5, 1.0)

@@ -9,9 +9,9 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.crane.data import BodyData, CraneData, JointData, Placed, RopeData
 from seacrane.crane.mass_properties import MassProperties, Tube
 from seacrane.crane.parts import CraneParts
@@ -26,7 +26,6 @@ from seacrane.inputs.frames import quaternion_of
 from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 
-Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 Hydraulics = Mapping[str, Mapping[str, Any]]
 ROUNDING = 1e-9  # rad or m

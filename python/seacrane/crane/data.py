@@ -11,13 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.crane.mass_properties import MassProperties, Member
 from seacrane.description.roles import Areas, Capacity
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import euler_matrix
 from seacrane.inputs.shown import shown
-
-Array = NDArray[np.float64]
 
 FREEDOMS: Mapping[str, int] = {"weld": 0, "revolute": 1, "prismatic": 1, "universal": 2, "spherical": 3}
 """Coordinates of the kinds of joints that a crane may have."""

@@ -10,8 +10,8 @@ from dataclasses import fields
 from typing import Any, NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.crane.data import Placed
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.description.hydraulic_cylinders import VALUES
@@ -19,7 +19,6 @@ from seacrane.description.roles import Areas, Capacity, areas_of, capacity_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 Frames = dict[str, tuple[str, Placed]]  # by name: the body that a frame is fixed to, and where it is at home
 SCHEMA = 1
 LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.crane.crane import Crane
 from seacrane.crane.data import (
     CLOSING,
@@ -31,7 +31,6 @@ from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import listed, shown
 from seacrane.inputs.whole_file import read_whole
 
-Array = NDArray[np.float64]
 LARGEST_FILE = 2**20  # bytes
 TOTAL = 1e-9  # of the mass, by which the members may miss it
 SHIPPED = Path(__file__).resolve().parent.parent / "data" / "cranes"

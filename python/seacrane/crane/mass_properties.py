@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from seacrane.arrays import Array
+
 UPRIGHT = 1e-9  # level part of a unit vector, below which it is upright
 Point = tuple[float, ...]
 """(x, y, z), m."""

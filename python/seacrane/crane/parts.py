@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.crane.data import JointData, RopeData
 from seacrane.description.loads import changed
 from seacrane.errors import SceneError
@@ -21,7 +21,6 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import warn_of_density
 
-Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 SWING_RATIO = 0.005  # of critical damping of a swinging load: an estimate
 BOX_DRAG = 1.05  # C_D of a cube with a face to the flow: Hoerner, Fluid-Dynamic Drag (1965)

@@ -6,15 +6,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.crane.data import FREEDOMS, HOME, CraneData, JointData, Placed
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.plausible import angle_of
 from seacrane.one_thread import one_thread
 
-Array = NDArray[np.float64]
 CLOSED = 1e-8  # of the crane's extent: gap of a loop that counts as closed
 STEPS, LAST = 10, 6  # of Newton's method: on the way from home, and at the pose
 UNITS = {"revolute": "rad", "prismatic": "m"}

@@ -15,6 +15,7 @@ from xml.etree.ElementTree import Element, ParseError, fromstring
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.crane.data import HOME, BodyData, JointData, MeshData, Placed, placed
 from seacrane.crane.file_table import LARGEST, Frames
 from seacrane.crane.mass_properties import MassProperties
@@ -25,7 +26,6 @@ from seacrane.inputs.shown import listed, shown
 from seacrane.inputs.whole_file import read_whole
 from seacrane.warnings import UrdfWarning
 
-Array = NDArray[np.float64]
 LARGEST_FILE = 2**24  # bytes
 KINDS = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld"}
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import SETTINGS, Description
 from seacrane.description.holding import with_holds
 from seacrane.description.loads import changed, lines_of, refuse_winch_of_segment
@@ -29,7 +30,6 @@ from seacrane.inputs.checked import name_of, number_of, text_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.warnings import AssemblyWarning, RedundantJointsWarning
 
-Array = NDArray[np.float64]
 LARGEST_MOVE = 0.01  # m times the scene's length scale: a tenth of the length that tolerances refer to
 MOST_MOVE = 1.0  # m: however large the scale
 LARGEST_TURN = 0.01  # rad: the angle that they refer to

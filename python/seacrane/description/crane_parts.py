@@ -10,15 +10,13 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.description import GROUND, Description
 from seacrane.description.given import floating_bodies
 from seacrane.description.roles import Areas, CraneRoles, LuffingRope, Vector
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import cross, rotation_matrix
-
-Array = NDArray[np.float64]
 
 
 def _of_cranes(scene: Description, role: str, label: str = "") -> dict[str, Any]:

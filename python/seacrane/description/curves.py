@@ -7,13 +7,11 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane._core import Curve
+from seacrane.arrays import Array, Complex
 from seacrane.errors import SceneError
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 CLOSE = 1e-6  # of the root mean square of the sum: largest error of the splines
 PER_PERIOD = 8  # samples of the fastest cosine that is tried first
 SMALLEST_SHARE = 1e-6  # of the largest amplitude: faster cosines below it set no interval

@@ -8,9 +8,9 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.crane_parts import drive_named
 from seacrane.description.description import (
     KINDS,
@@ -29,7 +29,6 @@ from seacrane.inputs.frames import axes_across, axes_along
 from seacrane.inputs.keywords import nearest, taken
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 Force = _core.PointForce | _core.ForceTable | _core.FunctionForce
 C_FUNCTION: type[Any] = ctypes.CFUNCTYPE(None).mro()[1]  # of ctypes, any
 _FUNCTIONS: list[Any] = []  # that scenes call: they stay as long as Python runs

@@ -21,14 +21,13 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, NoReturn, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 
 Dimension = tuple[Fraction, Fraction, Fraction, Fraction]
 BASE = ("kg", "m", "s", "rad")
-Array = NDArray[np.float64]
 Value = TypeVar("Value")
 LONGEST, DEEPEST = 1000, 40  # characters; parentheses, calls and signs within each other
 FUNCTIONS = {"sqrt": 1, "abs": 1, "hypot": 2, "atan2": 2, "min": 0, "max": 0}  # arguments; 0: two or more
@@ -118,7 +117,7 @@ class Call(NamedTuple):
     """What is done with the last values."""
 
     name: str
-    count: int
+    of: int
 
 
 Program = tuple[Number | Curve | Call, ...]
@@ -138,7 +137,7 @@ def worked_out(
     stack: list[Value] = []
     for step in program:
         if isinstance(step, Call):
-            stack[-step.count :] = [apply(step.name, stack[-step.count :])]
+            stack[-step.of :] = [apply(step.name, stack[-step.of :])]
         else:
             stack.append(leaf(step))
     return stack[0]

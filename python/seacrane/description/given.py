@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import Description, Some
 from seacrane.description.loads import changed
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
 
 USUAL_SIZE = (100.0, 20.0, 5.0)  # m, of a ship whose size nobody gave
-Array = NDArray[np.float64]
 Pose = tuple[Array, Array]  # position (m), rotation
 
 

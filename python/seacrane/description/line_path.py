@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.places import described_pose
 
-Array = NDArray[np.float64]
 Pose = tuple[Array, Array]  # of a body's origin, m, and its axes as columns
 TURN = 2.0 * np.pi
 STEPS = 12  # of Newton's method

@@ -6,7 +6,6 @@ from itertools import chain, pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.crane_parts import tips
@@ -16,7 +15,6 @@ from seacrane.description.limit_state import Range
 from seacrane.description.loads import joint_ends, lines_of, path_of, springs_of
 from seacrane.description.suspension import hung_loads
 
-Array = NDArray[np.float64]
 NO_BOUND = 1e7  # m or rad: a bound here or beyond is none
 GYRATION = (0.36, 0.25)  # usual radii of gyration of ships: of the breadth in roll, of the length in pitch
 

@@ -19,16 +19,13 @@ from difflib import get_close_matches
 from itertools import product
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, FIXED, MOTIONS
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
 from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 WHOLE = re.compile(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", re.DOTALL)
 ITEM = re.compile(r"""\s*(?:(\w+)\s*=\s*)?("[^"]*"|'[^']*'|[^,"']*?)\s*(?:,|$)""")
 

@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import GROUND, Description, require
 from seacrane.description.expression import Curve
 from seacrane.errors import SceneError
@@ -16,7 +17,6 @@ from seacrane.inputs.checked import shaped_of, text_of
 from seacrane.inputs.frames import cross, euler_matrix, rotation_matrix
 
 ORIGIN = (0.0, 0.0, 0.0)
-Array = NDArray[np.float64]
 POSE = ("position", "quaternion")
 MOTION = (*POSE, "velocity", "angular_velocity")
 Pose = tuple[Array, Array]

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.given import given_vessels, require_described
 from seacrane.description.limit_state import Range
@@ -19,7 +19,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import DriverImpulseWarning
 
-Array = NDArray[np.float64]
 JUMP = 1e-6  # m or rad: what projection closes without a word
 RATE_JUMP = 1e-3  # m/s or rad/s, as much as matters
 BEYOND = 1e-9  # m or rad

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from seacrane.arrays import Array
 
 
 def revolved(profile: Array, around: int, *, closed: bool = False) -> tuple[Array, NDArray[np.int64]]:

@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, rows_of, shaped_of
 from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 LARGEST_FACTOR = 10.0
 Capacity = tuple[tuple[float, float], ...]  # radius, m, and load, kg
 Areas = tuple[float, float]  # full side and rod side, m2

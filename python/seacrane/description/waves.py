@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.provenance import SeaProvenance
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
@@ -18,7 +19,6 @@ from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 from seacrane.sea.current import Current
 
-Array = NDArray[np.float64]
 STRETCHING = ("wheeler", "none")
 EVALUATIONS = ("table", "exact")
 

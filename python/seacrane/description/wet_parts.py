@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies, given_vessels, welded_to
 from seacrane.description.once import once_in_any_sea
@@ -16,7 +16,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.sea.dispersion import wavenumber
 
-Array = NDArray[np.float64]
 SLACK = 0.01  # of sizes and volumes, between a compartment and what is around it
 STATIONS = 9  # along a compartment
 LARGEST_DIFFERENCE = 0.05  # of a sea's wavenumbers, weighed by energy, between two depths

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.analysis.drag_in_sea import drag_in_components
@@ -15,6 +15,7 @@ from seacrane.analysis.frequency_domain import component_forces
 from seacrane.analysis.frequency_memory import Resolvent
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
+from seacrane.arrays import Array, Complex
 from seacrane.description.channels import CHANNELS, FIXED
 from seacrane.description.crane_parts import hooks
 from seacrane.description.pick import Pick, pick_of
@@ -28,9 +29,7 @@ from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 EXTREMES = {"maximum": np.max, "minimum": np.min}
-Complex = NDArray[np.complex128]
 ANGLES = ("heel", "trim", "yaw")
 ORDERS = {  # of the derivatives that channels are
     **dict.fromkeys(("position", *ANGLES), 0),

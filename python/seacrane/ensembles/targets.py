@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Value
@@ -20,7 +20,6 @@ from seacrane.inputs.shown import shown
 from seacrane.statistics.estimate import CONFIDENCE, Estimate
 from seacrane.statistics.seeds import ASKED, FEWEST, REDUCED, gumbel_maximum_of, mean_of
 
-Array = NDArray[np.float64]
 EXTREMES = ("maximum", "minimum")
 WIDENED = 1.05  # of intervals: stopping where one happens to be narrow costs coverage, which this restores
 LONGEST = 80  # characters of a name in a message

@@ -6,13 +6,12 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 AXES_NOTE = (
     "Axes: x forward, y to port, z up. Positive roll lifts the port side, positive pitch lowers the bow, "

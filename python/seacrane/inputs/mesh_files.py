@@ -16,11 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import read_whole
-
-FloatArray = NDArray[np.float64]
 
 STL_HEADER, STL_RECORD, MOST_SOLIDS = 84, 50, 1000  # bytes
 MOST_TRIANGLES = 200_000  # of all meshes of a body together: pages stay a few MB
@@ -30,7 +29,7 @@ TRIANGLES, FAN = 4, 6  # modes
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # of glTF's y up
 
 
-def read_stl(path: str | PathLike[str], *, most: int | None = None) -> FloatArray:
+def read_stl(path: str | PathLike[str], *, most: int | None = None) -> Array:
     """Triangles of an STL file, ASCII or binary, in its own unit and axes; needs trimesh (`seacrane[mesh]`).
 
     The stored normals are not read: the order of the vertices (anticlockwise from outside) says as much.
@@ -77,7 +76,7 @@ def read_stl(path: str | PathLike[str], *, most: int | None = None) -> FloatArra
     return _checked(source, soup)
 
 
-def read_gltf(path: str | PathLike[str], *, most: int) -> FloatArray:
+def read_gltf(path: str | PathLike[str], *, most: int) -> Array:
     """Triangles of a glTF model (.glb, or .gltf with its buffers inside), in m, z up: x stays, y becomes z.
 
     FileFormatError for what is missing, truncated, malformed, of more than `most` triangles, or has parts
@@ -134,7 +133,7 @@ def _require_few(source: Path, count: int, most: int | None) -> None:
         )
 
 
-def _checked(source: Path, soup: list[FloatArray]) -> FloatArray:
+def _checked(source: Path, soup: list[Array]) -> Array:
     """The triangles of all parts, where there are any and all are finite."""
     if not sum(map(len, soup)):
         raise FileFormatError(f"{source}: holds no triangles; export it again")
@@ -161,7 +160,7 @@ def _require_plain(source: Path, document: Any) -> None:
         raise FileFormatError(f"{source}: has a fan; export separate triangles")
 
 
-def _placed(loaded: dict[str, Any]) -> Iterator[tuple[FloatArray, FloatArray, NDArray[np.intp]]]:
+def _placed(loaded: dict[str, Any]) -> Iterator[tuple[Array, Array, NDArray[np.intp]]]:
     """Matrix, points and triangles of each surface; parents come before their children."""
     place = {loaded["base_frame"]: np.eye(4)}
     for node in loaded["graph"]:

@@ -9,13 +9,11 @@ from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import shown
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

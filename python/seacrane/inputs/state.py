@@ -13,15 +13,14 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.file_version import FILE_VERSION, require_file_version
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 MAGIC = b"seacrane state\n"
 DIGEST = hashlib.sha256().digest_size
 LARGEST_FILE = 2**30  # bytes: a million states take less

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.ensembles.dataset import NOT_RUN
 from seacrane.ensembles.ensemble import Ensemble
 from seacrane.ensembles.kept import Kept
@@ -33,7 +33,6 @@ from seacrane.statistics.seeds import FEWEST, SeedExtremes, seed_extremes
 if TYPE_CHECKING:
     import xarray
 
-Array = NDArray[np.float64]
 MOST_ROWS = 60  # that are printed; files hold all
 MOST_FAILURES = 3  # that are told
 MOST_CURVES = len(COLOURS)

@@ -10,7 +10,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
@@ -18,6 +17,7 @@ from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import equilibrium
+from seacrane.arrays import Array
 from seacrane.description.given import given_drivers
 from seacrane.ensembles.study import Stages, Start
 from seacrane.errors import SceneError
@@ -36,7 +36,6 @@ from seacrane.scene.scene import Scene
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-Array = NDArray[np.float64]
 Place = tuple[int, int]  # number of the peak period, and of the direction
 LINEAR_WITHIN = 0.1  # of the allowance
 PROBES = 2  # seeds of each cell that are compared with the linear model

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.description import STANDARD_GRAVITY
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 MARK = {"frequency": "f", "time": "t"}
 LARGEST_GAP = 90.0  # degrees between two directions that are taken as neighbours
 ROUNDING = 1e-9  # degrees

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, numbers_of, text_of
 from seacrane.inputs.shown import shown
 
-Array = NDArray[np.float64]
 NO_SOURCE = "none: forecasts are taken as certain"
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium, held
+from seacrane.arrays import Array
 from seacrane.description.given import given_drivers, in_calm_water, led_by
 from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.ensembles.study import Stages, checked_stages_of
@@ -26,7 +26,6 @@ from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 
-Array = NDArray[np.float64]
 FEWEST_PERIODS = 10.0  # that a record holds
 DURATION, START_UP = 1800.0, 300.0  # s
 

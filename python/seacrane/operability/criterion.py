@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
@@ -26,7 +26,6 @@ STATISTICS = {
     "mean": "mean maximum",
     "p90": "P90 maximum",
 }
-Array = NDArray[np.float64]
 FEWEST_SEEDS = 3
 NARROWEST = 1e-6  # bandwidth
 

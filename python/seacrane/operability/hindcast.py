@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of, numbers_of, require_unmasked, text_of
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
@@ -24,7 +25,6 @@ from seacrane.series.series_file import DELIMITERS, plain_number
 if TYPE_CHECKING:
     import xarray
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Times = NDArray[np.datetime64]
 # Of wavespectra, ERA5 and Copernicus Marine, in this order.

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.modal_analysis import quadrature_frequencies
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import held
+from seacrane.arrays import Array, Complex
 from seacrane.description.databases import database_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
@@ -26,8 +26,6 @@ from seacrane.scene.scene import Scene
 from seacrane.sea import Spreading
 from seacrane.validity.after_run import require_finite
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 MOVE = 1e-4  # m and rad, m/s and rad/s
 PUSH = 1e-3  # m/s2 and rad/s2, of states of the fluid and of loads on the vessel
 DIRECTIONS = 36  # of equal energy, of a spread sea

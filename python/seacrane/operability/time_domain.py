@@ -10,9 +10,9 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.databases import without_databases
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.job import stepped
@@ -25,8 +25,6 @@ from seacrane.operability.linear_channels import LinearSeas
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import require_finite
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

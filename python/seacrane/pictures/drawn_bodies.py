@@ -18,7 +18,7 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, path_of
 from seacrane.errors import SceneError
 from seacrane.hydro import Hull
-from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
+from seacrane.hydro.hull.hull import VOLUME, shipped_hull
 from seacrane.inputs.shown import shown
 from seacrane.pictures.shapes import (
     BoxShape,

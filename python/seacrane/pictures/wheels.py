@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.crane_parts import luffing_ropes
 from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
-from seacrane.description.line_path import Array, described_poses, laid
+from seacrane.description.line_path import described_poses, laid
 from seacrane.description.loads import lines_of, springs_of, winch_of
 from seacrane.description.places import place_of
 from seacrane.description.revolved import revolved

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.limit_state import LimitState
 from seacrane.errors import SeacraneError
 from seacrane.inputs.checked import is_finite
@@ -22,7 +22,6 @@ from seacrane.scene.scene import Scene
 
 SETTINGS, ABOUT = "settings", "about"  # attributes of files and datasets: JSON
 VERSION = "file_version"
-Array = NDArray[np.float64]
 Stat = str | int | float
 ALWAYS_STATED = (
     "seacrane_version", "scene", "formulation", "integrator", "simulated_s", "wall_s", "evaluations", "steps",

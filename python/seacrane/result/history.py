@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import AXES_NOTE
@@ -14,7 +14,6 @@ from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet
 from seacrane.result.record import Record
 from seacrane.result.traces import Trace, traces
 
-Array = NDArray[np.float64]
 STYLES = ("-", "--", ":")
 EVENTS = {
     "contact": "contact: taut, or pressed", "rebound": "rebound", "release": "release: slack, or off",

@@ -20,14 +20,13 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs import sole_writer
 from seacrane.result.about import About, Event, parted
 
-Array = NDArray[np.float64]
 MAGIC = b"seacrane partial result\n"
 LENGTH = struct.Struct("<Q")
 DIGEST = hashlib.sha256().digest_size

@@ -8,8 +8,9 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, MOTIONS, channel_of, unit_of
 from seacrane.description.pick import Pick, column_name, pick_of
 from seacrane.errors import SceneError
@@ -17,7 +18,6 @@ from seacrane.inputs.keywords import named
 from seacrane.plotting.table import Column, Table
 from seacrane.result.about import About, Event, StageSpan, Stat
 
-Array = NDArray[np.float64]
 Extremes = Mapping[str, tuple[Array, Array]]  # least and largest values by channel
 
 

@@ -11,8 +11,9 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, FIXED, attributes, channel_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.description.places import POSE, on_body, position_of
@@ -51,7 +52,6 @@ if TYPE_CHECKING:
     from seacrane._core import State
     from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 LARGEST_RESULT = 4 * 2**30  # bytes
 
 

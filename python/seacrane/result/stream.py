@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, channel_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs.atomic import atomic_write, require_replaceable, space_left
@@ -19,7 +19,6 @@ from seacrane.result.about import Event, added_stats, checked_time
 from seacrane.result.partial_file import PartialFile, Piece, partial_path
 from seacrane.result.result_file import read_netcdf, rows_of_chunk, rows_of_piece, write_netcdf
 
-Array = NDArray[np.float64]
 LARGEST = 2**50  # bytes: a file without end is read piece by piece
 NO_OUTPUTS = slice(0, 0)
 ANOTHER_SCENE = "is of another scene"

@@ -7,15 +7,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import LARGEST, LEAST, unit_of
 from seacrane.description.pick import Pick
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of
 from seacrane.result.record import Extremes, Record
 
-Array = NDArray[np.float64]
 ROUNDING = 1e-9  # of the largest beside it: what is smaller is drawn by rounding alone
 NO_MOTION = 1e-9  # m, deg, N and so on: nothing below it is meant
 NO_ENERGY = 1e-6  # J

@@ -6,16 +6,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import unit_of
 from seacrane.description.limit_state import LimitState
 from seacrane.description.pick import Pick
 from seacrane.errors import FileFormatError
 from seacrane.plotting.table import Rows, Table, Verdict, read_as
 from seacrane.result.record import Record
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,16 +6,15 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.places import ANGLES
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 from seacrane.scene.scene import Scene
 
 WORK_STATES = 2  # at the end of a state's values
-Array = NDArray[np.float64]
 ACTUATOR_INPUTS = ("force", "reference", "reference_rate")
 
 

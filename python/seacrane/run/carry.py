@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium, led
+from seacrane.arrays import Array
 from seacrane.description.description import Some
 from seacrane.description.given import given_drivers, led_by
 from seacrane.description.loads import winches_of, with_length
@@ -24,7 +24,6 @@ from seacrane.run.stage import Stage
 from seacrane.scene.scene import Scene
 from seacrane.warnings import AssemblyWarning
 
-Array = NDArray[np.float64]
 LEAD = 5.0  # s of a way along which a given ship is led to where its motion has it
 MOST_RUNS = 64  # alike: behind an event, a stage begins at its own time in every sea
 Key = tuple[str, float, frozenset[str]]  # a stage, when it began (s), what was absent

@@ -8,10 +8,11 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.analysis.least_pulls import least_pulls
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, DERIVED, OWN, channel_of
 from seacrane.description.crane_parts import cylinders, piston_areas, slews, tip_radius, tips
 from seacrane.description.description import Description
@@ -42,7 +43,6 @@ from seacrane.run.channel_names import (
 )
 from seacrane.scene.recorded import distance_from_box, picked, programs
 
-Array = NDArray[np.float64]
 Places = Mapping[str, tuple[str, str]]  # joint coordinates by label
 CHEAP = frozenset(
     ["stroke", "stroke_rate", "cylinder_force", "cylinder_pressure", "slew_angle", "slew_torque",

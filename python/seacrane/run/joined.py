@@ -8,9 +8,9 @@ from functools import reduce
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, COUNTED_ON, DERIVED, NAMED, channel_of
 from seacrane.result.about import About, Event, StageSpan, added_stats
 from seacrane.result.result import Result
@@ -18,7 +18,6 @@ from seacrane.run.derived import derived_channels, squeezed
 from seacrane.run.lanes import joined_lanes
 from seacrane.scene.scene import Scene
 
-Array = NDArray[np.float64]
 LOST = "impact_energy_lost_J"
 NOTHING = ("N", "N m", "N or N m", "W", "Pa")  # units of what is zero where its element is not there
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import Integrator
 from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
 from seacrane.analysis.linearise import LARGEST
+from seacrane.arrays import Array
 from seacrane.description.compilation import compiled
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, on_winch
@@ -28,7 +28,6 @@ from seacrane.warnings import LineRungWarning, QuasiStaticLineWarning
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for the squares of cubics
 LEAST = 1e-9  # of the largest weight of a frequency
-Array = NDArray[np.float64]
 Jump = tuple[Array, Array]
 LARGEST_ERROR = 0.005  # of what a source makes of the tension
 LARGEST_TOLD = 0.05  # likewise, of a line that is given as quasi-static: beyond, a warning

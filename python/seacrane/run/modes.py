@@ -8,11 +8,11 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import any_stiff, lines_of, whole_of
@@ -38,7 +38,6 @@ FIX = (
     "energy_balance hardly shows it, standard deviations do. Give a smaller {setting}, take another "
     "integrator ('verner65' or 'dop853' damp up to longer steps), or give the mode damping"
 )
-Array = NDArray[np.float64]
 OPEN = 1e-3  # of the spool's travel, to both sides of the overlap
 UNDAMPED = 1e-3  # of critical damping, negative: less is not told
 SLOWEST = 0.1  # rad/s: slower modes are those of drifting vessels

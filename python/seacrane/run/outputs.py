@@ -7,14 +7,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import OutputMemoryError, SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.keywords import named
 
 DEFAULT_INTERVAL = 0.1  # s
-Array = NDArray[np.float64]
 MOST_OUTPUTS = 1e8
 FARTHEST_TIME = 1e12  # s; doubles tell 1e-4 s apart there
 COPIES = 2  # of the outputs: the rows of the loop, and the arrays of the result

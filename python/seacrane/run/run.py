@@ -8,10 +8,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, DERIVED, OWN
 from seacrane.description.compilation import compiled, compiled_in_sea
 from seacrane.description.holding import with_holds
@@ -51,8 +51,6 @@ from seacrane.validity.line_checks import bound_findings
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-Array = NDArray[np.float64]
 
 
 @named

@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.run import Run
 
-Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
 Inputs = Mapping[str, Any]
 ROUNDING = 1e-9  # of a period

@@ -9,8 +9,8 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
@@ -21,7 +21,6 @@ from seacrane.run.channel_names import all_names
 from seacrane.run.commands import Command
 from seacrane.run.run import Run
 
-Array = NDArray[np.float64]
 TOUCHING = 1e-9  # m: points so near a surface have not left it
 
 

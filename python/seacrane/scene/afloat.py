@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import Description, insert, require
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
@@ -27,9 +28,8 @@ from seacrane.hydro import (
 from seacrane.hydro.data.data_warnings import warn_of_water
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock
-from seacrane.hydro.memory.certificate import is_energy_form
+from seacrane.hydro.memory.certificate import independent_blocks, is_energy_form
 from seacrane.hydro.memory.fit import enough_frequencies
-from seacrane.hydro.memory.realisation import independent_blocks
 from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw, time_domain_vessel
 from seacrane.inputs.checked import name_of, shaped_of
 from seacrane.inputs.frames import rotation_about_z
@@ -52,7 +52,6 @@ KINDS = ("per-pair", "by-motion")
 ROLL = 3, 3
 STEP, PHASE, DURATION = 0.2, 1.0, 60.0  # s, rad at the highest frequency, s: of a convolution that is not run
 AFLOAT = 1e-6  # m
-FloatArray = NDArray[np.float64]
 
 
 def add_hydrodynamics(
@@ -119,7 +118,7 @@ def add_hull(
 
 def _put_afloat(
     scene: Description, database: HydroDatabase, parameters: VesselParameters, *, name: str,
-    pose: tuple[FloatArray, float], mooring: Any, mooring_damping: float, **others: Any,
+    pose: tuple[Array, float], mooring: Any, mooring_damping: float, **others: Any,
 ) -> VesselHydrodynamics:  # fmt: skip
     """A body with the parameters of a database, and its hydrodynamics; `pose`: position (3,), m, yaw, rad."""
     place, half = pose[0], 0.5 * pose[1]
@@ -153,7 +152,7 @@ def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
     return np.asarray(heavy)
 
 
-def free_surface(database: HydroData, used: FloatArray) -> tuple[float, float, float] | None:
+def free_surface(database: HydroData, used: Array) -> tuple[float, float, float] | None:
     """N m/rad that additional causes (roll tanks) take from C44: as used (6, 6), least and most of all fits.
 
     A table of matrices by frequency does not tell a static stiffness: it is what a fit extends them to.
@@ -232,7 +231,7 @@ def _own_part(model: MemoryModel, body: int) -> MemoryModel:
     )
 
 
-def _between(model: MemoryModel) -> FloatArray:
+def _between(model: MemoryModel) -> Array:
     """Added masses (6 k, 6 k) of the hulls on each other, symmetric."""
     whole = model.added_mass + model.additional_added_mass
     own = np.kron(np.eye(len(whole) // 6), np.ones((6, 6)))

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import drive_loads, hold_vessel, path_through, places_in, posed
 from seacrane.analysis.rest_state import held, rest_from, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.analysis.weight_balance import weight_of
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import Description
 from seacrane.description.elements import add_force
@@ -27,7 +27,6 @@ from seacrane.plotting.table import Answer, Column, Table
 from seacrane.validity.implausible import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
 
-Array = NDArray[np.float64]
 EXACT = 1e-9  # rad: heel and trim for which the moment that is left would account
 MOST_ROUNDS = 30
 LARGEST = np.radians(20.0)  # of a heel or trim that linear restoring tells

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import Description, insert, require
 from seacrane.description.places import on_body, placed
 from seacrane.errors import FileFormatError, SceneError
@@ -25,7 +26,6 @@ from seacrane.inputs.plausible import warn_of_density
 from seacrane.inputs.shown import shown
 from seacrane.inputs.values import told_by
 
-Array = NDArray[np.float64]
 Faces = NDArray[np.int64]
 LARGEST, FARTHEST = 1000.0, 1e5  # m: of a mesh, and from the body's origin
 

@@ -6,10 +6,10 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import driven, hold_vessel
+from seacrane.arrays import Array
 from seacrane.description.compilation import compile_scene
 from seacrane.description.description import GROUND, Description
 from seacrane.description.elements import put_load
@@ -26,7 +26,6 @@ from seacrane.inputs.values import flat, told_by, value
 NO_BOUND = 1e7  # m, m/s: a bound here or beyond is none
 UP = (0.0, 0.0, 1.0)
 LEAST_RATIO = 1e-3  # below it what follows does not move the load
-Array = NDArray[np.float64]
 SHORT = 1e-12  # m
 SIX = ("x", "y", "z", "roll", "pitch", "yaw")
 GAS = (("pressure", "volume"), ("force", "stiffness"))

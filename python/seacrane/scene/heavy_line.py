@@ -9,9 +9,9 @@ from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import GROUND, Description, require
 from seacrane.description.elements import add_joint, put_load
 from seacrane.description.loads import changed, lines_of, whole_of
@@ -22,7 +22,6 @@ from seacrane.one_thread import one_thread
 from seacrane.scene.bodies import add_body
 from seacrane.scene.line_fluid import Seabed, Wire
 
-Array = NDArray[np.float64]
 LARGEST_ERROR = 1e-12  # of the chain's length
 LARGEST_COUNT = 500  # of iterations
 SOFTEST = 1e-9  # of the reference force: below it a segment has no direction

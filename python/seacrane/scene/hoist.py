@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane.crane.parts import BOX_DRAG, SWING_RATIO
 from seacrane.description.description import KINDS, Description
@@ -29,7 +29,6 @@ from seacrane.scene.recorded import add_point
 from seacrane.scene.rigging import add_winch
 from seacrane.scene.wind_current import damp_load
 
-Array = NDArray[np.float64]
 Place = tuple[str, Any]  # a body, and a point in its coordinates, m
 FEET_KEYS = ("points", "stiffness", "damping", "table", "friction", "hold", "edge", "name")
 

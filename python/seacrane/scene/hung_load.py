@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from seacrane.arrays import Array
 from seacrane.description.description import GROUND, Description
 from seacrane.description.elements import add_joint
 from seacrane.description.places import ORIGIN, place_of
@@ -25,7 +26,6 @@ from seacrane.scene.lift_factors import rating_of
 from seacrane.scene.limits import add_contact, add_stop
 from seacrane.scene.lines import add_line, hung_from
 
-Array = NDArray[np.float64]
 BLOCK_DENSITY = 2000.0  # kg/m3 over its outline: plates, sheaves and gaps; gives a block its size alone
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 

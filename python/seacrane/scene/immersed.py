@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.description import Description, require
@@ -19,8 +18,6 @@ from seacrane.inputs.values import made_of, told_by
 from seacrane.water.density import SEA_WATER, density_of
 from seacrane.water.mesh_part import from_mesh
 from seacrane.water.parts import PARTS, Opening, Part
-
-Array = NDArray[np.float64]
 
 MAKERS: Mapping[str, Callable[..., Part]] = {**PARTS, "mesh": from_mesh}
 FARTHEST = 10.0  # sizes of a body, or of a part, beyond which a part is not on it

@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import GROUND, Description, coordinate_of, require
 from seacrane.description.elements import put_load
 from seacrane.description.given import borne_mass
@@ -33,7 +33,6 @@ LAWS: Mapping[str, tuple[str, ...]] = {
     "soft stop": ("coordinate", "minimum", "maximum", "stiffness", "damping"),
     "seat": (),
 }
-Array = NDArray[np.float64]
 SINKS = 0.01  # m, under its own weight
 HOLD = 1e-3  # m
 DAMPING = 1.0  # s/m

@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, not_negative_of, number_of, positive_of, text_of
 from seacrane.inputs.keywords import named
@@ -18,7 +19,6 @@ from seacrane.inputs.values import made_of
 from seacrane.scene.wind_current import AIR
 from seacrane.water.density import SEA_WATER, density_of
 
-Array = NDArray[np.float64]
 _Point = tuple[str, Array]  # a body and a point in its coordinates, m
 MEDIA = ("air", "sea")
 CYLINDER_DRAG = 1.2  # C_D of a cylinder across the flow, below its critical Reynolds number: DNV-RP-C205

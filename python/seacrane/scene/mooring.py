@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.description import GROUND, Description
 from seacrane.description.elements import add_spring
 from seacrane.errors import SceneError
@@ -18,8 +18,6 @@ from seacrane.inputs.checked import number_of, positive_of, shaped_of
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.inputs.shown import shown
 from seacrane.warnings import OwnMooringWarning
-
-Array = NDArray[np.float64]
 
 HORIZONTAL = [0, 1, 5]  # surge, sway, yaw
 FLOATING = slice(2, 5)  # heave, roll, pitch: what water restores

@@ -8,9 +8,9 @@ from os import PathLike, fspath
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.curves import ramp_of, spline_curve
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
@@ -22,7 +22,6 @@ from seacrane.series.measured_series import MeasuredSeries
 from seacrane.series.series_file import heading_of
 from seacrane.warnings import AngleUnitWarning, NoisyMotionWarning, UnitWarning
 
-Array = NDArray[np.float64]
 COMPASS = ("heading", "hdg")
 FEWEST = 6
 BETWEEN = 8  # places looked at between two samples

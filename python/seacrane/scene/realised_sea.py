@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.compilation import field_of, pruned
 from seacrane.description.description import Description
 from seacrane.description.places import place_of
@@ -37,7 +38,6 @@ DEFAULTS: dict[str, Any] = {
 COMPONENTS = ("omega", "amplitude", "phase", "direction")
 USUAL_PERIODS = (0.5, 40.0)  # s, of peaks, those of wave basins included
 SPECTRA = ("jonswap", "pierson-moskowitz", "torsethaugen")
-Array = NDArray[np.float64]
 MOST_FLOWS = 2_000_000
 MOST_SECOND_ORDER = 0.3  # of the first order
 

@@ -9,9 +9,9 @@ from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, COUNTED_ON, FIXED, OWN, unit_of
 from seacrane.description.description import GROUND, Description, coordinate_of, insert, require
 from seacrane.description.expression import (
@@ -35,7 +35,6 @@ from seacrane.inputs.plain_data import DERIVED
 from seacrane.inputs.shown import shown
 from seacrane.inputs.values import told_by
 
-Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
 SLACK = "slack"  # in place of a channel: the margin that marine operations are planned with
 SLACK_MARGIN = 0.1  # of the static tension: 10 % as DNV-RP-N103 is quoted to ask for; unverified

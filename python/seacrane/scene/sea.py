@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.description.databases import database_of, source_of
 from seacrane.description.description import Description
@@ -27,8 +26,6 @@ from seacrane.sea import Current, SeaState, Spreading
 from seacrane.sea.dispersion import wavenumber
 
 MOST_COMPONENTS = 50_000  # whose loads take some seconds to make; 30 hours do not repeat with as many
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of a sea and of a database
 
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
 from seacrane.description.provenance import SeaProvenance
@@ -25,8 +25,6 @@ from seacrane.inputs.frames import MOTIONS
 from seacrane.validity.hull_range import peak_frequency
 from seacrane.warnings import WavesWithoutLoadWarning
 
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
 END = 0.8  # of the highest frequency: the slope of the forces is fitted from there on
 FEWEST = 3  # frequencies of that fit
@@ -176,7 +174,7 @@ class WithoutLoad(NamedTuple):
 
 def without_load(
     database: HydroData, *, omega: Array, amplitude: Array, direction: Array,
-    force: ComplexArray,
+    force: Complex,
 ) -> WithoutLoad:  # fmt: skip
     """What the components of a sea above the band would add.
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import SIX, hold_vessel
 from seacrane.analysis.linear_system import linear_model
+from seacrane.arrays import Array, Complex
 from seacrane.description.curves import curves_of_sum
 from seacrane.description.databases import source_of
 from seacrane.description.description import Description
@@ -36,8 +37,6 @@ LIGHT = 1.0  # kg and kg m2 of the body that stands for the ship: what drives it
 RAMP = 20.0  # s
 DURATION = 600.0  # s
 MOST_OUTSIDE = 0.02  # of the energy of the waves
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 AT_ONCE = 4096  # components whose transfer is interpolated together, to bound the memory it takes
 Vessels = tuple[VesselHydrodynamics, ...]
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.crane.parts import BOX_DRAG, SWING_RATIO
 from seacrane.description.curves import spline_curve
 from seacrane.description.description import Description, require
@@ -24,7 +25,6 @@ from seacrane.inputs.values import told_by
 from seacrane.warnings import DoubleCountedDampingWarning
 from seacrane.water.density import SEA_WATER
 
-Array = NDArray[np.float64]
 SLOWEST, FASTEST = 1.0 / 600.0, 0.5  # Hz: the spectrum is one of an hour's wind, fitted from 1/600 Hz on
 FREQUENCY_STREAM, PHASE_STREAM = 2**32, 2**32 + 1  # of Philox; a sea counts its own up from 0
 AIR = 1.226  # kg/m3 at 15 deg C, DNV-RP-C205

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.keywords import named
 
-Array = NDArray[np.float64]
 KEYS = ("depth", "speed", "direction_deg")
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from seacrane.arrays import Array
 
 ITERATIONS = 50  # far more than Newton's method needs from either limit
 
 
-def wavenumber(omega: FloatArray, *, g: float, depth: float) -> FloatArray:
+def wavenumber(omega: Array, *, g: float, depth: float) -> Array:
     """k (n,) in 1/m of ``omega^2 = g k tanh(k depth)``, by Newton's method from the deep or shallow limit;
     rad/s, m/s2 and m, an infinite depth is deep water."""
     k = np.asarray(omega, dtype=float) ** 2 / g

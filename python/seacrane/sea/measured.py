@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import finite_of, name_of, number_of, shaped_of, vector_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.sea.spreading import Spreading
 
-Array = NDArray[np.float64]
 HIGHEST = 1e6  # m: no sea, and its squares do not overflow
 UNIFORM = 1e-3  # largest departure of a time from the uniform grid, over the step
 

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import finite_of, number_of, text_of
 from seacrane.inputs.keywords import named
@@ -20,7 +20,6 @@ from seacrane.sea.measured import MeasuredWaves
 from seacrane.sea.spectra import warn_if_breaking
 from seacrane.sea.spreading import Spreading
 
-Array = NDArray[np.float64]
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 MOST_COMPONENTS = 1_000_000
 DIRECTION_STREAM = 2  # of the three Philox streams of each system

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import vector_of
 
-Array = NDArray[np.float64]
 WINDOW = 1.0  # s around a sample whose median it is compared with
 FEWEST = 5  # samples in it
 AROUND = 20.0  # s around it whose spread counts, where it is larger than that of the whole: a decay

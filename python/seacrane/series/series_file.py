@@ -15,13 +15,13 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.expression import UNITS, unit_text
 from seacrane.errors import FileFormatError
 from seacrane.inputs.looks_like import looks_like
 from seacrane.inputs.shown import listed, shown
 from seacrane.inputs.whole_file import decoded, read_whole
 
-Array = NDArray[np.float64]
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "nodata"])
 COMMENTS = ("#", "%", "//")
 DELIMITERS = "\t;,"

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import unit_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
@@ -25,7 +25,6 @@ from seacrane.warnings import UncertainShiftWarning
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 USUAL = 0.25  # of the shorter of both: the longest shift that is looked at
 LEAST_OVERLAP = 0.5  # of the shorter of both
 FEWEST = 8  # samples that lie side by side

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.statistics.estimate import TAILS, Estimate
 from seacrane.statistics.record import listed
 
-Array = NDArray[np.float64]
 FOLDS = 10  # parts of the seeds: the coefficient for each comes from all others
 FEWEST = 10  # seeds
 FAILED = "leave failed seeds out, of values and of controls"

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of
@@ -18,7 +19,6 @@ from seacrane.plotting.table import Answer, Column, Table
 from seacrane.statistics.estimate import TAILS, Estimate
 from seacrane.warnings import FewSeedsWarning
 
-Array = NDArray[np.float64]
 DRAWS, SEED = 2000, 20260  # of the bootstrap
 TOLD = (0.5, 0.9, 0.95, 0.99)
 FEW = 10  # seeds

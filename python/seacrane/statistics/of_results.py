@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.description.channels import unit_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
@@ -20,7 +20,6 @@ from seacrane.statistics.record import FEWEST_VALUES, record_of, up_crossings, w
 from seacrane.statistics.record_extremes import RecordExtremes, record_extremes
 from seacrane.statistics.seeds import SeedExtremes, seed_extremes
 
-Array = NDArray[np.float64]
 EVEN = 1e-6  # of a step by which output times may be uneven
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
@@ -16,7 +17,6 @@ from seacrane.inputs.checked import numbers_of, positive_of
 from seacrane.statistics.estimate import TAILS
 from seacrane.warnings import RepeatingSeaWarning, StartTransientWarning
 
-Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 FEWEST_VALUES = 64
 ROUNDING = 1e-12  # of its size by which a constant may vary

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, positive_of
@@ -36,7 +36,6 @@ from seacrane.statistics.record import (
 from seacrane.statistics.tail import FEWEST_PEAKS, Tail, peaks_over_threshold
 from seacrane.warnings import PoorFitWarning
 
-Array = NDArray[np.float64]
 LEVELS = 200  # of a curve
 LOWEST = 0.03  # crossings in the exposure time that are drawn
 MOST_KURTOSIS = 3.0  # excess, of records whose largest value a Gaussian process may tell

@@ -7,8 +7,8 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, positive_of
@@ -18,7 +18,6 @@ from seacrane.statistics.estimate import EULER, P90_REDUCED, TAILS, Estimate, Ex
 from seacrane.statistics.record import ROUNDING, listed
 from seacrane.warnings import FewSeedsWarning, PoorFitWarning
 
-Array = NDArray[np.float64]
 FEWEST = 3
 FEW = 10  # below which the fit test finds nothing
 POOR = 0.05  # probability of a worse fit below which Gumbel's is not believed

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.statistics.estimate import EULER, P90_COUNT, TAILS, Estimate, Maximum
 
-Array = NDArray[np.float64]
 CANDIDATES = np.linspace(0.85, 0.98, 14)  # shares of the crests below a threshold that is tried
 FEWEST_PEAKS = 20
 ACCEPTED = {"exponential": 1.062, "pareto": 0.95}  # Anderson-Darling distance that one fit of ten exceeds

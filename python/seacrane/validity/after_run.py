@@ -6,14 +6,13 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SimulationError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import is_finite
 from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
-Array = NDArray[np.float64]
 Finding = tuple[type[Warning], str]
 Some = TypeVar("Some")
 

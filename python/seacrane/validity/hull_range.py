@@ -9,9 +9,9 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core, warnings
+from seacrane.arrays import Array
 from seacrane.description.given import given_vessels
 from seacrane.description.once import once
 from seacrane.hydro import HydroDatabase
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from seacrane.description.description import Description
     from seacrane.description.waves import HullLoads, Waves
 
-Array = NDArray[np.float64]
 
 LARGEST_PHASE = 0.3  # rad of waves at the peak, of the slow drift: 30 % of the load is out of phase
 LARGEST_TURN = np.radians(10.0)

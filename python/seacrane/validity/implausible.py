@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core, warnings
+from seacrane.arrays import Array
 from seacrane.description.given import (
     beside_surface,
     borne_mass,
@@ -39,7 +39,6 @@ from seacrane.validity.magnitudes import warn_of_units
 if TYPE_CHECKING:
     from seacrane.description.description import Description
 
-Array = NDArray[np.float64]
 EXACT = 1e-9
 AGAINST = np.radians(120.0)  # between a wind and waves that it does not raise
 LEAST_ENERGY = 0.01  # of the waves, which runs with the wind

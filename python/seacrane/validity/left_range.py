@@ -7,9 +7,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import warnings
+from seacrane.arrays import Array
 from seacrane.description.places import ANGLES, Pose, coordinate_at, wrapped
 from seacrane.inputs.frames import MOTIONS, rotation_matrix
 from seacrane.validity.after_run import Finding, peak, tried
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from seacrane import _core
     from seacrane.description.description import Description
 
-Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
 Look = Callable[["Description", Array, Channels], Iterable[Finding]]
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.crane_parts import placed, tip_radius
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.outline import box_edges, size_of_ship
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from seacrane.description.description import Description
     from seacrane.description.roles import CraneRoles
 
-Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
 _Place = tuple[str, Any]  # a body and a point in its coordinates, m
 LARGEST_SWING = np.radians(20.0)

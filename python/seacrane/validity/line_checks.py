@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core, warnings
+from seacrane.arrays import Array
 from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.loads import lines_of, whole_of, winch_of, winches_of
 from seacrane.description.once import once_in_any_sea
@@ -22,7 +22,6 @@ from seacrane.validity.after_run import Finding, peak
 if TYPE_CHECKING:
     from seacrane.description.description import Description
 
-Array = NDArray[np.float64]
 Lines = Mapping[str, _core.Line]
 LARGEST_CONTRADICTION = 0.01  # of the line's length, at the start
 AT_END = 1e-6  # m

@@ -11,9 +11,9 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import ELEMENTS, KINDS, LOADS
 from seacrane.description.loads import BEYOND, kind_of, named
 from seacrane.inputs.caller import warn_caller
@@ -24,7 +24,6 @@ from seacrane.warnings import UnitWarning
 if TYPE_CHECKING:
     from seacrane.description.description import Description
 
-Array = NDArray[np.float64]
 LOOKS = 201  # at a curve, over a run
 LONGEST_ARM = 500.0  # m, of a point of a body: ships are shorter
 NEAR = 250.0  # m, of each coordinate of a point that is not as far

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.description.description import GROUND
 from seacrane.description.given import borne_mass, floating_bodies, given_vessels, welded_mass, with_mass
 from seacrane.description.loads import whole_of
@@ -22,7 +22,6 @@ from seacrane.description.wet_parts import displaced_volume, immersed_parts
 if TYPE_CHECKING:
     from seacrane.description.description import Description
 
-Array = NDArray[np.float64]
 Made = tuple[str, str, float, float, float, float]  # a field, what it makes, over what, and usual bounds
 FAST_WATER = 5.0  # m/s
 FASTEST = {True: ("{} rad/s", 30.0), False: ("{} m/s", 50.0)}  # what a driver moves: of angles, of strokes

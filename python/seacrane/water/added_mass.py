@@ -7,9 +7,9 @@ a fast motion sees. Added mass grows with depth, also below the surface, up to t
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from seacrane.arrays import Array
 
 CIRCLE_SOURCE = (
     "Greenhow and Li 1987 to awash, images in the free surface below it, in the plane of each circle; "

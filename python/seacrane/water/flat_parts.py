@@ -9,8 +9,8 @@ from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import finite_of, not_negative_of, number_of, positive_of, shaped_of, text_of
@@ -18,8 +18,6 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.warnings import UnitWarning
 from seacrane.water.added_mass import PLATE_SOURCE, box_deep, box_growth, perforation_factor
-
-Array = NDArray[np.float64]
 
 LEAST_SLAM_ROUND, LEAST_SLAM = 3.0, 5.0  # DNV-RP-N103 (unverified)
 MOST_PERFORATION = 0.5  # where the factor ends

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
@@ -28,8 +29,6 @@ from seacrane.water.panel_added_mass import (
     volumes_below,
 )
 from seacrane.water.parts import TablePart
-
-Array = NDArray[np.float64]
 
 MOST_DRAUGHTS, FEWEST_PANELS = 60, 50
 MOST_WETTING = 2.0  # that of a circle as it touches (Wagner)

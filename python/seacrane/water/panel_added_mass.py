@@ -20,19 +20,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
-from seacrane.hydro.hull.hydrostatics import area_vectors, triangles_of
-from seacrane.hydro.hull.panels import closed_below, cut_panels
+from seacrane.hydro.hull.panels import area_vectors, closed_below, cut_panels, triangles_of
 from seacrane.hydro.hull.solution import import_capytaine
 from seacrane.inputs.checked import numbers_of, positive_of
 from seacrane.inputs.mesh_files import MOST_TRIANGLES, READERS
 from seacrane.inputs.shown import shown
 from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 
-Array = NDArray[np.float64]
 VERSION = 4  # raised with every change of what is solved
 KIND, SUFFIX = "added_mass", ".ladder"
 AXES = ("Surge", "Sway", "Heave")

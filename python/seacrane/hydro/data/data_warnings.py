@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.arrays import FloatArray
+from seacrane.arrays import Array
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, both_sides
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import in_trusted_band
@@ -75,7 +75,7 @@ def warn_of_water(
     *,
     gravity: float,
     depth: float | None = None,
-    omega: FloatArray | None = None,
+    omega: Array | None = None,
     what: str = "the scene",
 ) -> None:
     """Compare the database's water with another one's, to half a percent.
@@ -110,7 +110,7 @@ def warn_of_water(
             )
 
 
-def smallest_eigenvalues(damping: FloatArray, mass_matrix: FloatArray) -> FloatArray:
+def smallest_eigenvalues(damping: Array, mass_matrix: Array) -> Array:
     """The smallest eigenvalues of the symmetric part (n,), by the largest diagonals over all frequencies."""
     scale = _scales(damping, mass_matrix)
     if not np.any(scale):
@@ -120,7 +120,7 @@ def smallest_eigenvalues(damping: FloatArray, mass_matrix: FloatArray) -> FloatA
     return np.asarray(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0])
 
 
-def _scales(matrices: FloatArray, mass_matrix: FloatArray) -> FloatArray:
+def _scales(matrices: Array, mass_matrix: Array) -> Array:
     """Roots (6,) of the largest diagonals of matrices (n, 6, 6) over the frequencies.
 
     One that is round-off beside the largest, both over the mass, counts as the bound of that round-off.

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane import _core
+from seacrane.arrays import Array, Complex
 from seacrane.errors import SceneError
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.heading_circle import centred, heading_weights, travel, with_mirror_images
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
@@ -19,9 +19,7 @@ from seacrane.sea.dispersion import wavenumber
 
 
 @one_thread
-def force_at(
-    database: HydroData, omega: ArrayLike, heading: ArrayLike, *, outside: str = "error"
-) -> ComplexArray:
+def force_at(database: HydroData, omega: ArrayLike, heading: ArrayLike, *, outside: str = "error") -> Complex:
     """`HydroDatabase.force_at`."""
     if outside not in ("error", "limits"):
         raise SceneError(f"database {database.name!r}: outside is {outside!r}; choose 'error' or 'limits'")
@@ -48,7 +46,7 @@ def force_at(
 
 
 @one_thread
-def force_on_grid(database: HydroData, omega: FloatArray, heading: FloatArray) -> ComplexArray:
+def force_on_grid(database: HydroData, omega: Array, heading: Array) -> Complex:
     """Forces (q, k, 6) at headings (q,) times frequencies (k,) within the table, as `force_at` has them."""
     circle, table, centre = _held_circle(database)
     in_heading = heading_weights(f"database {database.name!r}", circle, np.asarray(heading, dtype=float))
@@ -61,7 +59,7 @@ def force_on_grid(database: HydroData, omega: FloatArray, heading: FloatArray) -
     return np.asarray(force * travel(centre, k, np.asarray(heading, dtype=float)[:, None])[:, :, None])
 
 
-def _by_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
+def _by_heading(database: HydroData, heading: Array) -> Complex:
     """Forces (q, n, 6) at headings (q,) and the database's frequencies (n,); (n, 6) where all are equal.
 
     Their phases are those of `_held_circle`.
@@ -74,13 +72,13 @@ def _by_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
 
 
 @lru_cache(maxsize=64)
-def _of_equal_headings(database: HydroData, heading: float, count: int) -> ComplexArray | None:
+def _of_equal_headings(database: HydroData, heading: float, count: int) -> Complex | None:
     """What so many equal headings have in common to the last bit; None where a product rounds by row."""
     every = _interpolated_in_heading(database, np.full(count, heading))
     return every[0].copy() if np.array_equal(every, np.broadcast_to(every[0], every.shape)) else None
 
 
-def _interpolated_in_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
+def _interpolated_in_heading(database: HydroData, heading: Array) -> Complex:
     circle, table, _ = _held_circle(database)
     in_heading = heading_weights(f"database {database.name!r}", circle, heading)
     return np.asarray(
@@ -89,13 +87,13 @@ def _interpolated_in_heading(database: HydroData, heading: FloatArray) -> Comple
 
 
 @lru_cache(maxsize=8)
-def _held_circle(database: HydroData) -> tuple[FloatArray, ComplexArray, FloatArray]:
+def _held_circle(database: HydroData) -> tuple[Array, Complex, Array]:
     """As `full_circle`, without the phases of the wave's travel to the phase centre, and that centre (2,)."""
     circle, table = full_circle(database)
     return circle, *centred(wavenumber(database.omega, g=database.g, depth=database.depth), circle, table)
 
 
-def full_circle(database: Hydrodynamics) -> tuple[FloatArray, ComplexArray]:
+def full_circle(database: Hydrodynamics) -> tuple[Array, Complex]:
     """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays.
 
     Of a group forces are (k, n, 6 hulls), with phases as in the group.
@@ -105,7 +103,7 @@ def full_circle(database: Hydrodynamics) -> tuple[FloatArray, ComplexArray]:
     return with_mirror_images(database.heading, database.force)
 
 
-def with_limits(database: HydroData, omega: FloatArray, force: ComplexArray) -> ComplexArray:
+def with_limits(database: HydroData, omega: Array, force: Complex) -> Complex:
     """Forces beyond the band: towards the hydrostatic ones of a long wave below it, none above it.
 
     A wave much longer than the hull lifts the water around it as one: its force tends to the third column of

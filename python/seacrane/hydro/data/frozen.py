@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.inputs.checked import require_unmasked
 
 KINDS: dict[str, type] = dict.fromkeys(("force", "motion_rao", "values"), complex)
@@ -40,7 +40,7 @@ def freeze(part: Any, what: str, shapes: Mapping[str, tuple[int, ...]]) -> None:
         object.__setattr__(part, name, array)
 
 
-def require_grid(what: str, omega: FloatArray, heading: FloatArray) -> None:
+def require_grid(what: str, omega: Array, heading: Array) -> None:
     """Raise unless frequencies are positive and headings within [0, 2 pi), both strictly increasing."""
     for name, values, low, high in (("omega", omega, 0.0, np.inf), ("heading", heading, -1e-12, 2.0 * np.pi)):
         if values.size == 0:
@@ -72,7 +72,7 @@ def require_band(what: str, band: tuple[float, float] | None) -> None:
         raise SceneError(f"{what}: trusted_band {band} is not (low, high) in rad/s")
 
 
-def require_definite(what: str, mass_matrix: FloatArray) -> None:
+def require_definite(what: str, mass_matrix: Array) -> None:
     """Raise unless a mass matrix (6, 6) is positive definite."""
     if np.any(np.linalg.eigvalsh(0.5 * (mass_matrix + mass_matrix.T)) <= 0.0):
         raise SceneError(f"{what}: the mass matrix is not positive definite; check mass and inertia")

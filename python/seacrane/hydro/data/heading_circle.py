@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import SceneError
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.sea.dispersion import wavenumber
 
@@ -26,13 +26,13 @@ STEP = 0.5  # rad of the shortest wave between two places that are tried
 FARTHEST, MOST = 1.5, 400  # rad of the longest wave, and places on either side
 
 
-def mirrored_heading(heading: FloatArray) -> FloatArray:
+def mirrored_heading(heading: Array) -> Array:
     """``2 pi - heading`` within [0, 2 pi)."""
     turned = np.mod(-heading, 2.0 * np.pi)
     return np.asarray(np.where(turned >= 2.0 * np.pi, 0.0, turned))
 
 
-def both_sides(heading: FloatArray) -> tuple[FloatArray, NDArray[np.intp], NDArray[np.bool_]]:
+def both_sides(heading: Array) -> tuple[Array, NDArray[np.intp], NDArray[np.bool_]]:
     """Headings (k,) with their mirror images, rising; where each is found in ``heading``; which are mirrored.
 
     A mirror image that is among the headings already is left out.
@@ -47,19 +47,19 @@ def both_sides(heading: FloatArray) -> tuple[FloatArray, NDArray[np.intp], NDArr
     return every[order], source[order], mirrored[order]
 
 
-def with_mirror_images(heading: FloatArray, table: ComplexArray) -> tuple[FloatArray, ComplexArray]:
+def with_mirror_images(heading: Array, table: Complex) -> tuple[Array, Complex]:
     """`both_sides`, and the forces or motions (m, n, 6 k) there, of k hulls."""
     circle, source, mirrored = both_sides(heading)
     sides = np.tile(PORT_STARBOARD, table.shape[-1] // 6)
     return circle, table[source] * np.where(mirrored[:, None], sides, 1.0)[:, None, :]
 
 
-def largest_gap(circle: FloatArray) -> float:
+def largest_gap(circle: Array) -> float:
     """Largest angle (rad) between neighbouring headings, across 2 pi too."""
     return float(np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max())
 
 
-def heading_weights(what: str, circle: FloatArray, heading: FloatArray) -> FloatArray:
+def heading_weights(what: str, circle: Array, heading: Array) -> Array:
     """Weights (q, k) of the periodic spline over the headings; stored headings are exact in any case.
 
     Raises SceneError: names ``what`` has no such heading, in a gap of more than 45 degrees.
@@ -78,7 +78,7 @@ def heading_weights(what: str, circle: FloatArray, heading: FloatArray) -> Float
     return np.asarray(np.eye(len(circle))[nearest])
 
 
-def keeps_sides_apart(added_mass: FloatArray) -> bool:
+def keeps_sides_apart(added_mass: Array) -> bool:
     """Whether motions that port-starboard symmetric hulls keep apart are apart in (n, 6 k, 6 k), to 2 %."""
     peak = np.sqrt(np.abs(np.diagonal(added_mass, axis1=1, axis2=2)).max(axis=0))
     scale = np.outer(peak, peak)
@@ -88,7 +88,7 @@ def keeps_sides_apart(added_mass: FloatArray) -> bool:
     return bool(np.all(largest[mixed] <= SYMMETRY_TOLERANCE * scale[mixed]))
 
 
-def phase_centre(k: FloatArray, circle: FloatArray, heave: ComplexArray) -> FloatArray:
+def phase_centre(k: Array, circle: Array, heave: Complex) -> Array:
     """The centre (2,), m from the reference point; zeros where that is as good.
 
     Parameters
@@ -106,7 +106,7 @@ def phase_centre(k: FloatArray, circle: FloatArray, heave: ComplexArray) -> Floa
     along = np.stack([np.cos(circle), np.sin(circle)])
     together = heave[after] * np.conj(heave[before])
 
-    def left(point: FloatArray) -> float:
+    def left(point: Array) -> float:
         """Squares of the changes from heading to heading, but for what no centre alters."""
         turned = np.exp(1j * np.outer((along[:, after] - along[:, before]).T @ point, k))
         return float(-2.0 * np.sum((together * turned).real))
@@ -128,7 +128,7 @@ def phase_centre(k: FloatArray, circle: FloatArray, heave: ComplexArray) -> Floa
     return np.asarray(found.x, dtype=float)
 
 
-def centred(k: FloatArray, circle: FloatArray, table: ComplexArray) -> tuple[ComplexArray, FloatArray]:
+def centred(k: Array, circle: Array, table: Complex) -> tuple[Complex, Array]:
     """Forces or motions (m, n, 6) without the phases of the wave's travel to their centre, and it."""
     centre = phase_centre(k, circle, table[:, :, 2])
     if np.any(centre):
@@ -136,14 +136,12 @@ def centred(k: FloatArray, circle: FloatArray, table: ComplexArray) -> tuple[Com
     return table, centre
 
 
-def travel(centre: FloatArray, k: FloatArray, heading: FloatArray) -> ComplexArray:
+def travel(centre: Array, k: Array, heading: Array) -> Complex:
     """``exp(-i k (x cos b + y sin b))`` of k and headings (rad) that are broadcast against each other."""
     return np.asarray(np.exp(-1j * k * (centre[0] * np.cos(heading) + centre[1] * np.sin(heading))))
 
 
-def phase_at(
-    centre: FloatArray, omega: FloatArray, direction: FloatArray, g: float, depth: float
-) -> ComplexArray:
+def phase_at(centre: Array, omega: Array, direction: Array, g: float, depth: float) -> Complex:
     """Factor (m, n, 1) that gives waves of zero phase at the centre: exp(+i k (x cos b + y sin b))."""
     along = centre[0] * np.cos(direction) + centre[1] * np.sin(direction)
     return np.asarray(np.exp(1j * np.outer(along, wavenumber(omega, g=g, depth=depth))))[:, :, None]

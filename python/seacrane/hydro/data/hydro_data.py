@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.frozen import freeze, require_band, require_definite, require_grid, require_positive
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.inputs.brief import brief
@@ -53,9 +53,9 @@ class DriftCoefficients:
     ValueError : a wrong shape, a value that is not finite, headings or frequencies that do not rise.
     """
 
-    heading: FloatArray
-    omega: FloatArray
-    coefficient: FloatArray
+    heading: Array
+    omega: Array
+    coefficient: Array
 
     __repr__ = brief
 
@@ -73,9 +73,9 @@ class AdditionalMatrices:
     """
 
     cause: str
-    added_mass: FloatArray
-    damping: FloatArray
-    restoring: FloatArray
+    added_mass: Array
+    damping: Array
+    restoring: Array
 
     __repr__ = brief
 
@@ -88,9 +88,9 @@ class RollDamping:
     the quadratic part amounts to at the wave amplitude ``linearised_amplitude`` (m; None when not known).
     """
 
-    linear: FloatArray
-    quadratic: FloatArray
-    linearised: FloatArray
+    linear: Array
+    quadratic: Array
+    linearised: Array
     linearised_amplitude: float | None = None
 
     __repr__ = brief
@@ -136,13 +136,13 @@ class HydroData:
     """
 
     name: str
-    omega: FloatArray
-    heading: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
-    restoring: FloatArray
-    mass_matrix: FloatArray
-    force: ComplexArray
+    omega: Array
+    heading: Array
+    added_mass: Array
+    damping: Array
+    restoring: Array
+    mass_matrix: Array
+    force: Complex
     length: float
     breadth: float
     draught: float
@@ -152,13 +152,13 @@ class HydroData:
     g: float = 9.81
     depth: float = float("inf")
     speed: float = 0.0
-    infinite_frequency_added_mass: FloatArray | None = None
-    zero_frequency_added_mass: FloatArray | None = None
-    motion_rao: ComplexArray | None = None
-    motion_rao_limit: FloatArray = field(default_factory=lambda: np.array(MOTION_RAO_LIMIT))
-    motion_rao_floor: FloatArray = field(default_factory=lambda: np.full(6, 1e-4))
-    linear_damping: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
-    quadratic_damping: FloatArray = field(default_factory=lambda: np.zeros(6))
+    infinite_frequency_added_mass: Array | None = None
+    zero_frequency_added_mass: Array | None = None
+    motion_rao: Complex | None = None
+    motion_rao_limit: Array = field(default_factory=lambda: np.array(MOTION_RAO_LIMIT))
+    motion_rao_floor: Array = field(default_factory=lambda: np.full(6, 1e-4))
+    linear_damping: Array = field(default_factory=lambda: np.zeros((6, 6)))
+    quadratic_damping: Array = field(default_factory=lambda: np.zeros(6))
     roll_damping: RollDamping | None = None
     additional: tuple[AdditionalMatrices, ...] = ()
     trusted_band: tuple[float, float] | None = None

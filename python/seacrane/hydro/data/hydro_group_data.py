@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.frozen import freeze, require_band, require_definite, require_grid, require_positive
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
 from seacrane.hydro.data.memory_model import MemoryModel
@@ -40,15 +40,15 @@ class GroupBody:
     """
 
     name: str
-    position: FloatArray
-    mass_matrix: FloatArray
-    restoring: FloatArray
+    position: Array
+    mass_matrix: Array
+    restoring: Array
     length: float
     breadth: float
     draught: float
     heading: float = 0.0
-    linear_damping: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
-    quadratic_damping: FloatArray = field(default_factory=lambda: np.zeros(6))
+    linear_damping: Array = field(default_factory=lambda: np.zeros((6, 6)))
+    quadratic_damping: Array = field(default_factory=lambda: np.zeros(6))
 
     __repr__ = brief
 
@@ -63,10 +63,10 @@ class GroupBody:
         require_definite(what, self.mass_matrix)
 
 
-def _of_bodies(name: str) -> cached_property[FloatArray]:
+def _of_bodies(name: str) -> cached_property[Array]:
     """What `GroupBody` holds, of all bodies."""
 
-    def whole(group: HydroGroupData) -> FloatArray:
+    def whole(group: HydroGroupData) -> Array:
         """Of all bodies, (6 k,) or (6 k, 6 k) block by block: water at rest couples no hulls."""
         parts = [getattr(body, name) for body in group.bodies]
         out = np.concatenate(parts) if parts[0].ndim == 1 else np.zeros((6 * len(parts),) * 2)
@@ -103,18 +103,18 @@ class HydroGroupData:
 
     name: str
     bodies: tuple[GroupBody, ...]
-    omega: FloatArray
-    heading: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
-    force: ComplexArray
+    omega: Array
+    heading: Array
+    added_mass: Array
+    damping: Array
+    force: Complex
     source: str
     origin: str = "origin of the meshes, on the still waterline"
     rho: float = 1025.0
     g: float = 9.81
     depth: float = float("inf")
-    infinite_frequency_added_mass: FloatArray | None = None
-    zero_frequency_added_mass: FloatArray | None = None
+    infinite_frequency_added_mass: Array | None = None
+    zero_frequency_added_mass: Array | None = None
     trusted_band: tuple[float, float] | None = None
     port_starboard_symmetric: bool = False
     lid_damping: float | None = None
@@ -171,7 +171,7 @@ class HydroGroupData:
 Hydrodynamics = HydroData | HydroGroupData  # of one hull, or of several: the same equations, of other size
 
 
-def in_trusted_band(database: Hydrodynamics, omega: FloatArray | None = None) -> NDArray[np.bool_]:
+def in_trusted_band(database: Hydrodynamics, omega: Array | None = None) -> NDArray[np.bool_]:
     """Which of ``omega`` (rad/s, any shape; None: the database's) lie in it; all where there is no band."""
     low, high = database.trusted_band or (0.0, np.inf)
     omega = database.omega if omega is None else omega

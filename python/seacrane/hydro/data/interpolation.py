@@ -6,11 +6,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from seacrane.hydro.data.arrays import FloatArray
+from seacrane.arrays import Array
 from seacrane.one_thread import one_thread
 
 
-def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None = None) -> FloatArray:
+def spline_weights(knots: Array, query: Array, *, period: float | None = None) -> Array:
     """Weights (q, n) such that ``weights @ values`` is the cubic spline through ``values`` at ``query``.
 
     Parameters
@@ -35,14 +35,14 @@ def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None
     return _evaluate(knots, query, np.eye(len(knots)), _curvature(np.asarray(knots, float).tobytes(), None))
 
 
-def by_straight_lines(x: FloatArray, table: FloatArray, where: FloatArray) -> FloatArray:
+def by_straight_lines(x: Array, table: Array, where: Array) -> Array:
     """Rows (q, ...) of a table (n, ...) over rising ``x`` at places (q,) within its range."""
     right = np.clip(np.searchsorted(x, where), 1, len(x) - 1)
     part = ((where - x[right - 1]) / (x[right] - x[right - 1])).reshape(-1, *[1] * (table.ndim - 1))
     return np.asarray((1.0 - part) * table[right - 1] + part * table[right])
 
 
-def _evaluate(x: FloatArray, query: FloatArray, value: FloatArray, curvature: FloatArray) -> FloatArray:
+def _evaluate(x: Array, query: Array, value: Array, curvature: Array) -> Array:
     """Piecewise cubic from the knots' values and second derivatives (rows of both matrices)."""
     i = np.clip(np.searchsorted(x, query, side="right") - 1, 0, len(x) - 2)
     h = x[i + 1] - x[i]
@@ -56,7 +56,7 @@ def _evaluate(x: FloatArray, query: FloatArray, value: FloatArray, curvature: Fl
 
 @lru_cache(maxsize=16)
 @one_thread
-def _curvature(knots: bytes, period: float | None) -> FloatArray:
+def _curvature(knots: bytes, period: float | None) -> Array:
     """Matrix (n, n) from values to second derivatives; one sea after another asks for those of a database."""
     x = np.frombuffer(knots)
     out = _not_a_knot_curvature(x) if period is None else _periodic_curvature(x, period)
@@ -64,7 +64,7 @@ def _curvature(knots: bytes, period: float | None) -> FloatArray:
     return out
 
 
-def _not_a_knot_curvature(x: FloatArray) -> FloatArray:
+def _not_a_knot_curvature(x: Array) -> Array:
     """Matrix (n, n) from values to second derivatives with continuous third derivative next to both ends."""
     n = len(x)
     h = np.diff(x)
@@ -77,7 +77,7 @@ def _not_a_knot_curvature(x: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.solve(left, right))
 
 
-def _periodic_curvature(x: FloatArray, period: float) -> FloatArray:
+def _periodic_curvature(x: Array, period: float) -> Array:
     """Matrix (n, n) from values to second derivatives of the periodic spline."""
     h = np.diff(np.append(x, x[0] + period))[:, None]
     before, own = np.roll(h, 1, axis=0), np.eye(len(x))
@@ -87,7 +87,7 @@ def _periodic_curvature(x: FloatArray, period: float) -> FloatArray:
     return np.asarray(np.linalg.solve(left, right))
 
 
-def _polynomial_weights(x: FloatArray, query: FloatArray) -> FloatArray:
+def _polynomial_weights(x: Array, query: Array) -> Array:
     """Lagrange weights of the polynomial through one to three knots."""
     weights = np.ones((len(query), len(x)))
     for i in range(len(x)):

@@ -6,7 +6,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import motion_response
 from seacrane.inputs.caller import warn_caller
@@ -20,7 +20,7 @@ ALONG = 0.5  # least cosine of a heading in which pitch is judged
 _SLIPS: WeakKeyDictionary[HydroData, list[str]] = WeakKeyDictionary()  # each database is judged once
 
 
-def phase_slip(omega: float, heading: FloatArray, motions: ComplexArray, *, depth: float, g: float) -> str:
+def phase_slip(omega: float, heading: Array, motions: Complex, *, depth: float, g: float) -> str:
     """What is wrong with the phases of motions (m, 6) in a wave; empty: nothing that can be told.
 
     A hull follows a wave where both amplitudes are those of the limit; in shorter waves nothing is told.

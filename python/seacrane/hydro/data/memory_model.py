@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.frozen import freeze
 from seacrane.inputs.brief import brief
 from seacrane.one_thread import one_thread
@@ -32,11 +32,11 @@ class MemoryBlock:
     cause: str
     outputs: NDArray[np.int64]
     inputs: NDArray[np.int64]
-    A: FloatArray
-    B: FloatArray
-    C: FloatArray
-    D: FloatArray
-    state_scale: FloatArray
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    state_scale: Array
 
     __repr__ = brief
 
@@ -49,12 +49,12 @@ class MemoryBlock:
 
     @property
     @one_thread
-    def poles(self) -> ComplexArray:
+    def poles(self) -> Complex:
         """Eigenvalues of A, rad/s."""
         return np.asarray(np.linalg.eigvals(self.A), dtype=complex)
 
     @one_thread
-    def transfer(self, omega: FloatArray) -> ComplexArray:
+    def transfer(self, omega: Array) -> Complex:
         """``C (i omega - A)^-1 B + D`` at ``omega`` (n,), as (n, outputs, inputs)."""
         resolvent = 1j * omega[:, None, None] * np.eye(len(self.A)) - self.A
         inputs = np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape))
@@ -105,8 +105,8 @@ class MotionError:
         the band; zero for the others.
     """
 
-    seas: FloatArray
-    peaks: FloatArray
+    seas: Array
+    peaks: Array
 
     def __post_init__(self) -> None:
         for name in ("seas", "peaks"):
@@ -180,9 +180,9 @@ class MemoryModel:
     """
 
     blocks: tuple[MemoryBlock, ...]
-    added_mass: FloatArray
-    additional_added_mass: FloatArray
-    additional_stiffness: FloatArray
+    added_mass: Array
+    additional_added_mass: Array
+    additional_stiffness: Array
     band: tuple[float, float]
     r2: float
     rows: tuple[FitRow, ...]
@@ -211,7 +211,7 @@ class MemoryModel:
         return sum(len(block.A) for block in self.blocks)
 
     @one_thread
-    def transfer(self, omega: ArrayLike, *, cause: str = RADIATION) -> ComplexArray:
+    def transfer(self, omega: ArrayLike, *, cause: str = RADIATION) -> Complex:
         """Retardation function ``K(i omega)`` of one cause at ``omega`` (n,), as (n, m, m) complex, of
         m motions."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))
@@ -221,7 +221,7 @@ class MemoryModel:
                 total[:, block.outputs[:, None], block.inputs] += block.transfer(w)
         return total
 
-    def impulse_response(self, time: ArrayLike, *, cause: str = RADIATION) -> FloatArray:
+    def impulse_response(self, time: ArrayLike, *, cause: str = RADIATION) -> Array:
         """Retardation function ``K(t) = C exp(A t) B`` of one cause at ``time`` (n,) in s, as (n, m, m).
 
         What passes through D without delay is left out: it is an impulse at zero.
@@ -237,13 +237,13 @@ class MemoryModel:
                 total[:, block.outputs[:, None], block.inputs] += block.C @ states
         return total
 
-    def frequency_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def frequency_response(self, omega: ArrayLike) -> tuple[Array, Array]:
         """Fitted radiation added mass and damping, each (n, m, m), at positive ``omega`` (n,)."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))
         kernel = self.transfer(w)
         return self.added_mass + kernel.imag / w[:, None, None], kernel.real
 
-    def additional_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def additional_response(self, omega: ArrayLike) -> tuple[Array, Array]:
         """Fitted added mass and damping (n, m, m) of all other causes, stiffness counted as added mass."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))[:, None, None]
         kernel = np.zeros((len(w), self.motions, self.motions), dtype=complex)

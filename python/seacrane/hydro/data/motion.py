@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import by_straight_lines, spline_weights
@@ -15,13 +15,13 @@ SLACK = 1e-9  # of the highest frequency: the rounding of sums that meet an end 
 BEAM = 1e-6  # |cos(heading)| below which speed leaves the frequency as it is
 
 
-def encounter_frequency(database: HydroData) -> FloatArray:
+def encounter_frequency(database: HydroData) -> Array:
     """``omega - k U cos(heading)`` (m, n) in rad/s; negative where following waves are overtaken."""
     k = wavenumber(database.omega, g=database.g, depth=database.depth)
     return np.asarray(database.omega - database.speed * np.outer(np.cos(database.heading), k))
 
 
-def encounter_frequency_at(database: HydroData, omega: FloatArray, heading: FloatArray) -> FloatArray:
+def encounter_frequency_at(database: HydroData, omega: Array, heading: Array) -> Array:
     """``omega - k U cos(heading)`` in rad/s of any wave frequencies and headings, which broadcast."""
     k = wavenumber(np.ravel(omega), g=database.g, depth=database.depth).reshape(np.shape(omega))
     return np.asarray(omega - database.speed * np.cos(heading) * k)
@@ -39,13 +39,13 @@ def require_zero_speed(database: HydroData) -> None:
         )
 
 
-def inside_table(omega: FloatArray, encounter: FloatArray) -> NDArray[np.bool_]:
+def inside_table(omega: Array, encounter: Array) -> NDArray[np.bool_]:
     """Whether encounter frequencies, whatever their sign, lie within the range of ``omega``."""
     slack, size = SLACK * omega[-1], np.abs(encounter)
     return np.asarray((size >= omega[0] - slack) & (size <= omega[-1] + slack))
 
 
-def at_encounter(omega: FloatArray, encounter: FloatArray, table: FloatArray) -> FloatArray:
+def at_encounter(omega: Array, encounter: Array, table: Array) -> Array:
     """``table`` (n, ...) by cubic splines at ``|encounter|`` (...), which outside the table is an end."""
     weights = spline_weights(omega, np.clip(np.abs(encounter).ravel(), omega[0], omega[-1]))
     found = weights @ table.reshape(len(omega), -1)
@@ -53,8 +53,8 @@ def at_encounter(omega: FloatArray, encounter: FloatArray, table: FloatArray) ->
 
 
 def one_function(
-    tables: FloatArray, *, omega: FloatArray, encounter: FloatArray, band: tuple[float, float]
-) -> tuple[FloatArray, FloatArray, tuple[float, float]]:
+    tables: Array, *, omega: Array, encounter: Array, band: tuple[float, float]
+) -> tuple[Array, Array, tuple[float, float]]:
     """Tables (m, n, k) per heading and wave frequency as one function of encounter frequency at ``omega``.
 
     Where a heading has encounter frequencies equal to ``omega`` (a beam sea), its table is taken; elsewhere
@@ -74,7 +74,7 @@ def one_function(
     return values, difference, known
 
 
-def _joined(tables: FloatArray, size: FloatArray, omega: FloatArray) -> FloatArray:
+def _joined(tables: Array, size: Array, omega: Array) -> Array:
     """Linear interpolation (n, k) through the points of all headings; coinciding points are averaged."""
     points, place = np.unique(np.round(size.ravel(), 9), return_inverse=True)
     rows = np.zeros((len(points), tables.shape[2]))
@@ -86,8 +86,8 @@ def _joined(tables: FloatArray, size: FloatArray, omega: FloatArray) -> FloatArr
 
 
 def motion_response(
-    database: Hydrodynamics, *, added_mass: FloatArray | None = None, damping: FloatArray | None = None
-) -> ComplexArray:
+    database: Hydrodynamics, *, added_mass: Array | None = None, damping: Array | None = None
+) -> Complex:
     """Motions (m, n, 6) per metre of wave amplitude, at the database's headings and wave frequencies.
 
     Of a `HydroGroup` of k hulls (m, n, 6 k): all together, as the water couples them.
@@ -107,7 +107,7 @@ def motion_response(
     return np.asarray(np.where(known[:, :, None], motions, np.nan))
 
 
-def force_of_motion(database: Hydrodynamics, motion: ComplexArray) -> ComplexArray:
+def force_of_motion(database: Hydrodynamics, motion: Complex) -> Complex:
     """The wave forces (m, n, 6) that make these motions (m, n, 6): what `motion_response` solves, backwards.
 
     NaN where the frequency of encounter lies outside the database's.
@@ -118,8 +118,8 @@ def force_of_motion(database: Hydrodynamics, motion: ComplexArray) -> ComplexArr
 
 
 def _dynamic_stiffness(
-    database: Hydrodynamics, added_mass: FloatArray | None, damping: FloatArray | None
-) -> tuple[ComplexArray, NDArray[np.bool_]]:
+    database: Hydrodynamics, added_mass: Array | None, damping: Array | None
+) -> tuple[Complex, NDArray[np.bool_]]:
     """(m, n, 6, 6), and where it is known (m, n); arguments as of `motion_response`."""
     if added_mass is None or damping is None:
         added_mass = database.added_mass + sum(part.added_mass for part in database.additional)
@@ -143,7 +143,7 @@ def _dynamic_stiffness(
             at_encounter(database.omega, w, table) for table in (inertia, damping, stiffness)
         )
     square, first = w[:, :, None, None] ** 2, w[:, :, None, None]
-    dynamic: ComplexArray = np.asarray(-square * inertia + 1j * first * damping + stiffness)
+    dynamic: Complex = np.asarray(-square * inertia + 1j * first * damping + stiffness)
     if database.roll_damping is not None:
         dynamic[:, :, 3, 3] += 1j * w * database.roll_damping.linearised
     return dynamic, known
@@ -170,11 +170,11 @@ def natural_frequency(database: HydroData, motion: int) -> float | None:
 
 def motion_errors(
     database: HydroData,
-    solved: ComplexArray,
-    given: ComplexArray,
+    solved: Complex,
+    given: Complex,
     *,
     inside: NDArray[np.bool_] | None = None,
-) -> FloatArray:
+) -> Array:
     """Largest difference (6,) over the frequencies and headings, by the largest motion of its heading.
 
     ``inside`` (n,) or (m, n) says which count.

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import SceneError
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.frozen import freeze, require_grid, require_positive
 from seacrane.hydro.data.heading_circle import centred, heading_weights, travel, with_mirror_images
 from seacrane.hydro.data.interpolation import spline_weights
@@ -101,7 +101,7 @@ class MotionRaos:
                 "deg/m, multiply roll, pitch and yaw by pi / 180"
             )
 
-    def at(self, omega: Any, heading: Any) -> ComplexArray:
+    def at(self, omega: Any, heading: Any) -> Complex:
         """Motions (k, 6) at frequencies (k,) and headings (k,): cubic splines over both.
 
         Below the table's frequencies those of the lowest; above them none.
@@ -123,7 +123,7 @@ class MotionRaos:
         return np.asarray(found)
 
     @cached_property
-    def _circle(self) -> tuple[FloatArray, ComplexArray, FloatArray]:
+    def _circle(self) -> tuple[Array, Complex, Array]:
         """All headings with their motions, mirrored ones added and phases as at the phase centre, and it."""
         heading, values = self.heading, self.values
         if self.symmetric:

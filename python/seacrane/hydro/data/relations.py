@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.arrays import FloatArray
+from seacrane.arrays import Array
 from seacrane.hydro.data.excitation import full_circle
 from seacrane.hydro.data.heading_circle import largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
@@ -19,7 +19,7 @@ TAIL_REACH, TAIL_POINTS = 30.0, 400
 LARGEST_PHASE_STEP = 2.0  # rad between headings: splines through every second or third heading err by 2 %
 
 
-def damping_from_forces(database: Hydrodynamics) -> FloatArray | None:
+def damping_from_forces(database: Hydrodynamics) -> Array | None:
     """Radiation damping (n, 6, 6) from the exciting forces, or None where the headings do not close.
 
     Energy radiated to all directions, with Haskind's relation in deep water (Newman 1977, Marine
@@ -53,7 +53,7 @@ def resolved_by_headings(database: Hydrodynamics) -> NDArray[np.bool_]:
     return np.asarray(phase <= LARGEST_PHASE_STEP)
 
 
-def infinite_added_mass_from_damping(database: Hydrodynamics) -> FloatArray:
+def infinite_added_mass_from_damping(database: Hydrodynamics) -> Array:
     """Infinite-frequency added mass (6, 6) that the damping implies, averaged over the trusted band.
 
     Kramers-Kronig (Ogilvie 1964) with the pole subtracted:
@@ -67,7 +67,7 @@ def infinite_added_mass_from_damping(database: Hydrodynamics) -> FloatArray:
     return np.asarray(np.mean(estimates, axis=0))
 
 
-def _dispersion_integral(database: Hydrodynamics, index: int) -> FloatArray:
+def _dispersion_integral(database: Hydrodynamics, index: int) -> Array:
     """``2 / pi`` times the integral above at one of the database's frequencies, (6, 6)."""
     w, end = float(database.omega[index]), float(database.omega[-1])
     fine = np.linspace(0.0, end, FINE_POINTS)
@@ -85,7 +85,7 @@ def _dispersion_integral(database: Hydrodynamics, index: int) -> FloatArray:
     return np.asarray(2.0 / np.pi * (body + table[-1] * tail))
 
 
-def retardation_from_damping(database: Hydrodynamics, time: FloatArray) -> FloatArray:
+def retardation_from_damping(database: Hydrodynamics, time: Array) -> Array:
     """Retardation functions (t, 6, 6) at ``time`` (t,) in s, from the damping alone.
 
     ``K(t) = 2 / pi integral_0^inf B(w) cos(w t) dw`` (Ogilvie 1964), exact for the damping joined by straight

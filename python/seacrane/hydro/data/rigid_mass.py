@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane.hydro.data.arrays import FloatArray
+from seacrane.arrays import Array
 
 
-def rigid_mass_matrix(mass: float, center: FloatArray, inertia: FloatArray) -> FloatArray:
+def rigid_mass_matrix(mass: float, center: Array, inertia: Array) -> Array:
     """Mass matrix (6, 6) about the reference point, equation (12) of the paper for any centre of mass."""
     cross = cross_matrix(center)
     matrix = np.zeros((6, 6))
@@ -18,7 +18,7 @@ def rigid_mass_matrix(mass: float, center: FloatArray, inertia: FloatArray) -> F
     return matrix
 
 
-def weight_restoring(weight: float, position: FloatArray) -> FloatArray:
+def weight_restoring(weight: float, position: Array) -> Array:
     """Share of a weight (N) at ``position`` in the restoring matrix (6, 6) about the reference point."""
     x, y, z = position
     c = np.zeros((6, 6))
@@ -27,6 +27,6 @@ def weight_restoring(weight: float, position: FloatArray) -> FloatArray:
     return c
 
 
-def cross_matrix(v: FloatArray) -> FloatArray:
+def cross_matrix(v: Array) -> Array:
     """S (3, 3) with ``S u = v x u``."""
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])

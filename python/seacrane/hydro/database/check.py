@@ -2,29 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.hydro.data.data_warnings import smallest_eigenvalues
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import in_trusted_band
 from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
-from seacrane.hydro.data.motion import encounter_frequency, inside_table, motion_response, natural_frequency
+from seacrane.hydro.data.motion import (
+    encounter_frequency,
+    inside_table,
+    motion_errors,
+    motion_response,
+    natural_frequency,
+)
 from seacrane.hydro.data.relations import (
     damping_from_forces,
     infinite_added_mass_from_damping,
     resolved_by_headings,
 )
 from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
-from seacrane.hydro.memory.motion_judge import memory_motion_errors
-from seacrane.hydro.memory.retardation import RetardationModel
-from seacrane.hydro.vessel.parameters import largest_growth_rate
+from seacrane.hydro.vessel.parameters import growth_rate, time_domain_vessel
 from seacrane.inputs.frames import MOTIONS
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from seacrane.one_thread import one_thread
 
 SHORTEST_PERIOD = 5.0  # s, of waves by which motions are judged
 SYMMETRY_LIMIT = 0.03
@@ -45,10 +47,6 @@ class CheckRow:
     limit: float | None
     verdict: str
 
-    def as_dict(self) -> dict[str, str | float | None]:
-        """The row as ``{check, value, limit, verdict}``."""
-        return asdict(self)
-
 
 def check_database(database: HydroData) -> list[CheckRow]:
     """All checks that the database's content allows; docs/hydrodynamics.md says what each value means.
@@ -56,12 +54,13 @@ def check_database(database: HydroData) -> list[CheckRow]:
     A database without a memory model has one fitted here, if its band holds enough frequencies and its speed
     is zero.
     """
+    natural = {name: natural_frequency(database, MOTIONS.index(name)) for name in ("heave", "roll", "pitch")}
     rows = [
         info("mass_t", database.mass_matrix[0, 0] / 1e3),
         info("GM_of_C44_and_mass_m", metacentric_height(database)),
         *_closure_rows(database),
         *_matrix_rows(database),
-        *_natural_period_rows(database),
+        *(info(f"natural_period_{name}_s", 2.0 * np.pi / w) for name, w in natural.items() if w is not None),
         *_relation_rows(database),
     ]
     model = database.memory
@@ -77,6 +76,7 @@ def metacentric_height(database: HydroData) -> float:
     return float(database.restoring[3, 3] / (float(database.mass_matrix[0, 0]) * database.g))
 
 
+@one_thread
 def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
     """Quality of a memory model: fits, stability, passivity, and its effect on the motions."""
     rows = []
@@ -86,16 +86,28 @@ def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
         rows.append(at_least(f"memory_r2_damping_{suffix}", row.r2_damping, model.r2))
     slowest = min((row.slowest_decay for row in model.rows), default=np.inf)
     rows += fit_rows(model)
-    rows.append(at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
+    stable = "pass" if slowest > 0.0 else "fail"
+    rows.append(CheckRow(check="memory_slowest_decay_per_s", value=slowest, limit=0.0, verdict=stable))
     rows.append(info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0)))
     rows += passivity_rows(model)
-    growth = largest_growth_rate(database, model)
+    growth = growth_rate(time_domain_vessel(database, memory=model))
     rows.append(at_most("vessel_with_memory_growth_per_s", growth, GROWTH_LIMIT))
     known = database.infinite_frequency_added_mass
     if known is not None:
-        against = _against_range(database, model.added_mass - known)
-        rows.append(info("memory_infinite_added_mass_against_database", against))
-    return rows + memory_motion_rows(database, model)
+        span = np.ptp(np.diagonal(database.added_mass, axis1=1, axis2=2), axis=0)
+        apart = np.abs(np.diag(model.added_mass - known)) / np.where(span > 0.0, span, np.inf)
+        rows.append(info("memory_infinite_added_mass_against_database", float(np.max(apart))))
+    added_mass, damping = (
+        a + b
+        for a, b in zip(
+            model.frequency_response(database.omega), model.additional_response(database.omega), strict=True
+        )
+    )
+    static = sum((part.restoring for part in database.additional), np.zeros((len(database.omega), 6, 6)))
+    added_mass = added_mass - static / database.omega[:, None, None] ** 2
+    fitted = motion_response(database, added_mass=added_mass, damping=damping)
+    errors = motion_errors(database, fitted, motion_response(database), inside=in_trusted_band(database))
+    return rows + [info(f"memory_motion_{name}", errors[i]) for i, name in enumerate(MOTIONS)]
 
 
 def fit_rows(model: MemoryModel) -> list[CheckRow]:
@@ -123,29 +135,20 @@ def _closure_rows(database: HydroData) -> list[CheckRow]:
     if database.motion_rao is None:
         return []
     solved = motion_response(database)
-    inside = np.broadcast_to(in_trusted_band(database) & _long(database), solved.shape[:2])
+    long = database.omega <= 2.0 * np.pi / SHORTEST_PERIOD
+    trusted = in_trusted_band(database)
+    inside = np.broadcast_to(trusted & long if np.any(trusted & long) else trusted, solved.shape[:2])
     if database.speed != 0.0:
         encounter = np.abs(encounter_frequency(database))
         inside = inside & inside_table(database.omega, encounter) & in_trusted_band(database, encounter)
     given = np.where(inside[:, :, None], database.motion_rao, 0.0)
-    largest = np.maximum(np.abs(given).max(axis=(0, 1)), _least_motions(database, given))
+    largest = np.abs(given).max(axis=(0, 1))
+    lever = np.concatenate([np.ones(3), 0.5 * np.array([database.breadth, database.length, database.length])])
+    largest = np.maximum(largest, NOISE * (largest * lever).max() / lever)  # of what moves the hull's ends
     error = np.where(inside[:, :, None], np.abs(solved - given), 0.0).max(axis=(0, 1))
     errors = np.where(largest > 0.0, error / np.where(largest > 0.0, largest, 1.0), 0.0)
     limits = database.motion_rao_limit.tolist()
     return [at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
-
-
-def _least_motions(database: HydroData, given: ComplexArray) -> FloatArray:
-    """Motions (6,) that move the hull's ends by a thousandth of the largest: below them is noise."""
-    half = 0.5 * np.array([database.breadth, database.length, database.length])
-    lever = np.concatenate([np.ones(3), half])
-    return np.asarray(NOISE * (np.abs(given).max(axis=(0, 1)) * lever).max() / lever)
-
-
-def _long(database: HydroData) -> NDArray[np.bool_]:
-    """Frequencies of waves of 5 s and more; all, where there are none such."""
-    long = database.omega <= 2.0 * np.pi / SHORTEST_PERIOD
-    return long if np.any(long & in_trusted_band(database)) else np.ones_like(long)
 
 
 def _matrix_rows(database: HydroData) -> list[CheckRow]:
@@ -159,17 +162,15 @@ def _matrix_rows(database: HydroData) -> list[CheckRow]:
     inside = in_trusted_band(database)
     added_mass, damping = database.added_mass[inside], database.damping[inside]
     for name, matrix in (("added_mass", added_mass), ("damping", damping)):
-        asymmetry = skewness(matrix).max()
-        label = f"symmetry_{name}"
-        rows.append(info(label, asymmetry) if moving else at_most(label, float(asymmetry), SYMMETRY_LIMIT))
-    label = "damping_smallest_eigenvalue"
+        asymmetry = float(skewness(matrix).max())
+        rows.append(at_most(f"symmetry_{name}", asymmetry, None if moving else SYMMETRY_LIMIT))
     smallest = float(smallest_eigenvalues(damping, database.mass_matrix).min())
-    rows.append(info(label, smallest) if moving else at_least(label, smallest, DAMPING_LIMIT))
+    rows.append(at_least("damping_smallest_eigenvalue", smallest, None if moving else DAMPING_LIMIT))
     rows.append(info("surge_terms_missing", float(_surge_is_missing(database))))
     return rows
 
 
-def skewness(matrices: FloatArray) -> FloatArray:
+def skewness(matrices: Array) -> Array:
     """Largest ``X_jk - X_kj`` (m, m) over the frequencies, by the largest diagonals of both motions."""
     scale = np.sqrt(np.abs(np.diagonal(matrices, axis1=1, axis2=2)).max(axis=0))
     product = np.outer(scale, scale)
@@ -181,31 +182,20 @@ def _surge_is_missing(database: HydroData) -> bool:
     return not (np.any(database.added_mass[:, 0, :]) or np.any(database.damping[:, 0, :]))
 
 
-def _natural_period_rows(database: HydroData) -> list[CheckRow]:
-    rows = []
-    for name in ("heave", "roll", "pitch"):
-        omega = natural_frequency(database, MOTIONS.index(name))
-        if omega is not None:
-            rows.append(info(f"natural_period_{name}_s", 2.0 * np.pi / omega))
-    return rows
-
-
 def _relation_rows(database: HydroData) -> list[CheckRow]:
     """Damping against the far-field waves, infinite-frequency added mass against the damping."""
     rows = []
     radiated = damping_from_forces(database)
     if radiated is not None:
         inside = in_trusted_band(database) & resolved_by_headings(database)
-        strip = _surge_is_missing(database)  # strip theory does not obey the relation: only reported
+        limit = None if _surge_is_missing(database) else FORCE_DAMPING_LIMIT  # which strip theory disobeys
         for i, name in enumerate(MOTIONS):
             peak = float(np.abs(database.damping[:, i, i]).max())
             if peak > 0.0 and np.any(inside):
                 error = np.abs(radiated - database.damping)[inside, i, i].max() / peak
-                label = f"damping_from_forces_{name}"
-                rows.append(info(label, error) if strip else at_most(label, error, FORCE_DAMPING_LIMIT))
+                rows.append(at_most(f"damping_from_forces_{name}", error, limit))
     if database.infinite_frequency_added_mass is not None:
-        estimate = infinite_added_mass_from_damping(database)
-        difference = estimate - database.infinite_frequency_added_mass
+        difference = infinite_added_mass_from_damping(database) - database.infinite_frequency_added_mass
         for i, name in enumerate(MOTIONS):
             span = float(np.ptp(database.added_mass[:, i, i]))
             if span > 0.0:
@@ -214,30 +204,17 @@ def _relation_rows(database: HydroData) -> list[CheckRow]:
     return rows
 
 
-def memory_motion_rows(database: HydroData, model: MemoryModel | RetardationModel) -> list[CheckRow]:
-    """Motions with the memory's matrices against those with the data, within the trusted band."""
-    errors = memory_motion_errors(database, model)
-    return [info(f"memory_motion_{name}", errors[i]) for i, name in enumerate(MOTIONS)]
+def at_most(check: str, value: float, limit: float | None) -> CheckRow:
+    """A row that fails above its limit; without one it only tells."""
+    verdict = "info" if limit is None else "pass" if value <= limit else "fail"
+    return CheckRow(check=check, value=float(value), limit=limit, verdict=verdict)
 
 
-def _against_range(database: HydroData, difference: FloatArray) -> float:
-    """Largest diagonal difference by the range of the added mass over the frequencies."""
-    span = np.ptp(np.diagonal(database.added_mass, axis1=1, axis2=2), axis=0)
-    return float(np.max(np.abs(np.diag(difference)) / np.where(span > 0.0, span, np.inf)))
-
-
-def at_most(check: str, value: float, limit: float) -> CheckRow:
-    return _judged(check, value, limit, good=value <= limit)
-
-
-def at_least(check: str, value: float, limit: float, *, strict: bool = False) -> CheckRow:
-    good = value > limit if strict else value >= limit
-    return _judged(check, value, limit, good=good)
-
-
-def _judged(check: str, value: float, limit: float, *, good: bool) -> CheckRow:
-    return CheckRow(check=check, value=float(value), limit=limit, verdict="pass" if good else "fail")
+def at_least(check: str, value: float, limit: float | None) -> CheckRow:
+    """A row that fails below its limit."""
+    verdict = "info" if limit is None else "pass" if value >= limit else "fail"
+    return CheckRow(check=check, value=float(value), limit=limit, verdict=verdict)
 
 
 def info(check: str, value: float) -> CheckRow:
-    return CheckRow(check=check, value=float(value), limit=None, verdict="info")
+    return at_most(check, value, None)

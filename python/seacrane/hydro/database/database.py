@@ -12,37 +12,42 @@ from textwrap import shorten
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_at, full_circle
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.data.packed import digest_of
-from seacrane.hydro.database.check import CheckRow, check_database, metacentric_height
+from seacrane.hydro.database.check import check_database, metacentric_height
 from seacrane.hydro.database.figures import SHEETS, hydro_sheets
-from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
-from seacrane.hydro.database.transform import Choice, mirrored_database, moved_database, selected_database
+from seacrane.hydro.database.netcdf import dataset_of, load_database_file, save_database
+from seacrane.hydro.database.transform import mirrored_database, moved_database, selected_database
 from seacrane.inputs.checked import not_negative_of
 from seacrane.inputs.keywords import named
 from seacrane.plotting.panel import draw
 from seacrane.plotting.table import Table, facts, format_value
 
 if TYPE_CHECKING:
-    import xarray
     from matplotlib.figure import Figure
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 LETTERS = 100  # of a fact
 
 
 class HydroDatabase(HydroData):
     __doc__ = HydroData.__doc__
 
+    at = moved_database
+    mirror = mirrored_database
+    select = selected_database
+    check = check_database
+    save = save_database
+    to_xarray = dataset_of
+
     def force_at(
         self, omega: ArrayLike, heading: ArrayLike, *, outside: Literal["error", "limits"] = "error"
-    ) -> ComplexArray:
+    ) -> Complex:
         """Complex wave excitation per metre of amplitude, by cubic splines in frequency and heading.
 
         Parameters
@@ -63,46 +68,9 @@ class HydroDatabase(HydroData):
         """
         return force_at(self, omega, heading, outside=outside)
 
-    def full_circle(self) -> tuple[FloatArray, ComplexArray]:
+    def full_circle(self) -> tuple[Array, Complex]:
         """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays."""
         return full_circle(self)
-
-    def at(self, point: ArrayLike, *, phase_origin: bool = True, net_lift: float = 0.0) -> HydroDatabase:
-        """The same vessel about another reference point; nothing is fitted or interpolated anew.
-
-        Matrices, forces, motions, limits of the added mass, restoring, drift and the memory model (with the
-        same states) are moved exactly. Damping tabulated by frequency acts on roll alone and stays; the time
-        domain takes it at the uncoupled roll frequency, which is another one about another point.
-
-        Parameters
-        ----------
-        point : (3,) the new point in m from the present one, vessel's axes. Off the centreline the headings
-            of both sides are written out, as no side of that point mirrors the other.
-        phase_origin : whether waves have zero phase at the new point from now on, as everything that takes a
-            database expects: forces and motions are multiplied by ``exp(+i k (x cos b + y sin b))`` with the
-            wavenumber of the database's depth. False keeps the phases of waves at the old point, which
-            `origin` then says: for comparison with other codes.
-        net_lift : N, buoyancy minus weight at rest. Zero for a vessel that floats by itself: its restoring
-            moves like any matrix. Else C44, C55, C46 and C56 gain what that load does as it turns with the
-            ship.
-
-        Warns
-        -----
-        seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
-
-        Raises
-        ------
-        ValueError : the point is not three finite numbers.
-        """
-        return moved_database(self, point, phase_origin=phase_origin, net_lift=net_lift)
-
-    def mirror(self) -> HydroDatabase:
-        """The vessel with port and starboard exchanged: sway, roll, yaw and headings change their signs.
-
-        Memory and drift are mirrored too. Mirroring twice gives the database back; for a symmetric vessel
-        the mirrored headings are the other side of the same `full_circle`.
-        """
-        return mirrored_database(self)
 
     def without_mooring(self) -> HydroDatabase:
         """The database without the stiffness of surge, sway and yaw that its restoring holds.
@@ -132,37 +100,10 @@ class HydroDatabase(HydroData):
         for what, value in (("linear", linear), ("quadratic", quadratic), ("fraction", fraction)):
             not_negative_of(f"database {self.name!r}: roll damping, {what}", value)
         whole, squares = self.linear_damping.copy(), self.quadratic_damping.copy()
-        whole[3, 3] = linear + (fraction and roll_damping_of(self, fraction))
-        squares[3] = quadratic
+        whole[3, 3], squares[3] = linear, quadratic
+        if fraction:
+            whole[3, 3] = linear + _roll_damping_of(self, fraction)
         return replace(self, linear_damping=whole, quadratic_damping=squares, roll_damping=None)
-
-    def select(
-        self,
-        *,
-        omega: Choice = None,
-        heading: Choice = None,
-        every: int = 1,
-        every_heading: int = 1,
-    ) -> HydroDatabase:
-        """Some of the frequencies and headings, with the stored values as they are.
-
-        Parameters
-        ----------
-        omega : a tuple (low, high) in rad/s, ends included; or indices: a list, an integer array, a slice.
-        heading : a tuple (low, high) in rad, which may cross 2 pi (-0.5, 0.5); or indices.
-        every, every_heading : keep every n-th of what is selected.
-
-        Returns
-        -------
-        HydroDatabase : the trusted band is cut to the frequencies left. A memory model is kept while all
-            frequencies are, and dropped with the first one: it belongs to all the data it was fitted to.
-            Drift coefficients have frequencies and headings of their own, and stay.
-
-        Raises
-        ------
-        ValueError : nothing is left, nothing of the trusted band is left, or a choice is no range or index.
-        """
-        return selected_database(self, omega, heading, every, every_heading)
 
     def plot(self, what: str | Sequence[str] | None = None) -> dict[str, Figure]:
         """Figures by name: added_mass, damping, retardation, wave_force, motion; needs matplotlib.
@@ -194,24 +135,11 @@ class HydroDatabase(HydroData):
             f"{omega[-1]:.4g} rad/s, {self.heading.size} headings>"
         )
 
-    def _table(self) -> Table:
-        """The facts, names beside values."""
-        rows = [(name, shorten(format_value(value), LETTERS)) for name, value in _facts(self)]
-        return facts(rows, f"HydroDatabase {self.name!r}")
-
     def __str__(self) -> str:
-        return str(self._table())
+        return str(_facts(self))
 
     def _repr_html_(self) -> str:
-        return self._table()._repr_html_()
-
-    def check(self) -> list[CheckRow]:
-        """Self-check: closure, symmetry, damping, natural periods, memory; see `check_database`."""
-        return check_database(self)
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write everything, the memory model included, to a NetCDF file, atomically and without loss."""
-        save_database(self, path)
+        return _facts(self)._repr_html_()
 
     @staticmethod
     def load(path: str | PathLike[str]) -> HydroDatabase:
@@ -223,12 +151,8 @@ class HydroDatabase(HydroData):
         """
         return load_database_file(HydroDatabase, path)
 
-    def to_xarray(self) -> xarray.Dataset:
-        """The arrays as a labelled dataset (copies), complex values kept complex; needs xarray."""
-        return to_xarray(self)
 
-
-def roll_damping_of(database: HydroData, fraction: float) -> float:
+def _roll_damping_of(database: HydroData, fraction: float) -> float:
     """N m s/rad: a fraction of the critical roll damping at the roll natural frequency."""
     resonance = natural_frequency(database, 3)
     if resonance is None:
@@ -240,13 +164,11 @@ def roll_damping_of(database: HydroData, fraction: float) -> float:
     return float(fraction * 2.0 * np.sqrt(database.restoring[3, 3] * inertia))
 
 
-def _facts(database: HydroData) -> list[tuple[str, Any]]:
+def _facts(database: HydroData) -> Table:
     """Main figures, what it holds, and where it comes from."""
     omega, heading = database.omega, np.rad2deg(database.heading)
-    band = database.trusted_band
-    memory = database.memory
-    causes = ", ".join(one.cause for one in database.additional)
-    return [
+    band, memory = database.trusted_band, database.memory
+    rows: list[tuple[str, Any]] = [
         ("length, breadth, draught [m]", f"{database.length:g}, {database.breadth:g}, {database.draught:g}"),
         ("mass [t]", float(f"{database.mass_matrix[0, 0] / 1e3:.6g}")),
         ("GM of its C44 and mass [m]", float(f"{metacentric_height(database):.4g}")),
@@ -255,15 +177,14 @@ def _facts(database: HydroData) -> list[tuple[str, Any]]:
         ("trusted band [rad/s]", "not stated" if band is None else f"{band[0]:.4g} to {band[1]:.4g}"),
         ("water depth [m]", "deep" if np.isinf(database.depth) else database.depth),
         ("forward speed [m/s]", database.speed),
-        (
-            "fitted fluid memory",
-            "none" if memory is None else f"{sum(len(b.A) for b in memory.blocks)} states",
-        ),
-        ("additional matrices", causes or "none"),
+        ("fitted fluid memory", "none" if memory is None else f"{memory.states} states"),
+        ("additional matrices", ", ".join(one.cause for one in database.additional) or "none"),
         ("slow drift", "none" if database.drift is None else "coefficients"),
         ("reference point", database.origin),
         ("source", database.source),
     ]
+    shown = [(name, shorten(format_value(value), LETTERS)) for name, value in rows]
+    return facts(shown, f"HydroDatabase {database.name!r}")
 
 
 @named

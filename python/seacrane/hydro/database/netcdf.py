@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from dataclasses import asdict, astuple, fields
+from dataclasses import astuple, fields
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -49,11 +50,19 @@ _TEXTS = ("name", "origin", "source")
 _NUMBERS = ("rho", "g", "depth", "speed", "length", "breadth", "draught")
 _DIMENSIONS = {"n": "omega", "m": "heading", "i": "motion", "j": "motion_of"}
 _MATRIX = ("motion", "motion_of")
-_BLOCK_ARRAYS = ("outputs", "inputs", "A", "B", "C", "D", "state_scale")
+_BLOCK_AXES = {  # k states, p outputs, m inputs
+    "outputs": "p", "inputs": "m", "A": "kk", "B": "km", "C": "pk", "D": "pm", "state_scale": "k",
+}  # fmt: skip
+_ROW_KINDS = {
+    entry.name: float if entry.type == "float" else np.int64
+    for entry in fields(FitRow)
+    if entry.name != "cause"
+}
+_PASSIVITY = [entry.name for entry in fields(Passivity)]
 
 
 def save_database(database: HydroData, path: str | PathLike[str]) -> None:
-    """Write ``database`` to ``path``: complete under its name, or not at all."""
+    """Write everything, the memory model included, to a NetCDF file, atomically and without loss."""
     import netCDF4
 
     with atomic_write(Path(path)) as draft:
@@ -94,8 +103,8 @@ def _arrays(part: Part) -> Iterator[Any]:
             yield name, getattr(part, name), tuple(_DIMENSIONS[axis] for axis in axes), ARRAYS[name][1]
 
 
-def to_xarray(database: HydroData) -> xarray.Dataset:
-    """Labelled copies of the database's arrays."""
+def dataset_of(database: HydroData) -> xarray.Dataset:
+    """The arrays as a labelled dataset (copies), complex values kept complex; needs xarray."""
     import xarray
 
     variables: dict[str, Any] = {}
@@ -122,21 +131,21 @@ def _write(file: Any, database: HydroData) -> None:
     sizes = {"omega": len(database.omega), "heading": len(database.heading)}
     for name, size in {**sizes, "motion": 6, "motion_of": 6, "reim": 2}.items():
         file.createDimension(name, size)
-    _put_all(file, database)
+    places: list[tuple[Any, Part]] = [(file, database)]
     for i, part in enumerate(database.additional):
-        group = file.createGroup(f"additional_{i}")
-        group.cause = part.cause
-        _put_all(group, part)
-    if database.roll_damping is not None:
-        group = file.createGroup("roll_damping")
-        if database.roll_damping.linearised_amplitude is not None:
-            group.linearised_amplitude = float(database.roll_damping.linearised_amplitude)
-        _put_all(group, database.roll_damping)
-    if database.drift is not None:
-        group = file.createGroup("drift")
-        group.createDimension("heading", len(database.drift.heading))
-        group.createDimension("omega", len(database.drift.omega))
-        _put_all(group, database.drift)
+        places.append((file.createGroup(f"additional_{i}"), part))
+        places[-1][0].cause = part.cause
+    if (roll := database.roll_damping) is not None:
+        places.append((file.createGroup("roll_damping"), roll))
+        if roll.linearised_amplitude is not None:
+            places[-1][0].linearised_amplitude = float(roll.linearised_amplitude)
+    if (drift := database.drift) is not None:
+        places.append((file.createGroup("drift"), drift))
+        places[-1][0].createDimension("heading", len(drift.heading))
+        places[-1][0].createDimension("omega", len(drift.omega))
+    for group, one in places:
+        for name, array, dimensions, unit in _arrays(one):
+            _put(group, name, array, dimensions).units = unit
     if database.memory is not None:
         _write_memory(file.createGroup("memory"), database.memory)
 
@@ -145,7 +154,10 @@ def _write_memory(group: Any, model: MemoryModel) -> None:
     group.band, group.r2 = np.array(model.band, dtype=float), float(model.r2)
     group.passivity = np.array(astuple(model.passivity))
     if model.motion is not None:
-        _write_motion(group.createGroup("motion"), model.motion)
+        motion, fit = group.createGroup("motion"), model.motion
+        motion.limit, motion.floor = float(fit.limit), float(fit.floor)
+        motion.seas, motion.peaks = np.array(fit.error.seas), np.array(fit.error.peaks)
+        motion.left_out = " ".join(f"{j + 1}{k + 1}" for j, k in fit.left_out)
     for name in MODEL_MATRICES:
         _put(group, name, getattr(model, name), _MATRIX)
     shapes = [(len(block.A), len(block.outputs), len(block.inputs)) for block in model.blocks]
@@ -153,38 +165,50 @@ def _write_memory(group: Any, model: MemoryModel) -> None:
     group.createDimension("size", 3)
     _put(group, "block_shape", np.array(shapes, dtype=np.int64).reshape(-1, 3), ("block", "size"))
     group.block_cause = "\n".join(block.cause for block in model.blocks)
-    for name in _BLOCK_ARRAYS:
+    for name in _BLOCK_AXES:
         flat = [getattr(block, name).ravel() for block in model.blocks]
         joined = np.concatenate(flat) if flat else np.zeros(0)
         group.createDimension(f"length_{name}", len(joined))
         _put(group, name, joined, (f"length_{name}",))
-    rows = [asdict(row) for row in model.rows]
-    group.createDimension("row", len(rows))
+    group.createDimension("row", len(model.rows))
     group.row_cause = "\n".join(row.cause for row in model.rows)
-    for entry in fields(FitRow):
-        if entry.name != "cause":
-            column = np.array([row[entry.name] for row in rows], float if entry.type == "float" else np.int64)
-            _put(group, f"row_{entry.name}", column, ("row",))
+    for name, kind in _ROW_KINDS.items():
+        column = np.array([getattr(row, name) for row in model.rows], kind)
+        _put(group, f"row_{name}", column, ("row",))
 
 
-def _write_motion(group: Any, motion: MotionFit) -> None:
-    group.limit, group.floor = float(motion.limit), float(motion.floor)
-    group.seas, group.peaks = np.array(motion.error.seas), np.array(motion.error.peaks)
-    group.left_out = " ".join(f"{j + 1}{k + 1}" for j, k in motion.left_out)
-
-
-def _read_motion(group: Any) -> MotionFit:
-    return MotionFit(
-        limit=float(group.limit),
-        error=MotionError(seas=np.asarray(group.seas), peaks=np.asarray(group.peaks)),
-        floor=float(group.floor),
-        left_out=tuple((int(pair[0]) - 1, int(pair[1]) - 1) for pair in str(group.left_out).split()),
-    )
-
-
-def _put_all(group: Any, part: Part) -> None:
-    for name, array, dimensions, unit in _arrays(part):
-        _put(group, name, array, dimensions).units = unit
+def _read_memory(group: Any) -> MemoryModel:
+    shapes = [dict(zip("kpm", shape, strict=True)) for shape in _get(group, "block_shape").tolist()]
+    parts: list[dict[str, Any]] = [{} for _ in shapes]
+    for name, axes in _BLOCK_AXES.items():
+        flat, start = _get(group, name), 0
+        for part, sizes in zip(parts, shapes, strict=True):
+            shape = [sizes[axis] for axis in axes]
+            part[name] = flat[start : start + math.prod(shape)].reshape(shape)
+            start += math.prod(shape)
+    causes = str(group.block_cause).split("\n") if shapes else []
+    blocks = [MemoryBlock(cause=cause, **part) for cause, part in zip(causes, parts, strict=True)]
+    columns = [_get(group, f"row_{name}").tolist() for name in _ROW_KINDS]
+    row_causes = str(group.row_cause).split("\n") if columns[0] else []
+    rows = [
+        FitRow(cause=cause, **dict(zip(_ROW_KINDS, values, strict=True)) | {"accepted": bool(values[-1])})
+        for cause, *values in zip(row_causes, *columns, strict=True)
+    ]
+    passivity = [float(value) for value in group.passivity]
+    if np.isnan([*group.band, *passivity]).any() or not np.isfinite(group.r2):
+        raise ValueError("memory: band, passivity or r2 is not a number")
+    motion: MotionFit | None = None
+    if (of_motion := group.groups.get("motion")) is not None:
+        left_out = tuple((int(pair[0]) - 1, int(pair[1]) - 1) for pair in str(of_motion.left_out).split())
+        error = MotionError(seas=np.asarray(of_motion.seas), peaks=np.asarray(of_motion.peaks))
+        limit, floor = float(of_motion.limit), float(of_motion.floor)
+        motion = MotionFit(limit=limit, error=error, floor=floor, left_out=left_out)
+    return MemoryModel(
+        blocks=tuple(blocks), **{name: _get(group, name) for name in MODEL_MATRICES},
+        band=(float(group.band[0]), float(group.band[1])), r2=float(group.r2), rows=tuple(rows),
+        passivity=Passivity(**dict(zip(_PASSIVITY, passivity, strict=True))),
+        motion=motion,
+    )  # fmt: skip
 
 
 def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:
@@ -204,8 +228,14 @@ def _read(kind: type[Data], file: Any) -> Data:
     values: dict[str, Any] = {name: str(file.getncattr(name)) for name in _TEXTS}
     values |= {name: float(file.getncattr(name)) for name in _NUMBERS}
     values |= _got(kind, file)
-    band = getattr(file, "trusted_band", None)
-    groups = file.groups
+    band, groups = getattr(file, "trusted_band", None), file.groups
+    roll = None
+    if "roll_damping" in groups:
+        amplitude = getattr(groups["roll_damping"], "linearised_amplitude", None)
+        roll = RollDamping(
+            **_got(RollDamping, groups["roll_damping"]),
+            linearised_amplitude=None if amplitude is None else float(amplitude),
+        )
     additional = [groups[name] for name in sorted(groups) if name.startswith("additional_")]
     return kind(
         **values,
@@ -215,17 +245,9 @@ def _read(kind: type[Data], file: Any) -> Data:
             AdditionalMatrices(cause=str(group.cause), **_got(AdditionalMatrices, group))
             for group in additional
         ),
-        roll_damping=_read_roll(groups["roll_damping"]) if "roll_damping" in groups else None,
+        roll_damping=roll,
         memory=_read_memory(groups["memory"]) if "memory" in groups else None,
         drift=DriftCoefficients(**_got(DriftCoefficients, groups["drift"])) if "drift" in groups else None,
-    )
-
-
-def _read_roll(group: Any) -> RollDamping:
-    amplitude = getattr(group, "linearised_amplitude", None)
-    return RollDamping(
-        **_got(RollDamping, group),
-        linearised_amplitude=None if amplitude is None else float(amplitude),
     )
 
 
@@ -233,48 +255,6 @@ def _got(kind: type, group: Any) -> dict[str, Any]:
     """The arrays of a kind of part that a group of the file holds."""
     names = [entry.name for entry in fields(kind) if entry.name in ARRAYS and entry.name in group.variables]
     return {name: _get(group, name) for name in names}
-
-
-def _read_memory(group: Any) -> MemoryModel:
-    shapes = _get(group, "block_shape")
-    causes = str(group.block_cause).split("\n") if len(shapes) else []
-    flat = {name: _get(group, name) for name in _BLOCK_ARRAYS}
-    start = dict.fromkeys(_BLOCK_ARRAYS, 0)
-    blocks = []
-    for cause, (k, p, m) in zip(causes, shapes.tolist(), strict=True):
-        parts = {}
-        sizes = ((p,), (m,), (k, k), (k, m), (p, k), (p, m), (k,))
-        for name, shape in zip(_BLOCK_ARRAYS, sizes, strict=True):
-            end = start[name] + int(np.prod(shape))
-            parts[name] = flat[name][start[name] : end].reshape(shape)
-            start[name] = end
-        blocks.append(MemoryBlock(cause=cause, **parts))
-    columns = {
-        entry.name: _get(group, f"row_{entry.name}") for entry in fields(FitRow) if entry.name != "cause"
-    }
-    row_causes = str(group.row_cause).split("\n") if len(columns["order"]) else []
-    rows = [
-        FitRow(cause=cause, **one | {"accepted": bool(one["accepted"])})
-        for i, cause in enumerate(row_causes)
-        for one in [{name: column[i].item() for name, column in columns.items()}]
-    ]
-    band, passivity = group.band, _passivity(group.passivity)
-    if np.isnan(band).any() or np.isnan(astuple(passivity)).any() or not np.isfinite(group.r2):
-        raise ValueError("memory: band, passivity or r2 is not a number")
-    return MemoryModel(
-        blocks=tuple(blocks),
-        **{name: _get(group, name) for name in MODEL_MATRICES},
-        band=(float(band[0]), float(band[1])),
-        r2=float(group.r2),
-        rows=tuple(rows),
-        passivity=passivity,
-        motion=_read_motion(group.groups["motion"]) if "motion" in group.groups else None,
-    )
-
-
-def _passivity(values: Any) -> Passivity:
-    names = [entry.name for entry in fields(Passivity)]
-    return Passivity(**{name: float(value) for name, value in zip(names, values, strict=True)})
 
 
 def _get(group: Any, name: str) -> Any:

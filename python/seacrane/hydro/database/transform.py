@@ -14,14 +14,16 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.arrays import Array
+from seacrane.errors import SceneError
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, mirrored_heading, phase_at
 from seacrane.hydro.data.hydro_data import HydroData, Part, axes_of
 from seacrane.hydro.data.rigid_mass import cross_matrix, weight_restoring
 from seacrane.hydro.memory.moved_memory import mirrored_memory, moved_memory
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import finite_of, shaped_of
 from seacrane.warnings import QuadraticDampingWarning
 
-FloatArray = NDArray[np.float64]
 Data = TypeVar("Data", bound=HydroData)
 Change = Callable[[NDArray[Any], str], NDArray[Any]]  # of an array with axes as `axes_of` says
 Indices = NDArray[np.intp]
@@ -31,7 +33,7 @@ TOLERANCE = 1e-9  # rad/s or rad: ends of a range belong to it
 MIRRORED = "; mirrored in the centre plane"
 
 
-def motion_transform(point: FloatArray) -> FloatArray:
+def motion_transform(point: Array) -> Array:
     """T (6, 6): motions at the old reference point from those at ``point`` (3,), m from it."""
     transform = np.eye(6)
     transform[:3, 3:] = cross_matrix(point)
@@ -56,9 +58,37 @@ def _with_arrays(database: Data, change: Change, of_drift: Change | None = None,
     return replace(database, **_arrays(database, change) | parts | others)
 
 
-def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_lift: float) -> Data:
-    """Move the reference point. The docstring of `HydroDatabase.at` says what each part becomes."""
-    r = _point(database, point, net_lift)
+def moved_database(
+    database: Data, point: ArrayLike, *, phase_origin: bool = True, net_lift: float = 0.0
+) -> Data:
+    """The same vessel about another reference point; nothing is fitted or interpolated anew.
+
+    Matrices, forces, motions, limits of the added mass, restoring, drift and the memory model (with the
+    same states) are moved exactly. Damping tabulated by frequency acts on roll alone and stays; the time
+    domain takes it at the uncoupled roll frequency, which is another one about another point.
+
+    Parameters
+    ----------
+    point : (3,) the new point in m from the present one, vessel's axes. Off the centreline the headings
+        of both sides are written out, as no side of that point mirrors the other.
+    phase_origin : whether waves have zero phase at the new point from now on, as everything that takes a
+        database expects: forces and motions are multiplied by ``exp(+i k (x cos b + y sin b))`` with the
+        wavenumber of the database's depth. False keeps the phases of waves at the old point, which
+        `origin` then says: for comparison with other codes.
+    net_lift : N, buoyancy minus weight at rest. Zero for a vessel that floats by itself: its restoring
+        moves like any matrix. Else C44, C55, C46 and C56 gain what that load does as it turns with the
+        ship.
+
+    Warns
+    -----
+    seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
+
+    Raises
+    ------
+    ValueError : the point is not three finite numbers.
+    """
+    r = point_of(f"database {database.name!r}: reference point", point)
+    net_lift = finite_of(f"database {database.name!r}: net_lift", net_lift, "N")
     if r[1] != 0.0 and database.port_starboard_symmetric:
         database = _unfolded(database)
     transform = motion_transform(r)
@@ -75,10 +105,7 @@ def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_
     others: dict[str, Any] = {"force": (database.force @ transform) * shift}
     if database.motion_rao is not None:
         others["motion_rao"] = (database.motion_rao @ np.linalg.inv(transform).T) * shift
-    for name in (
-        "motion_rao_limit",
-        "motion_rao_floor",
-    ):  # the largest of all old motions that one is made of
+    for name in ("motion_rao_limit", "motion_rao_floor"):  # the largest of all old motions in a new one
         others[name] = np.where(transform != 0.0, getattr(database, name), 0.0).max(axis=1)
     # The moment about the moving point gains -(theta x r) x F with the load F that is there at rest.
     others["restoring"] = change(database.restoring, "ij") + weight_restoring(net_lift, r)
@@ -91,23 +118,32 @@ def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_
     return replace(moved, memory=moved_memory(database.memory, transform, moved))
 
 
+def _reordered(heading: Array, places: Indices, signs: Array, square: Array | float = 1.0) -> Change:
+    """Other headings (m,), whose loads are those at ``places`` times ``signs``; matrices times ``square``."""
+
+    def change(array: NDArray[Any], axes: str) -> NDArray[Any]:
+        if axes == "m":
+            return heading
+        if axes.endswith("ij"):
+            return np.asarray(array * square)
+        array = array[places] if axes.startswith("m") else array
+        return np.asarray(array * signs) if axes == "mni" else array
+
+    return change
+
+
 def mirrored_database(database: Data) -> Data:
-    """`HydroDatabase.mirror`."""
+    """The vessel with port and starboard exchanged: sway, roll, yaw and headings change their signs.
+
+    Memory and drift are mirrored too. Mirroring twice gives the database back; for a symmetric vessel
+    the mirrored headings are the other side of the same `full_circle`.
+    """
     sign = np.outer(PORT_STARBOARD, PORT_STARBOARD)
 
-    def mirror(heading: FloatArray) -> Change:
+    def mirror(heading: Array) -> Change:
         turned = mirrored_heading(heading)
         order = np.argsort(turned)
-
-        def change(array: NDArray[Any], axes: str) -> NDArray[Any]:
-            if axes == "m":
-                return np.asarray(turned[order])
-            if axes.endswith("ij"):
-                return np.asarray(array * sign)
-            array = array[order] if axes.startswith("m") else array
-            return np.asarray(array * PORT_STARBOARD) if axes == "mni" else array
-
-        return change
+        return _reordered(turned[order], order, PORT_STARBOARD, sign)
 
     drift = None if database.drift is None else mirror(database.drift.heading)
     was_mirrored = database.source.endswith(MIRRORED)
@@ -119,36 +155,23 @@ def mirrored_database(database: Data) -> Data:
 def _unfolded(database: Data) -> Data:
     """A symmetric vessel with all headings of both sides written out, as one that is not symmetric."""
 
-    def unfold(heading: FloatArray) -> Change:
+    def unfold(heading: Array) -> Change:
         circle, source, mirrored = both_sides(heading)
-        parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)[:, None, :]
-
-        def change(array: NDArray[Any], axes: str) -> NDArray[Any]:
-            if axes == "m":
-                return circle
-            array = array[source] if axes.startswith("m") else array
-            return np.asarray(array * parity) if axes == "mni" else array
-
-        return change
+        return _reordered(circle, source, np.where(mirrored[:, None], PORT_STARBOARD, 1.0)[:, None, :])
 
     drift = None if database.drift is None else unfold(database.drift.heading)
     return _with_arrays(database, unfold(database.heading), drift, port_starboard_symmetric=False)
 
 
-def _point(database: HydroData, point: ArrayLike, net_lift: float) -> FloatArray:
-    """The new reference point (3,), or a ValueError."""
-    r = np.asarray(point, dtype=float)
-    if r.shape != (3,) or not np.all(np.isfinite(r)):
-        raise ValueError(
-            f"database {database.name!r}: reference point {point!r} is not three finite numbers; give "
-            "(x, y, z) in m from the present one"
-        )
-    if not np.isfinite(net_lift):
-        raise ValueError(f"database {database.name!r}: net_lift is {net_lift}; give buoyancy - weight in N")
-    return r
+def point_of(what: str, value: Any) -> Array:
+    """Three finite numbers (3,), m; raises SceneError."""
+    point = shaped_of(what, value, (3,))
+    if not np.all(np.isfinite(point)):
+        raise SceneError.of(what, f"is {point}; give three finite numbers in m")
+    return point
 
 
-def warn_of_quadratic(what: str, damping: FloatArray, transform: FloatArray) -> None:
+def warn_of_quadratic(what: str, damping: Array, transform: Array) -> None:
     """Moments move as they are; v |v| of a translation at the old point is no such term at the new one."""
     coupled = np.any(transform[:, 3:] - np.eye(6)[:, 3:], axis=1) & (damping != 0.0)
     if np.any(coupled):
@@ -161,12 +184,30 @@ def warn_of_quadratic(what: str, damping: FloatArray, transform: FloatArray) -> 
         )
 
 
-def selected_database(database: Data, omega: Choice, heading: Choice, every: int, every_heading: int) -> Data:
-    """`HydroDatabase.select`."""
+def selected_database(
+    database: Data, *, omega: Choice = None, heading: Choice = None, every: int = 1, every_heading: int = 1
+) -> Data:
+    """Some of the frequencies and headings, with the stored values as they are.
+
+    Parameters
+    ----------
+    omega : a tuple (low, high) in rad/s, ends included; or indices: a list, an integer array, a slice.
+    heading : a tuple (low, high) in rad, which may cross 2 pi (-0.5, 0.5); or indices.
+    every, every_heading : keep every n-th of what is selected.
+
+    Returns
+    -------
+    HydroDatabase : the trusted band is cut to the frequencies left. A memory model is kept while all
+        frequencies are, and dropped with the first one: it belongs to all the data it was fitted to.
+        Drift coefficients have frequencies and headings of their own, and stay.
+
+    Raises
+    ------
+    ValueError : nothing is left, nothing of the trusted band is left, or a choice is no range or index.
+    """
     what = f"database {database.name!r}"
-    n = _chosen(f"{what}: omega", omega, database.omega, turning=False)
-    m = _chosen(f"{what}: heading", heading, database.heading, turning=True)
-    n, m = _thinned(f"{what}: every", n, every), _thinned(f"{what}: every_heading", m, every_heading)
+    n = _chosen(f"{what}: omega", omega, database.omega, every)
+    m = _chosen(f"{what}: heading", heading, database.heading, every_heading)
 
     def change(array: NDArray[Any], axes: str) -> NDArray[Any]:
         for axis, places in (("n", n), ("m", m)):
@@ -179,55 +220,42 @@ def selected_database(database: Data, omega: Choice, heading: Choice, every: int
     return _with_arrays(database, change, **others)
 
 
-def _chosen(what: str, choice: Choice, values: FloatArray, *, turning: bool) -> Indices:
-    """Rising indices of the values that are chosen: a pair is a range, anything else indices."""
-    every = np.arange(len(values))
-    if choice is None:
-        return every
+def _chosen(what: str, choice: Choice, values: Array, every: int) -> Indices:
+    """Rising indices of the values that are chosen, a pair being a range, and every n-th of them."""
+    found = np.arange(len(values))
+    turning = what.endswith("heading")
     if isinstance(choice, tuple):
-        found = _in_range(what, choice, values, turning=turning)
+        low, high = map(float, choice) if len(choice) == 2 else (np.nan, np.nan)
+        if not -np.inf < low <= high < np.inf:
+            raise ValueError(f"{what} = {choice!r} is no range; give (low, high), or a list of indices")
+        above = values - low + TOLERANCE
+        above = np.mod(above, 2.0 * np.pi) if turning else np.where(above < 0.0, np.inf, above)
+        found = np.flatnonzero(above <= high - low + 2.0 * TOLERANCE)
     elif isinstance(choice, slice):
-        found = every[choice]
-    else:
-        found = _indices(what, choice, len(values))
+        found = found[choice]
+    elif choice is not None:
+        array = np.asarray(choice)
+        if array.ndim != 1 or (array.size and not np.issubdtype(array.dtype, np.integer)):
+            raise ValueError(
+                f"{what} = {choice!r} is neither a range (low, high) nor a list of integer indices"
+            )
+        if np.any((array < -len(values)) | (array >= len(values))):
+            raise ValueError(f"{what} = {choice!r} counts beyond its {len(values)} values")
+        found = np.mod(array.astype(np.intp), len(values))
+        if len(np.unique(found)) < len(found):
+            raise ValueError(f"{what} = {choice!r} names a value twice; name each once")
     if found.size == 0:
         raise ValueError(
             f"{what} = {choice!r} leaves nothing of {values[0]:.4g} to {values[-1]:.4g} "
             f"{'rad' if turning else 'rad/s'}; widen it"
         )
-    return np.sort(found)
+    if isinstance(every, bool) or not isinstance(every, (int, np.integer)) or every < 1:
+        step = "every_heading" if turning else "every"
+        raise ValueError(f"{what.rpartition(' ')[0]} {step} = {every!r}; give a positive whole number")
+    return np.sort(found)[::every]
 
 
-def _in_range(what: str, choice: tuple[float, float], values: FloatArray, *, turning: bool) -> Indices:
-    ends = np.asarray(choice, dtype=float) if len(choice) == 2 else np.full(2, np.nan)
-    low, high = float(ends[0]), float(ends[1])
-    if not np.all(np.isfinite(ends)) or low > high:
-        raise ValueError(f"{what} = {choice!r} is no range; give (low, high), or a list of indices")
-    if not turning:
-        return np.flatnonzero((values >= low - TOLERANCE) & (values <= high + TOLERANCE))
-    from_low = np.mod(values - low + TOLERANCE, 2.0 * np.pi)
-    return np.flatnonzero(from_low <= high - low + 2.0 * TOLERANCE)
-
-
-def _indices(what: str, choice: Any, count: int) -> Indices:
-    array = np.asarray(choice)
-    if array.ndim != 1 or (array.size and not np.issubdtype(array.dtype, np.integer)):
-        raise ValueError(f"{what} = {choice!r} is neither a range (low, high) nor a list of integer indices")
-    if np.any((array < -count) | (array >= count)):
-        raise ValueError(f"{what} = {choice!r} counts beyond its {count} values")
-    found = np.mod(array.astype(np.intp), count)
-    if len(np.unique(found)) < len(found):
-        raise ValueError(f"{what} = {choice!r} names a value twice; name each once")
-    return found
-
-
-def _thinned(what: str, indices: Indices, step: int) -> Indices:
-    if isinstance(step, bool) or not isinstance(step, (int, np.integer)) or step < 1:
-        raise ValueError(f"{what} = {step!r}; give a positive whole number")
-    return indices[::step]
-
-
-def _band(database: HydroData, omega: FloatArray) -> tuple[float, float] | None:
+def _band(database: HydroData, omega: Array) -> tuple[float, float] | None:
     """The trusted band within the frequencies that are left; where only one is inside, the band as it was."""
     if database.trusted_band is None:
         return None

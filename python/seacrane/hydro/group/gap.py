@@ -14,17 +14,17 @@ are with another gap.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations, product
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.hydro.data.hydro_group_data import GroupBody, HydroGroupData
 from seacrane.hydro.data.interpolation import by_straight_lines
+from seacrane.hydro.memory.identification import symmetric
 from seacrane.inputs.brief import brief
 from seacrane.sea.dispersion import wavenumber
-
-FloatArray = NDArray[np.float64]
 
 OVERALL = 1.5  # H by the overall width
 NEAR = 0.08  # of a frequency: by as much do boxes and coarse panels miss one
@@ -84,24 +84,20 @@ def piston_frequency(*, draught: float, gap: float, width: float, g: float = 9.8
     return float(np.sqrt(g / length))
 
 
-def corners(body: GroupBody) -> FloatArray:
-    """Corners (4, 2) of the body's box, m, in the group's axes."""
-    c, s = np.cos(body.heading), np.sin(body.heading)
-    half = 0.5 * np.array([[1, 1], [1, -1], [-1, -1], [-1, 1]]) * (body.length, body.breadth)
-    return np.asarray(half @ np.array([[c, s], [-s, c]]) + body.position[:2])
-
-
 def clearance(first: GroupBody, second: GroupBody) -> tuple[float, float]:
     """Width of the water between two boxes, and over all across it, m; the width is negative where they
     overlap.
 
     The widest strip between them that is parallel to a side of one of the boxes (separating axes).
     """
-    best = (-np.inf, np.inf)
-    a, b = corners(first), corners(second)
+    best, corners = (-np.inf, np.inf), []
+    for body in (first, second):
+        c, s = np.cos(body.heading), np.sin(body.heading)
+        half = 0.5 * np.array([[1, 1], [1, -1], [-1, -1], [-1, 1]]) * (body.length, body.breadth)
+        corners.append(half @ np.array([[c, s], [-s, c]]) + body.position[:2])
     for angle in (first.heading, first.heading + np.pi / 2, second.heading, second.heading + np.pi / 2):
         axis = np.array([np.cos(angle), np.sin(angle)])
-        p, q = a @ axis, b @ axis
+        p, q = (points @ axis for points in corners)
         width = max(p.min(), q.min()) - min(p.max(), q.max())
         best = max(best, (float(width), float(max(p.max(), q.max()) - min(p.min(), q.min()))))
     return best
@@ -120,13 +116,11 @@ def gaps(group: HydroGroupData) -> list[Gap]:
     return found
 
 
-def irregular_frequencies(body: GroupBody, g: float) -> FloatArray:
+def irregular_frequencies(body: GroupBody, g: float) -> Array:
     """First irregular frequencies (rad/s), rising, of the body's box."""
-    found = []
-    for i, j in product(range(1, 1 + FIRST_MODES), repeat=2):
-        k = np.pi * np.hypot(i / body.length, j / body.breadth)
-        found.append(np.sqrt(g * k / np.tanh(k * body.draught)))
-    return np.sort(np.array(found))
+    i, j = np.mgrid[1 : 1 + FIRST_MODES, 1 : 1 + FIRST_MODES].reshape(2, -1)
+    k = np.pi * np.hypot(i / body.length, j / body.breadth)
+    return np.sort(np.sqrt(g * k / np.tanh(k * body.draught)))
 
 
 def radiating(group: HydroGroupData) -> NDArray[np.bool_]:
@@ -139,16 +133,15 @@ def spikes(group: HydroGroupData) -> list[Spike]:
     """Narrow peaks of the hulls' own damping, each with the nearest explanation.
 
     Narrow is a peak that is half as high again as the damping 7 % of its frequency away on either side; the
-    damping of a hull by itself has none.
+    damping of a hull by itself has none. Peaks next to each other count once, at the one that stands out.
     """
-    return [_explained(group, omega) for omega in _peaks(group)]
-
-
-def _peaks(group: HydroGroupData) -> list[float]:
-    """Frequencies of the peaks, those next to each other once, at the one that stands out most."""
     own = np.diagonal(group.damping, axis1=1, axis2=2)
     size = np.maximum(own.max(axis=0), 1e-300)
-    beside = np.maximum(*(_at(group.omega, own, group.omega * (1.0 + away)) for away in (-BESIDE, BESIDE)))
+    left, right = (
+        np.array([np.interp(group.omega * (1.0 + away), group.omega, column) for column in own.T]).T
+        for away in (-BESIDE, BESIDE)
+    )
+    beside = np.maximum(left, right)
     height = own / np.maximum(beside, LEAST * size)
     top = np.zeros(own.shape, dtype=bool)
     top[1:-1] = (own[1:-1] >= own[:-2]) & (own[1:-1] > own[2:]) & (own[1:-1] > LEAST * size)
@@ -158,12 +151,7 @@ def _peaks(group: HydroGroupData) -> list[float]:
     for i in np.argsort(-most, kind="stable"):
         if most[i] > 0.0 and all(abs(group.omega[i] / group.omega[k] - 1.0) > SAME for k in found):
             found.append(int(i))
-    return [float(group.omega[i]) for i in sorted(found)]
-
-
-def _at(omega: FloatArray, values: FloatArray, where: FloatArray) -> FloatArray:
-    """Columns of ``values`` at other frequencies, by straight lines, beyond the ends as there."""
-    return np.array([np.interp(where, omega, column) for column in values.T]).T
+    return [_explained(group, float(group.omega[i])) for i in sorted(found)]
 
 
 def _explained(group: HydroGroupData, omega: float) -> Spike:
@@ -178,15 +166,13 @@ def _explained(group: HydroGroupData, omega: float) -> Spike:
         (abs(gap.piston / omega - 1.0), "gap", f"{gap.first}-{gap.second}", gap.piston) for gap in between
     ]
     off, cause, of, expected = min(known)
-    if off <= NEAR:
-        return Spike(omega=omega, cause=cause, of=of, expected=expected)
-    for gap in between:
-        if gap.piston < omega < gap.across:
-            return Spike(omega=omega, cause="gap", of=f"{gap.first}-{gap.second}", expected=float("nan"))
-    return Spike(omega=omega, cause="unexplained", of="", expected=float("nan"))
+    if off > NEAR:
+        longer = [f"{gap.first}-{gap.second}" for gap in between if gap.piston < omega < gap.across]
+        cause, of, expected = "gap" if longer else "unexplained", longer[0] if longer else "", np.nan
+    return Spike(omega=omega, cause=cause, of=of, expected=expected)
 
 
-def long_wave_lift(group: HydroGroupData) -> FloatArray | None:
+def long_wave_lift(group: HydroGroupData) -> Array | None:
     """C33 (k,) of each body by the vertical force of the group's longest wave, N/m.
 
     Bodies held in water that rises by 1 m are bodies that all move down, ``F = C33 - w^2 sum A``. None where
@@ -212,7 +198,7 @@ class GroupMode:
 
     omega: float
     damping_ratio: float
-    shape: FloatArray
+    shape: Array
 
     __repr__ = brief
 
@@ -223,22 +209,23 @@ class GroupMode:
 
 
 def natural_modes_of(group: HydroGroupData) -> tuple[GroupMode, ...]:
-    """`HydroGroup.natural_modes`.
+    """Modes of all hulls together without damping, within the frequencies, by rising frequency.
 
-    Where an eigenvalue of ``C - w^2 (M + A(w))``, symmetric, falls through zero between two of the
-    frequencies; A is a straight line between them.
+    A mode that water in a gap makes is among them. Motions that nothing restores have none. An eigenvalue of
+    ``C - w^2 (M + A(w))``, symmetric, falls through zero there; A is a straight line between frequencies.
     """
     dynamic = _dynamic(group, group.omega)
-    size = _sizes(group)
+    # Motions that move the ends of a hull alike: 1 for translations, 1 over half the length for rotations.
+    size = np.concatenate([np.repeat([1.0, 2.0 / body.length], 3) for body in group.bodies])
     scaled = np.linalg.eigvalsh(dynamic * np.outer(size, size))
     modes = []
     for i in range(len(group.omega) - 1):
         for place in np.flatnonzero((scaled[i] > 0.0) & (scaled[i + 1] <= 0.0)):
-            modes.append(_mode(group, (float(group.omega[i]), float(group.omega[i + 1])), int(place), size))
+            modes.append(_mode(group, group.omega[i : i + 2].tolist(), int(place), size))
     return tuple(sorted(modes, key=lambda mode: mode.omega))
 
 
-def _mode(group: HydroGroupData, between: tuple[float, float], place: int, size: FloatArray) -> GroupMode:
+def _mode(group: HydroGroupData, between: list[float], place: int, size: Array) -> GroupMode:
     low, high = between
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
@@ -246,25 +233,15 @@ def _mode(group: HydroGroupData, between: tuple[float, float], place: int, size:
         low, high = (middle, high) if value > 0.0 else (low, middle)
     omega = 0.5 * (low + high)
     at = np.array([omega])
-    dynamic = _dynamic(group, at)[0]
-    vector = np.linalg.eigh(dynamic * np.outer(size, size))[1][:, place]
+    vector = np.linalg.eigh(_dynamic(group, at)[0] * np.outer(size, size))[1][:, place]
     shape = vector * size / vector[np.abs(vector).argmax()]
-    inertia = group.mass_matrix + _symmetric(by_straight_lines(group.omega, group.added_mass, at)[0])
+    inertia = group.mass_matrix + symmetric(by_straight_lines(group.omega, group.added_mass, at)[0])
     damping = group.linear_damping + by_straight_lines(group.omega, group.damping, at)[0]
     ratio = (shape @ damping @ shape) / (2.0 * omega * (shape @ inertia @ shape))
     shape.setflags(write=False)
     return GroupMode(omega=omega, damping_ratio=float(ratio), shape=shape)
 
 
-def _dynamic(group: HydroGroupData, omega: FloatArray) -> FloatArray:
-    inertia = group.mass_matrix + _symmetric(by_straight_lines(group.omega, group.added_mass, omega))
-    return np.asarray(_symmetric(group.restoring) - omega[:, None, None] ** 2 * inertia)
-
-
-def _symmetric(matrices: FloatArray) -> FloatArray:
-    return np.asarray(0.5 * (matrices + matrices.swapaxes(-1, -2)))
-
-
-def _sizes(group: HydroGroupData) -> FloatArray:
-    """1 for translations, 1 over half the length for rotations: motions that move the ends alike."""
-    return np.concatenate([np.repeat([1.0, 2.0 / body.length], 3) for body in group.bodies])
+def _dynamic(group: HydroGroupData, omega: Array) -> Array:
+    inertia = group.mass_matrix + symmetric(by_straight_lines(group.omega, group.added_mass, omega))
+    return np.asarray(symmetric(group.restoring) - omega[:, None, None] ** 2 * inertia)

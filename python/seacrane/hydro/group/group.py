@@ -13,16 +13,33 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.arrays import Complex
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import HydroGroupData
+from seacrane.hydro.data.hydro_group_data import HydroGroupData, in_trusted_band
 from seacrane.hydro.data.motion import motion_response
 from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
-from seacrane.hydro.database.check import CheckRow
+from seacrane.hydro.data.relations import (
+    damping_from_forces,
+    infinite_added_mass_from_damping,
+    resolved_by_headings,
+)
+from seacrane.hydro.database.check import (
+    DAMPING_LIMIT,
+    FORCE_DAMPING_LIMIT,
+    KRAMERS_KRONIG_LIMIT,
+    SYMMETRY_LIMIT,
+    CheckRow,
+    at_least,
+    at_most,
+    fit_rows,
+    info,
+    passivity_rows,
+    skewness,
+)
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.group.check import check_group
-from seacrane.hydro.group.gap import Gap, GroupMode, clearance, gaps, natural_modes_of
+from seacrane.hydro.group.gap import Gap, clearance, gaps, long_wave_lift, natural_modes_of, radiating, spikes
 from seacrane.hydro.group.lid import group_with_lid
 from seacrane.hydro.group.parts import (
     group_of_databases,
@@ -33,10 +50,9 @@ from seacrane.hydro.group.parts import (
     uncoupled_group,
 )
 from seacrane.inputs.atomic import atomic_write
+from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.shown import shown
 from seacrane.inputs.user_cache import read_kept
-
-ComplexArray = NDArray[np.complex128]
 
 MAGIC = b"seacrane hydro group "
 VERSION = 1
@@ -48,6 +64,13 @@ FILES: dict[float | None, str] = {None: "alone", 0.01: "lid_0.01", 0.03: "lid_0.
 
 class HydroGroup(HydroGroupData):
     __doc__ = HydroGroupData.__doc__
+
+    __getitem__ = hull_of
+    at = moved_group
+    ordered = ordered_group
+    without_coupling = uncoupled_group
+    natural_modes = natural_modes_of
+    with_lid_damping = group_with_lid
 
     @staticmethod
     def from_databases(
@@ -77,14 +100,6 @@ class HydroGroup(HydroGroupData):
         require_apart(group)
         return group
 
-    def __getitem__(self, name: str) -> HydroDatabase:
-        """One hull while the others are held at rest beside it: its own blocks, forces with shielding.
-
-        It is not the hull alone: the others reflect its waves, and shield it. Waves have zero phase at its
-        reference point, headings count from its own x axis.
-        """
-        return hull_of(self, name)
-
     @property
     def hulls(self) -> Mapping[str, HydroDatabase]:
         """`group[name]` of every body, by name."""
@@ -96,45 +111,8 @@ class HydroGroup(HydroGroupData):
     def __len__(self) -> int:
         return len(self.bodies)
 
-    def at(self, points: Mapping[str, ArrayLike]) -> HydroGroup:
-        """The same hulls about other reference points; nothing is fitted or interpolated anew.
-
-        Matrices, forces and the memory model (with the same states) are moved exactly; waves keep their zero
-        phase at the group's origin.
-
-        Parameters
-        ----------
-        points : by body, (3,) m from its present reference point, in its own axes; a hull that is not named
-            keeps its own. Off the group's x axis the headings of both sides are written out.
-
-        Warns
-        -----
-        seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
-
-        Raises
-        ------
-        SceneError : no body of a name, or a point that is not three finite numbers.
-        """
-        return moved_group(self, points)
-
-    def ordered(self, names: Sequence[str]) -> HydroGroup:
-        """The same group with its bodies in another order; a memory moves along.
-
-        Raises
-        ------
-        ValueError : not each body once.
-        """
-        return ordered_group(self, names)
-
-    def without_coupling(self) -> HydroGroup:
-        """The group whose hulls do not feel each other's motions: no blocks beside the diagonal, no memory.
-
-        Forces stay as they are, with the shielding.
-        """
-        return uncoupled_group(self)
-
     @cached_property
-    def motion_rao(self) -> ComplexArray:
+    def motion_rao(self) -> Complex:
         """Motions (m, n, 6 k) per metre of wave amplitude, all hulls together; read-only.
 
         ``(-w^2 (M + A) + i w (B + B_lin) + C) X = F`` (`motion_response`), phases from the group's origin.
@@ -144,13 +122,6 @@ class HydroGroup(HydroGroupData):
         motions.setflags(write=False)
         return motions
 
-    def natural_modes(self) -> tuple[GroupMode, ...]:
-        """Modes of all hulls together without damping, within the frequencies, by rising frequency.
-
-        A mode that water in a gap makes is among them. Motions that nothing restores have none.
-        """
-        return natural_modes_of(self)
-
     def gaps(self) -> list[Gap]:
         """The gaps between hulls that are narrower than these, with the piston mode of their water by Molin.
 
@@ -158,42 +129,22 @@ class HydroGroup(HydroGroupData):
         """
         return gaps(self)
 
-    def with_lid_damping(self, damping: float) -> HydroGroup:
-        """The group with a damping lid on the water between its hulls, put in where the source had none.
-
-        Potential theory makes the water in a gap rise two to five times too high. How much a lid should damp
-        it no theory tells: compare answers of two values.
-
-        Parameters
-        ----------
-        damping : of the lid, as a share of the frequency: ``(1 - i damping) w^2 phi = g d(phi)/dz``. Values
-            of 0.01 to 0.03 are in use.
-
-        Returns
-        -------
-        HydroGroup : the poles of the gap's modes, found in matrices and forces, have ``damping`` times their
-            frequency more; without a memory, as that is of the data before.
-
-        Raises
-        ------
-        ValueError : no peak is one of a gap, the source has a lid already, or the frequencies are too far
-            apart to show the resonance.
-        SceneError : ``damping`` is not positive.
-        """
-        return group_with_lid(self, damping)
-
     def check(self) -> list[CheckRow]:
-        """Self-check over all motions; see `check_group`."""
-        return check_group(self)
+        """All checks that the group's content allows, over all motions; docs/hull-hydrodynamics.md says what
+        each value means."""
+        memory = self.memory
+        return [
+            *_matrix_rows(self),
+            *_far_field_rows(self),
+            *_dispersion_rows(self),
+            *_water_rows(self),
+            *([] if memory is None else fit_rows(memory) + passivity_rows(memory)),
+        ]
 
     def require(
-        self,
-        *,
-        names: Sequence[str] | None = None,
-        positions: Mapping[str, ArrayLike] | None = None,
-        draughts: Mapping[str, float] | None = None,
-        apart: bool = False,
-    ) -> None:
+        self, *, names: Sequence[str] | None = None, positions: Mapping[str, ArrayLike] | None = None,
+        draughts: Mapping[str, float] | None = None, apart: bool = False,
+    ) -> None:  # fmt: skip
         """Raise unless the group is what its user takes it for.
 
         Parameters
@@ -214,19 +165,20 @@ class HydroGroup(HydroGroupData):
             raise SceneError(
                 f"{what}: holds {', '.join(self.names)}, not {', '.join(map(str, names))}; {fix}"
             )
-        for asked, given in (("positions", positions), ("draughts", draughts)):
-            for name in [one for one in given or {} if one not in self.names]:
+        positions, draughts = positions or {}, draughts or {}
+        for asked, given in (("positions", [*positions]), ("draughts", [*draughts])):
+            for name in [one for one in given if one not in self.names]:
                 raise SceneError(
                     f"{what}: {asked} name {name!r}, which it has not; it has {', '.join(self.names)}"
                 )
         for body in self.bodies:
-            place = np.asarray((positions or {}).get(body.name, body.position), dtype=float)
+            place = np.asarray(positions.get(body.name, body.position), dtype=float)
             if place.shape != (3,) or not np.allclose(place, body.position, rtol=0.0, atol=SAME_PLACE):
                 raise SceneError(
                     f"{what}: {body.name} has its reference point at {place_of(body.position)} m, not at "
                     f"{place_of(place)}: its matrices are about another point; use that one, or compute anew"
                 )
-            draught = float((draughts or {}).get(body.name, body.draught))
+            draught = float(draughts.get(body.name, body.draught))
             if not abs(draught - body.draught) <= SAME_DRAUGHT * body.draught:
                 raise SceneError(
                     f"{what}: {body.name} was computed with a draught of {body.draught:.4g} m, and "
@@ -332,3 +284,100 @@ def two_barges(*, lid_damping: float | None) -> HydroGroup:
     return HydroGroup.load(
         Path(str(files("seacrane") / "data" / "two_barges" / f"{FILES[lid_damping]}.hydro"))
     )
+
+
+COUPLING_LIMIT = 0.1  # thin plates and narrow gaps: codes differ by 25 % on coupling
+LIFT_LIMIT = 0.1
+
+
+def _matrix_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Symmetry of the hulls' own blocks and of what couples them, and damping that takes energy from all.
+
+    Of motions that radiate: what a file holds for others is noise.
+    """
+    own = np.kron(np.eye(len(group.bodies)), np.ones((6, 6))).astype(bool)
+    inside, felt = in_trusted_band(group), radiating(group)
+    both = np.outer(felt, felt)
+    rows = []
+    for name, matrix in (("added_mass", group.added_mass), ("damping", group.damping)):
+        skew = np.where(both, skewness(matrix[inside]), 0.0)
+        rows.append(at_most(f"symmetry_{name}", float(skew[own].max()), SYMMETRY_LIMIT))
+        rows.append(at_most(f"symmetry_{name}_coupling", float(skew[~own].max()), COUPLING_LIMIT))
+    damping = group.damping[inside][:, felt][:, :, felt]
+    if damping.size:
+        rows.append(at_least("damping_smallest_eigenvalue", _smallest_damping(damping), DAMPING_LIMIT))
+    return rows
+
+
+def _smallest_damping(damping: NDArray[np.float64]) -> float:
+    """Smallest eigenvalue of B over all frequencies, scaled by the square roots of its largest diagonals."""
+    peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 0.0))
+    active = peak > 0.0
+    if not np.any(active):
+        return 0.0
+    scaled = (damping[:, active][:, :, active]) / np.outer(peak[active], peak[active])
+    return float(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0].min())
+
+
+def _far_field_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Damping (own and coupled) against the waves that the exciting forces say are radiated."""
+    radiated = damping_from_forces(group)
+    inside = in_trusted_band(group) & resolved_by_headings(group)
+    if radiated is None or not np.any(inside):
+        return []
+    peak = np.sqrt(np.abs(np.diagonal(group.damping, axis1=1, axis2=2)).max(axis=0))
+    felt = radiating(group)
+    error = np.abs(radiated - 0.5 * (group.damping + group.damping.swapaxes(1, 2)))[inside].max(axis=0)
+    share = np.where(np.outer(felt, felt), error / np.maximum(np.outer(peak, peak), 1e-300), 0.0)
+    return _by_motion_and_pair(group, "damping_from_forces", share, felt, FORCE_DAMPING_LIMIT)
+
+
+def _dispersion_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Infinite-frequency added mass against what the damping implies, by the range of the motions' own."""
+    if group.infinite_frequency_added_mass is None:
+        return []
+    known = group.infinite_frequency_added_mass
+    difference = np.abs(infinite_added_mass_from_damping(group) - known)
+    span = np.ptp(np.diagonal(group.added_mass, axis1=1, axis2=2), axis=0)
+    felt = radiating(group) & (span > 0.0)
+    share = np.where(
+        np.outer(felt, felt), difference / np.maximum(np.sqrt(np.outer(span, span)), 1e-300), 0.0
+    )
+    return _by_motion_and_pair(group, "kramers_kronig", share, felt, KRAMERS_KRONIG_LIMIT)
+
+
+def _by_motion_and_pair(
+    group: HydroGroupData, name: str, share: NDArray[np.float64], felt: NDArray[np.bool_], limit: float
+) -> list[CheckRow]:
+    """A row for each motion that is felt, and one for the largest entry between each two hulls."""
+    labels = [f"{hull}_{motion}" for hull in group.names for motion in MOTIONS]
+    rows = [at_most(f"{name}_{labels[i]}", float(share[i, i]), limit) for i in np.flatnonzero(felt)]
+    for (i, a), (j, b) in combinations(enumerate(group.names), 2):
+        block = share[6 * i : 6 * i + 6, 6 * j : 6 * j + 6]
+        rows.append(at_most(f"{name}_{a}_{b}", float(block.max()), limit))
+    return rows
+
+
+def _water_rows(group: HydroGroupData) -> list[CheckRow]:
+    """Each hull's C33 against the force of a long wave on it, which hydrostatics of another hull fail; widths
+    of the gaps, their piston modes, and what explains each narrow peak of the damping.
+
+    An irregular frequency within the trusted band is an error of the source; a resonance of a gap is water,
+    too high without a damping lid.
+    """
+    lift = long_wave_lift(group)
+    rows = [
+        at_most(f"c33_against_long_wave_{body.name}", abs(body.restoring[2, 2] / force - 1.0), LIFT_LIMIT)
+        for body, force in zip(group.bodies, () if lift is None else lift, strict=lift is not None)
+    ]
+    for a, b in combinations(group.bodies, 2):
+        rows.append(info(f"clearance_{a.name}_{b.name}_m", clearance(a, b)[0]))
+    rows += [info(f"gap_{gap.first}_{gap.second}_piston_rad_s", gap.piston) for gap in gaps(group)]
+    for spike in spikes(group):
+        label = f"{spike.cause}_frequency{'_' if spike.of else ''}{spike.of}_rad_s"
+        wrong = spike.cause == "irregular" and in_trusted_band(group, np.array(spike.omega))
+        verdict = "fail" if wrong else "info"
+        rows.append(CheckRow(check=label, value=spike.omega, limit=None, verdict=verdict))
+    if group.lid_damping is not None:
+        rows.append(info("lid_damping", group.lid_damping))
+    return rows

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_at, full_circle
 from seacrane.hydro.data.heading_circle import phase_at
@@ -16,12 +17,9 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import GroupBody, HydroGroupData
 from seacrane.hydro.data.memory_model import MODEL_MATRICES, MemoryModel
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.database.transform import motion_transform, warn_of_quadratic
+from seacrane.hydro.database.transform import motion_transform, point_of, warn_of_quadratic
 from seacrane.hydro.memory.moved_memory import moved_memory
-from seacrane.inputs.checked import shaped_of
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 Group = TypeVar("Group", bound=HydroGroupData)
 
 LIMITS = ("infinite_frequency_added_mass", "zero_frequency_added_mass")
@@ -36,45 +34,50 @@ ON_WATER = 1e-9  # m
 
 
 def hull_of(group: HydroGroupData, name: str) -> HydroDatabase:
-    """`HydroGroup.__getitem__`."""
+    """One hull while the others are held at rest beside it: its own blocks, forces with shielding.
+
+    It is not the hull alone: the others reflect its waves, and shield it. Waves have zero phase at its
+    reference point, headings count from its own x axis.
+    """
     at = group.place(name)
     body = group.bodies[at.start // 6]
     own = np.mod(group.heading - body.heading, 2.0 * np.pi)
     own[2.0 * np.pi - own < SAME_HEADING] = 0.0
     order = np.argsort(own)
-    force = group.force[:, :, at] * phase_at_body(group, body)
-    shared: dict[str, Any] = {key: getattr(group, key) for key in (*WATER, "omega", "trusted_band")}
+    shared = (*WATER, "omega", "trusted_band", "port_starboard_symmetric")
     return HydroDatabase(
         name=f"{group.name}/{name}",
         heading=own[order],
-        force=force[order],
+        force=(group.force[:, :, at] * phase_at_body(group, body))[order],
         **_matrices(group, lambda whole: whole[..., at, at]),
-        **_of_body(body),
-        **shared,
-        port_starboard_symmetric=group.port_starboard_symmetric,
+        **_entries(body, OWN),
+        **_entries(group, shared),
         origin=f"reference point of {name}, {place_of(body.position)} m from the {group.origin}",
         source=f"{group.source}; {name} with the others held at rest beside it",
     )
 
 
-def _matrices(group: HydroGroupData, change: Callable[[FloatArray], FloatArray]) -> dict[str, Any]:
+def _matrices(group: HydroGroupData, change: Callable[[Array], Array]) -> dict[str, Any]:
     """Matrices of radiation that the group has, each changed."""
-    there = {name: getattr(group, name) for name in MATRICES}
-    return {name: change(matrix) for name, matrix in there.items() if matrix is not None}
+    return {name: change(one) for name in MATRICES if (one := getattr(group, name)) is not None}
 
 
-def _of_body(of: GroupBody | HydroData) -> dict[str, Any]:
-    """What a hull has for itself, in a group or alone."""
-    return {name: getattr(of, name) for name in OWN}
+def _entries(part: Any, names: Sequence[str]) -> dict[str, Any]:
+    return {name: getattr(part, name) for name in names}
 
 
-def phase_at_body(group: HydroGroupData, body: GroupBody) -> ComplexArray:
+def phase_at_body(group: HydroGroupData, body: GroupBody) -> Complex:
     """`phase_at` of a body's reference point."""
     return phase_at(body.position, group.omega, group.heading, g=group.g, depth=group.depth)
 
 
 def ordered_group(group: Group, names: Sequence[str]) -> Group:
-    """`HydroGroup.ordered`."""
+    """The same group with its bodies in another order; a memory moves along.
+
+    Raises
+    ------
+    ValueError : not each body once.
+    """
     if sorted(names) != sorted(group.names):
         raise ValueError(
             f"group {group.name!r}: the order {', '.join(map(str, names))} does not name each of "
@@ -94,31 +97,29 @@ def ordered_group(group: Group, names: Sequence[str]) -> Group:
 def _ordered_memory(memory: MemoryModel, at: NDArray[np.intp]) -> MemoryModel:
     """The memory with motion ``at[i]`` in place i."""
     now = np.argsort(at)
-    square = np.ix_(at, at)
-    blocks = tuple(
-        replace(block, outputs=now[block.outputs], inputs=now[block.inputs]) for block in memory.blocks
-    )
-    rows = tuple(
-        replace(row, output=min(pair), input=max(pair))
-        for row in memory.rows
-        for pair in [(int(now[row.output]), int(now[row.input]))]
-    )
+
+    def pair(j: int, k: int) -> tuple[int, int]:
+        low, high = sorted(now[[j, k]].tolist())
+        return low, high
+
+    blocks = [replace(one, outputs=now[one.outputs], inputs=now[one.inputs]) for one in memory.blocks]
+    rows = []
+    for row in memory.rows:
+        low, high = pair(row.output, row.input)
+        rows.append(replace(row, output=low, input=high))
     motion = memory.motion
     if motion is not None:
         error = replace(motion.error, seas=motion.error.seas[at], peaks=motion.error.peaks[at])
-        left_out = tuple(sorted((min(p), max(p)) for j, k in motion.left_out for p in [(now[j], now[k])]))
-        motion = replace(motion, error=error, left_out=left_out)
-    return replace(
-        memory,
-        blocks=blocks,
-        rows=rows,
-        motion=motion,
-        **{name: getattr(memory, name)[square] for name in MODEL_MATRICES},
-    )
+        motion = replace(motion, error=error, left_out=tuple(sorted(pair(*one) for one in motion.left_out)))
+    matrices = {name: getattr(memory, name)[np.ix_(at, at)] for name in MODEL_MATRICES}
+    return replace(memory, blocks=tuple(blocks), rows=tuple(rows), motion=motion, **matrices)
 
 
 def uncoupled_group(group: Group) -> Group:
-    """`HydroGroup.without_coupling`."""
+    """The group whose hulls do not feel each other's motions: no blocks beside the diagonal, no memory.
+
+    Forces stay as they are, with the shielding.
+    """
     own = np.kron(np.eye(len(group.bodies)), np.ones((6, 6)))
     apart = _matrices(group, lambda whole: whole * own)
     return replace(group, **apart, memory=None, source=f"{group.source}; without coupling")
@@ -139,7 +140,12 @@ def group_of_databases(
         wrong = f"no database is named {unknown[0]!r}" if unknown else f"{missing[0]!r} has no position"
         raise ValueError(f"group {name!r}: {wrong}; give databases and positions of the same names")
     bodies = tuple(
-        _body_of(label, database, positions[label], headings.get(label, 0.0))
+        GroupBody(
+            name=label,
+            position=np.asarray(positions[label], dtype=float),
+            heading=float(headings.get(label, 0.0)),
+            **_entries(database, OWN),
+        )
         for label, database in databases.items()
     )
     first = next(iter(databases.values()))
@@ -148,62 +154,39 @@ def group_of_databases(
         for body, data in zip(bodies, databases.values(), strict=True)
     )
     circle = first.heading if keeps else full_circle(first)[0]
-    n, k = len(first.omega), 6 * len(bodies)
-    tables: dict[str, Any] = {key: np.zeros((n, k, k)) for key in ("added_mass", "damping")}
-    limits: dict[str, Any] = {key: np.zeros((k, k)) for key in LIMITS}
-    force = np.zeros((len(circle), n, k), dtype=complex)
-    for i, (body, database) in enumerate(zip(bodies, databases.values(), strict=True)):
-        at = slice(6 * i, 6 * i + 6)
-        for key, table in tables.items():
-            table[:, at, at] = getattr(database, key)
-        for key in LIMITS:
-            whole, part = limits[key], getattr(database, key)
-            if whole is None or part is None:
-                limits[key] = None
-            else:
-                whole[at, at] = part
-        force[:, :, at] = _forces(database, circle - body.heading)
+    k = 6 * len(bodies)
+    matrices: dict[str, Any] = {}
+    for key in MATRICES:
+        parts = [getattr(database, key) for database in databases.values()]
+        if all(part is not None for part in parts):
+            matrices[key] = np.zeros((*parts[0].shape[:-2], k, k))
+            for i, part in enumerate(parts):
+                matrices[key][..., 6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = part
+    force = np.concatenate(
+        [_forces(data, circle - body.heading) for body, data in zip(bodies, databases.values(), strict=True)],
+        axis=2,
+    )
     bands = [database.trusted_band for database in databases.values() if database.trusted_band is not None]
     band = (max(low for low, _ in bands), min(high for _, high in bands)) if bands else None
     group = kind(
-        name=name,
-        bodies=bodies,
-        omega=first.omega,
-        heading=circle,
-        **tables,
-        **limits,
-        force=force,
-        **{what: getattr(first, what) for what in WATER},
-        trusted_band=band,
-        port_starboard_symmetric=keeps,
+        name=name, bodies=bodies, omega=first.omega, heading=circle, **matrices, force=force,
+        **_entries(first, WATER), trusted_band=band, port_starboard_symmetric=keeps,
         origin="group's origin, on the still waterline",
         source="hulls without interaction: " + "; ".join(data.source for data in databases.values()),
-    )
-    phases = np.concatenate(
-        [np.broadcast_to(phase_at_body(group, b), (len(circle), n, 6)) for b in bodies], 2
-    )
+    )  # fmt: skip
+    phases = np.concatenate([np.repeat(phase_at_body(group, body), 6, axis=2) for body in bodies], axis=2)
     return replace(group, force=force / phases)
 
 
-def _body_of(name: str, database: HydroData, position: ArrayLike, heading: float) -> GroupBody:
-    """A vessel of zero speed as a body; what stands apart by cause has no place in a group."""
-    if database.additional or database.roll_damping is not None or database.speed != 0.0:
-        raise ValueError(
-            f"database {database.name!r}: has additional matrices, tabulated roll damping or a forward "
-            "speed, which a group does not take; use with_roll_damping(), and a database without them"
-        )
-    return GroupBody(
-        name=name,
-        position=np.asarray(position, dtype=float),
-        heading=float(heading),
-        **_of_body(database),
-    )
-
-
 def _check_alike(name: str, databases: Mapping[str, HydroData]) -> None:
-    """One water and one set of frequencies."""
+    """One water, one set of frequencies, and nothing that has no place in a group."""
+    first_name, first = next(iter(databases.items()))
     for label, database in databases.items():
-        first_name, first = next(iter(databases.items()))
+        if database.additional or database.roll_damping is not None or database.speed != 0.0:
+            raise ValueError(
+                f"database {database.name!r}: has additional matrices, tabulated roll damping or a forward "
+                "speed, which a group does not take; use with_roll_damping(), and a database without them"
+            )
         for what in WATER:
             ours, theirs = float(getattr(first, what)), float(getattr(database, what))
             if not np.isclose(ours, theirs, rtol=SAME, atol=0.0):
@@ -218,7 +201,7 @@ def _check_alike(name: str, databases: Mapping[str, HydroData]) -> None:
             )
 
 
-def _forces(database: HydroData, heading: FloatArray) -> ComplexArray:
+def _forces(database: HydroData, heading: Array) -> Complex:
     """Forces (q, n, 6) at headings (q,): the stored ones where all are stored, else by splines."""
     circle, table = full_circle(database)
     distance = np.abs(np.angle(np.exp(1j * (heading[:, None] - circle))))
@@ -233,21 +216,38 @@ def place_of(point: ArrayLike) -> str:
 
 
 def moved_group(group: Group, points: Mapping[str, ArrayLike]) -> Group:
-    """`HydroGroup.at`."""
+    """The same hulls about other reference points; nothing is fitted or interpolated anew.
+
+    Matrices, forces and the memory model (with the same states) are moved exactly; waves keep their zero
+    phase at the group's origin.
+
+    Parameters
+    ----------
+    points : by body, (3,) m from its present reference point, in its own axes; a hull that is not named
+        keeps its own. Off the group's x axis the headings of both sides are written out.
+
+    Warns
+    -----
+    seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
+
+    Raises
+    ------
+    SceneError : no body of a name, or a point that is not three finite numbers.
+    """
     unknown = [name for name in points if name not in group.names]
     if unknown:
         raise SceneError(f"group {group.name!r}: has no body {unknown[0]!r}; it has {', '.join(group.names)}")
     from scipy.linalg import block_diag
 
-    levers = [_lever(group, body, points.get(body.name)) for body in group.bodies]
+    levers = [
+        point_of(f"group {group.name!r}: point of {name!r}", points.get(name, (0.0, 0.0, 0.0)))
+        for name in group.names
+    ]
     if not np.any(levers):
         return group
     transforms = [motion_transform(lever) for lever in levers]
     whole = np.asarray(block_diag(*transforms))
-    bodies = tuple(
-        _moved_body(body, lever, transform)
-        for body, lever, transform in zip(group.bodies, levers, transforms, strict=True)
-    )
+    bodies = tuple(map(_moved_body, group.bodies, levers, transforms))
     changes = _matrices(group, lambda matrix: np.asarray(whole.T @ matrix @ whole))
     heading, force, symmetric = group.heading, group.force, group.port_starboard_symmetric
     if symmetric and any(body.position[1] != 0.0 for body in bodies):
@@ -265,16 +265,7 @@ def afloat(group: Group) -> Group:
     return moved_group(group, {name: point for name, point in away.items() if abs(point[2]) > ON_WATER})
 
 
-def _lever(group: HydroGroupData, body: GroupBody, point: ArrayLike | None) -> FloatArray:
-    if point is None:
-        return np.zeros(3)
-    found = shaped_of(f"group {group.name!r}: point of {body.name!r}", point, (3,))
-    if not np.all(np.isfinite(found)):
-        raise SceneError(f"group {group.name!r}: point of {body.name!r} is {found}; give finite m")
-    return found
-
-
-def _moved_body(body: GroupBody, lever: FloatArray, transform: FloatArray) -> GroupBody:
+def _moved_body(body: GroupBody, lever: Array, transform: Array) -> GroupBody:
     cos, sin = np.cos(body.heading), np.sin(body.heading)
     turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
     warn_of_quadratic(f"body {body.name!r}", body.quadratic_damping, transform)

@@ -4,33 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_hydrostatics, triangles_of
-from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
+from seacrane.arrays import Array
+from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
+from seacrane.hydro.hull.lines import OffsetTable, ParametricHull, read_offset_table
 from seacrane.hydro.hull.panels import (
     Slice,
+    afloat,
     along,
+    area_vectors,
+    closed_below,
+    closed_loft,
     cut_panels,
-    end_cap,
     fractions,
-    lofted,
     mesh_triangles,
-    require_closed,
     slices,
+    triangles_of,
     without_slivers,
 )
-from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.inputs.brief import brief
-from seacrane.inputs.checked import positive_of
+from seacrane.inputs.checked import finite_of, positive_of
 from seacrane.inputs.mesh_files import read_stl
-
-FloatArray = NDArray[np.float64]
 
 LONGEST = 2000.0  # m: no ship is, a drawing in mm is
 ON_WATERLINE = 1e-6  # of the length
@@ -62,7 +62,7 @@ class Hull:
     """
 
     name: str
-    panels: FloatArray
+    panels: Array
     source: str
 
     __repr__ = brief
@@ -81,7 +81,7 @@ class Hull:
         return panel_hydrostatics(self.panels)
 
     @property
-    def extent(self) -> FloatArray:
+    def extent(self) -> Array:
         """Smallest and largest x, y, z (2, 3) of the wetted surface, m."""
         points = self.panels.reshape(-1, 3)
         return np.array([points.min(axis=0), points.max(axis=0)])
@@ -108,9 +108,8 @@ class Hull:
 
     def moved(self, x: float) -> Hull:
         """The same hull ``x`` metres further forward: what lay at -x becomes the origin."""
-        if not np.isfinite(x):
-            raise ValueError(f"hull {self.name!r}: moved by {x} m; give a finite number")
-        return replace(self, panels=self.panels + np.array([x, 0.0, 0.0]))
+        ahead = finite_of(f"hull {self.name!r}: x", x, "m")
+        return replace(self, panels=self.panels + np.array([ahead, 0.0, 0.0]))
 
     def at_centre_of_buoyancy(self) -> Hull:
         """The same hull with the origin on the waterline over its centre of buoyancy."""
@@ -142,14 +141,9 @@ class Hull:
                 f"hull {self.name!r}: at x = {hanging[0]:.4g} m something hangs apart under water; remeshing "
                 "takes one outline: use the mesh as it is"
             )
-        even = around([s.section for s in cut], girth)
-        parts = [
-            lofted(x.tolist(), even),
-            end_cap(float(x[0]), even[0], forward=False),
-            end_cap(float(x[-1]), even[-1], forward=True),
-        ]
+        panels = closed_loft(x.tolist(), around([s.section for s in cut], girth))
         source = f"{self.source}; remeshed with {stations} x {girth} panels on each side"
-        return Hull(name=self.name, panels=np.concatenate(parts), source=source)
+        return Hull(name=self.name, panels=panels, source=source)
 
     @staticmethod
     def from_parametric(
@@ -172,19 +166,15 @@ class Hull:
         ValueError, seacrane.errors.FileFormatError : as `OffsetTable`, `read_offset_table` and `Hull`.
         """
         offsets = table if isinstance(table, OffsetTable) else read_offset_table(table)
-        panels = _wetted(offsets.name, offsets.panels(draught=draught))
+        panels = _wetted(offsets.panels(draught=draught))
         source = f"offset table {offsets.name!r}, {len(offsets.x)} stations"
         return Hull(name=offsets.name, panels=panels, source=source)
 
     @staticmethod
     def from_mesh(
-        *,
-        vertices: ArrayLike,
-        faces: ArrayLike,
-        draught: float | None = None,
-        name: str = "mesh",
+        *, vertices: ArrayLike, faces: ArrayLike, draught: float | None = None, name: str = "mesh",
         source: str = "mesh",
-    ) -> Hull:
+    ) -> Hull:  # fmt: skip
         """From a surface of triangles or quadrilaterals, cut at the waterline.
 
         Parameters
@@ -197,13 +187,9 @@ class Hull:
         ------
         ValueError : as `seacrane.hydro.hull.panels` (open, overlapping or badly oriented) and `Hull`.
         """
-        triangles = mesh_triangles(name, vertices, faces)
-        _require_metres(name, triangles)
-        if draught is not None:
-            depth = positive_of(f"hull {name!r}: draught", draught, "m")
-            triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
-        triangles = require_closed(name, triangles)
-        return Hull(name=name, panels=_wetted(name, triangles[:, [0, 1, 2, 2]]), source=source)
+        triangles = afloat(name, mesh_triangles(name, vertices, faces), draught)
+        triangles = closed_below(f"hull {name!r}", triangles)
+        return Hull(name=name, panels=_wetted(triangles[:, [0, 1, 2, 2]]), source=source)
 
     @staticmethod
     def from_stl(path: str | PathLike[str], *, draught: float | None = None, scale: float = 1.0) -> Hull:
@@ -223,22 +209,13 @@ class Hull:
         )
 
 
-def _wetted(name: str, panels: FloatArray) -> FloatArray:
+def _wetted(panels: Array) -> Array:
     """The panels below z = 0."""
-    _require_metres(name, panels)
     tolerance = ON_WATERLINE * float(np.ptp(panels[..., 0]))
     return without_slivers(cut_panels(panels, axis=2, side=-1, tolerance=tolerance))
 
 
-def _require_metres(name: str, panels: FloatArray) -> None:
-    longest = float(np.ptp(panels.reshape(-1, 3), axis=0).max())
-    if longest > LONGEST:
-        raise ValueError(
-            f"hull {name!r}: is {longest:.6g} m long; in mm, perhaps? Multiply the coordinates (scale=0.001)"
-        )
-
-
-def _require_panels(name: str, panels: FloatArray) -> None:
+def _require_panels(name: str, panels: Array) -> None:
     if panels.ndim != 3 or panels.shape[1:] != (4, 3):
         raise ValueError(f"hull {name!r}: panels have shape {panels.shape}; give (n, 4, 3)")
     if not np.all(np.isfinite(panels)):
@@ -247,16 +224,19 @@ def _require_panels(name: str, panels: FloatArray) -> None:
         raise ValueError(
             f"hull {name!r}: nothing is below the waterline z = 0; lower it, or give the draught"
         )
-    _require_metres(name, panels)
+    if (longest := float(np.ptp(panels.reshape(-1, 3), axis=0).max())) > LONGEST:
+        raise ValueError(
+            f"hull {name!r}: is {longest:.6g} m long; in mm, perhaps? Multiply the coordinates (scale=0.001)"
+        )
     if (top := float(panels[..., 2].max())) > ON_WATERLINE * float(np.ptp(panels[..., 0])):
         raise ValueError(f"hull {name!r}: a panel reaches z = {top:.4g} m; cut the surface at z = 0")
 
 
-def _require_closed(name: str, panels: FloatArray) -> None:
+def _require_closed(name: str, panels: Array) -> None:
     """A volume that is the same by x, y and z, and positive."""
-    triangles = triangles_of(panels)
+    triangles, points = triangles_of(panels), panels.reshape(-1, 3)
     centre, flux = triangles.mean(axis=1), area_vectors(triangles)
-    middle = 0.5 * (panels.reshape(-1, 3).min(axis=0) + panels.reshape(-1, 3).max(axis=0)) * [1, 1, 0]
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0)) * [1, 1, 0]
     volumes = np.sum((centre - middle) * flux, axis=0)
     if np.all(volumes < 0.0):
         raise ValueError(
@@ -264,7 +244,7 @@ def _require_closed(name: str, panels: FloatArray) -> None:
             "order of the vertices of every face"
         )
     leak = np.abs(flux[:, :2].sum(axis=0)).max() / max(np.abs(flux).sum(), 1e-300)
-    smallest = FLAT * float(np.ptp(panels.reshape(-1, 3), axis=0).max()) ** 3
+    smallest = FLAT * float(np.ptp(points, axis=0).max()) ** 3
     if not (volumes.max() > smallest and np.ptp(volumes) <= CLOSED * volumes.max() and leak <= CLOSED):
         raise ValueError(
             f"hull {name!r}: volume by x, y and z is {volumes[0]:.6g}, {volumes[1]:.6g}, {volumes[2]:.6g} "
@@ -272,7 +252,7 @@ def _require_closed(name: str, panels: FloatArray) -> None:
         )
 
 
-def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> None:
+def _require_floating(name: str, panels: Array, statics: Hydrostatics) -> None:
     """At the waterline, symmetric, along the x axis."""
     if statics.waterplane_area <= CLOSED * statics.wetted_surface:
         raise ValueError(
@@ -296,27 +276,34 @@ def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> N
         )
 
 
-def around(sections: Sequence[FloatArray], count: int) -> list[FloatArray]:
+def around(sections: Sequence[Array], count: int) -> list[Array]:
     """Every half section (p, 2) with ``count`` pieces: corners stay corners, points between them are even.
 
     Where sections have equally many corners, one corner is the same point of each, so that a chine stays one
     line of the mesh. A section of another kind, such as a stem, has even points where its corners are not.
     """
     corners = [knuckles(section) for section in sections]
-    usual = _usual_number(corners)
-    lengths = np.mean([np.diff([0.0, *c, 1.0]) for c in corners if len(c) == usual], axis=0)
-    shares = _shared_out(lengths, count) if usual < count else np.array([count])
+    number, times = np.unique([len(own) for own in corners], return_counts=True)
+    usual = int(number[times.argmax()])  # that most sections have
+    lengths = np.mean([np.diff([0.0, *own, 1.0]) for own in corners if len(own) == usual], axis=0)
+    pieces = np.ones(len(lengths), dtype=np.intp)  # at least one for each part, in proportion to its length
+    for _ in range(count - len(lengths)):
+        pieces[np.argmax(lengths / pieces)] += 1
     made = []
     for section, own in zip(sections, corners, strict=True):
-        if len(own) == usual and usual < count:
-            at = _between([0.0, *own, 1.0], shares)
+        if len(own) == usual < count:
+            ends = np.array([0.0, *own, 1.0])
+            parts = [
+                np.linspace(ends[i], ends[i + 1], n + 1)[bool(i) :] for i, n in enumerate(pieces.tolist())
+            ]
+            at = np.concatenate(parts)
         else:
             at = _snapped(np.linspace(0.0, 1.0, count + 1), own)
         made.append(along(section, at))
     return made
 
 
-def knuckles(section: FloatArray) -> FloatArray:
+def knuckles(section: Array) -> Array:
     """Shares of a half section's length at which it has a corner."""
     at = fractions(section)
     keep = np.append(True, np.diff(at) > LEAST_PART)
@@ -328,33 +315,28 @@ def knuckles(section: FloatArray) -> FloatArray:
     return np.asarray(at[1:-1][turn > KNUCKLE])
 
 
-def _usual_number(corners: Sequence[FloatArray]) -> int:
-    """How many corners most sections have."""
-    number, times = np.unique([len(c) for c in corners], return_counts=True)
-    return int(number[times.argmax()])
-
-
-def _shared_out(lengths: FloatArray, count: int) -> NDArray[np.intp]:
-    """Pieces for each part, at least one, in proportion to its length."""
-    pieces = np.ones(len(lengths), dtype=np.intp)
-    for _ in range(count - len(lengths)):
-        pieces[np.argmax(lengths / pieces)] += 1
-    return pieces
-
-
-def _between(corners: Sequence[float], pieces: NDArray[np.intp]) -> FloatArray:
-    parts = [np.linspace(corners[i], corners[i + 1], n + 1)[bool(i) :] for i, n in enumerate(pieces.tolist())]
-    return np.concatenate(parts)
-
-
-def _snapped(even: FloatArray, corners: FloatArray) -> FloatArray:
+def _snapped(even: Array, corners: Array) -> Array:
     """Even shares, the nearest of which moves to each corner."""
     at = even.copy()
     free = np.ones(len(at), dtype=bool)
     free[[0, -1]] = False
-    for corner in corners:
-        if not free.any():
-            break
+    for corner in corners[: len(at) - 2]:
         nearest = int(np.argmin(np.where(free, np.abs(at - corner), np.inf)))
         at[nearest], free[nearest] = corner, False
     return np.sort(at)
+
+
+VOLUME = 14.0e6 / 1025.0  # m3
+STATIONS, GIRTH = 56, 20
+# Of the entrance that encloses the volume, about its centre of buoyancy.
+LINES = ParametricHull(
+    length=115.0, breadth=25.0, draught=6.4, entrance_length=46.77395891238753, run_length=34.5,
+    transom_breadth_fraction=0.75, transom_draught_fraction=0.2, section_exponent=6.0,
+    origin_from_transom=55.298818409692544,
+)  # fmt: skip
+
+
+@cache
+def shipped_hull() -> Hull:
+    """The hull of 115 m of `shipped_database`, its origin the database's reference point; made once."""
+    return Hull.from_parametric(LINES, stations=STATIONS, girth=GIRTH, name="hull_115")

@@ -10,14 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.database.transform import point_of
 from seacrane.hydro.hull.hull import Hull
-from seacrane.hydro.hull.parametric_hull import ParametricHull
+from seacrane.hydro.hull.lines import ParametricHull
 from seacrane.hydro.hull.solution import HullSolution, capytaine_solution, symmetric_solution
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import positive_of
-from seacrane.inputs.frames import MOTIONS
 from seacrane.warnings import FloatingPositionWarning, MeshConvergenceWarning, SubmergedPartWarning
 
 LARGEST_CHANGE = 0.05  # of the largest of an entry
@@ -25,31 +26,20 @@ FEWEST = 8  # panels along the length and around, of the coarse mesh
 HANGING = 1e-6  # of the volume
 PANELS = 40  # on each half section
 PANELS_PER_WAVE = 8.0
-FloatArray = NDArray[np.float64]
 METHODS = ("strip", "capytaine")
+WAVES = (50.0, 0.05)  # lengths of the ship: the longest and the shortest in deep water
 GYRATION = (0.36, 0.25, 0.25)  # of breadth, length, length
 DISPLACEMENT_LIMIT = 0.01  # of the displaced mass
 TRIM_LIMIT = 0.001  # rad
 
 
 def hydro_from_hull(
-    hull: Hull | ParametricHull,
-    *,
-    center_of_gravity: ArrayLike,
-    mass: float | None = None,
-    radii_of_gyration: ArrayLike | None = None,
-    omega: ArrayLike | None = None,
-    heading: ArrayLike | None = None,
-    speed: float = 0.0,
-    method: Literal["strip", "capytaine"] = "strip",
-    roll_damping_fraction: float = 0.0,
-    trusted_band: tuple[float, float] | None = None,
-    stations: int = 41,
-    check: bool = False,
-    rho: float = 1025.0,
-    g: float = 9.81,
-    name: str | None = None,
-) -> HydroDatabase:
+    hull: Hull | ParametricHull, *, center_of_gravity: ArrayLike, mass: float | None = None,
+    radii_of_gyration: ArrayLike | None = None, omega: ArrayLike | None = None,
+    heading: ArrayLike | None = None, speed: float = 0.0, method: Literal["strip", "capytaine"] = "strip",
+    roll_damping_fraction: float = 0.0, trusted_band: tuple[float, float] | None = None, stations: int = 41,
+    check: bool = False, rho: float = 1025.0, g: float = 9.81, name: str | None = None,
+) -> HydroDatabase:  # fmt: skip
     """Hydrodynamic database of a hull at its drawn waterline in deep water, about the hull's origin.
 
     Parameters
@@ -91,28 +81,46 @@ def hydro_from_hull(
     seacrane.warnings.MeshConvergenceWarning : checked, and added mass or damping changes by more than 5 %.
     """
     shape = Hull.from_parametric(hull) if isinstance(hull, ParametricHull) else hull
-    _require_choice(shape.name, method, speed, roll_damping_fraction)
-    for what, value in (("rho", rho), ("g", g), ("mass", 1.0 if mass is None else mass)):
-        positive_of(f"hull {shape.name!r}: {what}", value)
-    centre = _vector(shape.name, "center_of_gravity", center_of_gravity)
+    what = f"hull {shape.name!r}"
+    if method not in METHODS:
+        raise ValueError(f"{what}: method {method!r} is unknown; choose {' or '.join(METHODS)}")
+    if speed != 0.0:
+        raise ValueError(
+            f"{what}: speed is {speed} m/s; motions, memory and seas of this package are for zero speed: "
+            "pass speed=0.0 (_core.strip_theory has the coefficients at forward speed)"
+        )
+    if not 0.0 <= roll_damping_fraction < 1.0:
+        raise ValueError(
+            f"{what}: roll_damping_fraction is {roll_damping_fraction}; give 0 to below 1, such as 0.05"
+        )
+    for name_of, value in (("rho", rho), ("g", g), ("mass", 1.0 if mass is None else mass)):
+        positive_of(f"{what}: {name_of}", value)
+    centre = point_of(f"{what}: center_of_gravity", center_of_gravity)
     if abs(centre[1]) > 1e-9 * shape.breadth:
         raise ValueError(
-            f"hull {shape.name!r}: the centre of gravity is at y = {centre[1]:.4g} m; give it on the centre "
-            "plane, and model what lies to one side as bodies"
+            f"{what}: the centre of gravity is at y = {centre[1]:.4g} m; give it on the centre plane, and "
+            "model what lies to one side as bodies"
         )
-    frequencies = _increasing(shape.name, "omega", _default_omega(shape, g) if omega is None else omega)
-    default_heading = np.radians(np.arange(0.0, 180.1, 5.0))
-    headings = _increasing(shape.name, "heading", default_heading if heading is None else heading)
+    if omega is None:
+        low, high = np.sqrt(2.0 * np.pi * g / (shape.length * np.array(WAVES)))
+        omega = np.linspace(low, high, 61)
+    heading = np.radians(np.arange(0.0, 180.1, 5.0)) if heading is None else heading
+    frequencies = _increasing(f"{what}: omega", omega, 0.0, np.inf, "above 0 rad/s")
+    headings = _increasing(f"{what}: heading", heading, -1e-12, 2.0 * np.pi, "from 0 to below 2 pi rad")
     displaced = rho * shape.hydrostatics.volume
     weight = displaced if mass is None else float(mass)
-    radii = _radii(shape, radii_of_gyration)
+    radii = np.array(GYRATION) * [shape.breadth, shape.length, shape.length]
+    if radii_of_gyration is not None:
+        radii = point_of(f"{what}: radii_of_gyration", radii_of_gyration)
+        if np.any(radii <= 0.0):
+            raise ValueError(f"{what}: radii_of_gyration are {radii} m; give three positive numbers")
     _require_afloat(shape, _restoring(shape, weight, centre, rho, g), displaced, weight, centre, g)
 
     def solve(mesh: Hull) -> HullSolution:
         given: dict[str, Any] = {"omega": frequencies, "heading": headings, "rho": rho, "g": g}
         if method == "capytaine":
-            return symmetric_solution(capytaine_solution(mesh, **given), headings)
-        return symmetric_solution(strip_solution(mesh, stations=stations, **given), headings)
+            return symmetric_solution(capytaine_solution(mesh, **given))
+        return symmetric_solution(strip_solution(mesh, stations=stations, **given))
 
     solution = solve(shape)
     if check:
@@ -121,84 +129,49 @@ def hydro_from_hull(
         told = convergence_told(shape, solution, solve, inside if inside.any() else ~inside)
         solution = replace(solution, method=solution.method + told)
     return database_of_solution(
-        shape,
-        solution,
-        omega=frequencies,
-        heading=headings,
-        center_of_gravity=centre,
-        mass=weight,
-        radii_of_gyration=radii,
-        roll_damping_fraction=roll_damping_fraction,
-        trusted_band=trusted_band,
-        rho=rho,
-        g=g,
-        name=name or shape.name,
-    )
+        shape, solution, center_of_gravity=centre, mass=weight, radii_of_gyration=radii,
+        roll_damping_fraction=roll_damping_fraction, trusted_band=trusted_band, name=name or shape.name,
+    )  # fmt: skip
 
 
 def database_of_solution(
-    hull: Hull,
-    solution: HullSolution,
-    *,
-    omega: FloatArray,
-    heading: FloatArray,
-    center_of_gravity: FloatArray,
-    mass: float,
-    radii_of_gyration: FloatArray,
-    roll_damping_fraction: float,
-    trusted_band: tuple[float, float] | None,
-    rho: float,
-    g: float,
+    hull: Hull, solution: HullSolution, *, center_of_gravity: Array, mass: float,
+    radii_of_gyration: Array, roll_damping_fraction: float, trusted_band: tuple[float, float] | None,
     name: str,
-) -> HydroDatabase:
+) -> HydroDatabase:  # fmt: skip
     """The database of a solution that is symmetric already; see `hydro_from_hull`."""
-    inertia = mass * np.diag(radii_of_gyration**2)
+    inertia, statics = mass * np.diag(radii_of_gyration**2), hull.hydrostatics
+    height = float(center_of_gravity[2])
+    source = (
+        f"hydro_from_hull: {solution.method}; {hull.source}; volume of the panel mesh {statics.volume:.6f} "
+        f"m3, mass {mass:.6g} kg, centre of gravity x {center_of_gravity[0]:.6f} m, z {height:.6f} m for "
+        f"GM_T {statics.metacentric_height(height):.4f} m"
+    )
+    if roll_damping_fraction != 0.0:
+        source += f"; linear roll damping of {roll_damping_fraction} of critical added in linear_damping"
     bare = HydroDatabase(
-        name=name,
-        omega=omega,
-        heading=heading,
-        added_mass=solution.added_mass,
-        damping=solution.damping,
-        zero_frequency_added_mass=solution.added_mass_zero,
+        name=name, omega=solution.omega, heading=solution.heading, added_mass=solution.added_mass,
+        damping=solution.damping, zero_frequency_added_mass=solution.added_mass_zero,
         infinite_frequency_added_mass=solution.added_mass_infinite,
-        restoring=_restoring(hull, mass, center_of_gravity, rho, g),
-        mass_matrix=rigid_mass_matrix(mass, center_of_gravity, inertia),
-        force=solution.force,
-        length=hull.length,
-        breadth=hull.breadth,
-        draught=hull.draught,
-        rho=rho,
-        g=g,
+        restoring=_restoring(hull, mass, center_of_gravity, solution.rho, solution.g),
+        mass_matrix=rigid_mass_matrix(mass, center_of_gravity, inertia), force=solution.force,
+        length=hull.length, breadth=hull.breadth, draught=hull.draught, rho=solution.rho, g=solution.g,
         trusted_band=solution.trusted_band if trusted_band is None else trusted_band,
         origin=f"origin of the hull on the still waterline, {-hull.extent[0, 0]:.4f} m ahead of its aft end",
-        source=_source(hull, solution, mass, center_of_gravity, roll_damping_fraction),
-    )
+        source=source,
+    )  # fmt: skip
     if roll_damping_fraction == 0.0:
         return bare
     return bare.with_roll_damping(fraction=roll_damping_fraction)
 
 
-def _source(
-    hull: Hull, solution: HullSolution, mass: float, centre: FloatArray, roll_damping_fraction: float
-) -> str:
-    statics = hull.hydrostatics
-    text = (
-        f"hydro_from_hull: {solution.method}; {hull.source}; volume of the panel mesh {statics.volume:.6f} "
-        f"m3, mass {mass:.6g} kg, centre of gravity x {centre[0]:.6f} m, z {centre[2]:.6f} m for GM_T "
-        f"{statics.metacentric_height(float(centre[2])):.4f} m"
-    )
-    if roll_damping_fraction == 0.0:
-        return text
-    return f"{text}; linear roll damping of {roll_damping_fraction} of critical added in linear_damping"
-
-
-def _restoring(hull: Hull, mass: float, centre: FloatArray, rho: float, g: float) -> FloatArray:
+def _restoring(hull: Hull, mass: float, centre: Array, rho: float, g: float) -> Array:
     x, _, z = centre
     return hull.hydrostatics.restoring(rho=rho, g=g, center_of_gravity_z=z, center_of_gravity_x=x, mass=mass)
 
 
 def _require_afloat(
-    hull: Hull, restoring: FloatArray, displaced: float, mass: float, centre: FloatArray, g: float
+    hull: Hull, restoring: Array, displaced: float, mass: float, centre: Array, g: float
 ) -> None:
     """Upright equilibrium: an error for a hull that capsizes, a warning where it sinks or trims."""
     for i, what in ((3, "roll"), (4, "pitch")):
@@ -226,60 +199,16 @@ def _require_afloat(
         )
 
 
-def _require_choice(name: str, method: str, speed: float, fraction: float) -> None:
-    if method not in METHODS:
-        raise ValueError(f"hull {name!r}: method {method!r} is unknown; choose {' or '.join(METHODS)}")
-    if speed != 0.0:
-        raise ValueError(
-            f"hull {name!r}: speed is {speed} m/s; motions, memory and seas of this package are for zero "
-            "speed: pass speed=0.0 (_core.strip_theory has the coefficients at forward speed)"
-        )
-    if not (np.isfinite(fraction) and 0.0 <= fraction < 1.0):
-        raise ValueError(
-            f"hull {name!r}: roll_damping_fraction is {fraction}; give 0 to below 1, such as 0.05"
-        )
-
-
-def _default_omega(hull: Hull, g: float) -> FloatArray:
-    """Deep-water waves from 50 lengths of the ship to a twentieth of it, evenly in frequency."""
-    low, high = np.sqrt(2.0 * np.pi * g / (hull.length * np.array([50.0, 0.05])))
-    return np.linspace(low, high, 61)
-
-
-def _radii(hull: Hull, radii: ArrayLike | None) -> FloatArray:
-    if radii is None:
-        return np.array(GYRATION) * [hull.breadth, hull.length, hull.length]
-    values = _vector(hull.name, "radii_of_gyration", radii)
-    if np.any(values <= 0.0):
-        raise ValueError(f"hull {hull.name!r}: radii_of_gyration are {values} m; give three positive numbers")
-    return values
-
-
-def _vector(name: str, what: str, value: ArrayLike) -> FloatArray:
-    vector = np.asarray(value, dtype=float)
-    if vector.shape != (3,) or not np.all(np.isfinite(vector)):
-        raise ValueError(f"hull {name!r}: {what} is {value!r}; give three finite numbers in m")
-    return vector
-
-
-def _increasing(name: str, what: str, value: ArrayLike) -> FloatArray:
+def _increasing(what: str, value: ArrayLike, low: float, high: float, limits: str) -> Array:
     row = np.asarray(value, dtype=float)
     good = row.ndim == 1 and len(row) > 0 and bool(np.all(np.isfinite(row)))
-    low, high = (0.0, np.inf) if what == "omega" else (-1e-12, 2.0 * np.pi)
     if not good or np.any(np.diff(row) <= 0.0) or row[0] <= low or row[-1] >= high:
-        limits = "above 0 rad/s" if what == "omega" else "from 0 to below 2 pi rad"
-        raise ValueError(f"hull {name!r}: {what} is {value!r}; give increasing numbers {limits}")
+        raise ValueError(f"{what} is {value!r}; give increasing numbers {limits}")
     return row
 
 
 def strip_solution(
-    hull: Hull,
-    *,
-    omega: FloatArray,
-    heading: FloatArray,
-    rho: float,
-    g: float,
-    stations: int,
+    hull: Hull, *, omega: Array, heading: Array, rho: float, g: float, stations: int
 ) -> HullSolution:
     """Radiation and excitation from even stations, both ends included.
 
@@ -305,27 +234,18 @@ def strip_solution(
             SubmergedPartWarning,
         )
     solved = _core.strip_theory(
-        x=x,
-        sections=[s.section for s in cut],
-        omega=omega,
-        heading=heading,
-        speed=0.0,
-        rho=rho,
-        g=g,
+        x=x, sections=[s.section for s in cut], omega=omega, heading=heading, speed=0.0, rho=rho, g=g,
         panels=PANELS,
-    )
+    )  # fmt: skip
     girth = max(float(np.hypot(*np.diff(s.section, axis=0).T).sum()) for s in cut)
     waves = np.array([hull.length, PANELS_PER_WAVE * girth / PANELS])
     low, high = np.sqrt(2.0 * np.pi * g / waves).tolist()
     return HullSolution(
-        added_mass=solved["added_mass"],
-        damping=solved["damping"],
-        added_mass_zero=None,
-        added_mass_infinite=solved["infinite_frequency_added_mass"],
-        force=solved["force"],
-        method=f"strip theory, {stations} stations, surge without radiation",
-        trusted_band=(low, high),
-    )
+        omega=omega, heading=heading, rho=rho, g=g, added_mass=solved["added_mass"],
+        damping=solved["damping"], added_mass_zero=None,
+        added_mass_infinite=solved["infinite_frequency_added_mass"], force=solved["force"],
+        method=f"strip theory, {stations} stations, surge without radiation", trusted_band=(low, high),
+    )  # fmt: skip
 
 
 def convergence_told(
@@ -344,11 +264,12 @@ def convergence_told(
         stations=max(FEWEST, round(hull.length / size)), girth=max(FEWEST // 2, round(around / size))
     )
     other = solve(coarse)
-    changes = {
-        f"{symbol}{i + 1}{i + 1}": _change(getattr(solution, name), getattr(other, name), i, inside)
-        for symbol, name in (("A", "added_mass"), ("B", "damping"))
-        for i in range(len(MOTIONS))
-    }
+    changes = {}
+    for symbol, name in (("A", "added_mass"), ("B", "damping")):
+        for i in range(6):
+            mine, theirs = (getattr(one, name)[inside, i, i] for one in (solution, other))
+            largest = float(np.abs(mine).max()) or np.inf  # none where it is negligible
+            changes[f"{symbol}{i + 1}{i + 1}"] = float(np.abs(mine - theirs).max()) / largest
     entry, worst = max(changes.items(), key=lambda pair: pair[1])
     told = f"; with {len(coarse.panels)} in place of {len(hull.panels)} panels {entry} changes by {worst:.2%}"
     if worst > LARGEST_CHANGE:
@@ -359,10 +280,3 @@ def convergence_told(
             MeshConvergenceWarning,
         )
     return told
-
-
-def _change(fine: FloatArray, coarse: FloatArray, i: int, inside: NDArray[np.bool_]) -> float:
-    """Largest difference of a diagonal entry over its largest; zero where it is negligible."""
-    mine, theirs = fine[inside, i, i], coarse[inside, i, i]
-    largest = float(np.abs(mine).max())
-    return float(np.abs(mine - theirs).max()) / largest if largest > 0.0 else 0.0

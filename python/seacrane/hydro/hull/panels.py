@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.hull.hydrostatics import area_vectors, triangles_of
+from seacrane.arrays import Array
+from seacrane.inputs.checked import positive_of
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 MIRROR = np.array([1.0, -1.0, 1.0])
@@ -27,7 +27,18 @@ ON_PLANE = 1e-7  # of the length: closer points are one, or on the waterline, or
 NEXT_TO_PLANE = 10.0  # of that: vertices this close to a slice are on it, so that their edges meet there
 
 
-def cut_panels(panels: FloatArray, *, axis: int, side: int, tolerance: float) -> FloatArray:
+def triangles_of(panels: Array) -> Array:
+    """Two triangles (2 n, 3, 3) of every quadrilateral (n, 4, 3)."""
+    return np.concatenate([panels[:, [0, 1, 2]], panels[:, [0, 2, 3]]])
+
+
+def area_vectors(triangles: Array) -> Array:
+    """Area times normal (n, 3) of triangles (n, 3, 3), m2."""
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    return 0.5 * np.cross(b - a, c - a)
+
+
+def cut_panels(panels: Array, *, axis: int, side: int, tolerance: float) -> Array:
     """Panels on one side of a coordinate plane through the origin, those that cross it cut in triangles.
 
     ``side`` +1 keeps where the coordinate ``axis`` is above zero, -1 below. Vertices within ``tolerance``
@@ -43,9 +54,9 @@ def cut_panels(panels: FloatArray, *, axis: int, side: int, tolerance: float) ->
     return np.concatenate([points[inside], *[piece[None] for piece in pieces if piece is not None]])
 
 
-def _clipped(triangle: FloatArray, axis: int, side: int) -> FloatArray | None:
+def _clipped(triangle: Array, axis: int, side: int) -> Array | None:
     """The part (4, 3) of a triangle where ``side`` times the coordinate is not negative."""
-    kept: list[FloatArray] = []
+    kept: list[Array] = []
     for a, b in zip(triangle, np.roll(triangle, -1, axis=0), strict=True):
         da, db = side * a[axis], side * b[axis]
         if da >= 0.0:
@@ -60,41 +71,39 @@ def _clipped(triangle: FloatArray, axis: int, side: int) -> FloatArray | None:
     return corners[[0, 1, 2, 2]] if len(corners) == 3 else corners
 
 
-def mirrored(panels: FloatArray) -> FloatArray:
+def mirrored(panels: Array) -> Array:
     """Panels of the other side, normals outwards."""
     return np.asarray((panels * MIRROR)[:, [0, 3, 2, 1]])
 
 
-def lofted(x: Sequence[float], sections: Sequence[FloatArray]) -> FloatArray:
+def lofted(x: Sequence[float], sections: Sequence[Array]) -> Array:
     """Panels between half sections at increasing stations ``x``, both sides, without the ends.
 
     Neighbours with as many points each are joined point by point, others by the share of the length from the
     first to the last point; every point of every section is kept.
     """
-    port = [_strip(x[i], sections[i], x[i + 1], sections[i + 1]) for i in range(len(sections) - 1)]
+    port = []
+    for i in range(len(sections) - 1):
+        aft, fore = sections[i : i + 2]
+        if len(aft) != len(fore):
+            at = np.union1d(fractions(aft), fractions(fore))
+            at = at[np.append(True, np.diff(at) > SAME_FRACTION)]
+            aft, fore = along(aft, at), along(fore, at)
+        a = np.column_stack([np.full(len(aft), x[i]), aft])
+        b = np.column_stack([np.full(len(fore), x[i + 1]), fore])
+        port.append(np.stack([a[:-1], b[:-1], b[1:], a[1:]], axis=1))
     side = without_slivers(np.concatenate(port))
     return np.concatenate([side, mirrored(side)])
 
 
-def _strip(x_aft: float, aft: FloatArray, x_fore: float, fore: FloatArray) -> FloatArray:
-    """Panels (n, 4, 3) of the port side between two sections."""
-    if len(aft) != len(fore):
-        at = np.union1d(fractions(aft), fractions(fore))
-        at = at[np.append(True, np.diff(at) > SAME_FRACTION)]
-        aft, fore = along(aft, at), along(fore, at)
-    a = np.column_stack([np.full(len(aft), x_aft), aft])
-    b = np.column_stack([np.full(len(fore), x_fore), fore])
-    return np.stack([a[:-1], b[:-1], b[1:], a[1:]], axis=1)
-
-
-def fractions(section: FloatArray) -> FloatArray:
+def fractions(section: Array) -> Array:
     """Share (p,) of the length up to each point; a section that is one point has 0 and 1."""
     steps = np.hypot(*np.diff(section, axis=0).T)
     arc = np.concatenate([[0.0], np.cumsum(steps)])
     return arc / arc[-1] if arc[-1] > 0.0 else np.array([0.0, 1.0])
 
 
-def along(section: FloatArray, fraction: FloatArray) -> FloatArray:
+def along(section: Array, fraction: Array) -> Array:
     """Points (n, 2) at shares of a section's length."""
     if np.all(section == section[0]):
         return np.repeat(section[:1], len(fraction), axis=0)
@@ -104,7 +113,13 @@ def along(section: FloatArray, fraction: FloatArray) -> FloatArray:
     return np.column_stack([np.interp(fraction, at, points[:, i]) for i in (0, 1)])
 
 
-def end_cap(x: float, section: FloatArray, *, forward: bool) -> FloatArray:
+def closed_loft(x: list[float], sections: list[Array]) -> Array:
+    """`lofted`, with flat ends."""
+    ends = [_end_cap(x[0], sections[0], forward=False), _end_cap(x[-1], sections[-1], forward=True)]
+    return np.concatenate([lofted(x, sections), *ends])
+
+
+def _end_cap(x: float, section: Array, *, forward: bool) -> Array:
     """Flat end of both sides: rings from the outline towards the middle of its waterline."""
     radius = np.hypot(*section.T)
     steps = np.hypot(*np.diff(section, axis=0).T)
@@ -117,7 +132,7 @@ def end_cap(x: float, section: FloatArray, *, forward: bool) -> FloatArray:
     return np.concatenate([port, mirrored(port)])
 
 
-def without_slivers(panels: FloatArray) -> FloatArray:
+def without_slivers(panels: Array) -> Array:
     """The panels that have an area."""
     if len(panels) == 0:
         return panels
@@ -125,7 +140,7 @@ def without_slivers(panels: FloatArray) -> FloatArray:
     return np.asarray(panels[area > NO_AREA * np.ptp(panels.reshape(-1, 3), axis=0).max() ** 2])
 
 
-def merged_points(points: FloatArray, tolerance: float) -> IntArray:
+def merged_points(points: Array, tolerance: float) -> IntArray:
     """Label (n,) of each point (n, d); points closer than ``tolerance`` share one."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -136,7 +151,7 @@ def merged_points(points: FloatArray, tolerance: float) -> IntArray:
     return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
 
 
-def mesh_triangles(name: str, vertices: ArrayLike, faces: ArrayLike) -> FloatArray:
+def mesh_triangles(name: str, vertices: ArrayLike, faces: ArrayLike) -> Array:
     """Triangles (n, 3, 3) of a mesh of triangles or quadrilaterals.
 
     Raises ValueError: wrong shapes, a vertex that is not finite, or a face with an index out of range.
@@ -158,23 +173,29 @@ def mesh_triangles(name: str, vertices: ArrayLike, faces: ArrayLike) -> FloatArr
         bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise ValueError(f"hull {name!r}: vertex {bad} is {points[bad]}; give finite coordinates in m")
     if corners.shape[1] == 4:
-        corners = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+        return triangles_of(points[corners])
     return np.asarray(points[corners])
 
 
-def require_closed(name: str, triangles: FloatArray) -> FloatArray:
-    """The triangles (n, 3, 3) of a hull with joined vertices, once they are known to be closed below z = 0.
+def afloat(name: str, triangles: Array, draught: float | None) -> Array:
+    """The triangles with their lowest point ``draught`` (m) below z = 0; as they are where it is None."""
+    if draught is None:
+        return triangles
+    depth = positive_of(f"hull {name!r}: draught", draught, "m")
+    return np.asarray(triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth]))
+
+
+def closed_below(
+    what: str, triangles: Array, level: float = 0.0, where: str = " below the waterline"
+) -> Array:
+    """The triangles (n, 3, 3) of a surface with joined vertices, once they are known to be closed below z =
+    `level` (m), which messages call `where`.
 
     Raises
     ------
-    ValueError : an edge below the waterline with one face or more than two, or two faces that run along
-        their common edge in the same direction; names the number of edges and the place of the first.
+    ValueError : an edge there with one face or more than two, or two faces that run along their common edge
+        in the same direction; names the number of edges and the place of the first.
     """
-    return closed_below(f"hull {name!r}", triangles, 0.0, " below the waterline")
-
-
-def closed_below(what: str, triangles: FloatArray, level: float, where: str) -> FloatArray:
-    """As `require_closed`, of any surface below z = `level`, m, which messages call `where`."""
     flat = triangles.reshape(-1, 3)
     tolerance = MERGE * float(np.ptp(flat, axis=0).max())
     labels = merged_points(flat, tolerance)
@@ -196,7 +217,7 @@ def _without_cancelling(faces: IntArray) -> IntArray:
     return np.asarray(faces[((count != 2) | (balance != 0.0))[same.ravel()]])
 
 
-def _require_pairs(what: str, where: str, points: FloatArray, edges: IntArray) -> None:
+def _require_pairs(what: str, where: str, points: Array, edges: IntArray) -> None:
     """Every edge run through once in each direction."""
     low, high = edges.min(axis=1), edges.max(axis=1)
     pairs, which, count = np.unique(
@@ -226,11 +247,11 @@ class Slice:
     is wholly under water: a bulb ahead of the stem, a pod.
     """
 
-    section: FloatArray
+    section: Array
     apart: float
 
 
-def slices(name: str, panels: FloatArray, x: FloatArray) -> list[Slice]:
+def slices(name: str, panels: Array, x: Array) -> list[Slice]:
     """Slices of a symmetric wetted surface (n, 4, 3) at the stations ``x`` (s,) in m.
 
     Stations on the foremost and aftmost point give the hull's ends.
@@ -247,12 +268,16 @@ def slices(name: str, panels: FloatArray, x: FloatArray) -> list[Slice]:
     return [_slice(name, port, float(station), station < middle, tolerance) for station in x]
 
 
-def _slice(name: str, triangles: FloatArray, x: float, aft: bool, tolerance: float) -> Slice:
+def _slice(name: str, triangles: Array, x: float, aft: bool, tolerance: float) -> Slice:
     """One slice; vertices on the plane count to the nearer end, so that the end itself is a section."""
     chains = _chains(name, x, _segments(triangles, x, aft, tolerance), tolerance)
-    piercing = [_downwards(c) for c in chains if max(c[0, 1], c[-1, 1]) >= -tolerance]
-    piercing = [c for c in piercing if c[:, 1].min() < -tolerance]  # else: a bottom that just comes up
-    apart = sum(_half_area(c) for c in chains if max(c[0, 1], c[-1, 1]) < -tolerance)
+    piercing, apart = [], 0.0
+    for chain in chains:
+        if max(chain[0, 1], chain[-1, 1]) < -tolerance:
+            y, z = np.append(chain[:, 0], [0.0, 0.0]), np.append(chain[:, 1], chain[[-1, 0], 1])
+            apart += float(0.5 * abs(np.sum(y * np.roll(z, -1) - z * np.roll(y, -1))))
+        elif chain[:, 1].min() < -tolerance:  # else: a bottom that just comes up
+            piercing.append(chain if chain[0, 1] >= chain[-1, 1] else chain[::-1].copy())
     if not piercing:
         return Slice(section=np.zeros((3, 2)), apart=apart)
     if len(piercing) > 1 or piercing[0][-1, 0] > tolerance:
@@ -268,7 +293,7 @@ def _slice(name: str, triangles: FloatArray, x: float, aft: bool, tolerance: flo
     return Slice(section=np.column_stack([np.maximum(section[:, 0], 0.0), section[:, 1]]), apart=apart)
 
 
-def _segments(triangles: FloatArray, x: float, aft: bool, tolerance: float) -> FloatArray:
+def _segments(triangles: Array, x: float, aft: bool, tolerance: float) -> Array:
     """Directed segments (m, 2, 2) of y, z in which the triangles meet the plane."""
     distance = triangles[..., 0] - x
     distance[np.abs(distance) <= NEXT_TO_PLANE * tolerance] = 0.0
@@ -285,7 +310,7 @@ def _segments(triangles: FloatArray, x: float, aft: bool, tolerance: float) -> F
     return out
 
 
-def _chains(name: str, x: float, segments: FloatArray, tolerance: float) -> list[FloatArray]:
+def _chains(name: str, x: float, segments: Array, tolerance: float) -> list[Array]:
     """Segments joined end to start; a closed chain repeats its first point."""
     if len(segments) == 0:
         return []
@@ -311,15 +336,3 @@ def _chains(name: str, x: float, segments: FloatArray, tolerance: float) -> list
             i = after
         chains.append(np.array(chain))
     return chains
-
-
-def _downwards(chain: FloatArray) -> FloatArray:
-    """The chain from its end on the waterline."""
-    return chain if chain[0, 1] >= chain[-1, 1] else chain[::-1].copy()
-
-
-def _half_area(chain: FloatArray) -> float:
-    """Area (m2) between a chain and the centre line."""
-    y, z = np.append(chain[:, 0], 0.0), np.append(chain[:, 1], chain[-1, 1])
-    y, z = np.append(y, 0.0), np.append(z, chain[0, 1])
-    return float(0.5 * abs(np.sum(y * np.roll(z, -1) - z * np.roll(y, -1))))

@@ -7,13 +7,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.readers.capytaine import MOTION_NAMES
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 ALONG = 1e-9  # rad: headings this close to 0 or 180 deg are along the ship
 MOST_PANELS = 8000  # 16 bytes for each pair of panels, two matrices: 2 GB
 PANELS_PER_WAVE = 8.0
@@ -26,6 +24,7 @@ class HullSolution:
 
     Attributes
     ----------
+    omega, heading, rho, g : (n,) rad/s and (m,) rad at which it was found, and kg/m3, m/s2 of its water.
     added_mass, damping : (n, 6, 6).
     added_mass_zero, added_mass_infinite : (6, 6) limits, or None where the method has none.
     force : (m, n, 6) complex, per metre of wave amplitude.
@@ -33,71 +32,61 @@ class HullSolution:
     trusted_band : (low, high) in rad/s within which the method and its panels can be relied upon.
     """
 
-    added_mass: FloatArray
-    damping: FloatArray
-    added_mass_zero: FloatArray | None
-    added_mass_infinite: FloatArray
-    force: ComplexArray
+    omega: Array
+    heading: Array
+    rho: float
+    g: float
+    added_mass: Array
+    damping: Array
+    added_mass_zero: Array | None
+    added_mass_infinite: Array
+    force: Complex
     method: str
     trusted_band: tuple[float, float]
 
 
-def symmetric_solution(solution: HullSolution, heading: FloatArray) -> HullSolution:
+def symmetric_solution(solution: HullSolution) -> HullSolution:
     """The solution with symmetric matrices, and zero where port-starboard symmetry forbids it to be other.
 
     Its text says how much that took.
     """
     zero = solution.added_mass_zero
-    removed = max(_asymmetry(m) for m in (solution.added_mass, solution.damping))
-    force, noise = _symmetrised_force(solution.force, heading)
+    removed = []
+    for matrix in (solution.added_mass, solution.damping):
+        scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)).max(axis=0))
+        change = np.abs(matrix - _symmetrised(matrix))
+        removed.append(_largest_share(change, np.outer(scale, scale)))
+    force = solution.force.copy()
+    force[np.abs(np.sin(solution.heading)) < ALONG, :, 1::2] = 0.0  # sway, roll, yaw in head, following seas
+    change = np.abs(solution.force - force).max(axis=(0, 1))
+    noise = _largest_share(change, np.abs(solution.force).max(axis=(0, 1)))
     return replace(
-        solution,
-        added_mass=_symmetrised(solution.added_mass),
-        damping=_symmetrised(solution.damping),
+        solution, added_mass=_symmetrised(solution.added_mass), damping=_symmetrised(solution.damping),
         added_mass_zero=None if zero is None else _symmetrised(zero),
-        added_mass_infinite=_symmetrised(solution.added_mass_infinite),
-        force=force,
+        added_mass_infinite=_symmetrised(solution.added_mass_infinite), force=force,
         method=(
-            f"{solution.method}; matrices made symmetric, which removed up to {removed:.4f} of the geometric "
-            "mean of the largest diagonals; motions that port-starboard symmetry forbids set to zero, which "
-            f"removed up to {noise:.1e} of the largest force"
+            f"{solution.method}; matrices made symmetric, which removed up to {max(removed):.4f} of the "
+            "geometric mean of the largest diagonals; motions that port-starboard symmetry forbids set to "
+            f"zero, which removed up to {noise:.1e} of the largest force"
         ),
-    )
+    )  # fmt: skip
 
 
-def _symmetrised(matrix: FloatArray) -> FloatArray:
+def _symmetrised(matrix: Array) -> Array:
     """(..., 6, 6) without the entries that port-starboard symmetry forbids; its symmetric part."""
     parity = np.arange(6) % 2
     kept = np.where(parity[:, None] == parity, matrix, 0.0)
     return np.asarray(0.5 * (kept + kept.swapaxes(-1, -2)))
 
 
-def _asymmetry(matrix: FloatArray) -> float:
-    """Largest change by `_symmetrised`, by the geometric mean of the largest diagonals."""
-    scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)).max(axis=0))
-    product = np.outer(scale, scale)
-    change = np.abs(matrix - _symmetrised(matrix))
-    return float((change / np.where(product > 0.0, product, 1.0)).max())
-
-
-def _symmetrised_force(force: ComplexArray, heading: FloatArray) -> tuple[ComplexArray, float]:
-    """Forces (m, n, 6) with sway, roll and yaw zero in head and following seas, and the share removed."""
-    clean = force.copy()
-    clean[np.abs(np.sin(heading)) < ALONG, :, 1::2] = 0.0
-    largest = np.abs(force).max(axis=(0, 1))
-    change = np.abs(force - clean).max(axis=(0, 1))
-    return clean, float((change / np.where(largest > 0.0, largest, 1.0)).max())
+def _largest_share(change: Array, whole: Array) -> float:
+    return float((change / np.where(whole > 0.0, whole, 1.0)).max())
 
 
 def capytaine_solution(
-    hull: Hull,
-    *,
-    omega: FloatArray,
-    heading: FloatArray,
-    rho: float,
-    g: float,
+    hull: Hull, *, omega: Array, heading: Array, rho: float, g: float,
     lid_panel_radius: float | None = None,
-) -> HullSolution:
+) -> HullSolution:  # fmt: skip
     """Radiation and diffraction with a lid on the waterplane against irregular frequencies.
 
     The trusted band ends where the wave is eight panels long.
@@ -120,17 +109,23 @@ def capytaine_solution(
     dofs = capytaine.rigid_body_dofs(rotation_center=(0.0, 0.0, 0.0))
     body = capytaine.FloatingBody(mesh=mesh, lid_mesh=lid, dofs=dofs, name=hull.name)
     solved = _solved(capytaine, body, omega, heading, rho, g)
-    order = ("omega", "influenced_dof", "radiating_dof")
     names = list(MOTION_NAMES)
-    matrices = {"influenced_dof": names, "radiating_dof": names}
-    added_mass = solved.added_mass.transpose(*order).sel(matrices)
-    damping = solved.radiation_damping.transpose(*order).sel(matrices).sel(omega=omega)
+    added_mass, damping = (
+        table.transpose("omega", "influenced_dof", "radiating_dof").sel(
+            influenced_dof=names, radiating_dof=names
+        )
+        for table in (solved.added_mass, solved.radiation_damping)
+    )
     force = (solved.diffraction_force + solved.Froude_Krylov_force).sel(omega=omega, influenced_dof=names)
     force = force.transpose("wave_direction", "omega", "influenced_dof")
     shortest = PANELS_PER_WAVE * hull.panel_size
     return HullSolution(
+        omega=omega,
+        heading=heading,
+        rho=rho,
+        g=g,
         added_mass=added_mass.sel(omega=omega).values,
-        damping=damping.values,
+        damping=damping.sel(omega=omega).values,
         added_mass_zero=added_mass.sel(omega=0.0).values,
         added_mass_infinite=added_mass.sel(omega=np.inf).values,
         force=np.conj(force.values),  # Capytaine's time factor is exp(-i omega t)
@@ -139,7 +134,7 @@ def capytaine_solution(
     )
 
 
-def _solved(capytaine: Any, body: Any, omega: FloatArray, heading: FloatArray, rho: float, g: float) -> Any:
+def _solved(capytaine: Any, body: Any, omega: Array, heading: Array, rho: float, g: float) -> Any:
     """Capytaine's dataset at the frequencies, at zero and at infinity (where it leaves out diffraction)."""
     import xarray
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.hydro_data import AdditionalMatrices
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.memory_model import (
@@ -19,13 +18,13 @@ from seacrane.hydro.data.memory_model import (
     MotionError,
     MotionFit,
 )
-from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.memory.certificate import TYPICAL_VELOCITY, joint_passivity, largest_states, realise_pair
 from seacrane.hydro.memory.identification import (
     IdentificationData,
     RationalFit,
     dissipation_limit,
-    fit_order,
-    fit_row,
+    fit_lowest_order,
+    judged_rows,
     memory_entries,
     motion_groups,
     symmetric,
@@ -40,11 +39,8 @@ from seacrane.hydro.memory.oscillators import (
     joined,
     with_more,
 )
-from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states, realise_pair
 from seacrane.hydro.memory.retardation import retardation_functions
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 Pairs = list[tuple[int, int]]
 
 SHARE = 0.8  # of the limit that the radiation of one group may take
@@ -58,26 +54,35 @@ ADDITIONAL_ORDERS = range(2, 11)
 
 
 def fit_by_motion(
-    *, database: Hydrodynamics, band: tuple[float, float], known: FloatArray | None, limit: float
+    *, database: Hydrodynamics, band: tuple[float, float], known: Array | None, limit: float
 ) -> MemoryModel:
     """Radiation as damped oscillators per group of motions, other causes per pair; orders as `limit` allows.
 
-    Parameters
-    ----------
-    database : of zero speed.
-    band : (low, high) in rad/s over which motions are judged.
-    known : (6, 6) infinite-frequency added mass, or None to estimate it.
-    limit : of `MotionError.worst`.
+    It is one of `MotionError.worst` over ``band`` (rad/s). ``known``: infinite-frequency added mass (6, 6),
+    None: estimated.
     """
     judge = motion_judge(database, band)
-    grid = _grid(database, judge, band)
+    below = database.omega[database.omega < BEYOND_BAND * band[1]]
+    about = judge.about_peaks[(judge.about_peaks > band[0]) & (judge.about_peaks < band[1])]
+    grid = np.unique(np.concatenate([below, about]))
     kept, left_out = felt_pairs(database, judge, limit)
     blocks: list[MemoryBlock] = []
-    infinite = _constant(database, judge)
+    infinite = judge.added_mass.mean(axis=0)  # of entries without memory
+    if database.port_starboard_symmetric:
+        places = np.arange(len(infinite))
+        infinite = np.where(np.add.outer(places, places) % 2, 0.0, infinite)
     of_motions = partial(_Group, judge, grid, band, known)
     for group in motion_groups(kept):
         fit = of_motions(group)
-        masses = fit.lowest_order(SHARE * limit, _by_hull(of_motions, group, SHARE * limit))
+        parts: list[tuple[list[int], Oscillators]] = []
+        hulls = sorted({motion // 6 for motion in group})
+        # Of several hulls first surge, heave and pitch of each, and sway, roll and yaw: found quickly.
+        for hull, side in [(hull, side) for hull in hulls for side in (0, 1) if len(hulls) > 1]:
+            own = [motion for motion in group if motion // 6 == hull and motion % 2 == side]
+            if own:
+                model = of_motions(own).lowest_order(SHARE * limit, [])
+                parts.append(([group.index(motion) for motion in own], model))
+        masses = fit.lowest_order(SHARE * limit, parts)
         blocks.append(fit.block(masses))
         infinite[np.ix_(group, group)] = fit.infinite(masses)
     if known is not None:
@@ -87,21 +92,21 @@ def fit_by_motion(
         more, inertia, spring = _additional(database, part, judge, grid, band, 0.5 * limit)
         blocks += more
         mass, stiffness = mass + inertia, stiffness + spring
-    model = MemoryModel(
-        blocks=tuple(blocks),
-        added_mass=infinite,
-        additional_added_mass=mass,
-        additional_stiffness=stiffness,
-        band=band,
-        r2=0.0,
-        rows=(),
+    memory = MemoryModel(
+        blocks=tuple(blocks), added_mass=infinite, additional_added_mass=mass,
+        additional_stiffness=stiffness, band=band, r2=0.0, rows=(),
         passivity=joint_passivity(blocks, database.damping, band),
-    )
+    )  # fmt: skip
     floor = judge.error_of(retardation_functions(database=database)).worst
-    motion = MotionFit(limit=limit, error=judge.error_of(model), floor=floor, left_out=left_out)
-    rows = tuple(_rows(database, model, kept, motion.reached))
+    motion = MotionFit(limit=limit, error=judge.error_of(memory), floor=floor, left_out=left_out)
+    rows: list[FitRow] = []
+    for cause in dict.fromkeys(block.cause for block in blocks):
+        of = [block for block in blocks if block.cause == cause]
+        pairs = [(int(j), int(k)) for block in of for j in block.outputs for k in block.inputs if j <= k]
+        felt = [pair for pair in pairs if cause != RADIATION or pair in kept]
+        rows += judged_rows(memory, database, cause, felt, -np.inf if motion.reached else np.inf)
     worst = min((min(row.r2_added_mass, row.r2_damping) for row in rows), default=1.0)
-    return dataclasses.replace(model, rows=rows, r2=max(worst, 0.0), motion=motion)
+    return dataclasses.replace(memory, rows=tuple(rows), r2=max(worst, 0.0), motion=motion)
 
 
 def felt_pairs(
@@ -129,7 +134,7 @@ def felt_pairs(
     return [pair for pair in pairs if pair not in left_out], tuple(left_out)
 
 
-def _without(judge: MotionJudge, pairs: Pairs) -> ComplexArray:
+def _without(judge: MotionJudge, pairs: Pairs) -> Complex:
     """Change of impedance (n, 6, 6) if pairs had no damping and a constant added mass."""
     w = judge.omega
     out = np.zeros(judge.damping.shape, dtype=complex)
@@ -139,52 +144,13 @@ def _without(judge: MotionJudge, pairs: Pairs) -> ComplexArray:
     return out
 
 
-def _constant(database: Hydrodynamics, judge: MotionJudge) -> FloatArray:
-    """Added mass (6, 6) of entries without memory: its mean over the band, zero where symmetry says so."""
-    mean = judge.added_mass.mean(axis=0)
-    if database.port_starboard_symmetric:
-        motion = np.arange(len(mean))
-        mean = np.where(np.add.outer(motion, motion) % 2, 0.0, mean)
-    return np.asarray(mean)
-
-
-def _grid(database: Hydrodynamics, judge: MotionJudge, band: tuple[float, float]) -> FloatArray:
-    """Frequencies of the fit: the database's, and some about each resonance."""
-    low, high = band
-    below = database.omega[database.omega < BEYOND_BAND * high]
-    about = judge.about_peaks[(judge.about_peaks > low) & (judge.about_peaks < high)]
-    return np.unique(np.concatenate([below, about]))
-
-
-def _by_hull(
-    of_motions: Callable[[list[int]], _Group], group: list[int], limit: float
-) -> list[tuple[list[int], Oscillators]]:
-    """Models of the motions that a hull alone keeps apart, where a group has motions of several hulls.
-
-    Surge, heave and pitch of each hull, and sway, roll and yaw: a few masses each, found quickly.
-    """
-    hulls = sorted({motion // 6 for motion in group})
-    if len(hulls) < 2:
-        return []
-    sets = [[m for m in group if m // 6 == hull and m % 2 == side] for hull in hulls for side in (0, 1)]
-    return [
-        ([group.index(m) for m in motions], of_motions(motions).lowest_order(limit, []))
-        for motions in sets
-        if motions
-    ]
-
-
 class _Group:
     """One group of coupled motions: its data, and what a model of it does to its motions."""
 
     def __init__(
-        self,
-        judge: MotionJudge,
-        omega: FloatArray,
-        band: tuple[float, float],
-        known: FloatArray | None,
+        self, judge: MotionJudge, omega: Array, band: tuple[float, float], known: Array | None,
         group: list[int],
-    ) -> None:
+    ) -> None:  # fmt: skip
         self.judge, self.group = judge, group
         a, b = (
             table(omega)[:, group][:, :, group] for table in (judge.table.added_mass, judge.table.damping)
@@ -192,13 +158,10 @@ class _Group:
         self.scale = np.sqrt(np.maximum(b.max(axis=0).diagonal(), 1e-300))
         self.product = np.outer(self.scale, self.scale)
         self.data = MotionData(
-            omega=omega,
-            added_mass=a / self.product,
-            damping=b / self.product,
-            trusted=within(omega, band),
+            omega=omega, added_mass=a / self.product, damping=b / self.product, trusted=within(omega, band),
             added_mass_infinite=None if known is None else known[np.ix_(group, group)] / self.product,
             lever=judge.lever(omega, group) * self.product[np.triu_indices(len(group))],
-        )
+        )  # fmt: skip
 
     def lowest_order(self, limit: float, parts: list[tuple[list[int], Oscillators]]) -> Oscillators:
         """Model of the fewest masses that keeps the limit, beginning with those of ``parts`` together."""
@@ -219,7 +182,7 @@ class _Group:
         assert best is not None
         return best[1]
 
-    def infinite(self, model: Oscillators) -> FloatArray:
+    def infinite(self, model: Oscillators) -> Array:
         """Infinite-frequency added mass (m, m) in SI units."""
         inner = MotionProblem(self.data, len(model.w)).infinite(model)
         return np.asarray(inner * self.product)
@@ -239,101 +202,50 @@ class _Group:
         b = b * self.scale
         motions = np.array(self.group)
         return MemoryBlock(
-            cause=RADIATION,
-            outputs=motions,
-            inputs=motions,
-            A=a,
-            B=b,
-            C=b.T.copy(),
+            cause=RADIATION, outputs=motions, inputs=motions, A=a, B=b, C=b.T.copy(),
             D=np.zeros((len(motions), len(motions))),
             state_scale=largest_states(a, b * TYPICAL_VELOCITY[motions % 6]),
-        )
+        )  # fmt: skip
 
 
 def _additional(
-    database: Hydrodynamics,
-    part: AdditionalMatrices,
-    judge: MotionJudge,
-    omega: FloatArray,
-    band: tuple[float, float],
-    limit: float,
-) -> tuple[list[MemoryBlock], FloatArray, FloatArray]:
+    database: Hydrodynamics, part: AdditionalMatrices, judge: MotionJudge, omega: Array,
+    band: tuple[float, float], limit: float,
+) -> tuple[list[MemoryBlock], Array, Array]:  # fmt: skip
     """Blocks, instantaneous added mass and static stiffness (6, 6) of one additional cause."""
     from scipy.interpolate import CubicSpline
 
     a, b = symmetric(part.added_mass), symmetric(part.damping)
+    w = judge.omega
     inside = within(omega, band)
-    at_grid, at_judge = (
-        [CubicSpline(database.omega, table)(w) for table in (a, b)] for w in (omega, judge.omega)
-    )
+    at_grid, at_judge = ([CubicSpline(database.omega, table)(at) for table in (a, b)] for at in (omega, w))
     blocks: list[MemoryBlock] = []
     fits: dict[tuple[int, int], RationalFit] = {}
     mass, stiffness = np.zeros_like(a[0]), np.zeros_like(a[0])
     for j, k in memory_entries(a, b, database.omega):
         lever = judge.lever(omega, [j]) if j == k else judge.lever(omega, [j, k])[:, :, 1:2]
         data = IdentificationData(
-            omega=omega[inside],
-            added_mass=at_grid[0][inside, j, k],
-            damping=at_grid[1][inside, j, k],
-            trusted=np.ones(np.count_nonzero(inside), dtype=bool),
-            added_mass_infinite=None,
-            zero_at_origin=False,
-            static_stiffness=True,
-            dissipation_limit=dissipation_limit(fits, j, k),
+            omega=omega[inside], added_mass=at_grid[0][inside, j, k], damping=at_grid[1][inside, j, k],
+            trusted=np.ones(np.count_nonzero(inside), dtype=bool), added_mass_infinite=None,
+            zero_at_origin=False, static_stiffness=True, dissipation_limit=dissipation_limit(fits, j, k),
             weight=np.linalg.norm(lever[inside], axis=(1, 2)),
+        )  # fmt: skip
+        most = MOST_INERTIA * float(np.sqrt(database.mass_matrix[j, j] * database.mass_matrix[k, k]))
+
+        def error(fit: RationalFit, j: int = j, k: int = k) -> float:
+            model = 1j * w * fit.kernel(w) - w**2 * fit.added_mass_infinite + fit.static_stiffness
+            given = 1j * w * at_judge[1][:, j, k] - w**2 * at_judge[0][:, j, k]
+            out = np.zeros(judge.damping.shape, dtype=complex)
+            out[:, j, k] = out[:, k, j] = model - given
+            return judge.error(out).worst
+
+        def light(fit: RationalFit, most: float = most) -> bool:
+            return abs(fit.added_mass_infinite) <= most
+
+        fit = fits[j, k] = fit_lowest_order(
+            data, orders=ADDITIONAL_ORDERS, error=error, limit=limit, gain=GAIN, allowed=light
         )
-        inertia = float(np.sqrt(database.mass_matrix[j, j] * database.mass_matrix[k, k]))
-        fit = fits[j, k] = _lowest_additional(data, judge, (j, k), at_judge, limit, inertia)
         mass[j, k] = mass[k, j] = fit.added_mass_infinite
         stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
         blocks += realise_pair(fit, j, k, part.cause)
     return blocks, mass, stiffness
-
-
-def _lowest_additional(
-    data: IdentificationData,
-    judge: MotionJudge,
-    pair: tuple[int, int],
-    table: list[FloatArray],
-    limit: float,
-    inertia: float,
-) -> RationalFit:
-    """Fit of the lowest order that keeps the limit, or the best; none takes much of the vessel's inertia."""
-    best: tuple[float, RationalFit] | None = None
-    start: list[FloatArray] = []
-    w, (j, k) = judge.omega, pair
-    for order in ADDITIONAL_ORDERS:
-        fit, parameters = fit_order(data, order=order, starts=start)
-        start = [parameters]
-        kernel = np.polyval(fit.numerator, 1j * w) / np.polyval(fit.denominator, 1j * w)
-        model = 1j * w * kernel - w**2 * fit.added_mass_infinite + fit.static_stiffness
-        out = np.zeros(judge.damping.shape, dtype=complex)
-        out[:, j, k] = out[:, k, j] = model - (1j * w * table[1][:, j, k] - w**2 * table[0][:, j, k])
-        error = judge.error(out).worst
-        if best is not None and abs(fit.added_mass_infinite) > MOST_INERTIA * inertia:
-            continue
-        if best is None or error < (1.0 - GAIN) * best[0]:
-            best = (error, fit)
-        if error <= limit:
-            break
-    assert best is not None
-    return best[1]
-
-
-def _rows(database: Hydrodynamics, model: MemoryModel, pairs: Pairs, reached: bool) -> Iterator[FitRow]:
-    inside = within(database.omega, model.band)
-    tables = {RADIATION: (database.added_mass, database.damping)}
-    tables |= {part.cause: (part.added_mass, part.damping) for part in database.additional}
-    fitted = {RADIATION: model.frequency_response(database.omega)}
-    fitted |= {part.cause: model.additional_response(database.omega) for part in database.additional}
-    blocks: dict[tuple[str, int, int], MemoryBlock] = {
-        (block.cause, int(j), int(k)): block
-        for block in model.blocks
-        for j in block.outputs
-        for k in block.inputs
-        if j <= k
-    }
-    for (cause, j, k), block in blocks.items():
-        if cause != RADIATION or (j, k) in pairs:
-            least = -np.inf if reached else np.inf
-            yield fit_row(cause, (j, k), block.poles, tables[cause], fitted[cause], inside, least)

@@ -14,19 +14,18 @@ infinity or zero). Eigenvalues of Phi' change sign only at imaginary eigenvalues
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import PassivityError
 from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.memory.identification import RationalFit
 from seacrane.one_thread import one_thread
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 SYMMETRY = 1e-8
 NEAR_AXIS = 1e-4  # of 1 + |eigenvalue|: generous, as every candidate is followed up by a sample
 
@@ -46,7 +45,6 @@ class PassivityCertificate:
         ``(w^2 + a^2)^2 / w^2 Re K(i w)`` (a = 1 rad/s; without the factor of a zero that the model does not
         have), each motion scaled by the square root of its largest damping.
     crossings : rad/s where an eigenvalue of Re K changes sign.
-    zero_at_origin, zero_at_infinity : the zeros divided out.
     reason : in words.
     """
 
@@ -54,8 +52,6 @@ class PassivityCertificate:
     energy: bool
     margin: float
     crossings: tuple[float, ...] = ()
-    zero_at_origin: bool = False
-    zero_at_infinity: bool = False
     reason: str
 
 
@@ -96,11 +92,15 @@ def certify(blocks: Sequence[MemoryBlock]) -> PassivityCertificate:
     static = d - c @ np.linalg.solve(a, b)
     origin = bool(np.abs(static).max() < SYMMETRY * max(np.abs(c @ b).max(), np.abs(d).max()))
     infinity = not np.any(d)
-    verdict = partial(verdict, zero_at_origin=origin, zero_at_infinity=infinity)
-    skewed = _skew_limit(a, b, c, origin=origin, infinity=infinity)
-    if skewed:
-        return verdict(passive=False, margin=-np.inf, reason=skewed)
-    shaped, feed = _divide_out(a, b, c, d, origin=origin, infinity=infinity)
+    slope = c @ np.linalg.solve(a, np.linalg.solve(a, b))
+    for zero, leading, where in ((infinity, c @ b, "infinite"), (origin, slope, "zero")):
+        if zero and np.abs(leading - leading.T).max() > SYMMETRY * np.abs(leading).max():
+            reason = f"it is not symmetric towards {where} frequency, so that its damping is indefinite there"
+            return verdict(passive=False, margin=-np.inf, reason=reason)
+    shaped = b - np.linalg.solve(a, np.linalg.solve(a, b)) if origin else b
+    if infinity:  # both zeros are divided out: B' and D'
+        d, shaped = -c @ a @ shaped, shaped - a @ (a @ shaped)
+    feed = d + d.T
     least = float(np.linalg.eigvalsh(feed)[0])
     if least <= 0.0:
         reason = f"its damping is not positive towards infinite frequency ({least:.3g})"
@@ -119,7 +119,7 @@ def is_energy_form(block: MemoryBlock) -> bool:
     return bool(growth <= 1e-12 * np.abs(block.A).max() and through >= 0.0)
 
 
-def _side_by_side(blocks: Sequence[MemoryBlock]) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+def _side_by_side(blocks: Sequence[MemoryBlock]) -> tuple[Array, Array, Array, Array]:
     """A, B, C, D of all blocks over the motions they touch, each motion and state scaled to order one."""
     count = sum(len(block.A) for block in blocks)
     m = 1 + max(int(max(block.outputs.max(), block.inputs.max())) for block in blocks)
@@ -142,29 +142,15 @@ def _side_by_side(blocks: Sequence[MemoryBlock]) -> tuple[FloatArray, FloatArray
     return a, b / size, c * size, d
 
 
-def _skew_limit(a: FloatArray, b: FloatArray, c: FloatArray, *, origin: bool, infinity: bool) -> str:
-    """What is wrong where a leading term near zero or infinite frequency is not symmetric, else nothing."""
-    slope = c @ np.linalg.solve(a, np.linalg.solve(a, b))
-    for asked, matrix, where in ((infinity, c @ b, "infinite"), (origin, slope, "zero")):
-        if asked and np.abs(matrix - matrix.T).max() > SYMMETRY * np.abs(matrix).max():
-            return f"it is not symmetric towards {where} frequency, so that its damping is indefinite there"
-    return ""
-
-
-def _divide_out(
-    a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, *, origin: bool, infinity: bool
-) -> tuple[FloatArray, FloatArray]:
-    """B' and D' + D'^T of the model with its zeros divided out."""
-    if origin:
-        b = b - np.linalg.solve(a, np.linalg.solve(a, b))
-    if infinity:
-        d, b = -c @ a @ b, b - a @ (a @ b)
-    return b, d + d.T
-
-
-def _examine(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> dict[str, Any]:
-    """Samples between all frequencies where a sign could change, and on a grid for the margin."""
-    at = _singular_frequencies(a, b, c, feed)
+def _examine(a: Array, b: Array, c: Array, feed: Array) -> dict[str, Any]:
+    """Samples between all frequencies near which the Hamiltonian matrix has imaginary eigenvalues, where
+    alone a sign could change, and on a grid for the margin."""
+    inner = a - b @ np.linalg.solve(feed, c)
+    hamiltonian = np.block(
+        [[inner, -b @ np.linalg.solve(feed, b.T)], [c.T @ np.linalg.solve(feed, c), -inner.T]]
+    )
+    values = np.linalg.eigvals(hamiltonian)
+    at = np.sort(np.abs(values.imag[np.abs(values.real) < NEAR_AXIS * (1.0 + np.abs(values))]))
     ends = np.concatenate([[0.0], at, [1e4 * (1.0 + np.abs(np.linalg.eigvals(a)).max())]])
     middles = 0.5 * (ends[1:] + ends[:-1])
     omega = np.unique(np.concatenate([[0.0], at, middles, np.geomspace(1e-4, 1e4, 2001)]))
@@ -180,41 +166,126 @@ def _examine(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> d
     return {"passive": False, "margin": margin, "reason": reason, "crossings": crossings}
 
 
-def _singular_frequencies(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> FloatArray:
-    """Positive frequencies (k,) near which the Hamiltonian matrix has imaginary eigenvalues."""
-    inner = a - b @ np.linalg.solve(feed, c)
-    hamiltonian = np.block(
-        [[inner, -b @ np.linalg.solve(feed, b.T)], [c.T @ np.linalg.solve(feed, c), -inner.T]]
-    )
-    values = np.linalg.eigvals(hamiltonian)
-    near = np.abs(values.real) < NEAR_AXIS * (1.0 + np.abs(values))
-    return np.sort(np.abs(values.imag[near]))
+def _transfer(a: Array, b: Array, c: Array, d: Array, omega: Array) -> Complex:
+    return np.asarray(c @ states_at(a, b, omega) + d)
 
 
-def _transfer(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, omega: FloatArray) -> ComplexArray:
-    resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
-    states = np.linalg.solve(resolvent, np.broadcast_to(b.astype(complex), (len(omega), *b.shape)))
-    return np.asarray(c @ states + d)
+def smallest_damping(blocks: Sequence[MemoryBlock], damping: Array, omega: Array) -> tuple[float, float]:
+    """Smallest eigenvalue of the radiation blocks' damping together at ``omega`` (n,), and where, rad/s.
 
-
-def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[float, float]) -> Passivity:
-    """Smallest eigenvalue of the radiation blocks' damping together, which no pair's own fit keeps positive.
-
-    Scaled by the largest diagonals of the data's ``damping``, from 1e-3 to 1e3 rad/s and over ``band``.
+    Scaled by the largest diagonals of the data's ``damping``. No pair's own fit keeps it positive.
     """
     peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 1e-300))
     active = peak > 1e-6 * peak.max()
-    radiation = [block for block in blocks if block.cause == RADIATION]
-
-    def smallest(omega: FloatArray) -> tuple[float, float]:
-        total = np.zeros((len(omega), *damping.shape[1:]))
-        for block in radiation:
+    total = np.zeros((len(omega), *damping.shape[1:]))
+    for block in blocks if np.any(damping) else ():
+        if block.cause == RADIATION:
             total[:, block.outputs[:, None], block.inputs] += block.transfer(omega).real
-        scaled = (0.5 * (total + total.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
-        lowest = np.linalg.eigvalsh(scaled)[:, 0]
-        where = int(lowest.argmin())
-        return float(lowest[where]), float(omega[where])
+    scaled = (0.5 * (total + total.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
+    lowest = np.linalg.eigvalsh(scaled)[:, 0]
+    where = int(lowest.argmin())
+    return float(lowest[where]), float(omega[where])
 
-    minimum, at = smallest(np.geomspace(1e-3, 1e3, 4001))
-    in_band, in_band_at = smallest(np.linspace(*band, 1001))
+
+def joint_passivity(blocks: Sequence[MemoryBlock], damping: Array, band: tuple[float, float]) -> Passivity:
+    """`smallest_damping` from 1e-3 to 1e3 rad/s, and over ``band``."""
+    minimum, at = smallest_damping(blocks, damping, np.geomspace(1e-3, 1e3, 4001))
+    in_band, in_band_at = smallest_damping(blocks, damping, np.linspace(*band, 1001))
     return Passivity(minimum=minimum, omega=at, in_band=in_band, in_band_omega=in_band_at)
+
+
+TYPICAL_VELOCITY = np.array([0.1, 0.1, 0.1, 0.01, 0.01, 0.01])
+MOST_STATES = 12  # of parts that share a block: each block costs its motions besides, each state the others
+
+
+def realise(numerator: Array, denominator: Array, *, output: int, input: int, cause: str) -> MemoryBlock:
+    """Memory block of a strictly proper, stable ``numerator / denominator`` (highest power first).
+
+    The companion form is balanced (equal, diagonal Gramians: Moore 1981), then all states are multiplied by
+    the norm of the output row, which makes a state as large as the load it stands for.
+
+    Raises
+    ------
+    ValueError : a pole with a real part that is not negative.
+    """
+    from scipy.linalg import solve_continuous_lyapunov
+
+    order = len(denominator) - 1
+    poles = np.roots(denominator)
+    if np.any(poles.real >= 0.0):
+        raise ValueError(
+            f"memory block {output + 1}{input + 1}: unstable pole {poles[np.argmax(poles.real)]:.4g} 1/s"
+        )
+    gain = float(np.abs(numerator).max()) or 1.0
+    a = np.zeros((order, order))
+    a[0] = -denominator[1:] / denominator[0]
+    a[1:, :-1] = np.eye(order - 1)
+    b = np.eye(order, 1)
+    c = numerator[None, :] / denominator[0] / gain
+    with one_thread:
+        reach = solve_continuous_lyapunov(a, -b @ b.T)
+        observe = solve_continuous_lyapunov(a.T, -c.T @ c)
+    values, vectors = np.linalg.eigh(0.5 * (reach + reach.T))
+    left = vectors * np.sqrt(np.maximum(values, 0.0))
+    rotation, hankel, _ = np.linalg.svd(left.T @ observe @ left)
+    transform = left @ rotation / np.sqrt(np.sqrt(hankel))
+    inverse = np.linalg.inv(transform)
+    a, b, c = inverse @ a @ transform, inverse @ b, c @ transform * gain
+    size = float(np.linalg.norm(c))
+    b, c = b * size, c / size
+    return MemoryBlock(
+        cause=cause, outputs=np.array([output]), inputs=np.array([input]), A=a, B=b, C=c,
+        D=np.zeros((1, 1)), state_scale=largest_states(a, b) * TYPICAL_VELOCITY[input],
+    )  # fmt: skip
+
+
+def realise_pair(fit: RationalFit, j: int, k: int, cause: str) -> list[MemoryBlock]:
+    """Blocks (j, k) and (k, j) of one fit."""
+    return [
+        realise(fit.numerator, fit.denominator, output=output, input=input_, cause=cause)
+        for output, input_ in dict.fromkeys([(j, k), (k, j)])
+    ]
+
+
+def states_at(a: Array, b: Array, omega: Array) -> Complex:
+    """``(i omega - A)^-1 B`` (n, states, inputs) at ``omega`` (n,)."""
+    resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
+    inputs = np.broadcast_to(b.astype(complex), (len(omega), *b.shape))
+    return np.asarray(np.linalg.solve(resolvent, inputs))
+
+
+@one_thread
+def largest_states(a: Array, b: Array) -> Array:
+    """Largest amplitude of every state under a unit harmonic input of any frequency."""
+    return np.asarray(np.abs(states_at(a, b, np.geomspace(1e-2, 1e2, 400))).max(axis=(0, 2)))
+
+
+def independent_blocks(block: MemoryBlock) -> list[MemoryBlock]:
+    """Blocks that make the same loads together: A falls apart where no state feels another.
+
+    The passive model of a group is one block of oscillators, of which few share a damper. A block costs the
+    square of its states, so that small parts share one, first fit by size.
+    """
+    from scipy.sparse.csgraph import connected_components
+
+    count, part_of = connected_components(block.A != 0.0, directed=False)
+    sizes = np.bincount(part_of, minlength=count)
+    shared: list[list[int]] = []
+    for part in np.argsort(-sizes, kind="stable"):
+        for parts in shared:
+            if sizes[parts].sum() + sizes[part] <= MOST_STATES:
+                parts.append(part)
+                break
+        else:
+            shared.append([part])
+    blocks = []
+    for place, parts in enumerate(shared):
+        own = np.flatnonzero(np.isin(part_of, parts))
+        direct = block.D if place == 0 else np.zeros_like(block.D)
+        blocks.append(
+            replace(
+                block, A=block.A[np.ix_(own, own)], B=block.B[own], C=block.C[:, own], D=direct,
+                state_scale=block.state_scale[own],
+            )
+        )  # fmt: skip
+    return blocks

@@ -17,33 +17,33 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics, in_trusted_band
 from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
 from seacrane.hydro.data.motion import require_zero_speed
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
 from seacrane.hydro.memory.by_motion import fit_by_motion
-from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.memory.certificate import joint_passivity, realise_pair
 from seacrane.hydro.memory.identification import (
     FEWEST_FREQUENCIES,
     IdentificationData,
     RationalFit,
     dissipation_limit,
     fit_lowest_order,
+    fit_row,
+    judged_band,
     memory_entries,
     symmetric,
     within,
 )
 from seacrane.hydro.memory.motion_judge import SHIP, length_of, peak_periods
-from seacrane.hydro.memory.realisation import realise_pair
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 from seacrane.one_thread import one_thread
 from seacrane.warnings import InfiniteFrequencyWarning
 
-FloatArray = NDArray[np.float64]
 ORDERS = range(2, 9)
 BY_MOTION = "by-motion"
 KINDS = (BY_MOTION, "per-pair")
@@ -68,14 +68,10 @@ _of_process: dict[str, MemoryModel] = {}
 
 @one_thread
 def fit_memory(
-    *,
-    database: Hydrodynamics,
-    band: tuple[float, float] | None = None,
-    r2: float | None = None,
-    infinite_frequency: Literal["estimated", "known"] = "estimated",
-    kind: str = BY_MOTION,
+    *, database: Hydrodynamics, band: tuple[float, float] | None = None, r2: float | None = None,
+    infinite_frequency: Literal["estimated", "known"] = "estimated", kind: str = BY_MOTION,
     limit: float | None = None,
-) -> MemoryModel:
+) -> MemoryModel:  # fmt: skip
     """Identify the fluid memory of ``database``.
 
     Parameters
@@ -128,14 +124,7 @@ def fit_memory(
             "keeps all motions together passive"
         )
     target = _target(kind, r2=r2, limit=limit)
-    given = band or database.trusted_band or (database.omega[0], database.omega[-1])
-    low, high = (float(end) for end in given)
-    inside = np.count_nonzero(within(database.omega, (low, high)))
-    if inside < FEWEST_FREQUENCIES:
-        raise ValueError(
-            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside} "
-            "frequencies; widen it to eight or more"
-        )
+    judged, _ = judged_band(database, band)
     known = database.infinite_frequency_added_mass if infinite_frequency == "known" else None
     if infinite_frequency == "known" and known is None:
         raise ValueError(
@@ -151,7 +140,7 @@ def fit_memory(
         )
     settings: dict[str, Any] = {
         "kind": kind,
-        "band": (low, high),
+        "band": judged,
         "target": target,  # the R2, or the limit
         "known": infinite_frequency == "known",
     }
@@ -160,9 +149,9 @@ def fit_memory(
     if model is None:
         if not isinstance(database, HydroData) or kind == BY_MOTION:
             inner = None if known is None else symmetric(known)
-            model = fit_by_motion(database=database, band=(low, high), known=inner, limit=target)
+            model = fit_by_motion(database=database, band=judged, known=inner, limit=target)
         else:
-            model = _fit_per_pair(database, known, (low, high), target)
+            model = _fit_per_pair(database, known, judged, target)
         _of_process[name] = model
         keep_file(user_cache(FOLDER), f"{name}{SUFFIX}", packed(model))
     return model
@@ -180,91 +169,56 @@ def _target(kind: str, *, r2: float | None, limit: float | None) -> float:
         raise ValueError(
             f"limit is {limit}, and memory of kind {kind!r} is asked for an R2; give r2, or kind='by-motion'"
         )
-    usual = LIMIT if kind == BY_MOTION else R2
-    for name, value in (("r2", r2), ("limit", limit)):
-        if value is not None and not 0.0 < value < 1.0:
-            raise ValueError(f"{name} is {value}; give a number between 0 and 1")
-    return next((value for value in (r2, limit) if value is not None), usual)
+    name, value, usual = ("limit", limit, LIMIT) if kind == BY_MOTION else ("r2", r2, R2)
+    if value is not None and not 0.0 < value < 1.0:
+        raise ValueError(f"{name} is {value}; give a number between 0 and 1")
+    return usual if value is None else value
 
 
 def _fit_per_pair(
-    database: HydroData, known: FloatArray | None, band: tuple[float, float], r2: float
+    database: HydroData, known: Array | None, band: tuple[float, float], r2: float
 ) -> MemoryModel:
-    blocks, rows, infinite, _ = _fit_cause(database, RADIATION, database, known, band, r2)
+    """Entries without memory keep their (constant) added mass where that at infinity is not known."""
+    blocks: list[MemoryBlock] = []
+    rows: list[FitRow] = []
+    trusted = within(database.omega, band)
+    infinite = symmetric(database.added_mass[-1] if known is None else known)
     stiffness = np.zeros((6, 6))
-    for part in database.additional:
-        more = _fit_cause(database, part.cause, part, np.zeros((6, 6)), band, r2)
-        blocks, rows, stiffness = blocks + more[0], rows + more[1], stiffness + more[3]
+    parts: tuple[HydroData | AdditionalMatrices, ...] = (database, *database.additional)
+    for part in parts:
+        cause = part.cause if isinstance(part, AdditionalMatrices) else RADIATION
+        radiation, tank = cause == RADIATION, cause != RADIATION
+        added_mass, damping = symmetric(part.added_mass), symmetric(part.damping)
+        fits: dict[tuple[int, int], RationalFit] = {}
+        mirrored = radiation and database.port_starboard_symmetric
+        for j, k in memory_entries(added_mass, damping, database.omega, mirrored=mirrored):
+            data = IdentificationData(
+                omega=database.omega, added_mass=added_mass[:, j, k], damping=damping[:, j, k],
+                trusted=trusted,
+                added_mass_infinite=0.0 if tank else None if known is None else float(infinite[j, k]),
+                zero_at_origin=radiation, static_stiffness=tank,
+                dissipation_limit=dissipation_limit(fits, j, k),
+            )  # fmt: skip
+            fit = fits[j, k] = fit_lowest_order(data, orders=ORDERS, error=lambda fit: -fit.worst, limit=-r2)
+            if radiation:
+                infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
+            else:
+                stiffness[j, k] += fit.static_stiffness
+                stiffness[k, j] = stiffness[j, k]
+            blocks += realise_pair(fit, j, k, cause)
+            poles = np.asarray(np.roots(fit.denominator), dtype=complex)
+            rows.append(fit_row(cause, (j, k), poles, fit.quality, r2))
     return MemoryModel(
-        blocks=tuple(blocks),
-        added_mass=infinite,
-        additional_added_mass=np.zeros((6, 6)),
-        additional_stiffness=stiffness,
-        band=band,
-        r2=r2,
-        rows=tuple(rows),
+        blocks=tuple(blocks), added_mass=infinite, additional_added_mass=np.zeros((6, 6)),
+        additional_stiffness=stiffness, band=band, r2=r2, rows=tuple(rows),
         passivity=joint_passivity(blocks, database.damping, band),
-    )
+    )  # fmt: skip
 
 
 def enough_frequencies(database: Hydrodynamics) -> bool:
     """Whether `fit_memory` has data: no forward speed, and eight frequencies in the trusted band."""
     inside = in_trusted_band(database)
     return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
-
-
-def _fit_cause(
-    database: HydroData,
-    cause: str,
-    table: HydroData | AdditionalMatrices,
-    known: FloatArray | None,
-    band: tuple[float, float],
-    r2: float,
-) -> tuple[list[MemoryBlock], list[FitRow], FloatArray, FloatArray]:
-    """Blocks, rows, infinite-frequency added mass and static stiffness (6, 6) of one cause.
-
-    Entries without memory keep their (constant) added mass where that at infinite frequency is not known.
-    """
-    blocks: list[MemoryBlock] = []
-    rows: list[FitRow] = []
-    fits: dict[tuple[int, int], RationalFit] = {}
-    radiation, trusted = cause == RADIATION, within(database.omega, band)
-    added_mass, damping = symmetric(table.added_mass), symmetric(table.damping)
-    infinite = added_mass[-1].copy() if known is None else symmetric(known)
-    stiffness = np.zeros((6, 6))
-    mirrored = radiation and database.port_starboard_symmetric
-    for j, k in memory_entries(added_mass, damping, database.omega, mirrored=mirrored):
-        data = IdentificationData(
-            omega=database.omega,
-            added_mass=added_mass[:, j, k],
-            damping=damping[:, j, k],
-            trusted=trusted,
-            added_mass_infinite=None if known is None else float(infinite[j, k]),
-            zero_at_origin=radiation,
-            static_stiffness=not radiation,
-            dissipation_limit=dissipation_limit(fits, j, k),
-        )
-        fit = fits[j, k] = fit_lowest_order(data, r2=r2, orders=ORDERS)
-        infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
-        stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
-        blocks += realise_pair(fit, j, k, cause)
-        poles = np.roots(fit.denominator)
-        rows.append(
-            FitRow(
-                cause=cause,
-                output=j,
-                input=k,
-                order=fit.order,
-                r2_added_mass=fit.r2_added_mass,
-                r2_damping=fit.r2_damping,
-                r2_added_mass_all=fit.r2_added_mass_all,
-                r2_damping_all=fit.r2_damping_all,
-                slowest_decay=float(-poles.real.max()),
-                fastest_pole=float(np.abs(poles).max()),
-                accepted=fit.worst >= r2,
-            )
-        )
-    return blocks, rows, infinite, stiffness
 
 
 def shipped_folder() -> Path:
@@ -287,18 +241,12 @@ def _digest(database: Hydrodynamics, settings: dict[str, Any]) -> str:
     length = length_of(database)
     if length < SHIP:  # whose fit is judged in seas of its own
         parts.update(peak_periods(length).tobytes())
-    for name in USED:
-        _add(parts, name, getattr(database, name))
-    if database.roll_damping is not None:
-        for entry in fields(database.roll_damping):
-            _add(parts, entry.name, getattr(database.roll_damping, entry.name))
-    for part in database.additional:
-        for name in ("cause", "added_mass", "damping", "restoring"):
-            _add(parts, name, getattr(part, name))
+    values = [(name, getattr(database, name)) for name in USED]
+    for part in (database.roll_damping, *database.additional):
+        if part is not None:
+            values += [(entry.name, getattr(part, entry.name)) for entry in fields(part)]
+    for name, value in values:
+        array = np.asarray("none" if value is None else value)
+        parts.update(f"{name} {array.dtype} {array.shape} ".encode())
+        parts.update(np.ascontiguousarray(array).tobytes())
     return parts.hexdigest()
-
-
-def _add(parts: Any, name: str, value: Any) -> None:
-    array = np.asarray("none" if value is None else value)
-    parts.update(f"{name} {array.dtype} {array.shape} ".encode())
-    parts.update(np.ascontiguousarray(array).tobytes())

@@ -14,17 +14,19 @@ for ships compare Perez & Fossen 2009, doi 10.4173/mic.2009.1.1).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.data.memory_model import FitRow
+from seacrane.arrays import Array, Complex
+from seacrane.hydro.data.hydro_data import AdditionalMatrices
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics
+from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryModel
 from seacrane.one_thread import one_thread
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+Tables = tuple[Array, Array]  # of added mass and of damping
 OUTSIDE_WEIGHT = 0.2
 AUDIT_WEIGHT = 3.0
 NATURAL_FREQUENCY_RANGE = (0.1, 4.0)
@@ -35,31 +37,23 @@ FEWEST_FREQUENCIES = 8
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RationalFit:
-    """Coefficients, highest power first: ``numerator`` (n,), ``denominator`` (n + 1,); fit quality as R2."""
+    """``numerator`` (n,) and ``denominator`` (n + 1,), highest power first; `four_r2` of the fit."""
 
-    numerator: FloatArray
-    denominator: FloatArray
+    numerator: Array
+    denominator: Array
     added_mass_infinite: float
     static_stiffness: float
-    r2_added_mass: float
-    r2_damping: float
-    r2_added_mass_all: float
-    r2_damping_all: float
+    quality: dict[str, float]
 
-    @property
-    def order(self) -> int:
-        """Number of states."""
-        return len(self.denominator) - 1
-
-    def damping(self, omega: FloatArray) -> FloatArray:
-        """Real part of the retardation function at ``omega`` (n,)."""
+    def kernel(self, omega: Array) -> Complex:
+        """Retardation function at ``omega`` (n,)."""
         s = 1j * omega
-        return np.asarray((np.polyval(self.numerator, s) / np.polyval(self.denominator, s)).real)
+        return np.asarray(np.polyval(self.numerator, s) / np.polyval(self.denominator, s))
 
     @property
     def worst(self) -> float:
         """The smaller R2 of the trusted band."""
-        return min(self.r2_added_mass, self.r2_damping)
+        return worst_r2(self.quality)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,42 +65,48 @@ class IdentificationData:
     (n,), where it is given, is that of a misfit of the damping, and times omega that of the added mass.
     """
 
-    omega: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
+    omega: Array
+    added_mass: Array
+    damping: Array
     trusted: NDArray[np.bool_]
     added_mass_infinite: float | None
     zero_at_origin: bool = True
     static_stiffness: bool = False
-    dissipation_limit: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
-    weight: FloatArray | None = None
+    dissipation_limit: Callable[[Array], tuple[Array, Array]] | None = None
+    weight: Array | None = None
 
 
-def fit_lowest_order(data: IdentificationData, *, r2: float, orders: range) -> RationalFit:
-    """Fit of the lowest order whose A *and* B reach ``r2`` over the trusted band, else the best one found."""
-    best: RationalFit | None = None
-    start: list[FloatArray] = []
+def fit_lowest_order(
+    data: IdentificationData, *, orders: range, error: Callable[[RationalFit], float], limit: float,
+    gain: float = 0.0, allowed: Callable[[RationalFit], bool] = lambda fit: True,
+) -> RationalFit:  # fmt: skip
+    """Fit of the lowest of some orders whose ``error`` keeps ``limit``, else the best one found.
+
+    Higher orders are better by the share ``gain``, and ``allowed``; or else they are not taken.
+    """
+    best: tuple[float, RationalFit] | None = None
+    start: list[Array] = []
     for order in orders:
         fit, parameters = fit_order(data, order=order, starts=start)
         start = [parameters]
-        if best is None or fit.worst > best.worst:
-            best = fit
-        if fit.worst >= r2:
-            return fit
-    if best is None:
-        raise ValueError(f"no order to try in {orders}")
-    return best
+        found = error(fit)
+        if best is not None and not allowed(fit):
+            continue
+        if best is None or found < (1.0 - gain) * best[0]:
+            best = (found, fit)
+        if found <= limit:
+            break
+    assert best is not None
+    return best[1]
 
 
-def fit_order(
-    data: IdentificationData, *, order: int, starts: list[FloatArray]
-) -> tuple[RationalFit, FloatArray]:
+def fit_order(data: IdentificationData, *, order: int, starts: list[Array]) -> tuple[RationalFit, Array]:
     """Best fit of one order over several starts, among them ``starts``, parameters of lower orders."""
     from scipy.optimize import least_squares
 
     problem = _Problem(data, order)
     low, high = problem.bounds()
-    best: tuple[float, FloatArray] | None = None
+    best: tuple[float, Array] | None = None
     for guess in problem.starting_points(starts):
         inside = np.clip(guess, low + 1e-6, high - 1e-6)
         with one_thread:
@@ -127,8 +127,10 @@ class _Problem:
         self.pairs, self.real = divmod(order, 2)
         inside = data.trusted
         weight = np.where(inside, 1.0, OUTSIDE_WEIGHT)
-        self.scale_a = weight / _spread(data.added_mass[inside])
-        self.scale_b = weight / _spread(data.damping[inside])
+        self.scale_a, self.scale_b = (
+            weight / (float(np.sqrt(np.sum((x - x.mean()) ** 2))) or 1.0)
+            for x in (data.added_mass[inside], data.damping[inside])
+        )
         if data.weight is not None:
             self.scale_b, self.scale_a = data.weight, data.weight * data.omega
         known = data.added_mass_infinite
@@ -138,30 +140,26 @@ class _Problem:
         s = 1j * data.omega
         first = 1 if data.zero_at_origin else 0
         self.powers = np.stack([s**k for k in range(first, order)], axis=1)
-        self.extra = self._extra_columns()
+        zero = np.zeros_like(data.omega)
+        extra = [np.zeros((2 * len(zero), 0))]  # columns of A_inf and K_0 where they are unknown
+        if known is None:
+            extra.append(np.concatenate([zero, self.scale_a])[:, None])
+        if data.static_stiffness:
+            extra.append(np.concatenate([zero, -self.scale_a / data.omega**2])[:, None])
+        self.extra = np.hstack(extra)
         self.audit = np.geomspace(0.02, 50.0, 80)
         self.audit_powers = np.stack([(1j * self.audit) ** k for k in range(first, order)], axis=1)
         if data.dissipation_limit is not None:
             self.audit_low, self.audit_high = data.dissipation_limit(self.audit)
 
-    def _extra_columns(self) -> FloatArray:
-        """Columns of A_inf and K_0 where they are unknown."""
-        zero = np.zeros_like(self.data.omega)
-        columns = []
-        if self.data.added_mass_infinite is None:
-            columns.append(np.concatenate([zero, self.scale_a]))
-        if self.data.static_stiffness:
-            columns.append(np.concatenate([zero, -self.scale_a / self.data.omega**2]))
-        return np.stack(columns, axis=1) if columns else np.zeros((2 * len(zero), 0))
-
-    def bounds(self) -> tuple[FloatArray, FloatArray]:
+    def bounds(self) -> tuple[Array, Array]:
         """Box of the parameters: natural frequencies, then damping ratios, then the real pole."""
         frequency, ratio = np.log(NATURAL_FREQUENCY_RANGE), np.log(DAMPING_RATIO_RANGE)
         kinds = [frequency] * self.pairs + [ratio] * self.pairs + [frequency] * self.real
         box = np.array(kinds)
         return box[:, 0], box[:, 1]
 
-    def starting_points(self, lower: list[FloatArray]) -> list[FloatArray]:
+    def starting_points(self, lower: list[Array]) -> list[Array]:
         """Spread poles at two damping ratios, and the lower order's poles with one more factor."""
         low, high = self.data.omega[self.data.trusted][[0, -1]]
         low = max(low, 0.4)
@@ -177,7 +175,7 @@ class _Problem:
                 points.append(np.concatenate([known[:pairs], [w], known[pairs : 2 * pairs], [np.log(0.9)]]))
         return points
 
-    def denominator(self, parameters: FloatArray) -> FloatArray:
+    def denominator(self, parameters: Array) -> Array:
         """Coefficients (order + 1,), highest power first."""
         polynomial = np.ones(1)
         for i in range(self.pairs):
@@ -187,19 +185,19 @@ class _Problem:
             polynomial = np.convolve(polynomial, [1.0, np.exp(parameters[-1])])
         return polynomial
 
-    def _columns(self, denominator: FloatArray) -> FloatArray:
+    def _columns(self, denominator: Array) -> Array:
         s = 1j * self.data.omega
         basis = self.powers / np.polyval(denominator, s)[:, None]
         damping = basis.real * self.scale_b[:, None]
         added_mass = basis.imag / self.data.omega[:, None] * self.scale_a[:, None]
         return np.hstack([np.vstack([damping, added_mass]), self.extra])
 
-    def _coefficients(self, columns: FloatArray) -> FloatArray:
+    def _coefficients(self, columns: Array) -> Array:
         size = np.linalg.norm(columns, axis=0)
         size[size == 0.0] = 1.0
         return np.asarray(np.linalg.lstsq(columns / size, self.target, rcond=1e-12)[0] / size)
 
-    def residual(self, parameters: FloatArray) -> FloatArray:
+    def residual(self, parameters: Array) -> Array:
         """Weighted misfit of B and A; for diagonal entries also the fitted damping's dips below zero."""
         denominator = self.denominator(parameters)
         columns = self._columns(denominator)
@@ -212,7 +210,7 @@ class _Problem:
         excess = np.maximum(damping - self.audit_high, 0.0) + np.minimum(damping - self.audit_low, 0.0)
         return np.asarray(np.concatenate([misfit, AUDIT_WEIGHT * self.scale_b.max() * excess]))
 
-    def result(self, parameters: FloatArray) -> RationalFit:
+    def result(self, parameters: Array) -> RationalFit:
         """Coefficients and R2 of one set of parameters."""
         data = self.data
         denominator = self.denominator(parameters)
@@ -225,20 +223,16 @@ class _Problem:
         numerator[:count] = coefficients[:count][::-1]
         kernel = np.polyval(numerator, 1j * data.omega) / np.polyval(denominator, 1j * data.omega)
         added_mass = infinite + kernel.imag / data.omega - stiffness / data.omega**2
-        inside = data.trusted
         return RationalFit(
             numerator=numerator,
             denominator=denominator,
             added_mass_infinite=float(infinite),
             static_stiffness=float(stiffness),
-            r2_added_mass=r_squared(data.added_mass[inside], added_mass[inside]),
-            r2_damping=r_squared(data.damping[inside], kernel.real[inside]),
-            r2_added_mass_all=r_squared(data.added_mass, added_mass),
-            r2_damping_all=r_squared(data.damping, kernel.real),
+            quality=four_r2((data.added_mass, data.damping), (added_mass, kernel.real), data.trusted),
         )
 
 
-def r_squared(data: FloatArray, model: FloatArray) -> float:
+def r_squared(data: Array, model: Array) -> float:
     """Coefficient of determination, 1 minus the misfit's variance over the data's."""
     total = float(np.sum((data - data.mean()) ** 2))
     if total == 0.0:
@@ -246,68 +240,87 @@ def r_squared(data: FloatArray, model: FloatArray) -> float:
     return 1.0 - float(np.sum((data - model) ** 2)) / total
 
 
-def fit_row(
-    cause: str,
-    pair: tuple[int, int],
-    poles: ComplexArray,
-    data: tuple[FloatArray, FloatArray],
-    fitted: tuple[FloatArray, FloatArray],
-    inside: NDArray[np.bool_],
-    least: float,
-) -> FitRow:
-    """Row of a pair (j, k): added mass and damping (n, m, m) of the data, made symmetric, and of the model.
+def four_r2(data: Tables, fitted: Tables, inside: NDArray[np.bool_]) -> dict[str, float]:
+    """R2 of added mass and damping (n,), by their names in `FitRow`: of those ``inside`` (n,), and of all."""
+    names = ("r2_added_mass", "r2_damping")
+    both = list(zip(names, data, fitted, strict=True))
+    return {name: r_squared(x[inside], model[inside]) for name, x, model in both} | {
+        f"{name}_all": r_squared(x, model) for name, x, model in both
+    }
 
-    It is accepted where both R2 over the frequencies ``inside`` (n,) are not below ``least``.
-    """
-    r2 = pair_r2(pair, data, fitted, inside)
-    r2_all = pair_r2(pair, data, fitted, np.ones_like(inside))
-    return FitRow(
-        cause=cause,
-        output=pair[0],
-        input=pair[1],
-        order=len(poles),
-        r2_added_mass=r2[0],
-        r2_damping=r2[1],
-        r2_added_mass_all=r2_all[0],
-        r2_damping_all=r2_all[1],
-        slowest_decay=float(-poles.real.max()),
-        fastest_pole=float(np.abs(poles).max()),
-        accepted=min(r2) >= least,
-    )
+
+def worst_r2(quality: dict[str, float]) -> float:
+    """The smaller of those ``inside``."""
+    return min(quality["r2_added_mass"], quality["r2_damping"])
 
 
 def pair_r2(
-    pair: tuple[int, int],
-    data: tuple[FloatArray, FloatArray],
-    fitted: tuple[FloatArray, FloatArray],
-    inside: NDArray[np.bool_],
-) -> tuple[float, float]:
-    """R2 of added mass and damping of a pair; see `fit_row`."""
+    pair: tuple[int, int], data: Tables, fitted: Tables, inside: NDArray[np.bool_]
+) -> dict[str, float]:
+    """`four_r2` of a pair (j, k) of tables (n, m, m), those of the data made symmetric."""
     j, k = pair
-    a, b = (
-        r_squared((0.5 * (x[:, j, k] + x[:, k, j]))[inside], model[inside, j, k])
-        for x, model in zip(data, fitted, strict=True)
-    )
-    return a, b
+    a, b = (0.5 * (x[:, j, k] + x[:, k, j]) for x in data)
+    return four_r2((a, b), (fitted[0][:, j, k], fitted[1][:, j, k]), inside)
 
 
-def symmetric(matrices: FloatArray) -> FloatArray:
+def fit_row(
+    cause: str, pair: tuple[int, int], poles: Complex, quality: dict[str, float], least: float
+) -> FitRow:
+    """Row of a pair with a `four_r2`, accepted where the worst is not below ``least``."""
+    return FitRow(
+        cause=cause, output=pair[0], input=pair[1], order=len(poles), **quality,
+        slowest_decay=float(-poles.real.max()), fastest_pole=float(np.abs(poles).max()),
+        accepted=worst_r2(quality) >= least,
+    )  # fmt: skip
+
+
+def judged_rows(
+    model: MemoryModel, database: Hydrodynamics, cause: str, pairs: Iterable[tuple[int, int]], least: float
+) -> list[FitRow]:
+    """Rows of pairs (j <= k) of a cause that the model has blocks for, against a database's data."""
+    radiation = cause == RADIATION
+    parts: dict[str, Hydrodynamics | AdditionalMatrices] = {RADIATION: database}
+    part = (parts | {one.cause: one for one in database.additional})[cause]
+    fitted = (model.frequency_response if radiation else model.additional_response)(database.omega)
+    data, inside = (part.added_mass, part.damping), within(database.omega, model.band)
+    rows = []
+    for j, k in pairs:
+        of_pair = [one for one in model.blocks if one.cause == cause and j in one.outputs and k in one.inputs]
+        if of_pair:
+            poles = np.concatenate([one.poles for one in of_pair])
+            rows.append(fit_row(cause, (j, k), poles, pair_r2((j, k), data, fitted, inside), least))
+    return rows
+
+
+def symmetric(matrices: Array) -> Array:
     """The symmetric part of matrices (..., m, m)."""
     return np.asarray(0.5 * (matrices + matrices.swapaxes(-1, -2)))
 
 
-def within(omega: FloatArray, band: tuple[float, float]) -> NDArray[np.bool_]:
+def judged_band(
+    database: Hydrodynamics, band: tuple[float, float] | None = None
+) -> tuple[tuple[float, float], NDArray[np.bool_]]:
+    """``band``, or the trusted one, or that of all frequencies, in rad/s; and which (n,) lie in it.
+
+    Raises ValueError: too few do.
+    """
+    low, high = map(float, band or database.trusted_band or database.omega[[0, -1]])
+    inside = within(database.omega, (low, high))
+    if inside.sum() < FEWEST_FREQUENCIES:
+        raise ValueError(
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside.sum()} "
+            f"frequencies; a memory needs {FEWEST_FREQUENCIES} or more: widen it"
+        )
+    return (low, high), inside
+
+
+def within(omega: Array, band: tuple[float, float]) -> NDArray[np.bool_]:
     """Which frequencies (n,) lie in a band, ends included."""
     return np.asarray((omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9))
 
 
-def _spread(values: FloatArray) -> float:
-    """Root of the sum of squared deviations, the unit in which 1 - R2 is the squared misfit."""
-    return float(np.sqrt(np.sum((values - values.mean()) ** 2))) or 1.0
-
-
 def memory_entries(
-    added_mass: FloatArray, damping: FloatArray, omega: FloatArray, *, mirrored: bool = False
+    added_mass: Array, damping: Array, omega: Array, *, mirrored: bool = False
 ) -> Iterator[tuple[int, int]]:
     """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals.
 
@@ -338,17 +351,16 @@ def motion_groups(pairs: list[tuple[int, int]]) -> list[list[int]]:
 
 def dissipation_limit(
     fits: dict[tuple[int, int], RationalFit], j: int, k: int
-) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:
+) -> Callable[[Array], tuple[Array, Array]]:
     """Bounds of the fitted damping: a 2 x 2 damping matrix is positive if b_jk^2 <= b_jj b_kk."""
 
-    def limit(omega: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def limit(omega: Array) -> tuple[Array, Array]:
         if j == k:
             return np.zeros_like(omega), np.full_like(omega, np.inf)
         bound = np.zeros_like(omega)
         if (j, j) in fits and (k, k) in fits:
-            bound = np.sqrt(
-                np.maximum(fits[j, j].damping(omega), 0.0) * np.maximum(fits[k, k].damping(omega), 0.0)
-            )
+            a, b = (np.maximum(fits[i, i].kernel(omega).real, 0.0) for i in (j, k))
+            bound = np.sqrt(a * b)
         return -bound, bound
 
     return limit

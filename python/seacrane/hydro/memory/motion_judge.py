@@ -5,18 +5,13 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData, in_trusted_band
+from seacrane.arrays import Array, Complex
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData
 from seacrane.hydro.data.memory_model import MemoryModel, MotionError
-from seacrane.hydro.data.motion import motion_errors, motion_response
 from seacrane.hydro.memory.identification import symmetric, within
 from seacrane.hydro.memory.retardation import RetardationModel
-from seacrane.one_thread import one_thread
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 SHORTEST, LONGEST, SEAS = 5.0, 18.0, 9  # peak periods of the seas of a ship, s, and how many
 SHIP, MODELLED = 60.0, 115.0  # m: a ship's least length, and what a shorter hull may be a model of
 PEAK_ENHANCEMENT = 3.3
@@ -27,121 +22,23 @@ RESONANT = (2, 3, 4)
 FAINT = 1e-4  # share of the largest motion below which a motion is not there
 
 
-class MotionJudge:
-    """The motions of a database or a group, with springs and viscous damping, and the seas that weigh them.
-
-    Attributes
-    ----------
-    omega : (n,) frequencies within the band, rad/s.
-    added_mass, damping : (n, 6, 6) radiation, made symmetric.
-    motion : (m, n, 6) per metre of wave amplitude.
-    moves : (6,) bool, what is more than noise. variance : (seas, 6) of each motion at its largest heading.
-
-    Of a group of k hulls 6 stands for 6 k.
-    about_peaks : frequencies about each resonance, rad/s.
-    periods : (seas,) peak periods, s.
-    """
-
-    def __init__(self, database: Hydrodynamics, band: tuple[float, float]) -> None:
-        self.table = _Table(database)
-        coarse = np.linspace(*band, 4 * GRID)
-        peaks = _Solved(self.table, coarse).peak_frequencies()
-        inner = database.omega[within(database.omega, band)]
-        self.about_peaks = np.concatenate([[w * (1.0 + z * ABOUT_PEAK)] for w, z in peaks] or [[]]).ravel()
-        every = np.concatenate([inner, np.linspace(*band, GRID), self.about_peaks])
-        self.omega = np.unique(np.clip(every, *band))
-        solved = self.solved = _Solved(self.table, self.omega)
-        self.added_mass, self.damping, self.motion = solved.added_mass, solved.damping, solved.motion
-        self.periods = peak_periods(length_of(database))
-        self.weights = _sea_energies(self.omega, self.periods)
-        variance = np.einsum("sn,mni->smi", self.weights, np.abs(self.motion) ** 2).max(axis=1)
-        size = np.abs(self.motion).max(axis=(0, 1))
-        rotation = np.arange(len(size)) % 6 > 2
-        self.moves = size > FAINT * np.where(rotation, size[rotation].max(), size[~rotation].max())
-        self.variance = np.maximum(variance, 1e-300)
-
-    def error(self, difference: ComplexArray) -> MotionError:
-        """The error of a difference (n, 6, 6) of impedance, the model's less the data's."""
-        changed = np.linalg.solve(self.solved.impedance + difference, self.solved.force[..., None])[..., 0]
-        apart = np.abs(changed - self.motion)
-        variance = np.einsum("sn,mni->smi", self.weights, apart**2)
-        share = np.sqrt(variance.max(axis=1) / self.variance)
-        seas = np.where(self.moves, share, 0.0).max(axis=0)
-        peaks = np.zeros(len(self.moves))
-        for i in resonant_motions(len(peaks)):
-            if self.moves[i]:
-                heading, at = np.unravel_index(int(np.abs(self.motion[..., i]).argmax()), apart.shape[:2])
-                peaks[i] = apart[heading, at, i] / np.abs(self.motion[heading, at, i])
-        return MotionError(seas=seas, peaks=peaks)
-
-    def error_of(self, model: MemoryModel | RetardationModel) -> MotionError:
-        """The error of a memory model of all causes."""
-        w = self.omega[:, None, None]
-        added_mass, damping = model.frequency_response(self.omega)
-        more_mass, more_damping = model.additional_response(self.omega)
-        fitted = -(w**2) * (added_mass + more_mass) + 1j * w * (damping + more_damping)
-        return self.error(fitted + self.solved.static - self.solved.memory)
-
-    def lever(self, omega: FloatArray, group: list[int]) -> ComplexArray:
-        """Weighted motions (n, p, p) by misfit of the kernel's pairs of a group at ``omega`` (n,).
-
-        A misfit dK of the retardation functions moves the motions X by -H i w dK X, to first order. Squares
-        are summed over motions, headings and seas, each over the variance of the motion; zero out of the
-        band.
-        """
-        solved = _Solved(self.table, omega)
-        inside = within(omega, (self.omega[0], self.omega[-1]))
-        energies = _sea_energies(omega, self.periods) * inside
-        weight = energies.T @ np.where(self.moves, 1.0 / self.variance, 0.0)
-        square = np.ix_(range(len(omega)), group, group)
-        left = solved.receptance[square] * np.sqrt(weight[:, group])[:, :, None]
-        headings = np.linalg.qr(np.moveaxis(solved.motion[:, :, group], 1, 0))[1].swapaxes(1, 2)
-        columns = []
-        for j, k in zip(*np.triu_indices(len(group)), strict=True):
-            column = left[:, :, j, None] * headings[:, k, None, :]
-            if j != k:
-                column = column + left[:, :, k, None] * headings[:, j, None, :]
-            columns.append(column.reshape(len(omega), -1))
-        moved = 1j * omega[:, None, None] * np.stack(columns, axis=2)
-        pairs = len(columns)
-        short = max(0, pairs - moved.shape[1])
-        return np.asarray(np.linalg.qr(np.pad(moved, ((0, 0), (0, short), (0, 0))))[1][:, :pairs])
-
-
-@lru_cache(maxsize=8)
-def motion_judge(database: Hydrodynamics, band: tuple[float, float]) -> MotionJudge:
-    """One for each database and band of a process."""
-    return MotionJudge(database, band)
-
-
-def resonant_motions(count: int) -> list[int]:
-    """Heave, roll and pitch of each hull, of ``count`` motions."""
-    return [i for i in range(count) if i % 6 in RESONANT]
-
-
 class _Table:
     """Splines of a database over the frequency."""
 
     def __init__(self, database: Hydrodynamics) -> None:
         from scipy.interpolate import CubicSpline
 
-        def spline(values: FloatArray | ComplexArray, axis: int = 0) -> CubicSpline:
+        def spline(values: Array | Complex, axis: int = 0) -> CubicSpline:
             return CubicSpline(database.omega, values, axis=axis)
 
         self.database = database
         self.added_mass = spline(symmetric(database.added_mass))
         self.damping = spline(symmetric(database.damping))
         w = database.omega[:, None, None]
-        nothing = np.zeros(database.added_mass.shape, dtype=complex)
-        self.additional = spline(
-            sum(
-                (
-                    -(w**2) * part.added_mass + 1j * w * part.damping + part.restoring
-                    for part in database.additional
-                ),
-                nothing,
-            )
-        )
+        additional = np.zeros(database.added_mass.shape, dtype=complex)
+        for part in database.additional:
+            additional = additional + (-(w**2) * part.added_mass + 1j * w * part.damping + part.restoring)
+        self.additional = spline(additional)
         self.force = spline(database.force, 1)
         roll = database.roll_damping
         self.roll = None if roll is None else spline(roll.linear + roll.linearised, 1)
@@ -150,9 +47,9 @@ class _Table:
 class _Solved:
     """Impedance and motions of a database at some frequencies."""
 
-    def __init__(self, table: _Table, omega: FloatArray) -> None:
+    def __init__(self, table: _Table, omega: Array) -> None:
         database = table.database
-        self.omega = omega
+        self.table, self.omega = table, omega
         w = omega[:, None, None]
         self.added_mass, self.damping = table.added_mass(omega), table.damping(omega)
         self.additional, self.force = table.additional(omega), table.force(omega)
@@ -189,7 +86,96 @@ class _Solved:
         return found
 
 
-def peak_periods(length: float) -> FloatArray:
+class MotionJudge(_Solved):
+    """The motions of a database or a group, with springs and viscous damping, and the seas that weigh them.
+
+    Attributes
+    ----------
+    omega : (n,) frequencies within the band, rad/s.
+    added_mass, damping : (n, 6, 6) radiation, made symmetric.
+    motion : (m, n, 6) per metre of wave amplitude.
+    moves : (6,) bool, what is more than noise. variance : (seas, 6) of each motion at its largest heading.
+
+    Of a group of k hulls 6 stands for 6 k.
+    about_peaks : frequencies about each resonance, rad/s.
+    periods : (seas,) peak periods, s.
+    """
+
+    def __init__(self, database: Hydrodynamics, band: tuple[float, float]) -> None:
+        table = _Table(database)
+        peaks = _Solved(table, np.linspace(*band, 4 * GRID)).peak_frequencies()
+        inner = database.omega[within(database.omega, band)]
+        self.about_peaks = np.concatenate([[w * (1.0 + z * ABOUT_PEAK)] for w, z in peaks] or [[]]).ravel()
+        every = np.concatenate([inner, np.linspace(*band, GRID), self.about_peaks])
+        super().__init__(table, np.unique(np.clip(every, *band)))
+        self.periods = peak_periods(length_of(database))
+        self.weights = _sea_energies(self.omega, self.periods)
+        variance = np.einsum("sn,mni->smi", self.weights, np.abs(self.motion) ** 2).max(axis=1)
+        size = np.abs(self.motion).max(axis=(0, 1))
+        rotation = np.arange(len(size)) % 6 > 2
+        self.moves = size > FAINT * np.where(rotation, size[rotation].max(), size[~rotation].max())
+        self.variance = np.maximum(variance, 1e-300)
+
+    def error(self, difference: Complex) -> MotionError:
+        """The error of a difference (n, 6, 6) of impedance, the model's less the data's."""
+        changed = np.linalg.solve(self.impedance + difference, self.force[..., None])[..., 0]
+        apart = np.abs(changed - self.motion)
+        variance = np.einsum("sn,mni->smi", self.weights, apart**2)
+        share = np.sqrt(variance.max(axis=1) / self.variance)
+        seas = np.where(self.moves, share, 0.0).max(axis=0)
+        peaks = np.zeros(len(self.moves))
+        for i in resonant_motions(len(peaks)):
+            if self.moves[i]:
+                heading, at = np.unravel_index(int(np.abs(self.motion[..., i]).argmax()), apart.shape[:2])
+                peaks[i] = apart[heading, at, i] / np.abs(self.motion[heading, at, i])
+        return MotionError(seas=seas, peaks=peaks)
+
+    def error_of(self, model: MemoryModel | RetardationModel) -> MotionError:
+        """The error of a memory model of all causes."""
+        w = self.omega[:, None, None]
+        added_mass, damping = model.frequency_response(self.omega)
+        more_mass, more_damping = model.additional_response(self.omega)
+        fitted = -(w**2) * (added_mass + more_mass) + 1j * w * (damping + more_damping)
+        return self.error(fitted + self.static - self.memory)
+
+    def lever(self, omega: Array, group: list[int]) -> Complex:
+        """Weighted motions (n, p, p) by misfit of the kernel's pairs of a group at ``omega`` (n,).
+
+        A misfit dK of the retardation functions moves the motions X by -H i w dK X, to first order. Squares
+        are summed over motions, headings and seas, each over the variance of the motion; zero out of the
+        band.
+        """
+        solved = _Solved(self.table, omega)
+        inside = within(omega, (self.omega[0], self.omega[-1]))
+        energies = _sea_energies(omega, self.periods) * inside
+        weight = energies.T @ np.where(self.moves, 1.0 / self.variance, 0.0)
+        square = np.ix_(range(len(omega)), group, group)
+        left = solved.receptance[square] * np.sqrt(weight[:, group])[:, :, None]
+        headings = np.linalg.qr(np.moveaxis(solved.motion[:, :, group], 1, 0))[1].swapaxes(1, 2)
+        columns = []
+        for j, k in zip(*np.triu_indices(len(group)), strict=True):
+            column = left[:, :, j, None] * headings[:, k, None, :]
+            if j != k:
+                column = column + left[:, :, k, None] * headings[:, j, None, :]
+            columns.append(column.reshape(len(omega), -1))
+        moved = 1j * omega[:, None, None] * np.stack(columns, axis=2)
+        pairs = len(columns)
+        short = max(0, pairs - moved.shape[1])
+        return np.asarray(np.linalg.qr(np.pad(moved, ((0, 0), (0, short), (0, 0))))[1][:, :pairs])
+
+
+@lru_cache(maxsize=8)
+def motion_judge(database: Hydrodynamics, band: tuple[float, float]) -> MotionJudge:
+    """One for each database and band of a process."""
+    return MotionJudge(database, band)
+
+
+def resonant_motions(count: int) -> list[int]:
+    """Heave, roll and pitch of each hull, of ``count`` motions."""
+    return [i for i in range(count) if i % 6 in RESONANT]
+
+
+def peak_periods(length: float) -> Array:
     """Peak periods of the seas (s) that a hull of a length (m) meets: 5 to 18 s for ships.
 
     A shorter hull may be a boat or a buoy in the sea, or the model of a ship in waves to scale: the periods
@@ -210,32 +196,10 @@ def length_of(database: Hydrodynamics) -> float:
     return database.length
 
 
-def _sea_energies(omega: FloatArray, periods: FloatArray) -> FloatArray:
-    """Energy (seas, n) of every sea at every frequency, on a scale of its own."""
-    steps = np.gradient(omega)
-    return np.stack([_jonswap(omega, tp) * steps for tp in periods])
-
-
-def _jonswap(omega: FloatArray, tp: float) -> FloatArray:
-    """Shape of the spectrum; its size does not matter here."""
-    peak = 2.0 * np.pi / tp
+def _sea_energies(omega: Array, periods: Array) -> Array:
+    """Energy (seas, n) of every sea (JONSWAP) at every frequency, on a scale of its own."""
+    peak = 2.0 * np.pi / periods[:, None]
     width = np.where(omega <= peak, 0.07, 0.09)
     near = np.exp(-0.5 * ((omega - peak) / (width * peak)) ** 2)
-    return np.asarray(omega**-5.0 * np.exp(-1.25 * (peak / omega) ** 4) * PEAK_ENHANCEMENT**near)
-
-
-@one_thread
-def memory_motion_errors(database: HydroData, model: MemoryModel | RetardationModel) -> FloatArray:
-    """Motions (6,) with the memory's matrices against those with the data, within the trusted band.
-
-    As `motion_errors`: the largest difference by the largest motion.
-    """
-    added_mass, damping = model.frequency_response(database.omega)
-    more_mass, more_damping = model.additional_response(database.omega)
-    static = sum((part.restoring for part in database.additional), np.zeros((len(database.omega), 6, 6)))
-    fitted = motion_response(
-        database,
-        added_mass=added_mass + more_mass - static / database.omega[:, None, None] ** 2,
-        damping=damping + more_damping,
-    )
-    return motion_errors(database, fitted, motion_response(database), inside=in_trusted_band(database))
+    shape = omega**-5.0 * np.exp(-1.25 * (peak / omega) ** 4) * PEAK_ENHANCEMENT**near
+    return np.asarray(shape * np.gradient(omega))

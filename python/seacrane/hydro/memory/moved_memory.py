@@ -5,61 +5,59 @@ And whether a model is that of a database.
 
 from __future__ import annotations
 
-import dataclasses
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
-from seacrane.hydro.memory.certificate import joint_passivity
+from seacrane.hydro.data.memory_model import MODEL_MATRICES, RADIATION, MemoryBlock, MemoryModel
+from seacrane.hydro.memory.certificate import TYPICAL_VELOCITY, joint_passivity, largest_states
 from seacrane.hydro.memory.identification import (
     FEWEST_FREQUENCIES,
-    fit_row,
+    judged_rows,
     memory_entries,
     pair_r2,
     symmetric,
     within,
+    worst_r2,
 )
 from seacrane.hydro.memory.motion_judge import motion_judge
-from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
 from seacrane.hydro.memory.retardation import retardation_functions
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
 from seacrane.warnings import MemoryMismatchWarning
 
-FloatArray = NDArray[np.float64]
-MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 CLAIMED_R2 = 0.9  # pairs that never followed their data say nothing about where the model belongs
 LOST_R2 = 0.05
 
 
 @one_thread
-def moved_memory(model: MemoryModel, transform: FloatArray, moved: Hydrodynamics) -> MemoryModel:
+def moved_memory(model: MemoryModel, transform: Array, moved: Hydrodynamics) -> MemoryModel:
     """``T^T K T``: every block drives, and is driven by, all motions that its own are made of.
 
-    Parameters
-    ----------
-    model : of the database before it was moved.
-    transform : (6, 6) T, of a group (6 k, 6 k), motions at the old point from those at the new one.
-    moved : the database about the new point, against which the quality of each pair is judged anew.
+    T (6, 6), of a group (6 k, 6 k), gives motions at the old point from those at the new one. Pairs are
+    judged anew against the ``moved`` database: accepted if all fits were, or if they reach the model's R2.
     """
     blocks = tuple(_moved_block(block, transform) for block in model.blocks)
-    matrices = {name: transform.T @ getattr(model, name) @ transform for name in MATRICES}
+    matrices = {name: transform.T @ getattr(model, name) @ transform for name in MODEL_MATRICES}
     passivity = joint_passivity(list(blocks), moved.damping, model.band)
-    about = dataclasses.replace(model, blocks=blocks, passivity=passivity, **matrices)
+    about = replace(model, blocks=blocks, passivity=passivity, **matrices)
     if model.motion is not None:
         judge = motion_judge(moved, model.band)
         floor = judge.error_of(retardation_functions(database=moved)).worst
-        motion = dataclasses.replace(model.motion, error=judge.error_of(about), floor=floor)
-        about = dataclasses.replace(about, motion=motion)
-    return dataclasses.replace(about, rows=judged_rows(about, moved))
+        motion = replace(model.motion, error=judge.error_of(about), floor=floor)
+        about = replace(about, motion=motion)
+    before = all(row.accepted for row in model.rows if row.cause == RADIATION)
+    pairs = memory_entries(symmetric(moved.added_mass), symmetric(moved.damping), moved.omega)
+    rows = judged_rows(about, moved, RADIATION, pairs, -np.inf if before else model.r2)
+    return replace(about, rows=(*rows, *(row for row in model.rows if row.cause != RADIATION)))
 
 
-def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
+def _moved_block(block: MemoryBlock, transform: Array) -> MemoryBlock:
     """The block with ``B T`` and ``T^T C`` in place of B and C, over the motions that are left in them."""
     b = block.B @ transform[block.inputs]
     c = transform[block.outputs].T @ block.C
@@ -68,52 +66,18 @@ def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
     d = transform[block.outputs].T @ block.D @ transform[block.inputs]
     inputs = np.flatnonzero(np.any(b, axis=0) | np.any(d, axis=0))
     outputs = np.flatnonzero(np.any(c, axis=1) | np.any(d, axis=1))
-    return dataclasses.replace(
-        block,
-        inputs=inputs,
-        outputs=outputs,
-        B=b[:, inputs],
-        C=c[outputs],
-        D=d[np.ix_(outputs, inputs)],
+    return replace(
+        block, inputs=inputs, outputs=outputs, B=b[:, inputs], C=c[outputs], D=d[np.ix_(outputs, inputs)],
         state_scale=largest_states(block.A, b[:, inputs] * TYPICAL_VELOCITY[inputs % 6]),
-    )
+    )  # fmt: skip
 
 
 def mirrored_memory(model: MemoryModel) -> MemoryModel:
     """Sway, roll and yaw with their signs changed; fits, passivity and states stay as they are."""
-    sign = np.outer(PORT_STARBOARD, PORT_STARBOARD)
-    blocks = tuple(
-        dataclasses.replace(
-            block,
-            B=block.B * PORT_STARBOARD[block.inputs],
-            C=block.C * PORT_STARBOARD[block.outputs, None],
-            D=block.D * sign[np.ix_(block.outputs, block.inputs)],
-        )
-        for block in model.blocks
-    )
-    return dataclasses.replace(
-        model, blocks=blocks, **{name: getattr(model, name) * sign for name in MATRICES}
-    )
-
-
-def judged_rows(model: MemoryModel, database: Hydrodynamics) -> tuple[FitRow, ...]:
-    """Rows of a model's radiation pairs against another database's data, beside its other rows as they are.
-
-    A pair is accepted if all fits that the model came from were, or if it reaches the model's R2 itself.
-    Pairs (j <= k) are those that the model has blocks for, and in which the data vary.
-    """
-    kept = tuple(row for row in model.rows if row.cause != RADIATION)
-    before = all(row.accepted for row in model.rows if row.cause == RADIATION)
-    data = database.added_mass, database.damping
-    fitted, inside = model.frequency_response(database.omega), within(database.omega, model.band)
-    radiation = [block for block in model.blocks if block.cause == RADIATION]
-    rows = []
-    for j, k in memory_entries(symmetric(data[0]), symmetric(data[1]), database.omega):
-        poles = [block.poles for block in radiation if j in block.outputs and k in block.inputs]
-        if poles:
-            least = -np.inf if before else model.r2
-            rows.append(fit_row(RADIATION, (j, k), np.concatenate(poles), data, fitted, inside, least))
-    return (*rows, *kept)
+    mirror = np.diag(PORT_STARBOARD)
+    blocks = [replace(_moved_block(one, mirror), state_scale=one.state_scale) for one in model.blocks]
+    matrices = {name: mirror @ getattr(model, name) @ mirror for name in MODEL_MATRICES}
+    return replace(model, blocks=tuple(blocks), **matrices)
 
 
 def warn_of_mismatch(database: HydroData, model: MemoryModel) -> None:
@@ -155,7 +119,7 @@ def _mismatch(database: HydroData, model: MemoryModel) -> str:
         pair, claimed = (row.output, row.input), min(row.r2_added_mass, row.r2_damping)
         if row.cause != RADIATION or claimed < CLAIMED_R2:
             continue
-        found = min(pair_r2(pair, data, fitted, inside))
+        found = worst_r2(pair_r2(pair, data, fitted, inside))
         if found < claimed - LOST_R2:
             name = f"{pair[0] + 1}{pair[1] + 1}"
             return f"it states R2 = {claimed:.3f} for pair {name}, and follows these with {found:.3f}"

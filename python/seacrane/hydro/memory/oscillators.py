@@ -18,10 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.one_thread import one_thread
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 Places = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 OUTSIDE_WEIGHT = 0.2
@@ -50,46 +49,46 @@ class MotionData:
     ``lever`` (n, p, p) complex: weighted motions by misfit of the p pairs ``np.triu_indices`` of ``K(i w)``.
     """
 
-    omega: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
+    omega: Array
+    added_mass: Array
+    damping: Array
     trusted: NDArray[np.bool_]
-    added_mass_infinite: FloatArray | None
-    lever: ComplexArray
+    added_mass_infinite: Array | None
+    lever: Complex
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Oscillators:
     """``w`` (n,) rad/s, ``dampers`` R (n, n) in 1/s, ``coupling`` b (n, m)."""
 
-    w: FloatArray
-    dampers: FloatArray
-    coupling: FloatArray
+    w: Array
+    dampers: Array
+    coupling: Array
 
     @property
     def slowest_decay(self) -> float:
         """Smallest -Re of the poles, 1/s."""
         return float(-np.linalg.eigvals(self.state_space()[0]).real.max())
 
-    def transfer(self, omega: FloatArray) -> ComplexArray:
+    def transfer(self, omega: Array) -> Complex:
         """``K(i omega)`` (n, m, m) at ``omega`` (n,)."""
         return np.asarray(1j * omega[:, None, None] * (self.coupling.T @ self.deflection(omega)))
 
-    def deflection(self, omega: FloatArray) -> ComplexArray:
+    def deflection(self, omega: Array) -> Complex:
         """Positions of the masses (n, masses, m) under unit motions: ``(s^2 + s R + W^2)^-1 b``."""
         s = 1j * omega[:, None, None]
         stiffness = s * s * np.eye(len(self.w)) + s * self.dampers + np.diag(self.w**2)
         force = np.broadcast_to(self.coupling.astype(complex), (len(omega), *self.coupling.shape))
         return np.asarray(np.linalg.solve(stiffness, force))
 
-    def state_space(self) -> tuple[FloatArray, FloatArray]:
+    def state_space(self) -> tuple[Array, Array]:
         """``A = [[0, W], [-W, -R]]``, ``B = [0; b]``; with C = B^T P = I certifies it, as A + A^T <= 0."""
         n = len(self.w)
         a = np.zeros((2 * n, 2 * n))
         a[:n, n:], a[n:, :n], a[n:, n:] = np.diag(self.w), -np.diag(self.w), -self.dampers
         return a, np.vstack([np.zeros_like(self.coupling), self.coupling])
 
-    def with_mass(self, w: float, damper: float, coupling: FloatArray) -> Oscillators:
+    def with_mass(self, w: float, damper: float, coupling: Array) -> Oscillators:
         """One mass more, coupled to motions alone."""
         n = len(self.w)
         dampers = np.zeros((n + 1, n + 1))
@@ -97,13 +96,6 @@ class Oscillators:
         return Oscillators(
             w=np.append(self.w, w), dampers=dampers, coupling=np.vstack([self.coupling, coupling])
         )
-
-
-def _first_guess(data: MotionData) -> Oscillators:
-    """One uncoupled mass per motion, at the peak of its damping."""
-    peaks = data.omega[np.diagonal(data.damping, axis1=1, axis2=2).argmax(axis=0)]
-    w = np.clip(peaks, LOWEST_FREQUENCY, None)
-    return Oscillators(w=w, dampers=np.diag(w), coupling=np.diag(np.sqrt(w)))
 
 
 class MotionProblem:
@@ -130,7 +122,7 @@ class MotionProblem:
         self.columns = self._rows(np.broadcast_to(1j * w[:, :, None] * np.eye(pairs), (len(w), pairs, pairs)))
         self.unit = np.linalg.qr(self.columns)[0]
 
-    def _spread(self, matrices: FloatArray) -> FloatArray:
+    def _spread(self, matrices: Array) -> Array:
         """Unit (entries,) in which the squared misfit is 1 - R2."""
         inside = matrices[self.data.trusted]
         spread = np.sqrt(np.sum((inside - inside.mean(axis=0)) ** 2, axis=0))
@@ -138,13 +130,13 @@ class MotionProblem:
         floor = SMALL_PAIR * np.outer(diagonal, diagonal)
         return np.asarray(np.maximum(spread, floor)[self.j, self.k])
 
-    def pack(self, guess: Oscillators) -> FloatArray:
+    def pack(self, guess: Oscillators) -> Array:
         """Parameters: angles that keep w within its bounds, the lower triangle of L, b."""
         share = np.clip((np.log(guess.w) - self.bottom) / self.span, 0.005, 0.995)
         factor = np.linalg.cholesky(guess.dampers - FLOOR * np.eye(self.n) + 1e-6 * np.eye(self.n))
         return np.concatenate([np.arcsin(2.0 * share - 1.0), factor[self.lower], guess.coupling.ravel()])
 
-    def _unpack(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _unpack(self, parameters: Array) -> tuple[Array, Array, Array]:
         w = np.exp(self.bottom + self.span * 0.5 * (1.0 + np.sin(parameters[: self.n])))
         rest = np.clip(parameters[self.n :], -LARGEST, LARGEST)
         factor = np.zeros((self.n, self.n))
@@ -152,12 +144,12 @@ class MotionProblem:
         factor[self.lower] = rest[:count]
         return w, factor, rest[count:].reshape(self.n, self.m)
 
-    def oscillators(self, parameters: FloatArray) -> Oscillators:
+    def oscillators(self, parameters: Array) -> Oscillators:
         """The model that the parameters stand for."""
         w, factor, coupling = self._unpack(parameters)
         return Oscillators(w=w, dampers=factor @ factor.T + FLOOR * np.eye(self.n), coupling=coupling)
 
-    def sizes(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def sizes(self, parameters: Array) -> tuple[Array, Array]:
         """Weighted sizes (masses,) of the dampers, and their derivative."""
         factor = self._unpack(parameters)[1]
         p, q = self.lower
@@ -165,12 +157,12 @@ class MotionProblem:
         slope[p, self.n + np.arange(len(p))] = 2.0 * DAMPER_WEIGHT * factor[p, q]
         return DAMPER_WEIGHT * np.sum(factor**2, axis=1), slope
 
-    def kernel_slope(self, parameters: FloatArray) -> ComplexArray:
+    def kernel_slope(self, parameters: Array) -> Complex:
         """Derivative (n, entries, parameters) of the kernel, by ``d (Q^-1) = -Q^-1 dQ Q^-1`` with Q the
         oscillators' stiffness."""
         w, factor, _ = self._unpack(parameters)
         x = self.oscillators(parameters).deflection(self.data.omega)
-        s: ComplexArray = np.asarray(1j * self.data.omega[:, None, None])
+        s: Complex = np.asarray(1j * self.data.omega[:, None, None])
         left, right = x[:, :, self.j].swapaxes(1, 2), x[:, :, self.k].swapaxes(1, 2)
         by_angle = w * 0.5 * self.span * np.cos(parameters[: self.n])
         d_w = -2.0 * s * w * left * right * by_angle
@@ -178,17 +170,13 @@ class MotionProblem:
         y_left, y_right = y[:, :, self.j].swapaxes(1, 2), y[:, :, self.k].swapaxes(1, 2)
         p, q = self.lower
         d_factor = -(s**2) * (left[:, :, p] * y_right[:, :, q] + y_left[:, :, q] * right[:, :, p])
-        return np.concatenate([d_w, d_factor, self._by_coupling(s, left, right)], axis=2)
-
-    def _by_coupling(self, s: ComplexArray, left: ComplexArray, right: ComplexArray) -> ComplexArray:
-        """Derivatives (n, entries, masses * m) of the kernel with respect to b."""
-        out = np.zeros((len(s), len(self.j), self.n, self.m), dtype=complex)
+        d_b = np.zeros((len(s), len(self.j), self.n, self.m), dtype=complex)
         entry = np.arange(len(self.j))
-        out[:, entry, :, self.j] += np.moveaxis(right, 1, 0)
-        out[:, entry, :, self.k] += np.moveaxis(left, 1, 0)
-        return np.asarray(s * out.reshape(len(s), len(self.j), -1))
+        d_b[:, entry, :, self.j] += np.moveaxis(right, 1, 0)
+        d_b[:, entry, :, self.k] += np.moveaxis(left, 1, 0)
+        return np.concatenate([d_w, d_factor, s * d_b.reshape(len(s), len(self.j), -1)], axis=2)
 
-    def _weights(self, lever: ComplexArray) -> FloatArray:
+    def _weights(self, lever: Complex) -> Array:
         """Weights (n, 2 p, 2 p) of the kernel's real and imaginary parts: of the motions, and of the data."""
         n, p = len(lever), len(self.j)
         out = np.zeros((n, 4 * p, 2 * p))
@@ -199,29 +187,29 @@ class MotionProblem:
         out[:, 3 * p + pair, p + pair] = DATA_WEIGHT * self.weight_a / self.data.omega[:, None]
         return np.asarray(np.linalg.qr(out)[1])
 
-    def _rows(self, kernel: ComplexArray) -> FloatArray:
+    def _rows(self, kernel: Complex) -> Array:
         """Weighted motions and data of a kernel (n, p, ...), two rows for each pair and frequency."""
         parts = np.concatenate([kernel.real, kernel.imag], axis=1)
         weighted = self.weigh @ parts.reshape(*parts.shape[:2], -1)
         return np.asarray(weighted.reshape(-1, *kernel.shape[2:]))
 
-    def _left(self, rows: FloatArray) -> FloatArray:
-        """What the best infinite-frequency added mass leaves; in place, the rows are large."""
+    def misfit(self, parameters: Array) -> Array:
+        """Rows of the model less the data, and the dampers' sizes."""
+        kernel = self.oscillators(parameters).transfer(self.data.omega)[:, self.j, self.k]
+        return np.concatenate([self._left(kernel - self.target), self.sizes(parameters)[0]])
+
+    def slope(self, parameters: Array) -> Array:
+        """Derivative of `misfit`."""
+        return np.concatenate([self._left(self.kernel_slope(parameters)), self.sizes(parameters)[1]])
+
+    def _left(self, kernel: Complex) -> Array:
+        """What the best infinite-frequency added mass leaves of a kernel's rows."""
+        rows = self._rows(kernel)
         if self.data.added_mass_infinite is None:
             rows -= self.unit @ (self.unit.T @ rows)
         return rows
 
-    def misfit(self, parameters: FloatArray) -> FloatArray:
-        """Rows of the model less the data, and the dampers' sizes."""
-        kernel = self.oscillators(parameters).transfer(self.data.omega)[:, self.j, self.k]
-        return np.concatenate([self._left(self._rows(kernel - self.target)), self.sizes(parameters)[0]])
-
-    def slope(self, parameters: FloatArray) -> FloatArray:
-        """Derivative of `misfit`."""
-        rows = self._left(self._rows(self.kernel_slope(parameters)))
-        return np.concatenate([rows, self.sizes(parameters)[1]])
-
-    def infinite(self, model: Oscillators) -> FloatArray:
+    def infinite(self, model: Oscillators) -> Array:
         """Infinite-frequency added mass (m, m) that goes best with a model."""
         if self.data.added_mass_infinite is not None:
             return self.data.added_mass_infinite
@@ -231,7 +219,7 @@ class MotionProblem:
         out[self.j, self.k] = out[self.k, self.j] = values
         return out
 
-    def search(self, start: FloatArray, evaluations: int) -> tuple[FloatArray, float]:
+    def search(self, start: Array, evaluations: int) -> tuple[Array, float]:
         """Parameters and half the sum of squares after a Levenberg-Marquardt search (normal equations)."""
         x, damping = start, 1e-2
         residual = self.misfit(x)
@@ -257,7 +245,12 @@ class MotionProblem:
 @one_thread
 def fit_to_motions(data: MotionData, lower: Oscillators | None) -> Oscillators:
     """Best fit with one mass more than ``lower``, or with one per motion where there is no lower one."""
-    guesses = [_first_guess(data)] if lower is None else _one_more(data, lower)
+    if lower is None:  # one uncoupled mass per motion, at the peak of its damping
+        peaks = data.omega[np.diagonal(data.damping, axis1=1, axis2=2).argmax(axis=0)]
+        w = np.clip(peaks, LOWEST_FREQUENCY, None)
+        guesses = [Oscillators(w=w, dampers=np.diag(w), coupling=np.diag(np.sqrt(w)))]
+    else:
+        guesses = _one_more(data, lower)
     problem = MotionProblem(data, len(guesses[0].w))
     found = [problem.search(problem.pack(guess), GLANCE) for guess in guesses]
     found = [problem.search(each[0], LOOK) for each in sorted(found, key=lambda each: each[1])[:2]]
@@ -293,10 +286,8 @@ def joined(data: MotionData, parts: list[tuple[list[int], Oscillators]]) -> Osci
         own = slice(start, start + len(part.w))
         dampers[own, own], coupling[own, motions] = part.dampers, part.coupling
         start = own.stop
-    return _searched(
-        data,
-        Oscillators(w=np.concatenate([part.w for _, part in parts]), dampers=dampers, coupling=coupling),
-    )
+    w = np.concatenate([part.w for _, part in parts])
+    return _searched(data, Oscillators(w=w, dampers=dampers, coupling=coupling))
 
 
 @one_thread

@@ -8,15 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.hydro_data import AdditionalMatrices
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
-from seacrane.hydro.memory.identification import FEWEST_FREQUENCIES, memory_entries, symmetric, within
+from seacrane.hydro.memory.identification import judged_band, memory_entries, symmetric
 from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import positive_of
 from seacrane.one_thread import one_thread
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 LONGEST_STEP = 0.1  # s
 PHASE_PER_STEP = 0.4  # rad, of the database's highest frequency
@@ -39,22 +37,19 @@ class RetardationModel:
     added_mass : (6, 6) infinite-frequency added mass that belongs to ``radiation``.
     additional_added_mass, additional_stiffness : (6, 6) instantaneous parts of the additional causes.
     band : (low, high) rad/s over which A_inf and the errors below are taken.
-    error_damping, error_added_mass : (6, 6) root mean square over the band of what the samples return less
-        what the database holds (radiation, made symmetric), over the standard deviation of the data; zero
-        where there is no memory. The second also holds the data's own breach of the Kramers-Kronig relation.
-    tail_share : (6, 6) part of K(0) that the assumed damping above the last frequency contributes.
+    error_damping : (6, 6) root mean square over the band of what the samples return less what the database
+        holds (radiation, made symmetric), over the standard deviation of the data; zero where there is no
+        memory.
     """
 
     step: float
-    radiation: FloatArray
-    additional: FloatArray
-    added_mass: FloatArray
-    additional_added_mass: FloatArray
-    additional_stiffness: FloatArray
+    radiation: Array
+    additional: Array
+    added_mass: Array
+    additional_added_mass: Array
+    additional_stiffness: Array
     band: tuple[float, float]
-    error_damping: FloatArray
-    error_added_mass: FloatArray
-    tail_share: FloatArray
+    error_damping: Array
 
     __repr__ = brief
 
@@ -64,15 +59,15 @@ class RetardationModel:
         return self.step * (len(self.radiation) - 1)
 
     @property
-    def kernel(self) -> FloatArray:
+    def kernel(self) -> Array:
         """K of all causes (n, 6, 6), a new array."""
         return np.asarray(self.radiation + self.additional)
 
-    def frequency_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def frequency_response(self, omega: ArrayLike) -> tuple[Array, Array]:
         """Radiation added mass and damping (m, 6, 6) that the samples give at positive ``omega`` (m,)."""
         return _response(omega, self.radiation, self.step, self.added_mass, 0.0)
 
-    def additional_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def additional_response(self, omega: ArrayLike) -> tuple[Array, Array]:
         """The response of all other causes, stiffness counted as added mass."""
         return _response(
             omega, self.additional, self.step, self.additional_added_mass, self.additional_stiffness
@@ -80,8 +75,8 @@ class RetardationModel:
 
 
 def _response(
-    omega: ArrayLike, kernel: FloatArray, step: float, mass: FloatArray, stiffness: FloatArray | float
-) -> tuple[FloatArray, FloatArray]:
+    omega: ArrayLike, kernel: Array, step: float, mass: Array, stiffness: Array | float
+) -> tuple[Array, Array]:
     w = np.atleast_1d(np.asarray(omega, dtype=float))
     transfer, by_frequency = transformer(kernel, step)(w), w[:, None, None]
     return mass + transfer.imag / by_frequency - stiffness / by_frequency**2, transfer.real
@@ -122,58 +117,49 @@ def retardation_functions(
             f"retardation functions: step is {step} s, more than half a period of the database's highest "
             f"frequency, {database.omega[-1]:.4g} rad/s; make it shorter"
         )
-    durations = (
-        DURATIONS if duration is None else (positive_of("retardation functions: duration", duration, "s"),)
-    )
-    low, high = database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
-    inside = within(database.omega, (low, high))
-    if inside.sum() < FEWEST_FREQUENCIES:
-        raise ValueError(
-            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside.sum()} "
-            f"frequencies; retardation functions need {FEWEST_FREQUENCIES} or more"
-        )
+    durations: tuple[float, ...] = DURATIONS
+    if duration is not None:
+        durations = (positive_of("retardation functions: duration", duration, "s"),)
+    band, inside = judged_band(database)
     added_mass, damping = symmetric(database.added_mass), symmetric(database.damping)
     active = np.zeros(added_mass.shape[1:], dtype=bool)
     for j, k in memory_entries(added_mass, damping, database.omega):
         active[j, k] = active[k, j] = True
     damping = damping * active
-    tau: FloatArray = step * np.arange(_samples(durations[-1], step), dtype=float)
-    whole, tail_at_zero = cosine_transform(database.omega, damping, tau)
+    tau: Array = step * np.arange(_samples(durations[-1], step), dtype=float)
+    whole = cosine_transform(database.omega, damping, tau)
     samples = _shortest(database.omega, damping, whole, step, [_samples(d, step) for d in durations])
     radiation = _tapered(whole[:samples])
     response = transformer(radiation, step)(database.omega)
     estimates = added_mass - response.imag / database.omega[:, None, None]
     infinite = np.where(active, estimates[inside].mean(axis=0), added_mass[-1])
-    misfit = estimates - infinite
     additional, mass, stiffness = np.zeros_like(radiation), np.zeros_like(infinite), np.zeros_like(infinite)
     for part in database.additional:
         more = _additional(database, part, tau[:samples], inside)
         additional, mass, stiffness = additional + more[0], mass + more[1], stiffness + more[2]
-    return RetardationModel(
-        step=step,
-        radiation=radiation,
-        additional=additional,
-        added_mass=infinite,
-        additional_added_mass=mass,
-        additional_stiffness=stiffness,
-        band=(float(low), float(high)),
-        error_damping=_relative(response.real[inside] - damping[inside], damping[inside], active),
-        error_added_mass=_relative(misfit[inside], added_mass[inside], active),
-        tail_share=_ratio(tail_at_zero, whole[0]),
+    lost, spread = (
+        np.sqrt(np.mean((response.real - damping)[inside] ** 2, axis=0)),
+        damping[inside].std(axis=0),
     )
+    error = np.divide(lost, spread, out=np.zeros_like(lost), where=spread != 0.0)
+    return RetardationModel(
+        step=step, radiation=radiation, additional=additional, added_mass=infinite,
+        additional_added_mass=mass, additional_stiffness=stiffness, band=band, error_damping=error * active,
+    )  # fmt: skip
 
 
-def cosine_transform(
-    omega: FloatArray, damping: FloatArray, tau: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """``2 / pi integral B cos(omega tau) domega`` (n, ...) at ``tau`` (n,), and its tail's part at 0 (...).
+def cosine_transform(omega: Array, damping: Array, tau: Array) -> Array:
+    """``2 / pi integral B cos(omega tau) domega`` (n, ...) at ``tau`` (n,).
 
     ``damping`` (m, ...) at ``omega`` (m,), positive; see `retardation_functions` for the rest of the axis.
     """
     from scipy.interpolate import CubicSpline
 
     end, last = float(omega[-1]), damping[-1]
-    exponent = _tail_exponent(omega, damping)
+    # The local exponent of decay at the last frequency, within bounds; 3 where there is no damping.
+    slope = np.gradient(damping[-4:], omega[-4:], axis=0)[-1]
+    local = np.where(last == 0.0, 3.0, -slope * end / np.where(last == 0.0, 1.0, last))
+    exponent = np.clip(local, *TAIL_EXPONENTS)
     spline = CubicSpline(
         np.concatenate([[0.0], omega]),
         np.concatenate([np.zeros_like(damping[:1]), damping]),
@@ -185,10 +171,10 @@ def cosine_transform(
     values = (half[:, None] * weights).ravel()[:, None] * spline(at).reshape(len(at), -1)
     inner = (np.cos(np.outer(tau, at)) @ values).reshape(-1, *last.shape)
     outer = last * _power_law_transform(exponent, end, tau)
-    return np.asarray(2.0 / np.pi * (inner + outer)), np.asarray(2.0 / np.pi * outer[0])
+    return np.asarray(2.0 / np.pi * (inner + outer))
 
 
-def _power_law_transform(exponent: FloatArray, end: float, tau: FloatArray) -> FloatArray:
+def _power_law_transform(exponent: Array, end: float, tau: Array) -> Array:
     """``integral_end^inf (end / omega)^n cos(omega tau) domega`` (n, ...) for exponents (...) of 2 or more.
 
     Along omega = end (1 + i x) the cosine decays instead of turning (Cauchy's theorem): intervals of x that
@@ -205,7 +191,7 @@ def _power_law_transform(exponent: FloatArray, end: float, tau: FloatArray) -> F
     return np.asarray(end * turned.real).reshape(-1, *exponent.shape)
 
 
-def transformer(kernel: FloatArray, step: float) -> Callable[[FloatArray], ComplexArray]:
+def transformer(kernel: Array, step: float) -> Callable[[Array], Complex]:
     """``integral_0^T K(tau) exp(-i omega tau) dtau`` (m, ...) of samples (n, ...), by a cubic spline.
 
     A function of ``omega`` (m,).
@@ -218,24 +204,13 @@ def transformer(kernel: FloatArray, step: float) -> Callable[[FloatArray], Compl
     weight = np.tile(0.5 * step * weights, len(kernel) - 1)
     values = CubicSpline(times, kernel)(at)
 
-    def of(omega: FloatArray) -> ComplexArray:
+    def of(omega: Array) -> Complex:
         return np.asarray(np.tensordot(np.exp(-1j * np.outer(omega, at)) * weight, values, axes=1))
 
     return of
 
 
-def _tail_exponent(omega: FloatArray, damping: FloatArray) -> FloatArray:
-    """Local exponent of decay at the last frequency, within bounds (3 where there is no damping)."""
-    slope = np.gradient(damping[-4:], omega[-4:], axis=0)[-1]
-    last = damping[-1]
-    safe = np.where(last == 0.0, 1.0, last)
-    exponent = np.where(last == 0.0, 3.0, -slope * omega[-1] / safe)
-    return np.asarray(np.clip(exponent, *TAIL_EXPONENTS))
-
-
-def _shortest(
-    omega: FloatArray, damping: FloatArray, kernel: FloatArray, step: float, candidates: list[int]
-) -> int:
+def _shortest(omega: Array, damping: Array, kernel: Array, step: float, candidates: list[int]) -> int:
     """Samples of the shortest kernel that returns the damping well, or of the one that does so best."""
     largest = np.maximum(np.abs(damping).max(axis=0), 1e-300)
     errors = []
@@ -247,7 +222,7 @@ def _shortest(
     return candidates[int(np.argmin(errors))]
 
 
-def _tapered(kernel: FloatArray) -> FloatArray:
+def _tapered(kernel: Array) -> Array:
     """The kernel with its last fifth taken to zero."""
     fraction = np.linspace(0.0, 1.0, len(kernel))
     fade = np.clip((fraction - (1.0 - TAPER)) / TAPER, 0.0, 1.0)
@@ -255,11 +230,11 @@ def _tapered(kernel: FloatArray) -> FloatArray:
 
 
 def _additional(
-    database: Hydrodynamics, part: AdditionalMatrices, tau: FloatArray, inside: NDArray[np.bool_]
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+    database: Hydrodynamics, part: AdditionalMatrices, tau: Array, inside: NDArray[np.bool_]
+) -> tuple[Array, Array, Array]:
     """Kernel (n, 6, 6), instantaneous added mass and static stiffness (6, 6) of one additional cause."""
     damping, added_mass = symmetric(part.damping), symmetric(part.added_mass)
-    kernel = _tapered(cosine_transform(database.omega, damping, tau)[0])
+    kernel = _tapered(cosine_transform(database.omega, damping, tau))
     omega = database.omega[inside]
     transfer = transformer(kernel, float(tau[1]))(omega)
     rest = (added_mass[inside] - transfer.imag / omega[:, None, None]) * omega[:, None, None] ** 2
@@ -271,15 +246,6 @@ def _additional(
         target = rest[:, j, k] * weight
         mass[j, k], stiffness[j, k] = np.linalg.lstsq(columns * weight[:, None], target, rcond=None)[0]
     return kernel, mass, stiffness
-
-
-def _relative(misfit: FloatArray, data: FloatArray, active: NDArray[np.bool_]) -> FloatArray:
-    """Root mean square (6, 6) of the misfit over the standard deviation of the data."""
-    return _ratio(np.sqrt(np.mean(misfit**2, axis=0)), data.std(axis=0)) * active
-
-
-def _ratio(part: FloatArray, whole: FloatArray) -> FloatArray:
-    return np.asarray(np.divide(part, whole, out=np.zeros_like(part), where=whole != 0.0))
 
 
 def _samples(duration: float, step: float) -> int:

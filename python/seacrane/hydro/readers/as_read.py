@@ -10,8 +10,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.database.database import HydroDatabase
@@ -90,7 +90,7 @@ def _is_round(found: Hydrodynamics, first: int) -> bool:
     return bool(np.all(np.abs(a[:, 0] - a[:, 1]) <= ROUND * np.abs(a[:, 0])) and np.any(a[:, 0]))
 
 
-def mirrored(matrices: FloatArray) -> FloatArray:
+def mirrored(matrices: Array) -> Array:
     """Symmetric matrices (..., k, k) of which a file holds one half: the other is its mirror image."""
     lower = np.tril(np.ones(matrices.shape[-2:], dtype=bool), -1)
     there = [bool(np.any(matrices[..., half])) for half in (lower, lower.T)]
@@ -101,7 +101,7 @@ def mirrored(matrices: FloatArray) -> FloatArray:
     return np.asarray(diagonal + half + half.swapaxes(-1, -2))
 
 
-def whole_stiffness(restoring: FloatArray) -> FloatArray:
+def whole_stiffness(restoring: Array) -> Array:
     """`mirrored` of heave, roll and pitch: moments of weights about the vertical stand in one half alone."""
     out = restoring.copy()
     out[2:5, 2:5] = mirrored(restoring[2:5, 2:5])
@@ -132,7 +132,7 @@ def mass_of_file(
     where: Path | None = None,
     displaced: float | None = None,
     box: tuple[float, float, float] | None = None,
-) -> FloatArray:
+) -> Array:
     """The mass matrix (6, 6) of a file, its halves completed; asked for where it is none of a vessel.
 
     Parameters
@@ -164,7 +164,7 @@ def mass_of_file(
     return matrix
 
 
-def frequencies_kept(asked: Asked, omega: FloatArray, tables: Mapping[str, Any]) -> NDArray[np.intp]:
+def frequencies_kept(asked: Asked, omega: Array, tables: Mapping[str, Any]) -> NDArray[np.intp]:
     """Places of the positive, finite frequencies that are taken, rising.
 
     Parameters
@@ -206,7 +206,7 @@ def frequencies_kept(asked: Asked, omega: FloatArray, tables: Mapping[str, Any])
     return rows[kept]
 
 
-def omega_of(values: FloatArray, unit: str) -> FloatArray:
+def omega_of(values: Array, unit: str) -> Array:
     """Frequencies in rad/s of those in "rad/s", "Hz" or "s"; a period of 0 is infinity."""
     if np.any(values < 0.0):
         raise ValueError(f"period or frequency {values.min():g}; give positive ones")
@@ -214,7 +214,7 @@ def omega_of(values: FloatArray, unit: str) -> FloatArray:
         return 2.0 * np.pi / values if unit == "s" else values * (2.0 * np.pi if unit == "Hz" else 1.0)
 
 
-def rising_directions(raw: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+def rising_directions(raw: Array) -> tuple[Array, NDArray[np.intp]]:
     """Directions (rad) in [0, 2 pi), rising, and their places in ``raw``; a full turn beside 0 is dropped."""
     wrapped = np.mod(raw, 2.0 * np.pi)
     wrapped[2.0 * np.pi - wrapped < SAME_DIRECTION] = 0.0
@@ -223,7 +223,7 @@ def rising_directions(raw: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     return wrapped[order][new], order[new]
 
 
-def rising_degrees(degrees: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+def rising_degrees(degrees: Array) -> tuple[Array, NDArray[np.intp]]:
     """The same of degrees, in [0, 360) to 1e-6."""
     wrapped = np.round(np.mod(degrees, 360.0), 6) % 360.0
     return np.unique(wrapped, return_index=True)
@@ -320,7 +320,7 @@ def first_rough_value(database: HydroData) -> tuple[int, str] | None:
     return int(found[0]), f"{'AB'[table]}{entry // 6 + 1}{entry % 6 + 1}"
 
 
-def _by_scale(database: HydroData, start: float) -> FloatArray:
+def _by_scale(database: HydroData, start: float) -> Array:
     """Symmetric parts of A and B (n, 72), by what the motions of each pair vary; forbidden pairs are zero."""
     mass = np.abs(np.diag(database.mass_matrix))
     kept = np.ones((6, 6))
@@ -338,7 +338,7 @@ def _by_scale(database: HydroData, start: float) -> FloatArray:
     return np.concatenate(parts, axis=1)
 
 
-def _misfit(omega: FloatArray, values: FloatArray, step: int) -> FloatArray:
+def _misfit(omega: Array, values: Array, step: int) -> Array:
     """Size of values (n, p) less the cubic through four others, every ``step``, in deviations of noise.
 
     They are two on either side, moved inwards at an end; zero where there are not so many.

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
@@ -92,7 +92,7 @@ def _convert(asked: Asked, file: Any) -> Loaded:
     direction, places = rising_directions(raw)
     n, m, size = len(omega), len(raw), 6 * len(entries)
 
-    def of_all(name: str, *shape: int) -> FloatArray:
+    def of_all(name: str, *shape: int) -> Array:
         """An entry's rows of every body."""
         every = [f"{entry}/hydro_coeffs/{name}" for entry in entries]
         return np.concatenate([_values(path, file, one, (6, *shape)) for one in every])
@@ -132,7 +132,7 @@ def _names(file: Any, entries: list[str]) -> list[str]:
     return names if all(names) and len(set(names)) == len(names) else entries
 
 
-def _values(path: Path, file: Any, name: str, shape: tuple[int, ...] | None = None) -> FloatArray:
+def _values(path: Path, file: Any, name: str, shape: tuple[int, ...] | None = None) -> Array:
     """An entry's numbers; of a shape."""
     if name not in file:
         raise FileFormatError(f"{path}: {name} is missing; write the whole BEMIO file")

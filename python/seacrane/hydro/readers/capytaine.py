@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
@@ -38,12 +38,12 @@ NAMED = 8  # depths in a message
 MATRIX = ("influenced_dof", "radiating_dof")
 
 
-def _of_wavenumber(k: FloatArray, g: float, depth: float) -> FloatArray:
+def _of_wavenumber(k: Array, g: float, depth: float) -> Array:
     """omega^2 = g k tanh(k h)."""
     return np.asarray(np.sqrt(g * k * (1.0 if np.isinf(depth) else np.tanh(k * depth))))
 
 
-MEASURES: dict[str, Callable[[FloatArray, float, float], FloatArray]] = {
+MEASURES: dict[str, Callable[[Array, float, float], Array]] = {
     "freq": lambda value, g, depth: 2.0 * np.pi * value,
     "period": lambda value, g, depth: 2.0 * np.pi / value,
     "wavenumber": _of_wavenumber,
@@ -283,7 +283,7 @@ def _over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> 
     return plain.rename({measure: "omega"}).assign_coords(omega=omega)
 
 
-def _real(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> FloatArray:
+def _real(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> Array:
     """A variable's values with its dimensions in the given order."""
     return np.asarray(_variable(path, dataset, name, dimensions).values, dtype=float)
 
@@ -302,7 +302,7 @@ def _variable(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[
 
 def _matrices(
     asked: Asked, dataset: xarray.Dataset, variable: str, argument: str, names: list[str]
-) -> list[FloatArray]:
+) -> list[Array]:
     """A constant matrix (6, 6) of each body: the caller's, else the block of the file's."""
     given = of_each(asked, argument, names, getattr(asked, argument))
     if given[0] is not None:
@@ -316,7 +316,7 @@ def _matrices(
     return [whole[at : at + 6, at : at + 6] for at in range(0, 6 * len(names), 6)]
 
 
-def _wave_force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
+def _wave_force(path: Path, dataset: xarray.Dataset) -> Complex:
     """Wave excitation (m, n, 6 k) with our time factor; NaN at the limits 0 and infinity."""
     parts: tuple[str, ...] = ("Froude_Krylov_force", "diffraction_force")
     if not all(name in dataset for name in parts):
@@ -339,9 +339,7 @@ def _wave_force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
     return np.asarray(np.conj(np.sum(every, axis=0)), dtype=complex)
 
 
-def _rotation_centres(
-    asked: Asked, dataset: xarray.Dataset, names: list[str], given: Given | None
-) -> FloatArray:
+def _rotation_centres(asked: Asked, dataset: xarray.Dataset, names: list[str], given: Given | None) -> Array:
     """Where the rotations of each body turn about (k, 3), from the origin of the mesh."""
     if given is not None:
         return np.array(of_each(asked, "rotation_centre", names, given, (3,)))
@@ -364,7 +362,7 @@ def _rotation_centres(
     return there
 
 
-def _by_body(dataset: xarray.Dataset, variable: str, names: list[str]) -> FloatArray | None:
+def _by_body(dataset: xarray.Dataset, variable: str, names: list[str]) -> Array | None:
     """A variable's values by body, in the order of the names; None where the file has none by name."""
     known = variable in dataset.variables and "body" in dataset[variable].dims and "body" in dataset.coords
     there = [str(name) for name in dataset["body"].values] if known else []

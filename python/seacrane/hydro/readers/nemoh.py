@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
+from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.database.transform import motion_transform
@@ -128,9 +128,9 @@ def _body(
     water: Water,
     index: int,
     files: list[Path | None],
-    mass: FloatArray | None,
-    restoring: FloatArray | None,
-    lift: ComplexArray,
+    mass: Array | None,
+    restoring: Array | None,
+    lift: Complex,
     usual: str,
 ) -> GroupBody:
     """One body, of its stiffness and its hydrostatics; ``lift`` and ``usual`` as in `_stiffness_about`."""
@@ -152,9 +152,7 @@ def _body(
     )  # fmt: skip
 
 
-def _stiffness_about(
-    centre: FloatArray, stiffness: FloatArray, *, gravity: FloatArray, lift: ComplexArray, usual: str
-) -> FloatArray:
+def _stiffness_about(centre: Array, stiffness: Array, *, gravity: Array, lift: Complex, usual: str) -> Array:
     """A floating body's stiffness (6, 6) about ``centre``; points are (3,) m in one frame.
 
     The file gives it about its centre of gravity or about ``centre``, without saying so; heights make no

@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.readers.as_read import omega_of, rising_directions, whole_stiffness
 from seacrane.hydro.readers.text_records import NUMBER, is_number, number_at, text_of
 
@@ -39,7 +39,7 @@ class Water:
     rho: float
     g: float
     depth: float
-    centres: FloatArray
+    centres: Array
     phase_origin: tuple[float, float]
     names: list[str]
 
@@ -96,7 +96,7 @@ class _Block:
 
     title: str
     line: int
-    rows: FloatArray
+    rows: Array
 
 
 def _blocks(path: Path, bodies: int) -> list[_Block]:
@@ -121,7 +121,7 @@ def _blocks(path: Path, bodies: int) -> list[_Block]:
     return blocks
 
 
-def _frequencies(path: Path, blocks: list[_Block], control: Path | None) -> FloatArray:
+def _frequencies(path: Path, blocks: list[_Block], control: Path | None) -> Array:
     """Frequencies (rad/s), the same in every block."""
     first = blocks[0].rows[:, 0]
     for block in blocks[1:]:
@@ -170,7 +170,7 @@ def _direction(path: Path, block: _Block) -> float:
     return float(np.radians(angle)) if unit else angle
 
 
-def read_hydrostatics(path: Path) -> tuple[FloatArray, float]:
+def read_hydrostatics(path: Path) -> tuple[Array, float]:
     """Centre of gravity (3,) in m, and displaced volume in m3."""
     text = text_of(path)
     gravity = re.findall(rf"[XYZ]G\s*=\s*({NUMBER})", text)
@@ -183,7 +183,7 @@ def read_hydrostatics(path: Path) -> tuple[FloatArray, float]:
     return np.array(_numbers_in(path, 1, gravity)), size
 
 
-def read_stiffness(path: Path) -> FloatArray:
+def read_stiffness(path: Path) -> Array:
     """The restoring matrix (6, 6)."""
     lines = [(number, line.split()) for number, line in enumerate(_text_lines(path), start=1) if line.strip()]
     rows = [_numbers_in(path, number, words) for number, words in lines]

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.heading_circle import keeps_sides_apart, phase_at
 from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
@@ -45,8 +45,8 @@ def hull_or_group(
     bodies: Sequence[GroupBody],
     *,
     fix: str,
-    omega: FloatArray,
-    waves_from: Sequence[float] | FloatArray = (0.0, 0.0),
+    omega: Array,
+    waves_from: Sequence[float] | Array = (0.0, 0.0),
     alone: Mapping[str, Any] | None = None,
     at: Sequence[float] | None = None,
     **tables: Any,
@@ -94,7 +94,7 @@ def hull_or_group(
     return with_band_of_data(found if at is None else replace(found.at(at), origin=found.origin))
 
 
-def matrix_at(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
+def matrix_at(matrices: Array, where: NDArray[np.bool_]) -> Array | None:
     """The matrix at a limiting frequency, if there is one; where nothing was solved there are zeros."""
     found = matrices[where]
     return found[0] if len(found) and np.all(np.isfinite(found)) and np.any(found[0]) else None
@@ -105,13 +105,13 @@ def floating_body(
     name: str,
     *,
     several: bool,
-    restoring: FloatArray,
+    restoring: Array,
     water: tuple[float, float],
-    mass: FloatArray | None,
+    mass: Array | None,
     volume: float | None = None,
     displaced: float | None = None,
     where: Path | None = None,
-    centre: FloatArray | None = None,
+    centre: Array | None = None,
     **others: Any,
 ) -> GroupBody:
     """A body with its equivalent box, and with the displaced mass where it has none.
@@ -185,7 +185,7 @@ def of_each(
 
 
 def box_of(
-    where: Path, name: str, restoring: FloatArray, volume: float, weight_density: float
+    where: Path, name: str, restoring: Array, volume: float, weight_density: float
 ) -> tuple[float, float, float]:
     """Length, breadth, draught (m) of the floating box that C33, C55 (6, 6) and the volume (m3) describe.
 

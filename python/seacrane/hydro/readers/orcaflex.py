@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.heading_circle import phase_at
 from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
@@ -165,9 +165,9 @@ def _convert(asked: Asked, kind: VesselType, rho: float | None) -> HydroDatabase
     return found
 
 
-def _constant_matrices(asked: Asked, kind: VesselType) -> tuple[FloatArray, FloatArray]:
+def _constant_matrices(asked: Asked, kind: VesselType) -> tuple[Array, Array]:
     """Mass matrix and restoring (6, 6): the caller's, else the file's."""
-    told: dict[str, FloatArray | None] = {"mass_matrix": None, "restoring": None}
+    told: dict[str, Array | None] = {"mass_matrix": None, "restoring": None}
     if kind.mass is not None:
         told["mass_matrix"] = rigid_mass_matrix(kind.mass, kind.centre - kind.origin, kind.inertia)
     if kind.stiffness is not None:
@@ -181,14 +181,14 @@ def _constant_matrices(asked: Asked, kind: VesselType) -> tuple[FloatArray, Floa
     return found[0], found[1]
 
 
-def _moved(lever: FloatArray) -> FloatArray:
+def _moved(lever: Array) -> Array:
     """Matrix (6, 6) from a load at ``lever`` to the load at the origin: moments gain lever x force."""
     matrix = np.eye(6)
     matrix[3:, :3] = cross_matrix(lever)
     return matrix
 
 
-def _at_origin(kind: VesselType, raos: Raos, moved: FloatArray, columns: Places) -> ComplexArray:
+def _at_origin(kind: VesselType, raos: Raos, moved: Array, columns: Places) -> Complex:
     """Loads or motions (m, n, 6) about the reference origin, where waves get zero phase."""
     away = kind.origin - raos.phase_origin
     headings = np.radians(raos.heading_deg)
@@ -258,7 +258,7 @@ def _read_mafredo(path: Path) -> VesselType:
     )  # fmt: skip
 
 
-def _mafredo_matrices(group: Any) -> FloatArray:
+def _mafredo_matrices(group: Any) -> Array:
     """The group's array (n, 6, 6) with the influenced motion first, in the order of our motions."""
     found = [variable for variable in group.variables.values() if set(variable.dimensions) == set(MATRIX)]
     if len(found) != 1:
@@ -273,13 +273,13 @@ def _mafredo_matrices(group: Any) -> FloatArray:
     return array
 
 
-def _by_names(variable: Any, order: tuple[str, ...]) -> FloatArray:
+def _by_names(variable: Any, order: tuple[str, ...]) -> Array:
     """A variable's numbers with its dimensions in that order."""
     axes = [variable.dimensions.index(name) for name in order]
     return np.asarray(variable[...], dtype=float).transpose(axes)
 
 
-def _coordinate(variable: Any) -> FloatArray:
+def _coordinate(variable: Any) -> Array:
     """A list of finite numbers (infinity excepted for frequencies)."""
     values = np.ravel(np.asarray(variable[...], dtype=float))
     if values.size == 0 or np.any(np.isnan(values)) or np.any(np.isneginf(values)):

@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.readers.as_read import omega_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import decoded, read_whole
@@ -48,11 +48,11 @@ RAO_ROWS = "RAOPeriodOrFrequency, " + ", ".join(
 class Raos:
     """``values`` (m, n, 6) complex, exp(+i omega t), about ``origin`` with zero phase at ``phase_origin``."""
 
-    heading_deg: FloatArray
-    omega: FloatArray
-    values: ComplexArray
-    origin: FloatArray
-    phase_origin: FloatArray
+    heading_deg: Array
+    omega: Array
+    values: Complex
+    origin: Array
+    phase_origin: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,21 +68,21 @@ class VesselType:
     source: str
     place: str
     symmetry: str
-    omega: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
+    omega: Array
+    added_mass: Array
+    damping: Array
     loads: Raos
-    origin: FloatArray = field(default_factory=lambda: np.zeros(3))
+    origin: Array = field(default_factory=lambda: np.zeros(3))
     length: float | None = None
     motions: Raos | None = None
     mass: float | None = None
-    centre: FloatArray = field(default_factory=lambda: np.zeros(3))
-    inertia: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
-    stiffness: FloatArray | None = None
+    centre: Array = field(default_factory=lambda: np.zeros(3))
+    inertia: Array = field(default_factory=lambda: np.zeros((3, 3)))
+    stiffness: Array | None = None
     volume: float | None = None
-    other_origin: FloatArray = field(default_factory=lambda: np.zeros(3))
-    other_linear: FloatArray = field(default_factory=lambda: np.zeros(6))
-    other_quadratic: FloatArray = field(default_factory=lambda: np.zeros(6))
+    other_origin: Array = field(default_factory=lambda: np.zeros(3))
+    other_linear: Array = field(default_factory=lambda: np.zeros(6))
+    other_quadratic: Array = field(default_factory=lambda: np.zeros(6))
     rho: float | None = None
     depth: float = np.inf
 
@@ -132,14 +132,14 @@ class _Node:
             raise self.error(f"{value} is not finite")
         return value
 
-    def table(self, rows: int | None, columns: int) -> FloatArray:
+    def table(self, rows: int | None, columns: int) -> Array:
         """Rows of finite numbers; any number of rows where ``rows`` is None."""
         lines = self.items()
         if not lines or (rows is not None and len(lines) != rows):
             raise self.error(f"{rows or 'some'} rows are expected, found {len(lines)}")
         return np.array([line.vector(columns) for line in lines])
 
-    def vector(self, count: int) -> FloatArray:
+    def vector(self, count: int) -> Array:
         found = self.items()
         if len(found) != count:
             raise self.error(f"{count} numbers are expected, found {len(found)}")
@@ -237,7 +237,7 @@ def _named(nodes: _Node, name: str | None, argument: str) -> _Node:
     return _Node(nodes.path, f"{nodes.place}/{name[:60]}", nodes.value[names.index(name)])
 
 
-def _to_omega(kind: _Node, values: Sequence[float]) -> FloatArray:
+def _to_omega(kind: _Node, values: Sequence[float]) -> Array:
     """Frequencies in rad/s of what the file refers to waves by; a period of 0 is infinity."""
     unit = kind.at("WavesReferredToBy").text()
     if unit not in UNITS:
@@ -245,7 +245,7 @@ def _to_omega(kind: _Node, values: Sequence[float]) -> FloatArray:
     return omega_of(np.array(values, dtype=float), UNITS[unit])
 
 
-def _matrices(kind: _Node, state: _Node) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _matrices(kind: _Node, state: _Node) -> tuple[Array, Array, Array]:
     """Frequencies, added mass in te and damping in kN s, in the order of the file."""
     key = "FrequencyDependentAddedMassAndDamping"
     if not state.has(key):
@@ -256,7 +256,7 @@ def _matrices(kind: _Node, state: _Node) -> tuple[FloatArray, FloatArray, FloatA
     return omega, np.array(tables[0]).reshape(-1, 6, 6), np.array(tables[1]).reshape(-1, 6, 6)
 
 
-def _raos(kind: _Node, node: _Node, scale: FloatArray) -> Raos:
+def _raos(kind: _Node, node: _Node, scale: Array) -> Raos:
     """A table of amplitudes and phases as complex numbers."""
     headings = node.at("RAOs").items()
     if not headings:
@@ -276,7 +276,7 @@ def _raos(kind: _Node, node: _Node, scale: FloatArray) -> Raos:
     )
 
 
-def _lag(kind: _Node, phase: FloatArray) -> FloatArray:
+def _lag(kind: _Node, phase: Array) -> Array:
     """Phases as lags behind the crest, rad."""
     unit, sense = kind.at("RAOPhaseUnitsConvention").text(), kind.at("RAOPhaseConvention").text()
     event = kind.at("RAOPhaseRelativeToConvention").text()
@@ -298,7 +298,7 @@ def _motion_raos(kind: _Node, node: _Node) -> Raos:
     return _raos(kind, node, np.array([1.0, 1.0, 1.0, turn, turn, turn]))
 
 
-def _vector(node: _Node, key: str, default: FloatArray) -> FloatArray:
+def _vector(node: _Node, key: str, default: Array) -> Array:
     """A point in vessel axes or six numbers; where it is missing or ``~``, the default."""
     given = node.at(key).value if node.has(key) else None
     if given is None or (isinstance(given, list) and all(value is None for value in given)):

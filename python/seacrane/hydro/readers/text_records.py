@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.inputs.whole_file import read_whole
 
 NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[EeDd][-+]?\d+|[-+]\d{2,4})?"
@@ -119,7 +119,7 @@ class TextRecords:
             raise self.error(f"{what}: whole numbers are expected, found {values}")
         return [int(value) for value in values]
 
-    def table(self, rows: int, columns: int, what: str) -> FloatArray:
+    def table(self, rows: int, columns: int, what: str) -> Array:
         """Next ``rows`` lines as finite numbers (rows, columns)."""
         start = self._next
         words = [line.split() for line in self._lines[start : start + rows]]

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, RollDamping
 from seacrane.hydro.data.motion import force_of_motion, one_function
@@ -150,7 +150,7 @@ def _with_forces(stem: Path, database: HydroDatabase) -> HydroDatabase:
     return replace(database, force=force)
 
 
-def _direction(heading_deg: FloatArray) -> FloatArray:
+def _direction(heading_deg: Array) -> Array:
     """Directions of travel in [0, 2 pi) of the files' headings."""
     direction = np.mod(np.radians(heading_deg) + np.pi, 2.0 * np.pi)
     direction[np.abs(direction - 2.0 * np.pi) < 1e-12] = 0.0
@@ -159,7 +159,7 @@ def _direction(heading_deg: FloatArray) -> FloatArray:
 
 def _tables(
     found: VeresSet, case: Case, by_omega: NDArray[np.intp]
-) -> tuple[FloatArray, FloatArray, AdditionalMatrices, FloatArray]:
+) -> tuple[Array, Array, AdditionalMatrices, Array]:
     """Added mass, damping, what is additional, and roll damping, by the frequency (of encounter), rising."""
     omega = case.omega[by_omega]
     ours = case.blocks[:, by_omega] * BOTH_SIDES + 0.0  # + 0.0: no negative zeros
@@ -181,8 +181,8 @@ def _tables(
 
 
 def _of_encounter(
-    found: VeresSet, case: Case, blocks: FloatArray, roll: FloatArray, omega: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+    found: VeresSet, case: Case, blocks: Array, roll: Array, omega: Array
+) -> tuple[Array, Array]:
     """Blocks (n, 6, 6, 6) and roll damping (n, 2) from those of every heading, with warnings."""
     m, n = blocks.shape[:2]
     along = np.cos(np.radians(case.heading))
@@ -342,7 +342,7 @@ def _check_hydrostatics(found: VeresSet, speed: float) -> None:
         )
 
 
-def _trusted(omega: FloatArray) -> tuple[float, float] | None:
+def _trusted(omega: Array) -> tuple[float, float] | None:
     """The part of 0.3 to 2.6 rad/s that the files cover, or None if that is nothing."""
     low, high = max(BAND[0], float(omega[0])), min(BAND[1], float(omega[-1]))
     return (low, high) if low < high else None

@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.readers.format import sibling, stem_of
 from seacrane.hydro.readers.text_records import TextRecords
 from seacrane.inputs.caller import warn_caller
@@ -56,18 +56,18 @@ class Case:
     """
 
     speed: float
-    heading: FloatArray
-    omega: FloatArray
+    heading: Array
+    omega: Array
     values: NDArray[Any]
     motion_point: tuple[float, float] = (0.0, 0.0)
 
     @property
-    def blocks(self) -> FloatArray:
+    def blocks(self) -> Array:
         """A, A_add, B, B_add, C, C_add of a ``.re7`` file (headings, frequencies, 6 kinds, 6, 6)."""
         return np.asarray(self.values[:, :, :-3].reshape(*self.values.shape[:2], 6, 6, 6))
 
     @property
-    def roll(self) -> FloatArray:
+    def roll(self) -> Array:
         """Roll damping (headings, frequencies, 3) of a ``.re7`` file."""
         return np.asarray(self.values[:, :, -3:])
 
@@ -80,7 +80,7 @@ class VeresFile:
     header: VeresHeader
     cases: tuple[Case, ...]
     title: str = ""
-    mass: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
+    mass: Array = field(default_factory=lambda: np.zeros((6, 6)))
 
     @property
     def speeds(self) -> list[float]:
@@ -104,7 +104,7 @@ def read_matrices(path: Path) -> VeresFile:
     counts = _counts(records, before=6, each=6 * len(kinds) + 1)
     mass = np.array([records.numbers(6, "mass matrix") for _ in range(6)])
 
-    def row() -> FloatArray:
+    def row() -> Array:
         blocks = np.zeros((6, 6, 6))
         blocks[kinds] = records.table(6 * len(kinds), 6, what).reshape(-1, 6, 6)
         return np.append(blocks, records.numbers(3, "roll damping"))
@@ -118,7 +118,7 @@ def read_transfer(path: Path) -> VeresFile:
     _, header = _header(records)
     counts = _counts(records, before=0, each=6)
 
-    def row() -> ComplexArray:
+    def row() -> Complex:
         rows = records.table(6, 3, "motion, real, imaginary part")
         if not np.array_equal(rows[:, 0], np.arange(1, 7)):
             raise records.error(f"motions {rows[:, 0].tolist()} where 1 to 6 are expected")

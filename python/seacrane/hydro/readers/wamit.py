@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.hydro_data import DriftCoefficients
@@ -295,7 +295,7 @@ def _drift(files: Files, listing: Listing, rho: float) -> DriftCoefficients | No
 
 def _common_periods(
     stem: Path, radiation: Radiation, force: WaveTable, motion: WaveTable | None
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[Array, Array]:
     """Periods and headings that all files hold, with a warning where one holds more."""
     waves = [force] if motion is None else [force, motion]
     shared = []
@@ -318,7 +318,7 @@ def _common_periods(
     return shared[0], shared[1]
 
 
-def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+def _directions(path: Path, heading_deg: Array) -> tuple[Array, NDArray[np.intp]]:
     """Directions in [0, 2 pi), rising, and their places in ``heading_deg``; 360 deg beside 0 is dropped."""
     degrees, order = rising_degrees(heading_deg)
     repeated = len(heading_deg) - len(degrees)
@@ -327,7 +327,7 @@ def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArra
     return np.radians(degrees), order
 
 
-def _mass_of_control(asked: Asked, control: ForceControl, body: ListedBody, rho: float) -> FloatArray | None:
+def _mass_of_control(asked: Asked, control: ForceControl, body: ListedBody, rho: float) -> Array | None:
     """Mass matrix (6, 6) of ``.frc``, or the displaced mass with its radii; None where it has neither."""
     mass = rho * body.volume
     if control.mass is not None:
@@ -340,9 +340,7 @@ def _mass_of_control(asked: Asked, control: ForceControl, body: ListedBody, rho:
     return mass_of_file(asked, matrix, where=control.path)
 
 
-def _trusted(
-    listing: Listing, body: GroupBody, symmetric: bool, omega: FloatArray
-) -> tuple[float, float] | None:
+def _trusted(listing: Listing, body: GroupBody, symmetric: bool, omega: Array) -> tuple[float, float] | None:
     """Up to the frequency whose deep-water wave is eight panels long, panels being equal squares."""
     if listing.panels is None:
         return None

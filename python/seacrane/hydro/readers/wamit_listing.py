@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import FloatArray
 from seacrane.hydro.readers.text_records import NUMBER as WORD
 from seacrane.hydro.readers.text_records import TextRecords, is_number, number_at, text_of
 from seacrane.hydro.readers.wamit_tables import INFINITE_FREQUENCY_PERIOD, ZERO_FREQUENCY_PERIOD, Table
@@ -77,14 +77,14 @@ class ListedBody:
     """
 
     name: str
-    position: FloatArray
+    position: Array
     heading: float
     volume: float
-    gravity: FloatArray
+    gravity: Array
     lid_panels: int = 0
     part: _Part | None = None
 
-    def restoring(self, scale: float) -> FloatArray:
+    def restoring(self, scale: float) -> Array:
         """(6, 6) over rho g."""
         assert self.part is not None
         restoring = np.zeros((6, 6))
@@ -251,12 +251,12 @@ class ForceControl:
     path: Path
     motions_option: int
     height_of_gravity: float | None = None
-    radii: FloatArray | None = None
+    radii: Array | None = None
     rho: float | None = None
-    center_of_gravity: FloatArray | None = None
-    mass: FloatArray | None = None
-    damping: FloatArray | None = None
-    stiffness: FloatArray | None = None
+    center_of_gravity: Array | None = None
+    mass: Array | None = None
+    damping: Array | None = None
+    stiffness: Array | None = None
 
 
 def read_force_control(path: Path) -> ForceControl:
@@ -305,7 +305,7 @@ class _ListDirected(TextRecords):
             values += [self.number(word, what) for word in words[: count - len(values)]]
         return values
 
-    def matrix(self, what: str) -> FloatArray | None:
+    def matrix(self, what: str) -> Array | None:
         """A flag, and a matrix (6, 6) if it is 1."""
         flag = self.take(1, f"the flag of the {what}")[0]
         if flag not in (0.0, 1.0):

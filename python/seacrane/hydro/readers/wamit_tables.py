@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array, Complex
 from seacrane.errors import FileFormatError
-from seacrane.hydro.data.arrays import ComplexArray, FloatArray
 from seacrane.hydro.readers.text_records import is_number, number_at, text_of
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import PartialSetWarning
@@ -44,7 +44,7 @@ class Table:
     """Rows of numbers (rows, columns), NaN where a row is shorter, and the line of the file of each."""
 
     path: Path
-    values: FloatArray
+    values: Array
     lines: IntArray
 
     def only(self, rows: NDArray[np.intp]) -> Table:
@@ -60,10 +60,10 @@ class Radiation:
     """Contents of a ``.1`` file: periods (n,) in s, rising; A and B (n, 6 k, 6 k) of k bodies, and those
     limits of A, by name, that it holds."""
 
-    period: FloatArray
-    added_mass: FloatArray
-    damping: FloatArray
-    limits: dict[str, FloatArray]
+    period: Array
+    added_mass: Array
+    damping: Array
+    limits: dict[str, Array]
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +72,8 @@ class WaveTable:
     or ``.4`` file, real of mean drift; non-dimensional."""
 
     path: Path
-    period: FloatArray
-    heading_deg: FloatArray
+    period: Array
+    heading_deg: Array
     values: NDArray[Any]
 
 
@@ -129,7 +129,7 @@ def _by_wave(table: Table, column: int, motion: IntArray, value: NDArray[Any], b
     return WaveTable(table.path, periods, headings, values)
 
 
-def read_restoring(path: Path, *, bodies: int = 1) -> FloatArray:
+def read_restoring(path: Path, *, bodies: int = 1) -> Array:
     """Read the restoring matrix (6 k, 6 k): rows of i, j, C; of several bodies entries may be left out."""
     size = 6 * bodies
     table = read_table(path, (3,))
@@ -221,7 +221,7 @@ def _motion_of(table: Table, column: int, bodies: int = 1) -> IntArray:
     return values.astype(np.int64) - 1
 
 
-def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
+def _checked_complex(table: Table, motion: IntArray) -> Complex:
     """Real and imaginary part, which have to agree with modulus and phase of the same row.
 
     Motions that symmetry forbids are round-off, where WAMIT's four columns do not agree: a share of the
@@ -243,7 +243,7 @@ def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
     return np.asarray(value)
 
 
-def _largest_of_kind(value: NDArray[Any], motion: IntArray) -> FloatArray:
+def _largest_of_kind(value: NDArray[Any], motion: IntArray) -> Array:
     """Of each row the largest force of all rows, or the largest moment."""
     turns = motion % 6 > 2
     largest = [float(np.abs(value[rows]).max(initial=0.0)) for rows in (~turns, turns)]
