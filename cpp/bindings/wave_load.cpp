@@ -52,20 +52,6 @@ py::array_t<double> table_channels(const KnotTable<Source>& table, const Doubles
   return at_times(times, first, width, [&](double t, double* out) { table.evaluate(t, block, out); });
 }
 
-/// A table that makes its knots during a run, or holds those of a whole period.
-template <class Source>
-std::shared_ptr<KnotTable<Source>> make_table(const std::shared_ptr<Source>& load, double relative_bound,
-                                              double period, const std::optional<Doubles>& knots) {
-  if (!knots) return std::make_shared<KnotTable<Source>>(load, relative_bound);
-  if (knots->ndim() != 3 || knots->shape(1) != 3 ||
-      knots->shape(2) != static_cast<py::ssize_t>(Source::channels)) {
-    throw py::value_error(std::string(Source::object) + ": knots need the shape (knots, 3, " +
-                          std::to_string(Source::channels) + "): value, rate, acceleration by channel");
-  }
-  return std::make_shared<KnotTable<Source>>(load, relative_bound, period, knots->data(),
-                                             static_cast<std::size_t>(knots->shape(0)));
-}
-
 void bind_exact(py::module_& m) {
   py::class_<ExactWaveLoad, std::shared_ptr<ExactWaveLoad>>(
       m, "ExactWaveLoad",
@@ -127,22 +113,13 @@ template <class Source>
 auto bind_table(py::module_& m, const char* name, const char* text) {
   using Table = KnotTable<Source>;
   return py::class_<Table, std::shared_ptr<Table>>(m, name, text)
-      .def(py::init(&make_table<Source>), py::arg("load").none(false), py::kw_only(),
-           py::arg("relative_bound") = 1e-9, py::arg("period") = 0.0, py::arg("knots") = py::none())
+      .def(py::init<std::shared_ptr<Source>, double>(), py::arg("load").none(false), py::kw_only(),
+           py::arg("relative_bound") = 1e-9)
       .def(
           "evaluate",
           [](const Table& table, const Doubles& times) { return table_channels(table, times, 0, 6); },
           py::arg("times"), "Forces (N) and moments (N m) at times (s): shape times.shape + (6,).")
       .def_property_readonly("step", &Table::step, "Distance of the knots, s.")
-      .def_property_readonly("stored_knots", &Table::stored_knots,
-                             "Knots kept for good; 0 where they are made during a run.")
-      .def_static(
-          "largest_step",
-          [](const std::shared_ptr<Source>& load, double relative_bound) {
-            return Table::largest_step(load.get(), relative_bound);
-          },
-          py::arg("load").none(false), py::kw_only(), py::arg("relative_bound") = 1e-9,
-          "The widest step (s) that keeps the bound.")
       .def_property_readonly(
           "error_bound",
           [](const Table& table) { return py::array_t<double>(6, table.error_bound().data()); },
@@ -159,8 +136,7 @@ void bind_wave_table(py::module_& m) {
       R"(A wave load by Hermite interpolation of degree 11 on a global time grid; immutable.
 
 |table - exact| <= 3.72e-10 step^12 sum |a X_ij| omega^12 at any time (Hermite remainder), plus rounding. Knots are
-computed when a run reaches them and held in a ring of fixed size: constant memory for any duration; or they are
-those of a whole period, handed over.
+computed when a run reaches them and held in a ring of fixed size: constant memory for any duration.
 
 Parameters
 ----------
@@ -168,15 +144,11 @@ load : ExactWaveLoad
 relative_bound : float
     The bound over sum |a X_ij|, 1e-14 to 1e-2; it sets the step. The default 1e-9 is about 1e-8 of a load's
     standard deviation with 200 components.
-period : float
-    With `knots`: of the load, s.
-knots : array_like, shape (count, 3, 7), optional
-    Value, rate and acceleration of the six loads and the elevation at the times period k / count. Copied.
 
 Raises
 ------
 ValueError
-    `relative_bound` is out of range, there are too few knots for it, or they are not those of the load.)")
+    `relative_bound` is out of range.)")
       .def(
           "elevation",
           [](const WaveTable& table, const Doubles& times) { return table_channels(table, times, 6, 1); },
@@ -217,10 +189,8 @@ ValueError
           "Forces (N) and moments (N m) at times (s): shape times.shape + (6,); `derivative` 0, 1 or 2.")
       .def_property_readonly(
           "waves", [](const DriftLoad& load) { return load.waves(); }, "The components (a copy).");
-  bind_table<DriftLoad>(
-      m, "DriftTable",
-      "A DriftLoad by Hermite interpolation on a global time grid, as WaveTable; knots have the shape "
-      "(count, 3, 6).");
+  bind_table<DriftLoad>(m, "DriftTable",
+                        "A DriftLoad by Hermite interpolation on a global time grid, as WaveTable.");
 }
 
 /// Headings x components x `width`, real.

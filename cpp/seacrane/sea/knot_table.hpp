@@ -101,37 +101,10 @@ class KnotTable {
     set_step(largest_step(source_.get(), relative_bound));
   }
 
-  /// All knots of one period of a periodic source, made beforehand: value, rate, acceleration per channel,
-  /// `count` x 3 x channels. A few of them are compared with the source.
-  KnotTable(std::shared_ptr<const Source> source, double relative_bound, double period, const double* knots,
-            std::size_t count)
-      : source_(std::move(source)) {
-    const double largest = largest_step(source_.get(), relative_bound);
-    sea::require_positive(period, Source::object, "period", "s");
-    const auto least = static_cast<std::size_t>(std::ceil(period / largest * (1.0 - 1e-12)));
-    sea::require(count >= least && count > 0, Source::object, "number of knots", count,
-                 "give at least " + std::to_string(least) + " over the period for this relative_bound");
-    set_step(period / static_cast<double>(count));
-    stored_.resize(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      TableKnot& knot = stored_[k];
-      knot.number = static_cast<std::int64_t>(k);
-      const double* from = knots + 3 * channels * k;
-      for (std::size_t j = 0; j < channels; ++j) {
-        knot.value[j] = from[j];
-        knot.rate[j] = step_ * from[channels + j];
-        knot.acceleration[j] = step_ * step_ * from[2 * channels + j];
-      }
-    }
-    for (const std::size_t k : {std::size_t{0}, count / 3, count / 2, count - 1}) compare(k, relative_bound);
-  }
-
   KnotBlock<Source> make_block() const {
     KnotBlock<Source> block;
-    if (stored_.empty()) {
-      block.knots_.resize(slots);
-      block.phases_ = KnotPhasesOf<Source>(*source_, step_);
-    }
+    block.knots_.resize(slots);
+    block.phases_ = KnotPhasesOf<Source>(*source_, step_);
     block.source_ = source_;
     block.step_ = step_;
     return block;
@@ -164,8 +137,11 @@ class KnotTable {
   /// Bound of |table - exact sum| per channel, at any time; rounding comes on top.
   const Channels& error_bound() const { return error_bound_; }
   const std::shared_ptr<const Source>& exact() const { return source_; }
-  /// Knots kept for good; 0 where they are made during a run.
-  std::size_t stored_knots() const { return stored_.size(); }
+
+ private:
+  static constexpr std::size_t slots = 64;          // a power of two
+  static constexpr double largest_number = 0x1p52;  // step x number stays apart from its neighbours
+  static constexpr double remainder = 0.177978515625 / 479001600.0;  // 0.5625^3 / 12!
 
   static double largest_step(const Source* source, double relative_bound) {
     if (!source) {
@@ -182,11 +158,6 @@ class KnotTable {
     return std::isfinite(step) ? step : 1.0;  // constant or no load at all: any grid is exact
   }
 
- private:
-  static constexpr std::size_t slots = 64;          // a power of two
-  static constexpr double largest_number = 0x1p52;  // step x number stays apart from its neighbours
-  static constexpr double remainder = 0.177978515625 / 479001600.0;  // 0.5625^3 / 12!
-
   void set_step(double step) {
     step_ = step;
     inverse_step_ = 1.0 / step;
@@ -194,24 +165,14 @@ class KnotTable {
     for (std::size_t j = 0; j < channels; ++j) error_bound_[j] = remainder * std::pow(step_, 12) * twelfth[j];
   }
 
-  TableKnot computed(std::int64_t number) const {
-    TableKnot k;
-    source_->evaluate(static_cast<double>(number) * step_, k.value, k.rate, k.acceleration);
-    return scaled(k, number);
-  }
-
   TableKnot computed(std::int64_t number, KnotBlock<Source>& block) const {
+    TableKnot k;
     if constexpr (KnotPhasesOf<Source>::any) {
-      TableKnot k;
       block.phases_.phases->move_to(number);
       source_->evaluate(*block.phases_.phases, k.value, k.rate, k.acceleration);
-      return scaled(k, number);
     } else {
-      return computed(number);
+      source_->evaluate(static_cast<double>(number) * step_, k.value, k.rate, k.acceleration);
     }
-  }
-
-  TableKnot scaled(TableKnot k, std::int64_t number) const {
     for (std::size_t j = 0; j < channels; ++j) {
       k.rate[j] *= step_;
       k.acceleration[j] *= step_ * step_;
@@ -221,11 +182,6 @@ class KnotTable {
   }
 
   const TableKnot& knot(std::int64_t number, KnotBlock<Source>& block) const {
-    if (!stored_.empty()) {
-      const auto count = static_cast<std::int64_t>(stored_.size());
-      const std::int64_t k = number % count;
-      return stored_[static_cast<std::size_t>(k < 0 ? k + count : k)];
-    }
     TableKnot& k = block.knots_[static_cast<std::size_t>(number) & (slots - 1)];
     if (k.number != number) [[unlikely]] {
       k = computed(number, block);
@@ -234,21 +190,7 @@ class KnotTable {
     return k;
   }
 
-  void compare(std::size_t k, double relative_bound) const {
-    const TableKnot &given = stored_[k], exact = computed(static_cast<std::int64_t>(k));
-    const Channels size = source_->magnitude(0);
-    for (std::size_t j = 0; j < channels; ++j) {
-      const double error =
-          std::max({std::fabs(given.value[j] - exact.value[j]), std::fabs(given.rate[j] - exact.rate[j]),
-                    std::fabs(given.acceleration[j] - exact.acceleration[j])});
-      sea::require(error <= std::max(relative_bound, 1e-10) * size[j], Source::object,
-                   "knot " + std::to_string(k) + ", channel " + std::to_string(j) + ": distance from the sum",
-                   error, "give knots of this load, with frequencies that are multiples of 2 pi / period");
-    }
-  }
-
   std::shared_ptr<const Source> source_;
-  std::vector<TableKnot> stored_;
   double step_ = 0.0, inverse_step_ = 0.0;
   Channels error_bound_{};
 };
