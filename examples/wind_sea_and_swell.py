@@ -35,8 +35,8 @@ for systems in ([head_on], [wind], [swell], [wind, swell]):
 sea = SeaState(systems=[wind, swell], seed=1).realise()
 print(f"Hs {sea.hs:.3f} m, Tz {sea.tz:.2f} s, {len(sea.waves)} components:", end=" ")
 print(", ".join(f"{system.name} {system.hs:.3f} m" for system in sea.systems))
-under = sea.waves.kinematics(time=10.0, x=0.0, y=0.0, z=[-1.0, -10.0, -30.0])
-print("speed of the water 1, 10 and 30 m below, m/s:", np.round(np.linalg.norm(under.velocity, axis=1), 3))
+under = scene.sea_at(points={f"{z:g} m": (0.0, 0.0, -z) for z in (1.0, 10.0, 30.0)}, times=[10.0]).velocity[0]
+print("speed of the water 1, 10 and 30 m below, m/s:", np.round(np.linalg.norm(under, axis=1), 3))
 
 if len(sys.argv) > 1:
     import matplotlib.pyplot as plt
