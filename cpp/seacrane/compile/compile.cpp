@@ -295,6 +295,14 @@ class Compiler final : private LoadContext {
     for (const auto& d : scene_.points) model_.points.push_back(attach(d.body, d.point));
   }
 
+  void refuse_paper(const std::string& what, const char* or_else = "") const {
+    const VesselDescription* const vessel = paper_vessel(scene_);
+    if (vessel == nullptr) return;
+    throw SceneError(what + "vessel '" + vessel->name +
+                     "' has kinematics 'paper', whose mass is not symmetric; choose 'yaw_following'" +
+                     or_else);
+  }
+
   /// Impacts throw a stretch out of step with the tension, and the paper's masses have no response to loads.
   void check_quasi_static() const {
     model_.loads.for_each([&](const LoadList& list, std::size_t i) {
@@ -305,12 +313,7 @@ class Compiler final : private LoadContext {
         throw SceneError(what + "limit '" + model_.limits.front().name +
                          "' makes impacts, which shake the line; choose rung 'elastic'");
       }
-      for (const VesselDescription& v : scene_.vessels) {
-        if (v.kinematics != VesselKinematics::paper) continue;
-        throw SceneError(what + "vessel '" + v.name +
-                         "' has kinematics 'paper', whose mass is not symmetric; "
-                         "choose 'yaw_following', or rung 'elastic'");
-      }
+      refuse_paper(what, ", or rung 'elastic'");
     });
   }
 
@@ -318,12 +321,7 @@ class Compiler final : private LoadContext {
   void take_added_inertia() {
     model_.loads.for_each([&](const LoadList& list, std::size_t i) {
       if (!list.kind.adds_inertia) return;
-      for (const VesselDescription& v : scene_.vessels) {
-        if (v.kinematics != VesselKinematics::paper) continue;
-        throw SceneError(std::string(list.kind.name) + " '" + list.names[i] +
-                         "': it adds inertia, and vessel '" + v.name +
-                         "' has kinematics 'paper', whose mass is not symmetric; choose 'yaw_following'");
-      }
+      refuse_paper(std::string(list.kind.name) + " '" + list.names[i] + "': it adds inertia, and ");
       for (const int b : list.bodies[i]) {
         if (b != ground()) model_.bodies[idx(b)].full = true;
       }

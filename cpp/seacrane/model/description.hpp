@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -118,5 +119,12 @@ struct SceneDescription {
   std::vector<PointDescription> points;
   std::vector<LimitDescription> limits;
 };
+
+/// A vessel with the paper's kinematics, whose mass is not symmetric; null: none has them.
+inline const VesselDescription* paper_vessel(const SceneDescription& scene) {
+  const auto found =
+      std::ranges::find(scene.vessels, VesselKinematics::paper, &VesselDescription::kinematics);
+  return found == scene.vessels.end() ? nullptr : &*found;
+}
 
 }  // namespace seacrane

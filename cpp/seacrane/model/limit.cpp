@@ -172,14 +172,10 @@ void check_limits(const SceneDescription& scene, const SceneNames& names) {
     c.fail("has " + std::to_string(count) + " bounds, wires and seats that may open and close; at most " +
            std::to_string(kMostLimits) + " are kept apart, use soft stops for the others");
   }
-  if (scene.limits.empty()) return;
-  for (const auto& v : scene.vessels) {
-    if (v.kinematics == VesselKinematics::paper) {
-      c.fail(
-          "kinematics 'paper' have no symmetric mass matrix, in which impacts would keep momentum; use "
-          "'yaw_following' with limits");
-    }
-  }
+  if (scene.limits.empty() || !paper_vessel(scene)) return;
+  c.fail(
+      "kinematics 'paper' have no symmetric mass matrix, in which impacts would keep momentum; use "
+      "'yaw_following' with limits");
 }
 
 std::vector<Limit> list_limits(const SceneDescription& scene) {

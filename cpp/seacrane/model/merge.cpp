@@ -154,9 +154,7 @@ MergePlan no_merge(const SceneDescription& scene) {
 }
 
 MergePlan plan_merge(const SceneDescription& scene, const std::vector<RigidLink>& loops) {
-  const bool paper = std::any_of(scene.vessels.begin(), scene.vessels.end(),
-                                 [](const auto& v) { return v.kinematics == VesselKinematics::paper; });
-  MergePlan plan = paper ? no_merge(scene) : Merger(scene).run(loops);
+  MergePlan plan = paper_vessel(scene) ? no_merge(scene) : Merger(scene).run(loops);
   return plan.carriers.empty() ? no_merge(scene) : plan;
 }
 
