@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from seacrane.cli.output_folder import output_folder
+from seacrane.cli.output import output_folder
 from seacrane.plotting.table import table_of
 from stability_atlas import Atlas, stability_atlas
 from stability_atlas.points import relative_error
