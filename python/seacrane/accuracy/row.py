@@ -96,12 +96,6 @@ class Row:
         """The row with how its run ended, on one line."""
         return replace(self, verdict=verdict, message=" ".join(str(message).split()))
 
-    @classmethod
-    def from_data(cls, data: Mapping[str, Any]) -> Row:
-        """From the mapping that `dataclasses.asdict` gives."""
-        errors = {name: ErrorMeasures(**value) for name, value in data["errors"].items()}
-        return cls(**{**data, "method": Method(**data["method"]), "errors": errors})
-
 
 def front(rows: Sequence[Row], quantity: str, *, cost: str = "cpu_s") -> list[bool]:
     """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
@@ -139,7 +133,10 @@ class RowFile:
             for line in lines[1:]:
                 try:
                     kept = json.loads(line)
-                    self.rows[kept["key"]] = Row.from_data(kept["row"])
+                    row = kept["row"]  # as `dataclasses.asdict` gives it
+                    errors = {name: ErrorMeasures(**value) for name, value in row["errors"].items()}
+                    row |= {"method": Method(**row["method"]), "errors": errors}
+                    self.rows[kept["key"]] = Row(**row)
                 except (ValueError, TypeError, KeyError, RecursionError):  # a line cut short by an interrupt
                     continue
         with atomic_write(path) as draft:

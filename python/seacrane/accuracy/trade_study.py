@@ -170,11 +170,6 @@ class Spending:
     runs: float
     spent_s: float = 0.0
 
-    @property
-    def has_room(self) -> bool:
-        """Whether there is room for another row."""
-        return self.runs * self.unit_s - self.spent_s > LEAST * self.unit_s
-
     def spend(self, row: Row, around_s: float = 0.0) -> None:
         """What a row took, with all around its run."""
         self.spent_s += max(row.cpu_s if row.cpu_s > 0.0 else 0.0, around_s)
@@ -239,5 +234,7 @@ def _measured(
 
 def _chosen(spending: Spending, ladders: Ladders) -> Iterator[Method]:
     """The nearest to the front first, until the budget ends or nothing can change the front."""
-    while spending.has_room and (method := ladders.next()) is not None:
+    while spending.runs * spending.unit_s - spending.spent_s > LEAST * spending.unit_s:
+        if (method := ladders.next()) is None:
+            return
         yield method

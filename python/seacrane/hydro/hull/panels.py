@@ -202,19 +202,16 @@ def closed_below(
     points = flat[np.unique(labels, return_index=True)[1]]
     faces = labels.reshape(-1, 3)
     distinct = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    faces = _without_cancelling(faces[distinct])
+    faces = faces[distinct]
+    # without back-to-back pairs on the same vertices: where both sides of a stem or fin meet
+    sense = np.sign(np.prod(faces - np.roll(faces, 1, axis=1), axis=1))
+    same, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)[1:]
+    balance = np.bincount(same.ravel(), weights=sense)
+    faces = faces[((count != 2) | (balance != 0.0))[same.ravel()]]
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     wet = points[edges][..., 2].min(axis=1) < level - tolerance
     _require_pairs(what, where, points, edges[wet])
     return np.asarray(points[faces])
-
-
-def _without_cancelling(faces: IntArray) -> IntArray:
-    """The faces without back-to-back pairs on the same vertices: where both sides of a stem or fin meet."""
-    sense = np.sign(np.prod(faces - np.roll(faces, 1, axis=1), axis=1))
-    same, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)[1:]
-    balance = np.bincount(same.ravel(), weights=sense)
-    return np.asarray(faces[((count != 2) | (balance != 0.0))[same.ravel()]])
 
 
 def _require_pairs(what: str, where: str, points: Array, edges: IntArray) -> None:
