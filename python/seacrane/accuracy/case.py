@@ -29,14 +29,10 @@ class Case:
 
     Attributes
     ----------
-    t_end, dt_out : float
-        End of a run, and between outputs where none are given, s.
-    start : State or "rest", optional
-        Where to begin; default: the assembled start.
-    stages : tuple of Stage, optional
-        Carried out in place of one run to `t_end`; `first` names the one to begin with.
-    compiled : Model, optional
-        The compiled scene, to save compiling it again.
+    t_end, dt_out : End of a run, and between outputs where none are given, s.
+    start : Where to begin; default: the assembled start.
+    stages : Carried out in place of one run to `t_end`; `first` names the one to begin with.
+    compiled : The compiled scene, to save compiling it again.
     """
 
     scene: Scene

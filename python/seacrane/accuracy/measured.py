@@ -31,13 +31,10 @@ class Reference:
 
     Attributes
     ----------
-    values : mapping of str to ndarray, shape (n, items, parts)
-        Empty where there is no reference.
-    uncertainty : mapping of str to float
-        How far tight runs differ; empty where there is but one.
+    values : Each (n, items, parts); empty where there is no reference.
+    uncertainty : How far tight runs differ; empty where there is but one.
     runs : The methods, the one that gave the values first.
-    refused : mapping of str to str
-        Methods that did not work, and why.
+    refused : Methods that did not work, and why.
     """
 
     values: Mapping[str, Array] = field(default_factory=dict)

@@ -78,9 +78,7 @@ def model_error(
 def model_errors(scene: Scene, times: Array, limits: Mapping[str, float]) -> dict[str, float]:
     """Largest error of each quantity that a linear model knows; none where nothing can be said.
 
-    Warns
-    -----
-    ModelErrorWarning : an error is above its limit.
+    Warns with ModelErrorWarning of an error above its limit.
     """
     wanted = [name for name in limits if name in QUANTITIES]
     if not wanted or scene.waves is None or given_vessels(scene):

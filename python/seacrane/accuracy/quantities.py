@@ -37,11 +37,9 @@ class Quantity:
     Attributes
     ----------
     channels : Channels that it is made of.
-    values : callable
-        Result to ndarray of shape (n, items, parts): an error is the length over the parts, the largest of
-        the items. Of numbers, such as extremes, n is 1.
-    of_numbers : callable or None
-        Of numbers, how far what they are taken of goes in a result, in the unit; None: it is a curve.
+    values : Of a result, (n, items, parts): an error is the length over the parts, the largest of the items.
+        Of numbers, such as extremes, n is 1.
+    of_numbers : How far what they are taken of goes in a result, in the unit; None: it is a curve.
     """
 
     name: str
@@ -95,7 +93,6 @@ def quantities_of(
     """The quantities asked for; by default what the scene has of the named ones.
 
     Without a model, of a lift in stages, channels are looked for in everything that is ever connected.
-
     Raises SceneError for a name that is neither one of them nor picks a channel of the scene.
     """
     offered = _offered(scene)

@@ -157,18 +157,11 @@ def _told(runs: float, unit: float, told: float) -> str:
 
 @dataclass(kw_only=True)
 class Spending:
-    """Processor time that is left, s, in runs of the default setting.
+    """Processor time that is left, s, in runs of the default setting."""
 
-    Attributes
-    ----------
-    unit_s : Of one such run with all around it, s.
-    runs : Of them that may be spent; infinite: any.
-    spent_s : By now, s.
-    """
-
-    unit_s: float
-    runs: float
-    spent_s: float = 0.0
+    unit_s: float  # of one such run with all around it
+    runs: float  # of them, that may be spent; infinite: any
+    spent_s: float = 0.0  # by now
 
     def spend(self, row: Row, around_s: float = 0.0) -> None:
         """What a row took, with all around its run."""
@@ -195,11 +188,7 @@ class Bench:
 def _measured(
     bench: Bench, spending: Spending, methods: Iterable[Method] | None, file: RowFile, *, progress: bool
 ) -> tuple[list[Row], int]:
-    """Rows of methods, and how many settings that may change the front are left.
-
-    The whole grid without a budget, and all methods that are given. What the file holds is not measured
-    again.
-    """
+    """Rows of methods, and how many settings that may change the front are left."""
     from tqdm import tqdm
 
     every = methods is not None or math.isinf(spending.runs)

@@ -229,8 +229,8 @@ def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
     closed, opened = ("taut throughout", "slack") if wire else ("pressed throughout", "lifted off")
     mine = [event for event in result.events if event.name == name]
     count = sum(event.kind in ("release", "rebound") for event in mine)
-    recorded = "limit_force" in result.channels and name in result.coords["limit"]
-    force = _finite(result.select("limit_force", limit=name)) if recorded else None
+    known = "limit_force" in result.channels and name in result.coords["limit"]
+    force = _finite(result.select("limit_force", limit=name)) if known else None
     starts_open = force is not None and float(force[0]) == 0.0
     fallen = sum(event.kind == "through" for event in mine)
     asked = _asked_for(result, mine)

@@ -31,10 +31,8 @@ class Labelled:
     Attributes
     ----------
     values : Numbers, float64.
-    coords : mapping of str to ndarray
-        Numbers or texts along those dimensions that have any.
-    attributes : mapping of str to str
-        Unit and description.
+    coords : Numbers or texts along those dimensions that have any.
+    attributes : Unit and description.
     """
 
     values: NDArray[np.float64]
@@ -57,12 +55,10 @@ class Outcome:
 
     Attributes
     ----------
-    kept : mapping of str to Labelled
-        Empty where it failed.
+    kept : By name; empty where it failed.
     failure : Why it failed; empty where it did not.
     validity : What was out of range in its run, as of a result's stats.
-    kept_apart : str
-        Why it was stepped by itself where others were to be stepped beside it; empty where it was not.
+    kept_apart : Why it was stepped by itself where others were to be beside it; empty where it was not.
     """
 
     index: int

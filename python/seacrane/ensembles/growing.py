@@ -36,8 +36,7 @@ class Growth:
     ----------
     first : Seed.
     batches : How many there may be.
-    others : mapping of str to tuple
-        Values of the other parameters, of which all combinations are run.
+    others : Values of the other parameters, of which all combinations are run.
     size : Seeds in a pack.
     """
 

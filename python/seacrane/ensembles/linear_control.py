@@ -71,10 +71,7 @@ class Motion:
 def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
     """The motion that a text picks, at a point of its body.
 
-    Raises
-    ------
-    SceneError
-        For a channel that is no motion of a body, and one that is not a single curve.
+    Raises SceneError for a channel that is no motion of a body, and one that is not a single curve.
     """
     pick = pick_of("control", channel)
     if pick.channel not in ORDERS:

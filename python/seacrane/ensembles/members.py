@@ -76,8 +76,7 @@ class Members:
 
     Attributes
     ----------
-    axes : mapping of str to tuple
-        Values of each parameter: of a grid along its axis, of a list by member.
+    axes : Values of each parameter: of a grid along its axis, of a list by member.
     grid : Whether all combinations are run, those of the last parameter next to each other.
     """
 

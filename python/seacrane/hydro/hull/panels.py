@@ -191,10 +191,8 @@ def closed_below(
     """The triangles (n, 3, 3) of a surface with joined vertices, once they are known to be closed below z =
     `level` (m), which messages call `where`.
 
-    Raises
-    ------
-    ValueError : an edge there with one face or more than two, or two faces that run along their common edge
-        in the same direction; names the number of edges and the place of the first.
+    Raises ValueError: an edge there with one face or more than two, or two faces that run along their common
+    edge in the same direction; names the number of edges and the place of the first.
     """
     flat = triangles.reshape(-1, 3)
     tolerance = MERGE * float(np.ptp(flat, axis=0).max())
@@ -251,12 +249,8 @@ class Slice:
 def slices(name: str, panels: Array, x: Array) -> list[Slice]:
     """Slices of a symmetric wetted surface (n, 4, 3) at the stations ``x`` (s,) in m.
 
-    Stations on the foremost and aftmost point give the hull's ends.
-
-    Raises
-    ------
-    ValueError : a section that pierces the surface more than once on each side (several hulls), or whose
-        outline does not close.
+    Stations on the foremost and aftmost point give the hull's ends. Raises ValueError: a section that pierces
+    the surface more than once on each side (several hulls), or whose outline does not close.
     """
     length = float(np.ptp(panels[..., 0]))
     tolerance = ON_PLANE * length
