@@ -57,18 +57,11 @@ class Quantity:
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorMeasures:
-    """Error of one quantity over a run, in its unit.
-
-    Attributes
-    ----------
-    largest : Over time.
-    rms : Root of the mean square over time.
-    std : Of the standard deviations over time: what a statistic loses, whatever the phase.
-    """
+    """Error of one quantity over a run, in its unit."""
 
     largest: float
-    rms: float
-    std: float
+    rms: float  # root of the mean square over time
+    std: float  # of the standard deviations over time: what a statistic loses, whatever the phase
 
 
 def motion_of(values: Array) -> float:
