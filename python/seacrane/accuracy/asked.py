@@ -164,19 +164,12 @@ def asked(case: Case, accuracy: Any, outputs: Outputs, *, progress: bool = False
 
 @dataclass(frozen=True, kw_only=True)
 class Matching:
-    """Events of two runs, each with its counterpart.
-
-    Attributes
-    ----------
-    one, other : Times of stages' ends and of events that are in both, ascending in either, s.
-    course : What one run has more often than the other, in words; nothing where both took one course.
-    shift : Largest distance in time of what is matched, s.
-    """
+    """Times of stages' ends and of events that are in both of two runs, ascending in either, s."""
 
     one: Array
     other: Array
-    course: str
-    shift: float
+    course: str  # what one run has more often than the other; nothing where both took one course
+    shift: float  # largest distance in time of what is matched, s
 
 
 def matched(one: Result, other: Result) -> Matching:

@@ -25,27 +25,15 @@ from seacrane.scene.scene import Scene
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Case:
-    """One scene, how long it is run, and when errors are taken.
-
-    Attributes
-    ----------
-    t_end, dt_out : float
-        End of a run, and between outputs where none are given, s.
-    start : State or "rest", optional
-        Where to begin; default: the assembled start.
-    stages : tuple of Stage, optional
-        Carried out in place of one run to `t_end`; `first` names the one to begin with.
-    compiled : Model, optional
-        The compiled scene, to save compiling it again.
-    """
+    """One scene, how long it is run, and when errors are taken."""
 
     scene: Scene
-    t_end: float
-    dt_out: float = DEFAULT_INTERVAL
-    start: Start = None
-    stages: tuple[Stage, ...] | None = None
-    first: str | None = None
-    compiled: _core.Model | None = None
+    t_end: float  # s
+    dt_out: float = DEFAULT_INTERVAL  # s between outputs, where none are given
+    start: Start = None  # default: the assembled start
+    stages: tuple[Stage, ...] | None = None  # carried out in place of one run to `t_end`
+    first: str | None = None  # the stage to begin with
+    compiled: _core.Model | None = None  # to save compiling it again
 
     @cached_property
     def model(self) -> _core.Model:

@@ -123,7 +123,9 @@ def refuse_what_is_chosen(
 
 def _converged(case: Asked, kept: Method) -> Result:
     """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
-    method = _with_setting(kept, first_method(case))
+    smallest = min(limit / case.scale(name) for name, limit in case.limits.items())
+    met = method_for(smallest / (MARGIN * PESSIMISM), stiff=any_stiff(case.scene.loads))  # in measured trades
+    method = _with_setting(kept, met)
     done = [_beside(case, method)]
     while not done[-1].result.interrupted:
         done.append(_run(case, method))
@@ -177,12 +179,6 @@ def _tighter(method: Method, factor: float) -> Method:
     if expected_error(found) > 0.6 * error:
         found = replace(method, rtol=method.used_rtol / math.sqrt(STEP))
     return replace(found, rtol=max(found.used_rtol, TIGHTEST))
-
-
-def first_method(case: Asked) -> Method:
-    """What met such limits in measured trades."""
-    smallest = min(limit / case.scale(name) for name, limit in case.limits.items())
-    return method_for(smallest / (MARGIN * PESSIMISM), stiff=any_stiff(case.scene.loads))
 
 
 @dataclass(frozen=True, kw_only=True)

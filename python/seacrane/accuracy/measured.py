@@ -27,23 +27,12 @@ COUNTED = ("steps", "rejected_steps", "evaluations", "dense_solves")
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Reference:
-    """Values by quantity, and how well they are known.
+    """Values by quantity, and how well they are known."""
 
-    Attributes
-    ----------
-    values : mapping of str to ndarray, shape (n, items, parts)
-        Empty where there is no reference.
-    uncertainty : mapping of str to float
-        How far tight runs differ; empty where there is but one.
-    runs : The methods, the one that gave the values first.
-    refused : mapping of str to str
-        Methods that did not work, and why.
-    """
-
-    values: Mapping[str, Array] = field(default_factory=dict)
-    uncertainty: Mapping[str, float] = field(default_factory=dict)
-    runs: tuple[str, ...] = ()
-    refused: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, Array] = field(default_factory=dict)  # each (n, items, parts)
+    uncertainty: Mapping[str, float] = field(default_factory=dict)  # how far tight runs differ
+    runs: tuple[str, ...] = ()  # the methods, the one that gave the values first
+    refused: Mapping[str, str] = field(default_factory=dict)  # methods that did not work, and why
 
     @property
     def motion(self) -> dict[str, float]:

@@ -154,13 +154,9 @@ class Ladders:
 
     def _may_change(self, guess: Guess) -> bool:
         """Whether, at its best, no measured row beats it in some quantity."""
-        return any(not self._beaten(q, guess.least_cost, guess.least_errors[q]) for q in self.quantities)
-
-    def _beaten(self, quantity: str, cost: float, error: float) -> bool:
-        error = max(error, self.floor[quantity])
-        return any(
-            row.stable and row.cpu_s <= cost and row.error(quantity) <= error for row in self.rows.values()
-        )
+        cheaper = [row for row in self.rows.values() if row.stable and row.cpu_s <= guess.least_cost]
+        beside = {q: max(guess.least_errors[q], self.floor[q]) for q in self.quantities}
+        return any(not any(row.error(q) <= error for row in cheaper) for q, error in beside.items())
 
     def _distance(self, guess: Guess) -> float:
         """Logarithm of how far its expected cost is above the front, or beyond its tight end, in the nearest

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 QUANTITIES = ("payload_position", "roll")
 GREGORY = np.array([3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0])  # weights of the first samples, of order 4
 LONGEST = 3600.0  # s of a run whose error is carried step by step
+_functions = lru_cache(maxsize=4)(retardation_functions)
 
 
 def model_error(
@@ -77,9 +78,7 @@ def model_error(
 def model_errors(scene: Scene, times: Array, limits: Mapping[str, float]) -> dict[str, float]:
     """Largest error of each quantity that a linear model knows; none where nothing can be said.
 
-    Warns
-    -----
-    ModelErrorWarning : an error is above its limit.
+    Warns with ModelErrorWarning of an error above its limit.
     """
     wanted = [name for name in limits if name in QUANTITIES]
     if not wanted or scene.waves is None or given_vessels(scene):
@@ -124,7 +123,7 @@ def _carried(scene: Scene, times: Array) -> _Carried:
         raise SceneError(f"vessel {vessel!r}: has no fitted memory whose error could be told")
     known = database_of(scene, vessel, "the error of its memory")
     linear = drag_in_components(linear_model(scene, vessel=vessel), scene.waves)
-    functions = _functions(known)
+    functions = _functions(database=known)
     even = np.arange(times[0], times[-1] + functions.step, functions.step)
     states = _from_rest(linear, response_summed(linear, body=vessel), even)
     load = _misfit(linear, element, known, functions, states)
@@ -133,11 +132,6 @@ def _carried(scene: Scene, times: Array) -> _Carried:
     low = np.minimum(at.astype(int), len(error) - 2)  # straight lines join the even times
     share = (at - low)[:, None]
     return _Carried(linear=linear, error=(1.0 - share) * error[low] + share * error[low + 1])
-
-
-@lru_cache(maxsize=4)
-def _functions(database: HydroDatabase) -> RetardationModel:
-    return retardation_functions(database=database)
 
 
 def _from_rest(linear: LinearModel, summed: SummedResponse, times: Array) -> Array:

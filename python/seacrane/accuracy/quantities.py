@@ -37,11 +37,9 @@ class Quantity:
     Attributes
     ----------
     channels : Channels that it is made of.
-    values : callable
-        Result to ndarray of shape (n, items, parts): an error is the length over the parts, the largest of
-        the items. Of numbers, such as extremes, n is 1.
-    of_numbers : callable or None
-        Of numbers, how far what they are taken of goes in a result, in the unit; None: it is a curve.
+    values : Of a result, (n, items, parts): an error is the length over the parts, the largest of the items.
+        Of numbers, such as extremes, n is 1.
+    of_numbers : How far what they are taken of goes in a result, in the unit; None: it is a curve.
     """
 
     name: str
@@ -59,18 +57,11 @@ class Quantity:
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorMeasures:
-    """Error of one quantity over a run, in its unit.
-
-    Attributes
-    ----------
-    largest : Over time.
-    rms : Root of the mean square over time.
-    std : Of the standard deviations over time: what a statistic loses, whatever the phase.
-    """
+    """Error of one quantity over a run, in its unit."""
 
     largest: float
-    rms: float
-    std: float
+    rms: float  # root of the mean square over time
+    std: float  # of the standard deviations over time: what a statistic loses, whatever the phase
 
 
 def motion_of(values: Array) -> float:
@@ -95,7 +86,6 @@ def quantities_of(
     """The quantities asked for; by default what the scene has of the named ones.
 
     Without a model, of a lift in stages, channels are looked for in everything that is ever connected.
-
     Raises SceneError for a name that is neither one of them nor picks a channel of the scene.
     """
     offered = _offered(scene)

@@ -33,25 +33,18 @@ class Row:
 
     Attributes
     ----------
-    case : mapping of str to str or float
-        What tells the case from the others of the experiment, by name.
+    case : What tells the case from the others of the experiment, by name.
     method : As asked for.
     stepped : The formulation that was stepped; empty before.
-    verdict : str
-        "completed", "refused", "stopped" or "slow"; "not finite", "unnamed", "hung" and "crashed" must not
-        occur. Empty: not measured yet.
+    verdict : "completed", "refused", "stopped" or "slow"; "not finite", "unnamed", "hung" and "crashed" must
+        not occur. Empty: not measured yet.
     message : Why it did not complete, or what the row leaves out.
-    errors : mapping of str to ErrorMeasures
-        By quantity, against the reference; what the run does not give is left out.
-    uncertainty : mapping of str to float
-        How far tight runs differ, by quantity: no error below can be told.
-    motion : mapping of str to float
-        Largest distance of each quantity from its start, in the reference, else in the run.
+    errors : By quantity, against the reference; what the run does not give is left out.
+    uncertainty : How far tight runs differ, by quantity: no error below can be told.
+    motion : Largest distance of each quantity from its start, in the reference, else in the run.
     drift, left : Largest constraint error before and after projection, m or rad.
-    energy : float
-        Largest energy balance over the absolute work or the kinetic energy, whichever is larger.
-    simulated_s, wall_s, cpu_s : float
-        Simulated time; least wall time and processor time of the loop over the repeats, s.
+    energy : Largest energy balance over the absolute work or the kinetic energy, whichever is larger.
+    simulated_s, wall_s, cpu_s : Simulated; least wall and processor time of the loop over the repeats, s.
     """
 
     case: Mapping[str, str | float]
@@ -96,12 +89,6 @@ class Row:
         """The row with how its run ended, on one line."""
         return replace(self, verdict=verdict, message=" ".join(str(message).split()))
 
-    @classmethod
-    def from_data(cls, data: Mapping[str, Any]) -> Row:
-        """From the mapping that `dataclasses.asdict` gives."""
-        errors = {name: ErrorMeasures(**value) for name, value in data["errors"].items()}
-        return cls(**{**data, "method": Method(**data["method"]), "errors": errors})
-
 
 def front(rows: Sequence[Row], quantity: str, *, cost: str = "cpu_s") -> list[bool]:
     """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
@@ -120,11 +107,6 @@ class RowFile:
     """Rows on disk, one per line under a first line that says which experiment they belong to.
 
     A file of another experiment (another scene, version or list of quantities) is begun anew.
-
-    Attributes
-    ----------
-    rows : dict of str to Row
-        By the key that each had before it was measured.
     """
 
     def __init__(self, path: Path | None, experiment: Mapping[str, Any]) -> None:
@@ -139,7 +121,10 @@ class RowFile:
             for line in lines[1:]:
                 try:
                     kept = json.loads(line)
-                    self.rows[kept["key"]] = Row.from_data(kept["row"])
+                    row = kept["row"]  # as `dataclasses.asdict` gives it
+                    errors = {name: ErrorMeasures(**value) for name, value in row["errors"].items()}
+                    row |= {"method": Method(**row["method"]), "errors": errors}
+                    self.rows[kept["key"]] = Row(**row)
                 except (ValueError, TypeError, KeyError, RecursionError):  # a line cut short by an interrupt
                     continue
         with atomic_write(path) as draft:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,6 @@ from seacrane.hydro import HydroDatabase, fit_memory
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.scene import Scene
-
-if TYPE_CHECKING:
-    from seacrane.hydro.data.memory_model import MemoryModel
 
 FEWER = (0.5, 0.25)  # of the wave components, the strongest
 BOUND = 1e-4  # of a coarse wave table
@@ -46,6 +43,7 @@ CASES = {
     "less drag": ("drag", -1.0),
     "more drag": ("drag", 1.0),
 }
+_fit = lru_cache(maxsize=16)(fit_memory)
 
 
 def memory_name(scene: Scene) -> str:
@@ -66,7 +64,7 @@ def with_memory(scene: Scene, kind: str, *, level: float | None = None, vessel: 
     if isinstance(own.database, HydroDatabase):
         database = own.database
         if level is not None:
-            database = replace(database, memory=_fit(database, kind, level))
+            database = replace(database, memory=_fit(database=database, kind=kind, **{FITTED[kind]: level}))
         fresh = Scene(name="memory", gravity=scene.gravity)
         fresh.add_vessel(database, name=own.body, memory=kind, kinematics=own.kinematics)
         (fitted,) = fresh.vessels.values()
@@ -76,12 +74,6 @@ def with_memory(scene: Scene, kind: str, *, level: float | None = None, vessel: 
     known = scene.provenance.get(own.name, VesselProvenance())
     out.provenance[own.name] = replace(known, memory=kind)
     return out
-
-
-@lru_cache(maxsize=16)
-def _fit(database: HydroDatabase, kind: str, level: float) -> MemoryModel:
-    asked: dict[str, Any] = {FITTED[kind]: level}
-    return fit_memory(database=database, kind=kind, **asked)
 
 
 def strongest(waves: Any, count: int) -> Any:

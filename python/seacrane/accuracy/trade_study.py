@@ -157,23 +157,11 @@ def _told(runs: float, unit: float, told: float) -> str:
 
 @dataclass(kw_only=True)
 class Spending:
-    """Processor time that is left, s, in runs of the default setting.
+    """Processor time that is left, s, in runs of the default setting."""
 
-    Attributes
-    ----------
-    unit_s : Of one such run with all around it, s.
-    runs : Of them that may be spent; infinite: any.
-    spent_s : By now, s.
-    """
-
-    unit_s: float
-    runs: float
-    spent_s: float = 0.0
-
-    @property
-    def has_room(self) -> bool:
-        """Whether there is room for another row."""
-        return self.runs * self.unit_s - self.spent_s > LEAST * self.unit_s
+    unit_s: float  # of one such run with all around it
+    runs: float  # of them, that may be spent; infinite: any
+    spent_s: float = 0.0  # by now
 
     def spend(self, row: Row, around_s: float = 0.0) -> None:
         """What a row took, with all around its run."""
@@ -200,11 +188,7 @@ class Bench:
 def _measured(
     bench: Bench, spending: Spending, methods: Iterable[Method] | None, file: RowFile, *, progress: bool
 ) -> tuple[list[Row], int]:
-    """Rows of methods, and how many settings that may change the front are left.
-
-    The whole grid without a budget, and all methods that are given. What the file holds is not measured
-    again.
-    """
+    """Rows of methods, and how many settings that may change the front are left."""
     from tqdm import tqdm
 
     every = methods is not None or math.isinf(spending.runs)
@@ -239,5 +223,7 @@ def _measured(
 
 def _chosen(spending: Spending, ladders: Ladders) -> Iterator[Method]:
     """The nearest to the front first, until the budget ends or nothing can change the front."""
-    while spending.has_room and (method := ladders.next()) is not None:
+    while spending.runs * spending.unit_s - spending.spent_s > LEAST * spending.unit_s:
+        if (method := ladders.next()) is None:
+            return
         yield method

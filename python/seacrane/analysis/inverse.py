@@ -300,15 +300,13 @@ def path_through(
     speed = np.array([TURNING if places[label][1] in ANGLES else SLIDING for label in labels])
     spans = np.max(np.abs(np.diff(values, axis=0)) / speed, axis=1, initial=0.0)
     times = np.concatenate([[0.0], np.cumsum(spans)])
-    curves = {label: _polyline(times, column) for label, column in zip(labels, values.T, strict=True)}
-    return curves, times[1:]
-
-
-def _polyline(times: Array, values: Array) -> _core.Curve:
     at, first = np.unique(times, return_index=True)
-    if at.size == 1:
-        return _core.Curve.constant(value=float(values[0]))
-    return _core.Curve.table(at, values[first])
+    moves, curve = at.size > 1, _core.Curve
+    curves = {
+        label: curve.table(at, column[first]) if moves else curve.constant(value=float(column[0]))
+        for label, column in zip(labels, values.T, strict=True)
+    }
+    return curves, times[1:]
 
 
 def values_of(what: str, given: Any) -> Array:

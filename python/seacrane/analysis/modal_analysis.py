@@ -215,11 +215,13 @@ def _settled(linear: LinearModel, modes: NaturalModes, mode: int) -> tuple[Natur
 
 def _modes(linear: LinearModel) -> NaturalModes:
     """The modes of the state matrix."""
-    free = _without_neutral_positions(linear)
+    dof, size, k = linear.degrees_of_freedom, len(linear.a), linear.neutral.shape[1]
+    free = np.zeros((size, size - k))  # x but for the positions that nothing depends on, orthonormal
+    free[:dof, : dof - k] = np.linalg.svd(linear.neutral)[0][:, k:] if k else np.eye(dof)
+    free[dof:, dof - k :] = np.eye(size - dof)
     values, right = np.linalg.eig(free.T @ linear.a @ free)
     participation = np.abs(right * np.linalg.pinv(right).T)
-    mechanical = 2 * linear.degrees_of_freedom - linear.neutral.shape[1]
-    share = participation[:mechanical].sum(axis=0) / participation.sum(axis=0)
+    share = participation[: 2 * dof - k].sum(axis=0) / participation.sum(axis=0)
     # Rounding splits double real eigenvalues into pairs with tiny imaginary parts.
     least = 1e-7 * np.maximum(np.abs(values), 1.0)
     oscillating, real = np.flatnonzero(values.imag > least), np.flatnonzero(np.abs(values.imag) <= least)
@@ -233,7 +235,7 @@ def _modes(linear: LinearModel) -> NaturalModes:
         eigenvalues=np.asarray(values[order], dtype=complex), shapes=motion.reshape(len(order), bodies, 6),
         energy_share=(energy / energy.sum(axis=1, keepdims=True)).reshape(len(order), bodies, 6),
         mechanical_share=share[order], real_eigenvalues=values.real[real],
-        neutral=int(linear.neutral.shape[1]), state_vectors=vectors, bodies=linear.bodies,
+        neutral=k, state_vectors=vectors, bodies=linear.bodies,
         real_labels=tuple(label_of(linear.bodies, row) for row in real_energy),
         neutral_shapes=(linear.basis @ linear.neutral).T.reshape(-1, bodies, 6),
         vessels=tuple(dict.fromkeys(vessel.body for vessel in linear.scene.vessels.values())),
@@ -251,17 +253,6 @@ def _shapes(linear: LinearModel, free: Array, values: Complex, right: Complex) -
     largest = motion[np.arange(len(motion)), np.argmax(np.abs(motion), axis=1)]
     largest = np.where(largest == 0.0, 1.0, largest)
     return np.asarray(vectors / largest[:, None]), np.asarray(motion / largest[:, None])
-
-
-def _without_neutral_positions(linear: LinearModel) -> Array:
-    """Orthonormal columns spanning x but for the positions that nothing depends on."""
-    dof, size = linear.degrees_of_freedom, len(linear.a)
-    k = linear.neutral.shape[1]
-    complement = np.linalg.svd(linear.neutral)[0][:, k:] if k else np.eye(dof)
-    free = np.zeros((size, size - k))
-    free[:dof, : dof - k] = complement
-    free[dof:, dof - k :] = np.eye(size - dof)
-    return free
 
 
 def quadrature_frequencies(linear: LinearModel, low: float, high: float) -> Array:

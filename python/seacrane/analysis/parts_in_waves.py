@@ -43,9 +43,8 @@ class WetPart:
     axes : (3, 3) In columns.
     extents : (3, 3) Columns: over which the flow is averaged, m.
     drag, shape : (3,) N s2/m2 along its axes; which of them go by a common speed.
-    inertia : (3, 3)
-        kg: of the water that it displaces, and its added mass. Times the acceleration of the water it is the
-        force of a wave.
+    inertia : (3, 3) kg: of the water that it displaces, and its added mass. Times the acceleration of the
+        water it is the force of a wave.
     along : (3, degrees of freedom) Velocity of its centre by the speeds of the model.
     """
 

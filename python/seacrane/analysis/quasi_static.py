@@ -110,7 +110,14 @@ def feed_forward(
         raise SceneError("feed-forward: one time makes no curve; give two or more")
     chosen = {name: actuator.reference for name, actuator in scene.actuators.items()} | dict(references or {})
     for time in instants[[0, -1] if period is None else [0]].tolist():
-        _check_rest(chosen, time)
+        for name, curve in chosen.items():
+            _, rate, acceleration = curve.evaluate([time])[0]
+            if max(abs(rate), abs(acceleration)) > AT_REST:
+                raise SceneError(
+                    f"feed-forward: reference of actuator {name!r} moves at t = {time:.6g} s (rate "
+                    f"{rate:.3g}, acceleration {acceleration:.3g}); give times from rest to rest, or the "
+                    "period of a swing"
+                )
 
     def end(load: Array) -> _core.Curve:
         if period is None:
@@ -118,16 +125,6 @@ def feed_forward(
         return _first_harmonic(instants, load, period)
 
     return {name: _joined(instants, load, end(load)) for name, load in loads.items()}
-
-
-def _check_rest(references: Mapping[str, _core.Curve], time: float) -> None:
-    for name, curve in references.items():
-        _, rate, acceleration = curve.evaluate([time])[0]
-        if max(abs(rate), abs(acceleration)) > AT_REST:
-            raise SceneError(
-                f"feed-forward: reference of actuator {name!r} moves at t = {time:.6g} s (rate {rate:.3g}, "
-                f"acceleration {acceleration:.3g}); give times from rest to rest, or the period of a swing"
-            )
 
 
 def _first_harmonic(times: Array, load: Array, period: float) -> _core.Curve:

@@ -184,10 +184,13 @@ def response_statistics(
         density += share * part.at(along.omega, each)
         unknown += 0.0 if database is None else share * part.unknown(database, spectrum)
     _warn_of_unknown(database, unknown)
+    m0, m1, m2 = moments[:, :3].T
+    moving = m0 * m2 > 0.0
+    ratio = np.where(moving, m1**2 / np.where(moving, m0 * m2, 1.0), 1.0)
     return ResponseStatistics(
         omega=along.omega, rao=along.rao, spectrum=density, std=np.sqrt(moments[:, 0]), duration=span,
         wave_energy_share=spectrum.energy(minimum_omega=low, maximum_omega=high) / spectrum.moment(0),
-        bandwidth=_bandwidth(*moments[:, :3].T), moments=moments[:, [0, 2, 3]],
+        bandwidth=np.sqrt(np.maximum(1.0 - ratio, 0.0)), moments=moments[:, [0, 2, 3]],
         directions=directions, direction_share=shares,
     )  # fmt: skip
 
@@ -231,12 +234,6 @@ class _Response:
         outside = ~inside_table(database.omega, self.encounter)
         energy = weights_of(self.omega) * np.asarray(spectrum.density(self.omega))
         return float(energy[outside].sum() / spectrum.moment(0))
-
-
-def _bandwidth(m0: Array, m1: Array, m2: Array) -> Array:
-    moving = m0 * m2 > 0.0
-    ratio = np.where(moving, m1**2 / np.where(moving, m0 * m2, 1.0), 1.0)
-    return np.asarray(np.sqrt(np.maximum(1.0 - ratio, 0.0)))
 
 
 def _responses(

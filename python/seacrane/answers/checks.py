@@ -229,7 +229,8 @@ def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
     closed, opened = ("taut throughout", "slack") if wire else ("pressed throughout", "lifted off")
     mine = [event for event in result.events if event.name == name]
     count = sum(event.kind in ("release", "rebound") for event in mine)
-    force = _force(result, name)
+    known = "limit_force" in result.channels and name in result.coords["limit"]
+    force = _finite(result.select("limit_force", limit=name)) if known else None
     starts_open = force is not None and float(force[0]) == 0.0
     fallen = sum(event.kind == "through" for event in mine)
     asked = _asked_for(result, mine)
@@ -302,12 +303,6 @@ def _finite(values: Any) -> Any:
 def _reached(result: Result, channel: str, **names: str) -> Any:
     """Least and largest values of a curve, finite ones; None where there are none."""
     return _finite(np.concatenate(result.reached(Pick(channel=channel, names=names))))
-
-
-def _force(result: Result, name: str) -> Any:
-    if "limit_force" not in result.channels or name not in result.coords["limit"]:
-        return None
-    return _finite(result.select("limit_force", limit=name))
 
 
 def _newtons(values: Any) -> str:

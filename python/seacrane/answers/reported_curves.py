@@ -229,8 +229,10 @@ def _water(result: Result) -> list[Curve]:
 
 def _offsets(result: Result) -> list[Curve]:
     """Offsets of loads from straight below where they hang: m along x and y, and the angle from vertical."""
+    hung = result.about.hung if set(POSES) <= set(result.channels) else ()
+    vectors = {one["load"]: _place(result, *one["to"]) - _place(result, *one["from"]) for one in hung}
     found = []
-    for body, vector in hanging_vectors(result).items():
+    for body, vector in vectors.items():
         found += [
             Curve(kind=f"{body} offset", label="x", unit="m", values=vector[:, 0]),
             Curve(kind=f"{body} offset", label="y", unit="m", values=vector[:, 1]),
@@ -247,12 +249,6 @@ def _motions(result: Result) -> list[Curve]:
         Curve(kind=one.names[0], label=" ".join(one.names[1:]), unit=one.unit, **_scaled(1.0, one))
         for one in beyond_rounding(every)
     ]
-
-
-def hanging_vectors(result: Result) -> dict[str, Array]:
-    """From where each load hangs to where it is held, (n, 3), m, inertial axes, by body, where recorded."""
-    hung = result.about.hung if set(POSES) <= set(result.channels) else ()
-    return {one["load"]: _place(result, *one["to"]) - _place(result, *one["from"]) for one in hung}
 
 
 def _place(result: Result, body: str, point: Sequence[float]) -> Array:

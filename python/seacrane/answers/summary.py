@@ -56,9 +56,8 @@ class SummaryRow:
     static, static_known : Value at rest; where that is not known, at the first output summarised.
     minimum_at, maximum_at : s.
     factor : Dynamic factor of a load: the largest in the sense of the static load, over that, or None.
-    slack_margin : float or None
-        Smallest tension over the least static one, of what pulls; zero and below is slack. The least is
-        `static` but with parts in water below, as of the channel `slack_margin`.
+    slack_margin : Smallest tension over the least static one, of what pulls; zero and below is slack. The
+        least is `static` but with parts in water below, as of the channel `slack_margin`.
     blind : Whether it went slack on a rung that knows no lift-off, landing or snap: there is no factor.
     printed : The unit in which the row is printed.
     """

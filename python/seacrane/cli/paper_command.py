@@ -39,6 +39,8 @@ SUMMARY = (
 
 def paper(arguments: argparse.Namespace) -> int:
     """Simulate, save, draw and report; 130 if a run was interrupted, with what was computed until then."""
+    from seacrane.answers.checks import speed
+
     folder = output_folder(
         arguments.out, holds=(REPORT, *(f"{name}.nc" for name in RUNS)), overwrite=arguments.overwrite
     )
@@ -47,7 +49,9 @@ def paper(arguments: argparse.Namespace) -> int:
         print(f"[{number}/{len(RUNS)}] {name} ...", flush=True)
         runs[name] = _simulate(name)
         runs[name].save(folder / f"{name}.nc")
-        print(f"      {_pace(runs[name])}", flush=True)
+        fast, stats = speed(runs[name]), runs[name].stats
+        pace = f", {fast:.0f} times real time" if fast is not None else ""
+        print(f"      {float(stats['wall_s']):.3g} s{pace}, {stats['evaluations']} evaluations", flush=True)
         if runs[name].interrupted:
             print(f"interrupted at {runs[name].time[-1]:g} s of {name}; {len(runs)} runs are in {folder}")
             return INTERRUPTED
@@ -74,14 +78,6 @@ def _simulate(name: str) -> Result:
         if results[-1].interrupted:
             return results[-1]
     return min(results, key=lambda result: float(result.stats["wall_s"]))
-
-
-def _pace(result: Result) -> str:
-    from seacrane.answers.checks import speed
-
-    fast = speed(result)
-    pace = f", {fast:.0f} times real time" if fast is not None else ""
-    return f"{float(result.stats['wall_s']):.3g} s{pace}, {result.stats['evaluations']} evaluations"
 
 
 def draw(runs: dict[str, Result], folder: Path) -> tuple[list[Picture], list[Finding]]:

@@ -27,8 +27,11 @@ def run(arguments: argparse.Namespace) -> int:
     from seacrane.simulation import simulate
 
     source = load_source(arguments.scene, arguments, scripts=True)
-    if source.stages:
-        _require_no_span(arguments)
+    given = [name for name in SPANS if getattr(arguments, name) not in (None, False)]
+    if source.stages and given:
+        options = ", ".join(f"--{name.replace('_', '-')}" for name in given)
+        raise SceneError(f"{options} does not go with a lift in stages, which is written stage by stage and "
+                         "ends with its last; leave it out")  # fmt: skip
     folder = output_folder(arguments.out)
     path = folder / f"{source.name}.nc"
     words = {word: getattr(arguments, word) for word in SETTINGS}
@@ -45,15 +48,6 @@ def run(arguments: argparse.Namespace) -> int:
     finally:  # whatever happens to its summary, the run is there
         print(f"saved {done.path}")
     return INTERRUPTED if done.interrupted else 0
-
-
-def _require_no_span(arguments: argparse.Namespace) -> None:
-    """Refuse the options that stages have no use for."""
-    given = [name for name in SPANS if getattr(arguments, name) not in (None, False)]
-    if given:
-        options = ", ".join(f"--{name.replace('_', '-')}" for name in given)
-        raise SceneError(f"{options} does not go with a lift in stages, which is written stage by stage and "
-                         "ends with its last; leave it out")  # fmt: skip
 
 
 def told(result: Result) -> str:

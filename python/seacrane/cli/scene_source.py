@@ -101,7 +101,9 @@ def run_script(path: Path) -> Scene:
                 raise SceneError(f"{path.name} defines no function scene(); add one that returns a Scene")
             scene = function()
     except (Exception, SystemExit) as error:
-        line = _line_in(path, error)
+        frames = reversed(traceback.extract_tb(error.__traceback__))
+        line = next((frame.lineno for frame in frames if frame.filename == str(path)), None)
+        line = error.lineno if isinstance(error, SyntaxError) else line
         if line is None and isinstance(error, SceneError):
             raise
         place = f"{path.name} line {line}" if line else path.name
@@ -120,10 +122,3 @@ def _importable(folder: Path) -> Iterator[None]:
     finally:
         with contextlib.suppress(ValueError):
             sys.path.remove(str(folder))
-
-
-def _line_in(path: Path, error: BaseException) -> int | None:
-    if isinstance(error, SyntaxError):
-        return error.lineno
-    frames = reversed(traceback.extract_tb(error.__traceback__))
-    return next((frame.lineno for frame in frames if frame.filename == str(path)), None)

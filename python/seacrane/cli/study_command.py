@@ -6,7 +6,7 @@ import argparse
 import contextlib
 import signal
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from importlib import import_module
 
@@ -54,9 +54,10 @@ def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
         from concurrent.futures import ProcessPoolExecutor
         from multiprocessing import get_context
 
-        with ProcessPoolExecutor(
-            arguments.workers, mp_context=get_context("spawn"), initializer=leave_ctrl_c_to_the_parent
-        ) as pool:
+        with ProcessPoolExecutor(  # the terminal sends Ctrl-C to workers too, who leave it to the parent
+            arguments.workers, mp_context=get_context("spawn"), initializer=signal.signal,
+            initargs=(signal.SIGINT, signal.SIG_IGN),
+        ) as pool:  # fmt: skip
             yield pool
 
 
@@ -79,11 +80,6 @@ def _end_workers(executor: Executor | None) -> None:
             getattr(queue, side).close()
 
 
-def leave_ctrl_c_to_the_parent() -> None:
-    """What a worker begins with: the terminal sends Ctrl-C to it too."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 @contextlib.contextmanager
 def _cluster(address: str) -> Iterator[Executor]:
     try:
@@ -93,7 +89,15 @@ def _cluster(address: str) -> Iterator[Executor]:
     except (OSError, ValueError) as error:
         raise SceneError(f"--dask {address}: no scheduler answers there ({error})") from error
     with client:
-        _require_seacrane(address, client.run(_version_finder()))
+        versions = client.run(_version_finder())
+        if not versions:
+            raise SceneError(f"--dask {address}: the cluster has no worker; start at least one")
+        for worker, version in versions.items():
+            if version != __version__:  # what is sent to such a worker would have no answer
+                has = f"seacrane {version}" if version else "no seacrane"
+                raise WorkerVersionError(
+                    f"--dask {address}: worker {worker} has {has}; install {__version__} there"
+                )
         yield client.get_executor()
 
 
@@ -109,15 +113,3 @@ def _version_finder() -> Callable[[], str | None]:
             return None
 
     return version
-
-
-def _require_seacrane(address: str, versions: Mapping[str, str | None]) -> None:
-    """Refuse workers without this version, which would leave what is sent to them without an answer."""
-    if not versions:
-        raise SceneError(f"--dask {address}: the cluster has no worker; start at least one")
-    for worker, version in versions.items():
-        if version != __version__:
-            has = f"seacrane {version}" if version else "no seacrane"
-            raise WorkerVersionError(
-                f"--dask {address}: worker {worker} has {has}; install {__version__} there"
-            )

@@ -39,17 +39,12 @@ class Answers:
         self.in_any_sea = in_any_sea
 
 
-def content_of(scene: Description) -> list[Any]:
-    """All that a description holds but its sea, and its notes, which nothing reads: by identity."""
-    held = vars(scene)
-    tables = _tables(held)
-    elements = chain.from_iterable(map(_values, tables))
-    return [*_plain(held), *map(len, tables), *chain.from_iterable(tables), *elements]
-
-
 def answers_of(scene: Description) -> Answers:
     """What is known of a scene as it is now."""
-    content = content_of(scene)
+    tables = _tables(vars(scene))
+    elements = chain.from_iterable(map(_values, tables))
+    # by identity; all but the sea, and notes, which nothing reads
+    content = [*_plain(vars(scene)), *map(len, tables), *chain.from_iterable(tables), *elements]
     held: Answers | None = vars(scene).get(ANSWERS)
     if held is None or len(held.content) != len(content) or not all(map(is_, held.content, content)):
         held = vars(scene)[ANSWERS] = Answers(content, scene.waves, {})

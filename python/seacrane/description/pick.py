@@ -130,7 +130,9 @@ def _by_dimension(what: str, channel: str, items: Sequence[tuple[str, str]]) -> 
     dims = CHANNELS[channel].dims_of_several[1:]
     found: dict[str, str] = {}
     for key, name in sorted(items, key=lambda item: not item[0]):  # those that say their dimension first
-        dim = key or _dimension_of(name, [dim for dim in dims if dim not in found])
+        free = [dim for dim in dims if dim not in found]
+        fixed = [dim for dim in free if dim in FIXED and name in FIXED[dim]]
+        dim = key or next(iter([*fixed, *(dim for dim in free if dim not in FIXED)]), "")
         if dim not in dims:
             has = ", ".join(dims) or "none but time"
             asked = f"dimension {key!r}" if key else f"{shown(name)}"
@@ -141,12 +143,6 @@ def _by_dimension(what: str, channel: str, items: Sequence[tuple[str, str]]) -> 
             raise SceneError.of(f"{what}: {dim}", f"is {shown(name)}; choose from {', '.join(FIXED[dim])}")
         found[dim] = text_of(f"{what}: {dim}", name)
     return {dim: found[dim] for dim in dims if dim in found}
-
-
-def _dimension_of(name: str, free: Sequence[str]) -> str:
-    """The dimension that holds a name, or no text."""
-    fixed = [dim for dim in free if dim in FIXED and name in FIXED[dim]]
-    return next(iter([*fixed, *(dim for dim in free if dim not in FIXED)]), "")
 
 
 def column_name(channel: str, names: Sequence[str]) -> str:

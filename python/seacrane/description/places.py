@@ -63,19 +63,14 @@ def on_body(scene: Description, what: str, name: str, point: Any) -> tuple[str, 
     offset = np.array(shaped_of(f"{what} on {name!r}: point", point, (3,)))
     if name == GROUND or name in scene.bodies:
         return name, offset
-    named = _points(scene)
+    tips = {f"{one.prefix}tip": one.tip for one in scene.roles.values() if one.tip is not None}
+    named = tips | {point_name: (one.body, one.point) for point_name, one in scene.points.items()}
     if name in named:
         body, own = named[name]
         return body, np.asarray(own, dtype=float) + offset
     bodies = ", ".join(map(repr, scene.bodies)) or "none"
     points = f", and points {', '.join(map(repr, named))}" if named else ""
     raise SceneError(f"{what}: there is no body {name!r}, the scene has {bodies}{points}; add it first")
-
-
-def _points(scene: Description) -> dict[str, tuple[str, Any]]:
-    """Points by name: tips of cranes, and what is recorded."""
-    tips = {f"{one.prefix}tip": one.tip for one in scene.roles.values() if one.tip is not None}
-    return tips | {name: (one.body, one.point) for name, one in scene.points.items()}
 
 
 def placed(scene: Description, body: str, point: Any) -> Array:

@@ -98,12 +98,7 @@ def checked(
     ran: Iterable[int],
     executor: Executor | None,
 ) -> EnsembleAccuracy:
-    """Check members at random, of those that ran without a failure.
-
-    Warns
-    -----
-    AccuracyNotHeldWarning
-    """
+    """Check members at random, of those that ran without a failure; warns with AccuracyNotHeldWarning."""
     left = [index for index in ran if index not in probes]
     number = min(max(1, round(CHECKED * (len(left) + len(probes)))), len(left))
     random = np.random.Generator(np.random.Philox(SEED))

@@ -26,21 +26,12 @@ RESERVED = ("member", "time", *TEXTS)
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Labelled:
-    """What one member keeps under one name.
-
-    Attributes
-    ----------
-    values : Numbers, float64.
-    coords : mapping of str to ndarray
-        Numbers or texts along those dimensions that have any.
-    attributes : mapping of str to str
-        Unit and description.
-    """
+    """What one member keeps under one name."""
 
     values: NDArray[np.float64]
     dims: tuple[str, ...] = ()
-    coords: Mapping[str, NDArray[Any]] = field(default_factory=dict)
-    attributes: Mapping[str, str] = field(default_factory=dict)
+    coords: Mapping[str, NDArray[Any]] = field(default_factory=dict)  # along dimensions that have any
+    attributes: Mapping[str, str] = field(default_factory=dict)  # unit and description
 
     def lies_like(self, other: Labelled) -> bool:
         """Whether both have the same dimensions and the same values along them."""
@@ -53,23 +44,13 @@ class Labelled:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Outcome:
-    """What a member kept, or why it failed.
-
-    Attributes
-    ----------
-    kept : mapping of str to Labelled
-        Empty where it failed.
-    failure : Why it failed; empty where it did not.
-    validity : What was out of range in its run, as of a result's stats.
-    kept_apart : str
-        Why it was stepped by itself where others were to be stepped beside it; empty where it was not.
-    """
+    """What a member kept by name, or why it failed."""
 
     index: int
     kept: Mapping[str, Labelled] = field(default_factory=dict)
     failure: str = ""
-    validity: str = ""
-    kept_apart: str = ""
+    validity: str = ""  # what was out of range in its run, as of a result's stats
+    kept_apart: str = ""  # why it was stepped by itself where others were to be stepped beside it
 
 
 def dataset_of(members: Members, outcomes: Iterable[Outcome]) -> xarray.Dataset:

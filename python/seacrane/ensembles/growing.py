@@ -30,21 +30,12 @@ IN_A_PACK = 2  # as a rule, so that one combination of parameters still fills se
 
 @dataclass(frozen=True, kw_only=True)
 class Growth:
-    """Members by seed and by combination of the other parameters, which is called a cell.
+    """Members by seed and by combination of the other parameters, which is called a cell."""
 
-    Attributes
-    ----------
-    first : Seed.
-    batches : How many there may be.
-    others : mapping of str to tuple
-        Values of the other parameters, of which all combinations are run.
-    size : Seeds in a pack.
-    """
-
-    first: int
-    batches: int
-    others: Mapping[str, tuple[Value, ...]]
-    size: int
+    first: int  # seed
+    batches: int  # how many there may be
+    others: Mapping[str, tuple[Value, ...]]  # of the other parameters: all combinations are run
+    size: int  # seeds in a pack
 
     @property
     def cells(self) -> int:

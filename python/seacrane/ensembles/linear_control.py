@@ -41,19 +41,12 @@ MOST_TIMES = 10**6
 
 @dataclass(frozen=True, kw_only=True)
 class Motion:
-    """One coordinate of a point of a body that rests upright, or its rate of a higher order.
+    """One coordinate of a point of a body that rests upright, or its rate of a higher order."""
 
-    Attributes
-    ----------
-    channel : One of `ORDERS`.
-    axis : x, y or z; nothing of an angle.
-    point : Body coordinates, m; None: the centre of mass.
-    """
-
-    channel: str
+    channel: str  # one of `ORDERS`
     body: str
-    axis: str = ""
-    point: ArrayLike | None = None
+    axis: str = ""  # x, y or z; nothing of an angle
+    point: ArrayLike | None = None  # body coordinates, m; None: the centre of mass
 
     def row(self, linear: LinearModel) -> Array:
         """The weights of the states of a linear model."""
@@ -71,10 +64,7 @@ class Motion:
 def motion_of(channel: str | Pick, point: ArrayLike | None) -> Motion:
     """The motion that a text picks, at a point of its body.
 
-    Raises
-    ------
-    SceneError
-        For a channel that is no motion of a body, and one that is not a single curve.
+    Raises SceneError for a channel that is no motion of a body, and one that is not a single curve.
     """
     pick = pick_of("control", channel)
     if pick.channel not in ORDERS:

@@ -72,17 +72,10 @@ Over = Mapping[str, Iterable[Value]] | Sequence[Mapping[str, Value]] | LatinHype
 
 @dataclass(frozen=True, kw_only=True)
 class Members:
-    """The values of every member, made as they are asked for.
+    """The values of every member, made as they are asked for."""
 
-    Attributes
-    ----------
-    axes : mapping of str to tuple
-        Values of each parameter: of a grid along its axis, of a list by member.
-    grid : Whether all combinations are run, those of the last parameter next to each other.
-    """
-
-    axes: Mapping[str, tuple[Value, ...]]
-    grid: bool
+    axes: Mapping[str, tuple[Value, ...]]  # by parameter: of a grid along its axis, of a list by member
+    grid: bool  # whether all combinations are run, those of the last parameter next to each other
 
     def __len__(self) -> int:
         lengths = [len(values) for values in self.axes.values()]

@@ -39,7 +39,12 @@ def _realised(scene: Scene, given: Mapping[str, Any]) -> Waves:
     assert scene.waves is not None
     record, depth, current = scene.waves.provenance.sea, scene.waves.depth, scene.waves.current
     if record is not None:
-        sea = sea_state_of(record, given.get("seed", record["seed"]))
+        sea = SeaState(
+            systems=[_system(system) for system in record["systems"]],
+            seed=given.get("seed", record["seed"]),
+            depth=float("inf") if record["depth"] is None else record["depth"],
+            placement=record["placement"],
+        )
         return realised_sea(sea, {}, depth, current=current, look_for_repeats=False)
     settings = _settings(scene)
     if "gamma" not in given and settings["spectrum"] != "jonswap":
@@ -98,19 +103,6 @@ def _settings(scene: Scene) -> dict[str, Any]:
         "seed": known.seed,
         "count": known.wave_components,
     }
-
-
-def sea_state_of(record: Mapping[str, Any], seed: Any) -> SeaState:
-    """What `SeaState.description` tells, with a seed.
-
-    Raises SceneError for a measured record, or a spectrum that its parts do not tell.
-    """
-    return SeaState(
-        systems=[_system(system) for system in record["systems"]],
-        seed=seed,
-        depth=float("inf") if record["depth"] is None else record["depth"],
-        placement=record["placement"],
-    )
 
 
 def _system(record: Mapping[str, Any]) -> WaveSystem:

@@ -55,7 +55,6 @@ class Folder:
         """Write a pack: complete under its name, or not at all.
 
         Members that lie alike share a group: as a rule there is one.
-
         Raises OSError if it cannot be written; it names the file, the cause and the space left.
         """
         import netCDF4

@@ -43,16 +43,12 @@ class Study:
 
     Attributes
     ----------
-    source : Scene or callable
     t_end : s.
-    method, outputs
-        Of every run.
+    method, outputs : Of every run.
     keep : What is kept of each, by name.
-    start : State or callable, optional
-        Where every run begins, or a function of its scene that tells it; default: its assembled start.
+    start : Where every run begins, or a function of its scene that tells it; default: its assembled start.
     lanes : Runs that are stepped side by side, by the number of the member; 1: none.
-    stages : sequence of Stage, or callable
-        Of a lift in stages, or a function of the scene that tells them; none: it is one run to `t_end`.
+    stages : Of a lift in stages, or a function of the scene that tells them; none: it is one run to `t_end`.
     start_times : At which lifts in stages begin, where that varies, s, ascending.
     """
 

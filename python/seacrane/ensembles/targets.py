@@ -27,24 +27,14 @@ LONGEST = 80  # characters of a name in a message
 
 @dataclass(frozen=True, kw_only=True)
 class Target:
-    """A statistic over seeds, and how narrowly it is to be known.
+    """A statistic over seeds, and how narrowly it is to be known."""
 
-    Attributes
-    ----------
-    variable : Name of what is kept.
-    number : "mpm", "mean" or "p90" of largest or smallest values, else "mean".
-    half_width : Of the 95 % interval, as a share of the dynamic part.
-    sign : 1, or -1 for smallest values.
-    gumbel : Whether values are extremes; else their mean is asked for.
-    static : What is kept for the static part; None: zero.
-    """
-
-    variable: str
-    number: str
-    half_width: float
-    sign: float = 1.0
-    gumbel: bool = False
-    static: str | None = None
+    variable: str  # name of what is kept
+    number: str  # "mpm", "mean" or "p90" of largest or smallest values, else "mean"
+    half_width: float  # of the 95 % interval, as a share of the dynamic part
+    sign: float = 1.0  # or -1 for smallest values
+    gumbel: bool = False  # whether values are extremes; else their mean is asked for
+    static: str | None = None  # what is kept for the static part; None: zero
 
     @property
     def name(self) -> str:

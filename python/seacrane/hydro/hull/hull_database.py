@@ -215,10 +215,7 @@ def strip_solution(
     The trusted band begins where the wave is as long as the ship (longer waves do not see strips) and ends
     where it is eight panels of the largest section long.
 
-    Warns
-    -----
-    SubmergedPartWarning : a bulb ahead of the stem, or the like.
-
+    Warns with SubmergedPartWarning of a bulb ahead of the stem, or the like.
     Raises ValueError: fewer than five stations, or a section that is not one outline from waterline to keel.
     """
     if stations < 5:
@@ -253,11 +250,8 @@ def convergence_told(
 ) -> str:
     """What changes with about half the panels, even ones, as the end of a database's `source`.
 
-    ``solve`` solves the coarse hull at the same frequencies, of which those ``inside`` (n,) count.
-
-    Warns
-    -----
-    MeshConvergenceWarning : an entry on the diagonal changes by more than 5 % of its largest.
+    ``solve`` solves the coarse hull at the same frequencies, of which those ``inside`` (n,) count. Warns with
+    MeshConvergenceWarning where an entry on the diagonal changes by more than 5 % of its largest.
     """
     size, around = np.sqrt(2.0) * hull.panel_size, 0.5 * (hull.breadth + 2.0 * hull.draught)
     coarse = hull.remeshed(

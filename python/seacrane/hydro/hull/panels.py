@@ -191,10 +191,8 @@ def closed_below(
     """The triangles (n, 3, 3) of a surface with joined vertices, once they are known to be closed below z =
     `level` (m), which messages call `where`.
 
-    Raises
-    ------
-    ValueError : an edge there with one face or more than two, or two faces that run along their common edge
-        in the same direction; names the number of edges and the place of the first.
+    Raises ValueError: an edge there with one face or more than two, or two faces that run along their common
+    edge in the same direction; names the number of edges and the place of the first.
     """
     flat = triangles.reshape(-1, 3)
     tolerance = MERGE * float(np.ptp(flat, axis=0).max())
@@ -202,19 +200,16 @@ def closed_below(
     points = flat[np.unique(labels, return_index=True)[1]]
     faces = labels.reshape(-1, 3)
     distinct = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    faces = _without_cancelling(faces[distinct])
+    faces = faces[distinct]
+    # without back-to-back pairs on the same vertices: where both sides of a stem or fin meet
+    sense = np.sign(np.prod(faces - np.roll(faces, 1, axis=1), axis=1))
+    same, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)[1:]
+    balance = np.bincount(same.ravel(), weights=sense)
+    faces = faces[((count != 2) | (balance != 0.0))[same.ravel()]]
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     wet = points[edges][..., 2].min(axis=1) < level - tolerance
     _require_pairs(what, where, points, edges[wet])
     return np.asarray(points[faces])
-
-
-def _without_cancelling(faces: IntArray) -> IntArray:
-    """The faces without back-to-back pairs on the same vertices: where both sides of a stem or fin meet."""
-    sense = np.sign(np.prod(faces - np.roll(faces, 1, axis=1), axis=1))
-    same, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)[1:]
-    balance = np.bincount(same.ravel(), weights=sense)
-    return np.asarray(faces[((count != 2) | (balance != 0.0))[same.ravel()]])
 
 
 def _require_pairs(what: str, where: str, points: Array, edges: IntArray) -> None:
@@ -254,12 +249,8 @@ class Slice:
 def slices(name: str, panels: Array, x: Array) -> list[Slice]:
     """Slices of a symmetric wetted surface (n, 4, 3) at the stations ``x`` (s,) in m.
 
-    Stations on the foremost and aftmost point give the hull's ends.
-
-    Raises
-    ------
-    ValueError : a section that pierces the surface more than once on each side (several hulls), or whose
-        outline does not close.
+    Stations on the foremost and aftmost point give the hull's ends. Raises ValueError: a section that pierces
+    the surface more than once on each side (several hulls), or whose outline does not close.
     """
     length = float(np.ptp(panels[..., 0]))
     tolerance = ON_PLANE * length

@@ -91,10 +91,7 @@ def capytaine_solution(
 
     The trusted band ends where the wave is eight panels long.
 
-    Raises
-    ------
-    ImportError : Capytaine is not installed.
-    ValueError : too many panels for the memory of a computer.
+    Raises ImportError: Capytaine is not installed; ValueError: too many panels for the memory of a computer.
     """
     capytaine = import_capytaine("method 'capytaine'", "use method 'strip', which needs nothing")
     if len(hull.panels) > MOST_PANELS:

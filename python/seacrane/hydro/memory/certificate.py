@@ -204,9 +204,7 @@ def realise(numerator: Array, denominator: Array, *, output: int, input: int, ca
     The companion form is balanced (equal, diagonal Gramians: Moore 1981), then all states are multiplied by
     the norm of the output row, which makes a state as large as the load it stands for.
 
-    Raises
-    ------
-    ValueError : a pole with a real part that is not negative.
+    Raises ValueError: a pole with a real part that is not negative.
     """
     from scipy.linalg import solve_continuous_lyapunov
 

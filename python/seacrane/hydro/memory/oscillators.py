@@ -249,8 +249,12 @@ def fit_to_motions(data: MotionData, lower: Oscillators | None) -> Oscillators:
         peaks = data.omega[np.diagonal(data.damping, axis1=1, axis2=2).argmax(axis=0)]
         w = np.clip(peaks, LOWEST_FREQUENCY, None)
         guesses = [Oscillators(w=w, dampers=np.diag(w), coupling=np.diag(np.sqrt(w)))]
-    else:
-        guesses = _one_more(data, lower)
+    else:  # and one mass at several frequencies, coupled to what the damping lacks most there
+        missing, guesses = data.damping - lower.transfer(data.omega).real, []
+        for w in np.geomspace(1.6 * LOWEST_FREQUENCY, 0.9 * float(data.omega[data.trusted][-1]), PLACES):
+            values, vectors = np.linalg.eigh(missing[np.abs(data.omega - w).argmin()])
+            row = vectors[:, -1] * np.sqrt(max(values[-1], 0.01) * 0.5 * w)
+            guesses.append(lower.with_mass(w, 0.5 * w + FLOOR, row))
     problem = MotionProblem(data, len(guesses[0].w))
     found = [problem.search(problem.pack(guess), GLANCE) for guess in guesses]
     found = [problem.search(each[0], LOOK) for each in sorted(found, key=lambda each: each[1])[:2]]
@@ -259,17 +263,6 @@ def fit_to_motions(data: MotionData, lower: Oscillators | None) -> Oscillators:
     last = problem.search(best[0], SEARCH)
     slow = problem.oscillators(last[0]).slowest_decay < SLOWEST_DECAY
     return problem.oscillators(best[0] if quick and slow else last[0])
-
-
-def _one_more(data: MotionData, lower: Oscillators) -> list[Oscillators]:
-    """``lower`` and one mass at several frequencies, coupled to what the damping lacks most there."""
-    missing = data.damping - lower.transfer(data.omega).real
-    guesses = []
-    for w in np.geomspace(1.6 * LOWEST_FREQUENCY, 0.9 * float(data.omega[data.trusted][-1]), PLACES):
-        values, vectors = np.linalg.eigh(missing[np.abs(data.omega - w).argmin()])
-        row = vectors[:, -1] * np.sqrt(max(values[-1], 0.01) * 0.5 * w)
-        guesses.append(lower.with_mass(w, 0.5 * w + FLOOR, row))
-    return guesses
 
 
 @one_thread

@@ -258,10 +258,8 @@ def require_own_hydrostatics(where: object, found: HydroGroup, fix: str) -> None
 def with_band_of_data(found: Found) -> Found:
     """The database or group; where it has no trusted band, with one that ends below the first jump of a hull.
 
-    Warns
-    -----
-    RoughDataWarning : matrices jump. In a group it may be a resonance of the water between hulls, where the
-        frequencies are too far apart to show its shape.
+    Warns with RoughDataWarning of matrices that jump. In a group it may be a resonance of the water between
+    hulls, where the frequencies are too far apart to show its shape.
     """
     if found.trusted_band is not None:
         return found

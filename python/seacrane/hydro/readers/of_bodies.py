@@ -125,11 +125,7 @@ def floating_body(
     where : the file of its hydrostatics, for messages.
     others : of `GroupBody`; sizes that the file tells take the place of the box's, where they are not None.
 
-    Raises FileFormatError: as `box_of` and `mass_of_file`.
-
-    Warns
-    -----
-    AssumedInertiaWarning : there is no ``mass``.
+    Raises FileFormatError: as `box_of` and `mass_of_file`. Warns with AssumedInertiaWarning without ``mass``.
     """
     where, rho, of_mass = where or asked.where, water[0], volume is None
     if not (rho > 0.0 and water[1] > 0.0):

@@ -149,10 +149,8 @@ class _Node:
 def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None) -> VesselType:
     """Read one draught of one vessel type.
 
-    Raises
-    ------
-    FileFormatError : the document is no OrcaFlex model in SI units, holds several vessel types or draughts
-        and none was chosen, uses conventions other than the defaults, or lacks something.
+    Raises FileFormatError: the document is no OrcaFlex model in SI units, holds several vessel types or
+    draughts and none was chosen, uses conventions other than the defaults, or lacks something.
     """
     model = _Node(path, "", _document(path))
     units = model.at("General").at("UnitsSystem").text() if model.has("General") else "SI"
