@@ -144,8 +144,8 @@ def _turns(scene: Description, time: Array, channels: Channels) -> Iterator[Find
             yield (
                 warnings.FullTurnWarning,
                 f"coordinate {name!r}: passes 180 deg {count} time(s), first at t = {first:.6g} s: it is "
-                "recorded between -180 and 180 deg, and jumps there. Unwrap it by numpy.unwrap; keep references "
-                "within half a turn of the motion",
+                "recorded between -180 and 180 deg, and jumps there. Unwrap it by numpy.unwrap; keep "
+                "references within half a turn of the motion",
             )
 
 
