@@ -33,7 +33,7 @@ def atomic_write(path: Path, *, tidy: bool = True) -> Iterator[Path]:
     try:
         require_replaceable(path)
         if tidy:
-            remove_left(target)
+            _remove(target.parent, lambda name: name["target"] == target.name and _is_gone(name))
         yield draft
         with draft.open("rb+") as file:
             os.fsync(file.fileno())
@@ -102,11 +102,6 @@ def draft_of(target: Path) -> Path:
 def is_draft(path: Path) -> bool:
     """Whether it has the name of a draft."""
     return _DRAFT.fullmatch(path.name) is not None
-
-
-def remove_left(target: Path) -> None:
-    """Remove the drafts of a file whose processes, of this machine, are no more."""
-    _remove(target.parent, lambda name: name["target"] == target.name and _is_gone(name))
 
 
 def remove_all(folder: Path, targets: re.Pattern[str]) -> None:

@@ -43,8 +43,13 @@ def plain_data(what: str, value: Any) -> Any:
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return [plain_data(f"{what}[{i}]", item) for i, item in enumerate(value)]
     if is_dataclass(value) and not isinstance(value, type):
-        kinds = field_types(type(value))
-        return {key: _plain_field(f"{what}.{key}", getattr(value, key), kinds[key]) for key in kinds}
+        plain = {}
+        for key, kind in field_types(type(value)).items():
+            own = getattr(value, key)
+            if type(own) is int and float in (kind, *get_args(kind)):
+                own = float(own)  # so that equal descriptions are equal data
+            plain[key] = plain_data(f"{what}.{key}", own)
+        return plain
     if hasattr(value, "FIELDS"):
         return {field.name: _plain_entry(getattr(value, field.name)) for field in value.FIELDS}
     raise SceneError(f"{what} is a {type(value).__name__}; notes are numbers, texts, lists and mappings")
@@ -58,12 +63,6 @@ def _plain_array(what: str, value: NDArray[Any] | np.generic) -> Any:
         }
     listed = value.tolist()
     return listed if value.dtype.kind in "iuf" and np.isfinite(value).all() else plain_data(what, listed)
-
-
-def _plain_field(what: str, value: Any, kind: Any) -> Any:
-    """A whole number where the field is any number becomes one, so that equal descriptions are equal data."""
-    real = type(value) is int and float in (kind, *get_args(kind))
-    return plain_data(what, float(value) if real else value)
 
 
 def _plain_entry(value: Any) -> Any:
@@ -110,7 +109,12 @@ def value_of(node: Node, kind: Any) -> Any:
     if reader is not None:
         return reader(node)
     if get_origin(kind) is tuple:
-        return _row(node, inner)
+        items = [*node.items()]
+        if inner[-1] is Ellipsis:
+            return tuple(value_of(one, inner[0]) for one in items)
+        if len(items) != len(inner):
+            raise FileFormatError(f"{node.path}: has {len(items)} entries; give {len(inner)}")
+        return tuple(value_of(one, each) for one, each in zip(items, inner, strict=True))
     if get_origin(kind) is Mapping:
         if not isinstance(node.value, dict):
             node.fail("give an object")
@@ -131,15 +135,6 @@ def _whole(node: Node) -> int:
 def _number(node: Node) -> float:
     value = _restored(node.value) if isinstance(node.value, dict) else node.value
     return value if isinstance(value, float) and math.isinf(value) else node.number()
-
-
-def _row(node: Node, kinds: tuple[Any, ...]) -> tuple[Any, ...]:
-    given = [*node.items()]
-    if kinds[-1] is Ellipsis:
-        return tuple(value_of(one, kinds[0]) for one in given)
-    if len(given) != len(kinds):
-        raise FileFormatError(f"{node.path}: has {len(given)} entries; give {len(kinds)}")
-    return tuple(value_of(one, kind) for one, kind in zip(given, kinds, strict=True))
 
 
 def _array(node: Node) -> NDArray[Any]:

@@ -149,7 +149,11 @@ class Checker:
             self.document.fail(path, f"{titled(path)} is {shown(given)}; give a table of keys and values")
         keys = tuple(keys)
         if any(key.type == "notes" for key in keys):
-            return self._notes(path, given)
+            try:
+                plain_notes(self.document.source, given)
+            except SceneError as error:
+                self.document.fail(path, str(error))
+            return MappingProxyType(dict(given))
         spelled = {spelling: key for key in keys for spelling in key.spellings}
         found: dict[str, Any] = {}
         for spelling, value in given.items():
@@ -160,18 +164,13 @@ class Checker:
                 )
             found[spelling] = self._value((*path, spelling), spelled[spelling], value)
         for key in keys:
-            self._once(path, key, found)
+            present = [spelling for spelling in key.spellings if spelling in found]
+            if len(present) > 1:
+                told = f"{present[1]} stands beside {present[0]} in {titled(path)}; give one"
+                self.document.fail((*path, present[1]), told)
+            if key.required and not present:
+                self.document.fail(path, f"{titled(path)} has no {' or '.join(key.spellings)}; add it")
         return MappingProxyType(found)
-
-    def _once(self, path: Place, key: Key, found: Mapping[str, Any]) -> None:
-        """One of a key's spellings where it is required, and no two of them."""
-        present = [spelling for spelling in key.spellings if spelling in found]
-        if len(present) > 1:
-            self.document.fail(
-                (*path, present[1]), f"{present[1]} stands beside {present[0]} in {titled(path)}; give one"
-            )
-        if key.required and not present:
-            self.document.fail(path, f"{titled(path)} has no {' or '.join(key.spellings)}; add it")
 
     def _value(self, path: Place, key: Key, value: Any) -> Any:
         if key.type == "table":
@@ -235,13 +234,6 @@ class Checker:
             self.document.fail(path, f"{titled(path)} has kind {shown(kind)}; give one of {', '.join(kinds)}")
         word = Key("kind", "text", choices=kinds, required=True)
         return self.table(path, (word, *(() if first else (FROM,)), *CURVES[kind]), value)
-
-    def _notes(self, path: Place, given: Mapping[str, Any]) -> Mapping[str, Any]:
-        try:
-            plain_notes(self.document.source, given)
-            return MappingProxyType(dict(given))
-        except SceneError as error:
-            self.document.fail(path, str(error))
 
 
 def _checked(node: Node, key: Key, bounds: Mapping[str, float], folder: Path) -> Any:

@@ -201,8 +201,10 @@ class _Scanner:
         parts = []
         while not self._is(end):
             token = self._pass()
-            if token.kind != "mark":
-                parts.append(_unquoted(token))
+            if token.kind == "bare" or token.text[0] == "'":
+                parts.append(token.text.strip("'"))
+            elif token.kind != "mark":  # a quoted key, which may hold escapes
+                parts.append(next(iter(tomllib.loads(f"{token.text} = 0"))))
         self._pass()
         return parts
 
@@ -242,10 +244,3 @@ def _tokens(text: str) -> Iterator[_Token]:
         if kind != "skip":
             yield _Token(kind, match[0], line)
         line += match[0].count("\n")
-
-
-def _unquoted(token: _Token) -> str:
-    """A part of a key as it is meant; quoted keys are rare, and their escapes rarer."""
-    if token.kind == "bare" or token.text[0] == "'":
-        return token.text.strip("'")
-    return next(iter(tomllib.loads(f"{token.text} = 0")))

@@ -63,7 +63,10 @@ def study_of(entry: Entry) -> Study:
     given = keywords(STUDY, entry.values)
     if ("over" in given) == ("design" in given):
         entry.fail("a study has either [study.over] or [study.design]; give one of them")
-    over = _over(entry, given)
+    over: Any = {name: _values(entry, name, one) for name, one in given.get("over", {}).items()}
+    if "design" in given:
+        with refused_at(entry, "design"):
+            over = LatinHypercube(**given["design"])
     with refused_at(entry, _table_of(given)[0]):
         members = members_of(over)
     keep = _keep(entry, given["keep"])
@@ -81,14 +84,6 @@ def study_of(entry: Entry) -> Study:
 
 def _table_of(given: Mapping[str, Any]) -> tuple[str, ...]:
     return ("over",) if "over" in given else ("design", "ranges")
-
-
-def _over(entry: Entry, given: Keywords) -> Any:
-    """What varies, as `ensemble` takes it; ranges of values as they are."""
-    if "over" in given:
-        return {name: _values(entry, name, one) for name, one in given["over"].items()}
-    with refused_at(entry, "design"):
-        return LatinHypercube(**given["design"])
 
 
 def _values(entry: Entry, name: str, value: Any) -> Sequence[Any]:
@@ -233,19 +228,15 @@ class Lift:
         """
         scene = SceneBuild(self._entries).scene()
         check_stages(self._entries, scene, self.stages)
-        self._check_accuracy(scene)
-        return scene
-
-    def _check_accuracy(self, scene: Scene) -> None:
-        """Raise FileFormatError for a quantity that the scene does not offer, or a limit that is none."""
         run = only(self._entries, "run")
         if self.accuracy is None or run is None:
-            return
+            return scene
         model = None if self.stages else scene.compile()
         for name, limit in self.accuracy.items():
             with refused_at(run, "accuracy", name):
                 known = [] if name == EVENT_TIMES else quantities_of(scene, model, [name])
                 limits_of([EVENT_TIMES, *known], {name: limit})
+        return scene
 
     def simulate(self, *, progress: bool = False) -> Result:
         """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`.
@@ -272,8 +263,11 @@ class Lift:
             (entry.table.name, _from_folder(entry.table.keys, plain(entry.values), folder))
             for entry in self._entries
         )
+        lines = [f'format = "{FORMAT}"', f"version = {VERSION}"]
+        for name, given in tables.items():
+            lines += _sections(name, given)
         try:
-            data = toml_text(tables).encode("utf-8")
+            data = ("\n".join(lines) + "\n").encode("utf-8")
         except UnicodeEncodeError as error:
             raise SceneError("lift: a text holds half of a surrogate pair, which UTF-8 has not") from error
         if len(data) > LARGEST_FILE:
@@ -320,17 +314,6 @@ def _from_folder(keys: Iterable[Key], values: dict[str, Any], folder: Path) -> d
                 if isinstance(one, dict):
                     _from_folder(key.keys, one, folder)
     return values
-
-
-def toml_text(tables: Mapping[str, Any]) -> str:
-    """Format, version, then the tables.
-
-    Raises SceneError for a value that TOML has no word for.
-    """
-    lines = [f'format = "{FORMAT}"', f"version = {VERSION}"]
-    for name, given in tables.items():
-        lines += _sections(name, given)
-    return "\n".join(lines) + "\n"
 
 
 def _sections(heading: str, given: Any) -> Iterator[str]:

@@ -140,7 +140,8 @@ def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
     run = failure.size - int((failure == NOT_RUN).sum())
     if not run:
         raise SceneError(f"{path}: no member has been run yet; run `seacrane study` with it")
-    scalar = [name for name in study.keep if name in done.dataset and _is_number(name, done)]
+    axes, there = set(done.members.shape), [name for name in study.keep if name in done.dataset]
+    scalar = [name for name in there if set(map(str, _kept(name, done).dims)) == axes]
     counts = [f"{run} of {failure.size} members run, {len(done.failures)} failed"]
     counts += [f"failed: {text}" for text in [*dict.fromkeys(done.failures.values())][:MOST_FAILURES]]
     if series := [name for name in study.keep if name not in scalar]:
@@ -183,10 +184,6 @@ def _kept(name: str, done: Ensemble) -> xarray.DataArray:
     return variable.squeeze(alone, drop=True)
 
 
-def _is_number(name: str, done: Ensemble) -> bool:
-    return set(map(str, _kept(name, done).dims)) == set(done.members.shape)
-
-
 def _told(name: str, study: Study, done: Ensemble, length: float | None) -> Told:
     """`length` is that of the runs, s; None of lifts in stages, where an extreme is that of one lift."""
     what, variable = study.keep[name], _kept(name, done)
@@ -197,14 +194,14 @@ def _told(name: str, study: Study, done: Ensemble, length: float | None) -> Told
     cells = []
     together = zip(_cells(variable, done), _cells(_failed(done), done), strict=True)
     for (parameters, values), (_, lost) in together:
-        found = None if sign is None else _extremes(name, sign * values, span or 1.0, exposure or 1.0)
-        given: dict[str, Any] = {
-            "parameters": parameters,
-            "values": values,
-            "failed": lost.size,
-            "extremes": found,
-        }
-        cells.append(Cell(sign=sign or 1.0, **given))
+        found = None
+        if sign is not None and values.size >= FEWEST and not np.ptp(values) <= 1e-12 * np.abs(values).max():
+            with silently():
+                found = seed_extremes(
+                    sign * values, duration=span or 1.0, exposure=exposure or 1.0, name=name
+                )
+        one = Cell(parameters=parameters, values=values, failed=lost.size, extremes=found, sign=sign or 1.0)
+        cells.append(one)
     about = str(variable.attrs.get("long_name", what.channel if isinstance(what, Kept) else what))
     at = ", ".join(what.names.values()) if isinstance(what, Kept) else ""
     return Told(
@@ -228,14 +225,6 @@ def _cells(variable: xarray.DataArray, done: Ensemble) -> Iterator[tuple[dict[st
 
 def _finite(values: Array) -> Array:
     return values[np.isfinite(values)]
-
-
-def _extremes(name: str, values: Array, span: float, exposure: float) -> SeedExtremes | None:
-    """Statistics of largest values; None for too few."""
-    if values.size < FEWEST or np.ptp(values) <= 1e-12 * np.abs(values).max():
-        return None
-    with silently():
-        return seed_extremes(values, duration=span, exposure=exposure, name=name)
 
 
 def study_sheets(shown: ShownStudy) -> Iterator[tuple[str, Sheet]]:

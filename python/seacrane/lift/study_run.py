@@ -56,7 +56,11 @@ def run_study(
     if lift.study is None:
         raise SceneError(f"{Path(path).name} has no [study]; `seacrane run` runs it once")
     source = _source(lift, lift.study)
-    _claim(target)
+    if target.exists() and not target.is_dir():
+        raise SceneError(f"{target} is a file; give the name of a folder")
+    target.mkdir(parents=True, exist_ok=True)
+    if not (target / FILE).exists() and any(not is_draft(one) for one in target.iterdir()):
+        raise SceneError(f"{target} holds something else than a study; give another folder")
     if not (target / FILE).exists():
         lift.save(target / FILE)
     done = ensemble(
@@ -91,15 +95,6 @@ def _source(lift: Lift, study: Study) -> Source:
         except SceneError as error:
             study.fail_at(words[0], str(error))
     return LiftScenes(tables, varied)
-
-
-def _claim(folder: Path) -> None:
-    """Make the folder, or refuse one of something else."""
-    if folder.exists() and not folder.is_dir():
-        raise SceneError(f"{folder} is a file; give the name of a folder")
-    folder.mkdir(parents=True, exist_ok=True)
-    if not (folder / FILE).exists() and any(not is_draft(one) for one in folder.iterdir()):
-        raise SceneError(f"{folder} holds something else than a study; give another folder")
 
 
 @dataclass(frozen=True)

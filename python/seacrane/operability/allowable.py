@@ -173,7 +173,10 @@ def _by_frequency(cells: Cells, still: Still, *, strict: bool, progress: bool) -
     for j, direction in enumerate(directions):
         gains = linear.gains(direction)
         for i, tp in enumerate(asked.tp):
-            cells.take_linear(i, j, linear.allowable(gains, tp))
+            allowable = linear.allowable(gains, tp)
+            cells.by_criterion[:, i, j], cells.domain[i, j] = allowable, "frequency"
+            at_rest = allowable.min() <= 0.0
+            cells.reason[i, j] = "a bound is exceeded at rest" if at_rest else "not tested"
 
 
 def _test(cells: Cells, linear: LinearSeas, still: Still, executor: Executor | None, progress: bool) -> None:
@@ -279,13 +282,6 @@ class Cells:
     def refuse(self, reason: str) -> None:
         """Leave all cells to the time domain."""
         self.reason[:] = reason
-
-    def take_linear(self, period: int, direction: int, allowable: Array) -> None:
-        """Fill a cell by its linear model."""
-        self.by_criterion[:, period, direction] = allowable
-        self.domain[period, direction] = "frequency"
-        at_rest = allowable.min() <= 0.0
-        self.reason[period, direction] = "a bound is exceeded at rest" if at_rest else "not tested"
 
     def take_difference(self, place: Place, found: Array | str) -> None:
         """What a probe of a cell brought: the largest of several counts."""

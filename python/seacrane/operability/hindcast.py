@@ -84,7 +84,10 @@ class WaveHindcast:
         even, places = _even(time)
         object.__setattr__(self, "time", even)
         for name, values in series.items():
-            object.__setattr__(self, name, _placed(values, places, even.size))
+            placed = np.full(even.size, np.nan)
+            placed[places] = values
+            placed.flags.writeable = False
+            object.__setattr__(self, name, placed)
         object.__setattr__(self, "source", text_of("hindcast: source", self.source or "not told"))
 
     def _series(self, name: str, size: int) -> Array:
@@ -150,7 +153,11 @@ class WaveHindcast:
             As for arrays.
         """
         file = Path(path)
-        asked = _asked(names)
+        given = dict(names or {})
+        for name in given:
+            if name not in NAMES:
+                raise SceneError(f"hindcast: names has {shown(name)}; choose from {', '.join(NAMES)}")
+        asked = {name: (given[name],) if name in given else usual for name, usual in NAMES.items()}
         if file.suffix.lower() == ".csv":
             return cls(**_of_csv(file, asked), source=file.name)
         return _of_netcdf(file, asked)
@@ -189,21 +196,6 @@ def _even(time: Times) -> tuple[Times, NDArray[np.intp]]:
     if places[-1] >= MOST_STEPS:
         raise SceneError(f"hindcast: {places[-1] + 1} steps of {step} are more than {MOST_STEPS}; give fewer")
     return time[0] + np.arange(places[-1] + 1) * step, places
-
-
-def _placed(values: Array, places: NDArray[np.intp], size: int) -> Array:
-    out = np.full(size, np.nan)
-    out[places] = values
-    out.flags.writeable = False
-    return out
-
-
-def _asked(names: Mapping[str, str] | None) -> dict[str, tuple[str, ...]]:
-    given = dict(names or {})
-    for name in given:
-        if name not in NAMES:
-            raise SceneError(f"hindcast: names has {shown(name)}; choose from {', '.join(NAMES)}")
-    return {name: (given[name],) if name in given else usual for name, usual in NAMES.items()}
 
 
 def _named(there: Iterable[str], names: Mapping[str, tuple[str, ...]]) -> dict[str, str]:

@@ -93,9 +93,11 @@ def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> Linear
         # States of the fluid add loads in proportion: one side is enough.
         below = look(model.full_state(-step)) if i < 2 * dof else 2.0 * rest - above
         columns.append((above - below) / (2.0 * size))
-    parts = PartsInWaves(model)
+    parts, axes = PartsInWaves(model), model.yaw_axes()
+    pushed = PUSH / np.abs(model.b[dof : 2 * dof]).max(axis=0)
+    by_load = [_slope(model, criteria, model.vessel, one, axes[:, i]) for i, one in enumerate(pushed)]
     return LinearChannels(
-        model=model, rest=rest, c=np.stack(columns, axis=1), d=_by_load(model, criteria, model.vessel),
+        model=model, rest=rest, c=np.stack(columns, axis=1), d=np.stack(by_load, axis=1),
         e=_by_part(model, criteria, parts), parts=parts,
     )  # fmt: skip
 
@@ -112,13 +114,6 @@ def _by_part(model: LinearModel, criteria: Sequence[Criterion], parts: PartsInWa
             known[place] = np.stack(slopes, axis=1)
         columns.append(known[place])
     return np.concatenate(columns, axis=1)
-
-
-def _by_load(model: LinearModel, criteria: Sequence[Criterion], vessel: str) -> Array:
-    dof, axes = model.degrees_of_freedom, model.yaw_axes()
-    sizes = PUSH / np.abs(model.b[dof : 2 * dof]).max(axis=0)
-    columns = [_slope(model, criteria, vessel, size, axes[:, i]) for i, size in enumerate(sizes)]
-    return np.stack(columns, axis=1)
 
 
 def _slope(

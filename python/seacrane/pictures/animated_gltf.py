@@ -100,8 +100,9 @@ class _Model:
     def wires(self) -> None:
         """Every wire as a bar of one metre along z, which is moved, turned and stretched."""
         drawing, motion = self.drawing, self.motion
+        seen = 0.001 * (float(np.linalg.norm(np.ptp(drawing.box, axis=0))) or 2.0)
         for wire in drawing.wires:
-            vertices, faces = tube(np.zeros(3), UP, drawing.radius_of(wire), WIRE_SIDES)
+            vertices, faces = tube(np.zeros(3), UP, max(seen, float(wire["radius"])), WIRE_SIDES)
             bar = Surface(vertices=vertices, faces=faces, colour=WIRES[wire["kind"]])
             start, end = drawing.ends_of(wire, motion.position, motion.quaternion)
             length = np.maximum(np.linalg.norm(end - start, axis=1), SMALLEST)

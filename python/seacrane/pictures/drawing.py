@@ -87,11 +87,6 @@ class Drawing:
         spans = [(start <= times) & (times < end) for start, end in wire["absent"]]
         return np.any(spans, axis=0) if spans else np.zeros(np.shape(times), dtype=bool)
 
-    def radius_of(self, wire: Mapping[str, Any]) -> float:
-        """The radius of a wire as drawn, m: thick enough to be seen."""
-        diagonal = float(np.linalg.norm(np.ptp(self.box, axis=0))) or 2.0
-        return max(0.001 * diagonal, float(wire["radius"]))
-
     def ends_of(self, wire: Mapping[str, Any], position: Array, quaternion: Array) -> tuple[Array, Array]:
         """Where a wire begins and ends at poses, as `place`; one of limited reach ends there."""
         start, end = (self.place(wire[key], position, quaternion) for key in ("from", "to"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -70,7 +70,10 @@ def looks(
     floating = floating_bodies(scene)
     given = _checked_hulls(hulls or {}, floating)
     members = crane_shapes(scene, crane)
-    hanging = {*crane_parts.payloads(scene).values(), *_on_lines(scene, floating | members.keys())}
+    hanging, holding = set(crane_parts.payloads(scene).values()), floating | members.keys()
+    for line in lines_of(scene.loads).values():
+        free = [body for body, _ in path_of(line) if body in scene.bodies and body not in holding]
+        hanging.update(free[-1:])
     found: dict[str, Look] = {}
     extent = _extent(scene)
     meshed = {mesh.body for mesh in scene.meshes.values()}
@@ -87,13 +90,6 @@ def looks(
         else:
             found[name] = _generic(scene, name, role, extent)
     return found
-
-
-def _on_lines(scene: Description, holding: Set[str]) -> Iterator[str]:
-    """For each elastic line the last body on its path that is none of those that hold lines."""
-    for line in lines_of(scene.loads).values():
-        free = [body for body, _ in path_of(line) if body in scene.bodies and body not in holding]
-        yield from free[-1:]
 
 
 def _checked_hulls(hulls: Mapping[str, Hull], floating: set[str]) -> dict[str, Hull]:
@@ -120,8 +116,11 @@ def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
     centre = np.asarray(body.center_of_mass, dtype=float)
     above = [point[2] for point in body_points(scene, name) if point[2] > 0.0]
     deck = float(np.median(above)) if above else None
-    if hull is None and _is_shipped(scene, name):
-        hull = shipped_hull()
+    known = scene.provenance.get(name)
+    if hull is None and known is not None and known.database == SHIPPED:
+        displaced = 1025.0 * VOLUME
+        if known.motion is not None or np.isclose(body.mass, displaced, rtol=1e-6):
+            hull = shipped_hull()
     if hull is not None:
         level = deck if deck is not None else 0.6 * hull.draught
         note = f"hull {hull.name!r} below the water, straight sides above"
@@ -138,28 +137,16 @@ def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
 def _by_meshes(scene: Description, name: str, role: str) -> Look:
     """The user's own triangles; of a vessel with the still waterline."""
     centre = np.asarray(scene.bodies[name].center_of_mass, dtype=float)
+    names = [name.removeprefix(prefix) for prefix in scene.roles] if role == "crane" else []
+    colour = next((COLOURS[one] for one in names if one in COLOURS), "")
     shapes: list[Shape] = []
     for mesh in scene.meshes.values():
         given = {"vertices": mesh.vertices - centre, "faces": mesh.faces}
         if mesh.body == name and role == "vessel":
             shapes.append(HullShape(**given, waterline=-float(centre[2])))
         elif mesh.body == name:
-            shapes.append(MeshShape(**given, colour=_part(scene, name, role)))
+            shapes.append(MeshShape(**given, colour=colour))
     return Look(role=role, shapes=shapes)
-
-
-def _part(scene: Description, name: str, role: str) -> str:
-    """What a body of a crane is called without the crane's prefix, as far as that has a colour."""
-    names = [name.removeprefix(prefix) for prefix in scene.roles] if role == "crane" else []
-    return next((COLOURS[one] for one in names if one in COLOURS), "")
-
-
-def _is_shipped(scene: Description, name: str) -> bool:
-    """Whether the vessel comes from the shipped database by its record, and weighs what that displaces."""
-    known = scene.provenance.get(name)
-    if known is None or known.database != SHIPPED:
-        return False
-    return known.motion is not None or bool(np.isclose(scene.bodies[name].mass, 1025.0 * VOLUME, rtol=1e-6))
 
 
 def _generic(scene: Description, name: str, role: str, extent: float) -> Look:

@@ -36,14 +36,6 @@ def hull_lines(
     return [*outlines, *uprights]
 
 
-def box_lines(size: Sequence[float]) -> list[Array]:
-    """Edges of a box about its centre; `size` (3,) in m."""
-    corners = 0.5 * np.array(size) * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)])[:, [0, 1, 1]]
-    top, bottom = corners.copy(), corners.copy()
-    top[:, 2], bottom[:, 2] = 0.5 * size[2], -0.5 * size[2]
-    return [top, bottom, *(np.array([top[i], bottom[i]]) for i in range(4))]
-
-
 def outlined_skeleton(result: Result) -> dict[str, list[Array]]:
     """Lines of every body by what the run noted of its scene; empty where it noted nothing, or no poses."""
     if not {"position", "quaternion"} <= set(result.channels):
@@ -68,7 +60,12 @@ def _outlined(about: Mapping[str, Any]) -> list[Array]:
     if edges[2] > LONG * edges[1]:
         end = np.where(np.arange(3) == box.argmax(), 0.5 * box, 0.0)
         return [np.array([-end, end]), *arms]
-    return [*box_lines(box.tolist()), *arms] if edges[1] > 0 else arms
+    if not edges[1] > 0:
+        return arms
+    corners = 0.5 * box * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)])[:, [0, 1, 1]]
+    top, bottom = corners.copy(), corners.copy()
+    top[:, 2], bottom[:, 2] = 0.5 * box[2], -0.5 * box[2]
+    return [top, bottom, *(np.array([top[i], bottom[i]]) for i in range(4)), *arms]
 
 
 def _pose(result: Result, body: str, index: int) -> tuple[Array, Array]:
@@ -129,7 +126,10 @@ def _draw_poses(result: Result, title: str) -> Figure:
     drawn = {index: list(posed_lines(result, skeleton, index)) for index in (0, -1)}
     links = {index: link_lines(result, index) for index in (0, -1)}
     points = np.vstack([line for i in (0, -1) for line in [*(one[2] for one in drawn[i]), *links[i]]])
-    low, high = _limits(points)
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    half = np.maximum(half, 0.2 * half.max() if half.max() > 0 else 1.0)  # no side is thinner than a fifth
+    low, high = middle - half, middle + half
     for place, (name, index) in enumerate((("start", 0), ("end", -1))):
         box = (0.01 + 0.5 * place, 0.04, 0.44, 0.94)
         axes: Any = figure.add_axes(box, projection="3d", proj_type="ortho")
@@ -153,14 +153,6 @@ def _draw_poses(result: Result, title: str) -> Figure:
         figure.legend(handles, labels, loc="lower center", ncols=6, fontsize=8, frameon=False)
     figure.suptitle(plain(title), fontsize=11)
     return figure
-
-
-def _limits(points: Array) -> tuple[Array, Array]:
-    """Corners of what is drawn; no side is thinner than a fifth of the longest."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    half = np.maximum(half, 0.2 * half.max() if half.max() > 0 else 1.0)
-    return middle - half, middle + half
 
 
 def plot_scene(result: Result) -> Figure:

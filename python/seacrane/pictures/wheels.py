@@ -66,9 +66,13 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
             start, stop = (end_of(scene, bodies, *block) for block in (rope.first, rope.second))
             found.append(_wire(rope.name, "link", start, stop))
     of_cranes = {slide for roles in scene.roles.values() for slide in roles.cylinders.values()}
-    for name, cylinder in hydraulic_cylinders(scene).items():
-        if slide_of(scene, cylinder) not in of_cranes:  # else its barrel and its rod are bodies
-            found += _cylinder(scene, bodies, name, cylinder)
+    for name, one in hydraulic_cylinders(scene).items():
+        if slide_of(scene, one) in of_cranes:  # its barrel and its rod are bodies
+            continue
+        piston, ends = np.sqrt(one.full_area / np.pi), _ends(scene, bodies, one)
+        rod = max(np.sqrt((one.full_area - one.rod_side_area) / np.pi), THINNEST_ROD * piston)
+        barrel: dict[str, Any] = {"name": "", "radius": float(WALL * piston), "reach": one.retracted_length}
+        found += [_wire(name, "rod", *ends, radius=float(rod)), _wire(name, "barrel", *ends, **barrel)]
     return found
 
 
@@ -76,16 +80,6 @@ def _wire(element: str, kind: str, start: list[float], stop: list[float], **give
     """As `wires_of` tells it."""
     usual = {"name": element, "length": 0.0, "radius": 0.0, "reach": 0.0, "size": 0.0}
     return {"element": element, "kind": kind, "from": start, "to": stop} | usual | given
-
-
-def _cylinder(
-    scene: Description, bodies: Sequence[str], name: str, one: _core.HydraulicCylinder
-) -> list[dict[str, Any]]:
-    """A rod from point to point, and about it the barrel, as long as the cylinder is retracted."""
-    piston, ends = np.sqrt(one.full_area / np.pi), _ends(scene, bodies, one)
-    rod = max(np.sqrt((one.full_area - one.rod_side_area) / np.pi), THINNEST_ROD * piston)
-    barrel: dict[str, Any] = {"name": "", "radius": float(WALL * piston), "reach": one.retracted_length}
-    return [_wire(name, "rod", *ends, radius=float(rod)), _wire(name, "barrel", *ends, **barrel)]
 
 
 def _over(scene: Description, bodies: Sequence[str], name: str, line: _core.Line) -> list[dict[str, Any]]:
@@ -281,15 +275,11 @@ def _contact_shape(scene: Description, contact: _core.Contact) -> Shape:
         wall = np.array([[inner, -half], [outer, -half], [outer, half], [inner, half]])
         points, faces = revolved(wall, AROUND, closed=True)
         return MeshShape(vertices=points @ axes.T, faces=faces)
-    points = _points(scene, contact) @ axes  # a piece of a plane below them, in its own axes
+    away = np.array([place_of(scene, body=contact.body, point=point) for point in contact.points])
+    away = away - place_of(scene, body=contact.on, point=contact.place)
+    if (body := scene.bodies.get(contact.on)) is not None:
+        away = away @ rotation_matrix(body.quaternion)
+    points = away @ axes  # a piece of a plane below the points of the contact, in its own axes
     low, high = points[:, :2].min(axis=0) - MARGIN, points[:, :2].max(axis=0) + MARGIN
     centre = axes @ np.array([*(0.5 * (low + high)), -0.5 * PLATE])
     return BoxShape(centre=centre, axes=axes, size=np.array([*(high - low), PLATE]))
-
-
-def _points(scene: Description, contact: _core.Contact) -> Array:
-    """Points of a contact as described, from its place, in axes of the surface's body, (n, 3), m."""
-    places = np.array([place_of(scene, body=contact.body, point=point) for point in contact.points])
-    away = places - place_of(scene, body=contact.on, point=contact.place)
-    body = scene.bodies.get(contact.on)
-    return away if body is None else np.asarray(away @ rotation_matrix(body.quaternion))

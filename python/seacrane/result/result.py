@@ -323,22 +323,20 @@ class Result(Record, Answer):
         OSError
             If it cannot be written (no such folder, no permission, disk full); the older file stays.
         """
-        path, whole = Path(path), self._whole()
+        path = Path(path)
+        scene, lacks = (b"", "") if self.kept_scene is None else self.kept_scene.written()
+        whole = Piece(
+            arrays={"time": self.time, **self.arrays}, coords=self.coords, events=self.events,
+            stats={**self.stats, **({NOT_KEPT: lacks} if lacks else {})}, about=self.about,
+            interrupted=self.interrupted,
+            state=b"" if self.state is None else state_to_bytes(self.state), scene=scene,
+        )  # fmt: skip
         with atomic_write(path) as draft:
             try:
                 write_netcdf(draft, whole, [whole.arrays], self.time.size)
             except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
                 raise OSError(f"the NetCDF library reports: {error}") from error
         return path
-
-    def _whole(self) -> Piece:
-        scene, lacks = (b"", "") if self.kept_scene is None else self.kept_scene.written()
-        return Piece(
-            arrays={"time": self.time, **self.arrays}, coords=self.coords, events=self.events,
-            stats={**self.stats, **({NOT_KEPT: lacks} if lacks else {})}, about=self.about,
-            interrupted=self.interrupted,
-            state=b"" if self.state is None else state_to_bytes(self.state), scene=scene,
-        )  # fmt: skip
 
     @classmethod
     def load(

@@ -201,7 +201,8 @@ class ResultFile:
         arrays = {name: array[new:] for name, array in piece.arrays.items()}
         for name, last in self._last_angles.items():
             if name in arrays and arrays[name].size:
-                arrays[name] = _continued(arrays[name], last)
+                angle, turn = arrays[name], 2.0 * np.pi  # by whole turns nearest to where those before ended
+                arrays[name] = angle + turn * np.round((last - angle[0]) / turn)
         events, stats = piece.events[self._events_of_run :], added_stats(self._before, piece.stats)
         if "events" in stats:
             stats["events"] = self._events + len(events)
@@ -263,13 +264,6 @@ class ResultFile:
         told = replace(self.told, events=events, state=state, scene=scene)
         blocks = _blocks((piece for piece, _ in self._partial.pieces()), rows_of_chunk(told, self.outputs))
         write_netcdf(draft, told, blocks, self.outputs)
-
-
-def _continued(angle: Array, last: Array) -> Array:
-    """An angle by whole turns nearest to where the outputs before it ended, which one piece does not know."""
-    turn = 2.0 * np.pi
-    continued: Array = angle + turn * np.round((last - angle[0]) / turn)
-    return continued
 
 
 def difference(old: Piece, new: Piece) -> str:

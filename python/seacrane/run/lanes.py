@@ -89,7 +89,9 @@ class LiftsInLanes:
             now = min(run.core.time for run in self._runs.values())
             kind = next(self._kinds[lift] for lift, run in self._runs.items() if run.core.time == now)
             alike = {lift: run for lift, run in self._runs.items() if self._kinds[lift] == kind}
-            here = _together({lift: run for lift, run in alike.items() if run.core.time == now})
+            here = {lift: run for lift, run in alike.items() if run.core.time == now}
+            first = next(iter(here.values())).core  # runs of one model may still stand on different sides
+            here = {lift: run for lift, run in here.items() if not _core.kept_apart([first, run.core])}
             stop = min(run.t_end for run in here.values())
             stop = min([stop, *(run.core.time for run in alike.values() if run.core.time > now)])
             going = self._beside(here, stop) if len(here) > 1 else self._alone(*here.popitem(), stop)
@@ -150,12 +152,6 @@ class LiftsInLanes:
         now, every = run.core.time, self._last.values()
         others = [one.core for one in every if one is not run and one.core.time == now]
         return (_core.kept_apart([others[0], run.core]) if others else "") or NOBODY
-
-
-def _together(runs: Mapping[int, Run]) -> dict[int, Run]:
-    """Those that can be stepped beside the first: of one model, they may still stand on different sides."""
-    first = next(iter(runs.values()))
-    return {lift: run for lift, run in runs.items() if not _core.kept_apart([first.core, run.core])}
 
 
 def _note_alone(run: Run, why: str) -> None:

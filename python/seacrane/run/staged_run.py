@@ -242,7 +242,10 @@ class StagedRun:
             self._spans.append(StageSpan(name=stage.name, start=begin, end=now, ended_by=""))
             self.interrupted = True
             with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
-                error.result = self._result_of_an_error()  # type: ignore[attr-defined]
+                if self._open is not None and self._open[0].core.recorded:
+                    self._open[0].interrupted = True
+                    self._done(self._open[0])
+                error.result = self.result() if self._pieces else None  # type: ignore[attr-defined]
             raise
         self._spans.append(StageSpan(name=stage.name, start=begin, end=self.state.time, ended_by=ended))
         self.interrupted = not ended
@@ -266,12 +269,6 @@ class StagedRun:
     def warn(self) -> None:
         """Warn, at the user's line, of what was out of range in the stages, each kind once."""
         warn_of({kind: (kind, text) for kind, text in reversed(self._found)}.values())
-
-    def _result_of_an_error(self) -> Result | None:
-        if self._open is not None and self._open[0].core.recorded:
-            self._open[0].interrupted = True
-            self._done(self._open[0])
-        return self.result() if self._pieces else None
 
     def _counted(self) -> dict[str, Any]:
         """Energy balance and losses at the present state, from the start that its record tells of."""
@@ -309,7 +306,13 @@ class StagedRun:
         model = compiled_there(scene)
         start, speed = carried(self.state, self.model, model), 0.0
         if kind == "connection" and name in scene.joints:
-            speed = self._check_gap(stage, name, model, start)
+            gap, speed = _core.Evaluator(model).residual(start.time, start.values)
+            if gap > LARGEST_GAP * self.scene.length_scale:
+                raise SceneError(
+                    f"{stage.title}: joint {name!r} is open by {gap:.4g} (m or rad) at t = {start.time:.6g} "
+                    f"s and would jump; end the stage before where it closes to {LARGEST_GAP:g}, correct its "
+                    "frames, or connect a line, which needs not be closed"
+                )
         before = _core.Evaluator(self.model).energy(start.time, self.state.values)
         run = self._still(scene, model, start)
         met, state = run.events(), run.state
@@ -323,17 +326,6 @@ class StagedRun:
         self.scene, self.model, self.state = scene, model, state
         event = Event(time=start.time, name=name, kind=kind, speed=speed, energy_lost=lost)
         self._changes += [event, *met]
-
-    def _check_gap(self, stage: Stage, name: str, model: _core.Model, start: _core.State) -> float:
-        """The rate (m/s or rad/s) at which a joint parts as it connects; SceneError where it is open."""
-        gap, rate = _core.Evaluator(model).residual(start.time, start.values)
-        if gap > LARGEST_GAP * self.scene.length_scale:
-            raise SceneError(
-                f"{stage.title}: joint {name!r} is open by {gap:.4g} (m or rad) at t = {start.time:.6g} s "
-                f"and would jump; end the stage before where it closes to {LARGEST_GAP:g}, correct its "
-                "frames, or connect a line, which needs not be closed"
-            )
-        return float(rate)
 
     def _course(self, stage: Stage, interrupts: Interrupts, like: Run | None) -> Course:
         wanted = self._channels()

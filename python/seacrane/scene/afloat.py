@@ -8,7 +8,6 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.arrays import Array
@@ -128,7 +127,8 @@ def _put_afloat(
         quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
     )  # fmt: skip
     held = chosen_mooring(f"vessel {name!r}", database, mooring)
-    heavy = _horizontal_inertia(parameters)
+    heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
+    heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.center_of_mass[:2] ** 2))
     restoring = without_rounding(following_yaw(parameters.restoring))
     if isinstance(held, Mooring):
         restoring = with_mooring(restoring, held)
@@ -143,13 +143,6 @@ def _put_afloat(
         quadratic_damping=parameters.quadratic_damping, restoring=restoring, mooring_stiffness=stiffness,
         mooring_damping=damping, database=database, **others,
     )  # fmt: skip
-
-
-def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
-    """Mass in surge and sway (kg) and inertia in yaw (kg m2) about the reference point, with added mass."""
-    heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
-    heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.center_of_mass[:2] ** 2))
-    return np.asarray(heavy)
 
 
 def free_surface(database: HydroData, used: Array) -> tuple[float, float, float] | None:
@@ -190,6 +183,7 @@ def add_hulls(
     place = shaped_of(f"{what}: position", position, (3,))
     model = _joint_memory(group)
     turn = rotation_about_z(heading)
+    kept = ("added_mass", "additional_added_mass", "additional_stiffness")
     added = []
     for i, (name, body) in enumerate(zip(called, group.bodies, strict=True)):
         if abs(body.position[2]) > AFLOAT:
@@ -198,7 +192,10 @@ def add_hulls(
                 "water; give a group whose reference points are on it"
             )
         database = group[body.name]
-        parameters = time_domain_vessel(database, memory=_own_part(model, i))
+        own = slice(6 * i, 6 * i + 6)
+        parts = {key: getattr(model, key)[own, own] for key in kept}
+        alone = replace(model, blocks=(), rows=(), motion=None, **parts)
+        parameters = time_domain_vessel(database, memory=alone)
         added.append(
             _put_afloat(
                 scene, database, parameters, name=name,
@@ -210,8 +207,10 @@ def add_hulls(
         band = (float(group.omega[0]), float(group.omega[-1]))
         scene.provenance[name] = VesselProvenance(database=database.name, omega=band, memory=memory)
     blocks = () if memory == "none" else model.blocks
+    whole = model.added_mass + model.additional_added_mass
+    between = 1.0 - np.kron(np.eye(len(added)), np.ones((6, 6)))
     add_group(
-        scene, name=group.name, vessels=list(called), added_mass=_between(model),
+        scene, name=group.name, vessels=list(called), added_mass=0.5 * (whole + whole.T) * between,
         memory=[_core_block(part) for block in blocks for part in independent_blocks(block)],
     )  # fmt: skip
     return tuple(added)
@@ -220,22 +219,6 @@ def add_hulls(
 @lru_cache(maxsize=8)
 def _joint_memory(group: HydroGroup) -> MemoryModel:
     return group.memory or fit_memory(database=group)
-
-
-def _own_part(model: MemoryModel, body: int) -> MemoryModel:
-    """What one hull has of the added masses and stiffness by itself, without states."""
-    own = slice(6 * body, 6 * body + 6)
-    parts = ("added_mass", "additional_added_mass", "additional_stiffness")
-    return replace(
-        model, blocks=(), rows=(), motion=None, **{key: getattr(model, key)[own, own] for key in parts}
-    )
-
-
-def _between(model: MemoryModel) -> Array:
-    """Added masses (6 k, 6 k) of the hulls on each other, symmetric."""
-    whole = model.added_mass + model.additional_added_mass
-    own = np.kron(np.eye(len(whole) // 6), np.ones((6, 6)))
-    return np.asarray(0.5 * (whole + whole.T) * (1.0 - own))
 
 
 @lru_cache(maxsize=8)

@@ -70,7 +70,11 @@ def add_body(
     if below is not None:
         middle = shaped_of(f"{what}: center_of_mass", center_of_mass, (3,))
         top = np.add(middle, (0.0, 0.0, 0.5 * edges[2])) if edges.any() else edges
-        given["position"] = _below(scene, what, below, drop, position, quaternion, top)
+        if np.any(np.asarray(position)):
+            raise SceneError(f"{what}: has a position and below; give one of them")
+        turned = rotation_matrix(shaped_of(f"{what}: quaternion", quaternion, (4,)))
+        under = placed(scene, *on_body(scene, f"{what}: below", below, (0.0, 0.0, 0.0)))
+        given["position"] = under - (0.0, 0.0, number_of(f"{what}: drop", drop)) - turned @ top
     elif drop:
         raise SceneError.of(f"{what}: drop", f"is {drop:g} m, below nothing; give below=, or leave drop out")
     given |= {
@@ -81,17 +85,6 @@ def add_body(
     if edges.any():
         warn_of_density(what, body.mass, float(np.prod(edges)))
     return body
-
-
-def _below(
-    scene: Description, what: str, point: str, drop: float, position: Any, quaternion: Any, top: Array
-) -> Array:
-    """The origin of a body whose `top`, in its coordinates, is straight below a named point, m."""
-    if np.any(np.asarray(position)):
-        raise SceneError(f"{what}: has a position and below; give one of them")
-    turned = rotation_matrix(shaped_of(f"{what}: quaternion", quaternion, (4,)))
-    under = placed(scene, *on_body(scene, f"{what}: below", point, (0.0, 0.0, 0.0)))
-    return np.asarray(under - (0.0, 0.0, number_of(f"{what}: drop", drop)) - turned @ top)
 
 
 def _tensor(what: str, inertia: Any) -> Array:
@@ -201,7 +194,14 @@ def _given(what: str, file: Any, vertices: Any, faces: Any) -> tuple[Array, Face
     if (file is None) == (vertices is None) or (vertices is None) != (faces is None):
         raise SceneError(f"{what}: give file, or vertices and faces")
     if file is None:
-        return _from_arrays(what, vertices, faces)
+        points, corners = numbers_of(f"{what}: vertices", vertices), np.asarray(faces)
+        if points.ndim != 2 or points.shape[1] != 3 or not len(points):
+            raise SceneError.of(f"{what}: vertices", f"has shape {points.shape}; give (n, 3), m")
+        if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
+            raise SceneError.of(
+                f"{what}: faces", f"has shape {corners.shape} of {corners.dtype}; give (m, 3) whole numbers"
+            )
+        return points, corners
     try:
         path = Path(file)
     except TypeError as error:
@@ -212,17 +212,6 @@ def _given(what: str, file: Any, vertices: Any, faces: Any) -> tuple[Array, Face
     soup = np.float32(reader(path, most=MOST_TRIANGLES).reshape(-1, 3))
     points, corners = np.unique(soup, axis=0, return_inverse=True)
     return points.astype(float), corners.reshape(-1, 3)
-
-
-def _from_arrays(what: str, vertices: Any, faces: Any) -> tuple[Array, Faces]:
-    points, corners = numbers_of(f"{what}: vertices", vertices), np.asarray(faces)
-    if points.ndim != 2 or points.shape[1] != 3 or not len(points):
-        raise SceneError.of(f"{what}: vertices", f"has shape {points.shape}; give (n, 3), m")
-    if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
-        raise SceneError.of(
-            f"{what}: faces", f"has shape {corners.shape} of {corners.dtype}; give (m, 3) whole numbers"
-        )
-    return points, corners
 
 
 def _mesh(

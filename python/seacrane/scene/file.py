@@ -53,16 +53,6 @@ _FIELDS = tuple(one.name for one in fields(Description) if one.name != "function
 Some = TypeVar("Some", bound=Description)
 
 
-def read_scene_file(path: Path) -> bytes:
-    """Its bytes; FileFormatError where it is too large, or plainly something else."""
-    data = read_whole(path, LARGEST_FILE, "no scene file is")
-    if not re.match(rb"\s*\{", data):
-        raise FileFormatError(
-            f"{path.name}: is {looks_like(path, data)}, no scene file, which is JSON as Scene.save writes it"
-        )
-    return data
-
-
 def parsed(data: bytes, place: str) -> Any:
     """The document in the bytes of a scene file; raises FileFormatError with the line."""
     if len(data) > LARGEST_FILE:
@@ -142,7 +132,13 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
     Raises FileFormatError with the line of malformed JSON, or the entry that is missing, unknown or makes no
     sense; OSError if the file cannot be read. What only the whole scene shows comes with `Scene.compile`.
     """
-    return scene_from_bytes(read_scene_file(Path(path)), Path(path).name, scene)
+    file = Path(path)
+    data = read_whole(file, LARGEST_FILE, "no scene file is")
+    if not re.match(rb"\s*\{", data):
+        raise FileFormatError(
+            f"{file.name}: is {looks_like(file, data)}, no scene file, which is JSON as Scene.save writes it"
+        )
+    return scene_from_bytes(data, file.name, scene)
 
 
 def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:

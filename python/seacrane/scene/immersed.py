@@ -78,8 +78,18 @@ def add_immersed(
     if isinstance(parts, Mapping | str) or not isinstance(parts, Sequence) or not parts:
         raise SceneError.of(f"{what}: parts", f"is {shown(parts)}; give a list of parts of seacrane.water")
     made = [_part(what, one) for one in parts]
+    whole = scene.bodies[owner]
+    reach = float(np.sqrt(1.5 * np.trace(np.asarray(whole.inertia)) / whole.mass))  # of a box of that inertia
     for part in made:
-        _check_place(what, scene.bodies[owner], part)
+        place = np.asarray(part.point, dtype=float)
+        apart = float(np.linalg.norm(place - np.asarray(whole.center_of_mass)))
+        size = max(2.0 * reach, part.extent)
+        if apart > FARTHEST * size:
+            raise SceneError(
+                f"{what}: {part.kind} at {place.tolist()} m is {apart:.4g} m from the centre of mass, more "
+                f"than {FARTHEST:g} times the size of body and part ({size:.4g} m); give metres in body "
+                "coordinates"
+            )
     out: list[_core.ImmersedPart] = []
     for number, part in enumerate(made, start=1):
         axes = np.asarray(part.axes, dtype=float)
@@ -117,19 +127,6 @@ def _part(what: str, given: Any) -> Part:
         return MAKERS[kind](**entries)
     except TypeError as error:
         raise SceneError(f"{what}: {error}") from None
-
-
-def _check_place(what: str, body: _core.Body, part: Part) -> None:
-    """Refuse a part that cannot be on its body: a slip in the unit, or in the body."""
-    reach = float(np.sqrt(1.5 * np.trace(np.asarray(body.inertia)) / body.mass))  # of a box with that inertia
-    point = np.asarray(part.point, dtype=float)
-    apart = float(np.linalg.norm(point - np.asarray(body.center_of_mass)))
-    size = max(2.0 * reach, part.extent)
-    if apart > FARTHEST * size:
-        raise SceneError(
-            f"{what}: {part.kind} at {point.tolist()} m is {apart:.4g} m from the centre of mass, more than "
-            f"{FARTHEST:g} times the size of body and part ({size:.4g} m); give metres in body coordinates"
-        )
 
 
 @told_by(_core.EntrappedWater)
@@ -182,9 +179,17 @@ def add_entrapped_water(
     label = name_of("entrapped water", name, f"water in {text_of('entrapped water: body', body)}")
     what = f"entrapped water {label!r}"
     require(scene, what, "body", body)
-    holes = _openings(what, openings)
+    if isinstance(openings, Mapping | str) or not isinstance(openings, Sequence) or not openings:
+        raise SceneError.of(
+            f"{what}: openings", f"is {shown(openings)}; give a list of seacrane.water.Opening"
+        )
+    holes = [made_of(what, "openings", Opening, one) for one in openings]
     bottom, tall = shaped_of(f"{what}: point", point, (3,)), positive_of(f"{what}: height", height, "m")
-    kept = _air(what, air, [np.asarray(hole.point, dtype=float)[2] - bottom[2] for hole in holes], tall)
+    if air is not None and air not in AIR:
+        raise SceneError.of(f"{what}: air", f"is {shown(air)}; give one of {', '.join(AIR)}")
+    highest = max(np.asarray(hole.point, dtype=float)[2] - bottom[2] for hole in holes)
+    in_lid = "vented" if highest > (1.0 - IN_LID) * tall else ""  # "" is asked for when a scene is compiled
+    kept = in_lid if air is None else air
     if (kept == "shut") == (exponent is None):
         asked = "give exponent, 1 (slow) to 1.4 (quick)" if exponent is None else "leave exponent out"
         raise SceneError.of(f"{what}: air", f"is {kept!r}, and exponent is {shown(exponent)}; {asked}")
@@ -196,30 +201,10 @@ def add_entrapped_water(
         opening_areas=[float(hole.area) for hole in holes],
         discharge_coefficient=discharge_coefficient, density=density_of(what, density),
     )  # fmt: skip
-    _check_upright(what, scene.bodies[body])
-    return put_load(scene, element)
-
-
-def _openings(what: str, given: Any) -> list[Opening]:
-    if isinstance(given, Mapping | str) or not isinstance(given, Sequence) or not given:
-        raise SceneError.of(f"{what}: openings", f"is {shown(given)}; give a list of seacrane.water.Opening")
-    return [made_of(what, "openings", Opening, one) for one in given]
-
-
-def _air(what: str, given: str | None, heights: list[float], top: float) -> str:
-    """As told; an opening in the lid tells it too."""
-    if given is None:  # "" is asked for when the scene is compiled
-        return "vented" if max(heights) > (1.0 - IN_LID) * top else ""
-    if given not in AIR:
-        raise SceneError.of(f"{what}: air", f"is {shown(given)}; give one of {', '.join(AIR)}")
-    return given
-
-
-def _check_upright(what: str, body: _core.Body) -> None:
-    """Refuse a compartment that lies: one whose height is along another axis of the body."""
-    lean = float(np.arccos(np.clip(rotation_matrix(body.quaternion)[2, 2], -1.0, 1.0)))
+    lean = float(np.arccos(np.clip(rotation_matrix(scene.bodies[body].quaternion)[2, 2], -1.0, 1.0)))
     if lean > LARGEST_LEAN:
         raise SceneError(
             f"{what}: its axis, z of the body, leans by {np.degrees(lean):.3g} deg as described, and levels "
             f"are right up to {np.degrees(LARGEST_LEAN):.3g} deg; turn the body's axes so that z is upright"
         )
+    return put_load(scene, element)

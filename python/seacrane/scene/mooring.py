@@ -60,7 +60,9 @@ def parts_of(what: str, matrix: Array) -> Mooring:
     coupled[FLOATING, FLOATING] = coupled[FLOATING, 5] = coupled[5, FLOATING] = 0.0
     lines = np.zeros((0, 6))
     if np.any(np.abs(coupled) > SMALL * np.outer(size, size)):
-        lines = _without_twist(what, _wrenches(matrix))
+        values, vectors = np.linalg.eigh(matrix[:2, :2])
+        kept = values > SMALL * max(float(values.max()), 0.0)
+        lines = _without_twist(what, (matrix[:, :2] @ vectors[:, kept] / np.sqrt(values[kept])).T)
     rest = matrix - lines.T @ lines
     alone = np.diagonal(rest)[HORIZONTAL].copy()
     if len(lines):
@@ -88,13 +90,6 @@ def check_mooring(what: str, matrix: Array) -> None:
             f"has a negative stiffness, {lowest:.3g} of its diagonals: it pushes the vessel "
             "away; check signs and couplings",
         )
-
-
-def _wrenches(matrix: Array) -> Array:
-    """Rows (r, 6) whose squares give all rows of surge and sway of a stiffness matrix."""
-    values, vectors = np.linalg.eigh(matrix[:2, :2])
-    kept = values > SMALL * max(float(values.max()), 0.0)
-    return np.asarray((matrix[:, :2] @ vectors[:, kept] / np.sqrt(values[kept])).T)
 
 
 def _without_twist(what: str, wrenches: Array) -> Array:

@@ -194,18 +194,14 @@ def without_load(
     carried = energy @ np.abs(force) ** 2
     missing = energy[above] @ _tail(database, omega[above], direction[above]) ** 2
     whole = carried + missing
-    judged = whole > SLIGHT * (energy[~above] @ _worst_heading(database, omega[~above]) ** 2)
+    columns = np.abs(database.force).max(axis=0).T
+    worst_heading = np.stack([np.interp(omega[~above], database.omega, one) for one in columns], axis=1)
+    judged = whole > SLIGHT * (energy[~above] @ worst_heading**2)
     share = np.where(judged, missing / np.where(judged, whole, 1.0), 0.0)
     worst = int(share.argmax())
     return WithoutLoad(
         energy=float(energy[above].sum() / energy.sum()), variance=float(share[worst]), load=MOTIONS[worst]
     )
-
-
-def _worst_heading(database: HydroData, omega: Array) -> Array:
-    """Largest magnitudes (n, 6) over all headings."""
-    largest = np.abs(database.force).max(axis=0)
-    return np.stack([np.interp(omega, database.omega, column) for column in largest.T], axis=1)
 
 
 def _tail(database: HydroData, omega: Array, direction: Array) -> Array:

@@ -272,22 +272,6 @@ def _size_of(what: str, motion: Any, size: Any) -> tuple[float, float, float] | 
     return length, breadth, draught
 
 
-def raos_of(database: HydroDatabase) -> MotionRaos:
-    """The displacement RAOs that a database's own file holds.
-
-    Raises SceneError for a database of a ship under way.
-    """
-    if database.speed != 0.0:
-        raise SceneError(
-            f"database {database.name!r}: its motions are those at {database.speed:g} m/s, and a given ship "
-            "keeps its place; give one of zero speed"
-        )
-    return MotionRaos(
-        omega=database.omega, heading=database.heading, values=database.motion_rao, depth=database.depth,
-        symmetric=database.port_starboard_symmetric, name=database.name, g=database.g,
-    )  # fmt: skip
-
-
 def motion_of_components(
     source: HydroDatabase | MotionRaos, waves: Waves, *, place: tuple[float, float], heading: float,
     gravity: float,
@@ -301,11 +285,21 @@ def motion_of_components(
     omega, direction = np.array(sea.omega), np.array(sea.direction)
     along = np.cos(direction) * place[0] + np.sin(direction) * place[1]
     wave = np.array(sea.amplitude) * np.exp(1j * (np.array(sea.phase) - np.array(sea.wavenumber) * along))
-    if isinstance(source, HydroDatabase) and source.motion_rao is None:
-        return np.asarray(wave[:, None] * linear_motion(source, omega, direction - heading, gravity=gravity))
-    table = raos_of(source) if isinstance(source, HydroDatabase) else source
-    _warn_of_outside(table, omega, np.array(sea.amplitude))
-    return np.asarray(wave[:, None] * table.at(omega, direction - heading))
+    if isinstance(source, HydroDatabase):
+        if source.motion_rao is None:
+            motion = linear_motion(source, omega, direction - heading, gravity=gravity)
+            return np.asarray(wave[:, None] * motion)
+        if source.speed != 0.0:
+            raise SceneError(
+                f"database {source.name!r}: its motions are those at {source.speed:g} m/s, and a given ship "
+                "keeps its place; give one of zero speed"
+            )
+        source = MotionRaos(
+            omega=source.omega, heading=source.heading, values=source.motion_rao, depth=source.depth,
+            symmetric=source.port_starboard_symmetric, name=source.name, g=source.g,
+        )  # fmt: skip
+    _warn_of_outside(source, omega, np.array(sea.amplitude))
+    return np.asarray(wave[:, None] * source.at(omega, direction - heading))
 
 
 def linear_motion(database: HydroDatabase, omega: Array, heading: Array, *, gravity: float) -> Complex:

@@ -65,7 +65,14 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
             yield warnings.NoWaveLoadsWarning, f"vessel {name!r}: {does}; call {call}"
         if body in given:
             continue
-        yield from _moored(vessel, time, motion)
+        passed = np.abs(np.diff(motion[:, 5])) > np.pi
+        if vessel.mooring_stiffness[2] != 0.0 and passed.any():
+            yield (
+                warnings.MooringTurnWarning,
+                f"vessel {name!r}: passes half a turn from its rest at t = "
+                f"{time[int(np.argmax(passed)) + 1]:.6g} s, from where its mooring in yaw pulls the other "
+                "way. Give it a stiffer mooring, or look for what turns it",
+            )
         if waves is not None and body in waves.hulls:
             hull, sea = waves.hulls[body], peak_of(scene)
             if hull.force_by_heading is None:
@@ -165,17 +172,6 @@ def _under_way(sea: Peak, name: str, time: Array, motion: Array) -> Iterator[Fin
             f"vessel {name!r}: makes {speed:.3g} m/s at t = {time[at + 1]:.6g} s, and meets waves up to "
             f"{sea.wavenumber * speed / sea.omega:.0%} faster or slower, with hydrodynamics of zero speed. "
             "Slow it down, or moor it",
-        )
-
-
-def _moored(vessel: _core.VesselHydrodynamics, time: Array, motion: Array) -> Iterator[Finding]:
-    passed = np.abs(np.diff(motion[:, 5])) > np.pi
-    if vessel.mooring_stiffness[2] != 0.0 and passed.any():
-        yield (
-            warnings.MooringTurnWarning,
-            f"vessel {vessel.name!r}: passes half a turn from its rest at t = "
-            f"{time[int(np.argmax(passed)) + 1]:.6g} s, from where its mooring in yaw pulls the other way. "
-            "Give it a stiffer mooring, or look for what turns it",
         )
 
 

@@ -114,18 +114,15 @@ def _foreign(time: Array, motion: Array, highest: float) -> tuple[int, float]:
     return int(share.argmax()), float(share.max())
 
 
-def _hangs(scene: Description, link: str) -> bool:
-    """Whether a body hangs on nothing but this link, as on a wire; other links are rods of a mechanism."""
-    ends = {scene.joints[link].first, scene.joints[link].second} - {"ground"}
-    others = [joint for name, joint in scene.joints.items() if name != link]
-    return any(all(end not in (joint.first, joint.second) for joint in others) for end in ends)
-
-
 def _links(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
     links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
     for i, name in enumerate(links if "tension" in channels else []):
         tension = channels["tension"][:, i]
-        push = peak(-tension, above=1e-9 * np.abs(tension).max()) if _hangs(scene, name) else ()
+        ends = {scene.joints[name].first, scene.joints[name].second} - {"ground"}
+        others = [joint for other, joint in scene.joints.items() if other != name]
+        # A body hangs on nothing but this link, as on a wire; other links are rods of a mechanism.
+        hangs = any(all(end not in (joint.first, joint.second) for joint in others) for end in ends)
+        push = peak(-tension, above=1e-9 * np.abs(tension).max()) if hangs else ()
         for force, at in push:
             yield (
                 warnings.PushingLinkWarning,
@@ -147,8 +144,8 @@ def _turns(scene: Description, time: Array, channels: Channels) -> Iterator[Find
             yield (
                 warnings.FullTurnWarning,
                 f"coordinate {name!r}: passes 180 deg {count} time(s), first at t = {first:.6g} s: it is "
-                "recorded between -180 and 180 deg, and jumps there. Unwrap it by numpy.unwrap; keep references "
-                "within half a turn of the motion",
+                "recorded between -180 and 180 deg, and jumps there. Unwrap it by numpy.unwrap; keep "
+                "references within half a turn of the motion",
             )
 
 

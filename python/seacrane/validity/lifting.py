@@ -24,7 +24,6 @@ from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, LoadOffDeckW
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description
-    from seacrane.description.roles import CraneRoles
 
 Channels = Mapping[str, Array]
 _Place = tuple[str, Any]  # a body and a point in its coordinates, m
@@ -79,7 +78,9 @@ def _overloads(scene: Description, time: Array, position: Array, quaternion: Arr
     carried = {one.name: bodies for one, bodies in bodies_below(scene)}
     for one in hung_loads(scene):
         roles = one.crane
-        if roles is None or not _rated(scene, roles):
+        if roles is None or not roles.capacity or roles.slew is None or roles.slew[0] not in scene.joints:
+            continue  # no table, or no radius to look it up at
+        if roles.tip is None or roles.tip[0] not in scene.bodies:
             continue
         weight = scene.bodies[one.load].mass * scene.gravity if one.weight is None else one.weight
         mass = weight / scene.gravity if scene.gravity else scene.bodies[one.load].mass
@@ -99,19 +100,17 @@ def _overloads(scene: Description, time: Array, position: Array, quaternion: Arr
             )
 
 
-def _rated(scene: Description, roles: CraneRoles) -> bool:
-    """Whether a crane has a table, and a radius to look it up at."""
-    joined = roles.slew is not None and roles.slew[0] in scene.joints
-    return bool(roles.capacity) and joined and roles.tip is not None and roles.tip[0] in scene.bodies
-
-
 @once_in_any_sea
 def warn_of_loads_in_hulls(scene: Description) -> None:
     """Warn of loads that overlap, as described, what is surely hull: below the deck, above the keel.
 
     And of those that stand on a deck where there is none: beside the hull, or beside a body of known size.
     """
-    standing = [*((joint.second, joint.first) for joint in _seats(scene)), *_on_planes(scene)]
+    seats = _seats(scene)
+    standing = [*((joint.second, joint.first) for joint in seats), *_on_planes(scene)]
+    joints = [joint for joint in scene.joints.values() if joint not in seats]
+    ends = [(joint.first, joint.first_frame) for joint in joints]
+    ends += [(joint.second, joint.second_frame) for joint in joints]
     for body, support in standing:
         _warn_of_no_deck(scene, body, support)
     for one in hung_loads(scene):
@@ -123,7 +122,8 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
             centre, half = _inside(hull, load)
             length, breadth = size_of_ship(scene, vessel.body)
             clear = PEDESTAL if (one.load, vessel.body) in standing else CLEAR
-            deck = _deck(scene, vessel.body)
+            heights = (float(frame.point[2]) for body, frame in ends if body == vessel.body)
+            deck = max(0.0, min(heights, default=0.0))  # the lowest joint, or the waterline
             keel = -hull.mass / (WATER * BLOCK * length * breadth)
             across = abs(centre[0]) < 0.5 * length and abs(centre[1]) < 0.5 * breadth
             if across and centre[2] - half < deck - clear and centre[2] + half > keel:
@@ -178,11 +178,3 @@ def _inside(hull: _core.Body, load: _core.Body) -> tuple[Array, float]:
     centre = to_hull @ (load.position + turn @ load.center_of_mass - hull.position)
     edges = np.array(box_edges(load))
     return centre, float(0.5 * np.abs(to_hull @ turn)[2] @ edges)
-
-
-def _deck(scene: Description, hull: str) -> float:
-    """Height of the lowest joint on a hull above its origin, m; the waterline where there is none above."""
-    joints = [joint for joint in scene.joints.values() if joint not in _seats(scene)]
-    ends = [(joint.first, joint.first_frame) for joint in joints]
-    ends += [(joint.second, joint.second_frame) for joint in joints]
-    return max(0.0, min((float(frame.point[2]) for body, frame in ends if body == hull), default=0.0))

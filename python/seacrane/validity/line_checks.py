@@ -245,13 +245,17 @@ def _warn_of_lift(
 
 def _warn_of_dry_weights(scene: Description, tensions: Mapping[str, float]) -> None:
     """Warn of the uppermost lines that start with the weight in air of what hangs on them under water."""
+    turns = {name: rotation_matrix(body.quaternion) for name, body in scene.bodies.items()}
+    centres = [body.position + turns[name] @ body.center_of_mass for name, body in scene.bodies.items()]
+    turned = [body.quaternion for body in scene.bodies.values()]
+    poses = {"position": np.array([centres]), "quaternion": np.array([turned])}
     told: set[str] = set()
     for one, bodies in bodies_below(scene):
         if told & set(bodies) or one.top not in tensions:
             continue
         told |= set(bodies)
         weight = sum(scene.bodies[body].mass for body in bodies if scene.bodies[body].gravity) * scene.gravity
-        carried = float(carried_by_water(scene, _described(scene), bodies)[0])
+        carried = float(carried_by_water(scene, poses, bodies)[0])
         pull = tensions[one.top] * one.falls
         if carried > 0.0 and weight > carried and pull > DRY * (weight - carried):
             wet = next(part.body for part in immersed_parts(scene).values() if part.body in bodies)
@@ -262,14 +266,6 @@ def _warn_of_dry_weights(scene: Description, tensions: Mapping[str, float]) -> N
                 f"{weight - carried:.4g} N that are left",
                 warnings.LiftedStartWarning,
             )
-
-
-def _described(scene: Description) -> dict[str, Array]:
-    """Poses as channels have them, at one output."""
-    turns = {name: rotation_matrix(body.quaternion) for name, body in scene.bodies.items()}
-    centres = [body.position + turns[name] @ body.center_of_mass for name, body in scene.bodies.items()]
-    turned = [body.quaternion for body in scene.bodies.values()]
-    return {"position": np.array([centres]), "quaternion": np.array([turned])}
 
 
 def _warn_of_weak_winch(line: _core.Line, tension: float) -> None:

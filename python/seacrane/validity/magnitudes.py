@@ -41,7 +41,9 @@ def warn_of_units(scene: Description, start: float, end: float, *, described: bo
     around = Around(scene, times, described=described)
     for table in ELEMENTS:
         for name, element in getattr(scene, table).items():
-            by_itself = () if _is_far(element) else (*_unusual(element, times), *_far_points(element))
+            # Springs of moorings have ends beyond the horizon, which stand for a direction.
+            far = any(np.abs(np.asarray(getattr(element, key, 0.0))).max() >= BEYOND for key in POINTS[1:3])
+            by_itself = () if far else (*_unusual(element, times), *_far_points(element))
             for text in (*by_itself, *disproportions(around, element)):
                 what = kind_of(element) if table in LOADS else KINDS[table]
                 warn_caller(f"{what} {name!r}: {text}", UnitWarning)
@@ -53,12 +55,6 @@ def _bounded(kind: Any) -> tuple[tuple[Any, float, float], ...]:
     turns = {field.name: TURN for field in kind.FIELDS if (field.unit, field.type) == ("rad", "number")}
     bounds = ((field, field.least, turns.get(field.name, field.most)) for field in kind.FIELDS)
     return tuple(one for one in bounds if any(one[1:]))
-
-
-def _is_far(element: Any) -> bool:
-    """Springs of moorings have ends beyond the horizon, which stand for a direction."""
-    points = [getattr(element, key, 0.0) for key in POINTS[1:3]]
-    return any(np.abs(np.asarray(point)).max() >= BEYOND for point in points)
 
 
 def _unusual(element: Any, times: Array) -> Iterator[str]:
