@@ -909,9 +909,12 @@ class HeaveCompensator:
     """
     Active heave compensation: a stroke that follows the motion of a point, and that a winch or an actuator follows; see Scene.add_heave_compensation. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> HeaveCompensator:
@@ -1016,9 +1019,12 @@ class Actuator:
     """
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad). Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Actuator:
@@ -1078,9 +1084,12 @@ class PointForce:
     """
     A constant force at a body-fixed point, in inertial or body axes. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PointForce:
@@ -1130,9 +1139,12 @@ class Spring:
     """
     Tension between two body-fixed points: stiffness times elongation, or a table of tension over length, plus damping times the rate of length. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = 'spring'
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = True
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Spring:
@@ -1207,9 +1219,12 @@ class ForceTable:
     """
     Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ForceTable:
@@ -1259,9 +1274,12 @@ class FunctionForce:
     """
     A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = True
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FunctionForce:
@@ -1303,9 +1321,12 @@ class FlowForce:
     length, V the horizontal flow relative to `point`, in axes that follow the body's yaw; C over `angles`,
     where the relative flow goes, from the bow towards port, by periodic cubic splines. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FlowForce:
@@ -1385,9 +1406,12 @@ class Friction:
     """
     Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = True
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Friction:
@@ -1437,9 +1461,12 @@ class SoftStop:
     """
     Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_stop. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = True
     PASSIVE: typing.ClassVar[bool] = True
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SoftStop:
@@ -1499,9 +1526,12 @@ class Line:
     """
     An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Line:
@@ -1701,9 +1731,12 @@ class GasSpring:
     """
     A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_gas_spring. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = 'spring'
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = True
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = (('length', 'distance', '{} times the distance', 0.05, 20.0))
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> GasSpring:
@@ -1808,9 +1841,12 @@ class PendulumDamping:
     """
     Damping of a load that swings below a point, as a ratio of critical; see Scene.add_pendulum_damping. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = (('mass', 'mass', '{} times the mass that swings', 0.0033333333333333335, 300.0))
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PendulumDamping:
@@ -1870,9 +1906,12 @@ class SpanDrag:
     """
     Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = (('length', 'distance', '{} times the span', 0.05, 20.0))
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SpanDrag:
@@ -1947,9 +1986,12 @@ class HydraulicCylinder:
     """
     A hydraulic cylinder between two body-fixed points, with the pressures of its chambers and its valves; see Scene.add_hydraulic_cylinder. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = 'cylinder'
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = True
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = True
     @staticmethod
     def example() -> HydraulicCylinder:
@@ -2259,9 +2301,12 @@ class ImmersedPart:
     """
     Water on a part of a body: buoyancy, added mass over depth, slam, drag; see Scene.add_immersed. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ImmersedPart:
@@ -2381,9 +2426,12 @@ class EntrappedWater:
     """
     Water in a compartment of a body, which comes and goes through openings; see Scene.add_entrapped_water. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> EntrappedWater:
@@ -2478,9 +2526,12 @@ class ImmersedSpan:
     """
     Water on a straight span of wire between two points: buoyancy, added mass, drag; see Scene.add_line. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ImmersedSpan:
@@ -2575,9 +2626,12 @@ class WoundSpan:
     """
     A segment of a line with mass that is paid out and hauled in: the mass that its ends gain, and that moves past them; see Scene.add_line. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> WoundSpan:
@@ -2652,9 +2706,12 @@ class SeabedNode:
     """
     A level seabed under a point of a line: it bears, and holds by friction; see Scene.add_line. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = True
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SeabedNode:
@@ -2729,9 +2786,12 @@ class Contact:
     """
     Points of a body against the surface of another, which presses and rubs; see Scene.add_contact. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = True
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Contact:
@@ -2845,9 +2905,12 @@ class Limit:
     """
     What a joint does one way only; see Scene.add_line and add_stop. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = True
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     def __copy__(self) -> Limit:
         ...
