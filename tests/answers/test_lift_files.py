@@ -298,7 +298,7 @@ def test_every_call_that_adds_has_its_table_and_every_keyword_its_key() -> None:
     scripted |= {"mesh": {"vertices", "faces"}, "roles": {"ropes"}}
     for name, call in CALLS.items():
         parameters = inspect.signature(getattr(Scene, call)).parameters.values()
-        words = {one.name for one in parameters if one.kind is not one.VAR_KEYWORD} - {"scene", "self"}
+        words = {one.name for one in parameters if one.kind is not one.VAR_KEYWORD} - {"scene"}
         assert words - scripted.get(name, set()) <= {key.name for key in TABLES[name].keys}, name
 
 

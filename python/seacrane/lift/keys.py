@@ -100,7 +100,7 @@ def keys_of(
     found = []
     for parameter in inspect.signature(call).parameters.values():
         name = parameter.name
-        left_out = name in ("scene", "self") or name in without or (only is not None and name not in only)
+        left_out = name == "scene" or name in without or (only is not None and name not in only)
         if left_out or parameter.kind is parameter.VAR_KEYWORD:
             continue
         known = _annotated(call, parameter.annotation) | _of_field(fields.get(other.get(name, name)))

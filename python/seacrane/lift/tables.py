@@ -185,7 +185,7 @@ def _of_kinds() -> Iterator[Table]:
     for kind, type_ in _core.LOAD_KINDS.items():
         word = kind.replace(" ", "_")
         add = getattr(Scene, f"add_{word}", None)
-        known = {"scene", "self", *(field.name for field in type_.FIELDS)}
+        known = {"scene", *(field.name for field in type_.FIELDS)}
         if add and known.issuperset(inspect.signature(add).parameters):
             yield _call(word, add, type_)
 
