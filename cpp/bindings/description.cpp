@@ -59,7 +59,7 @@ py::tuple field_rows(const Table& table) {
 
 /// The line from which stubs are made.
 std::string signature(const Table& table) {
-  std::string out = std::string("__init__(self, *") + (table.name >= 0 ? ", name: str" : "");
+  std::string out = std::string("__init__(self") + (table.name >= 0 ? ", name: str" : "") + ", *";
   for (const Entry& f : table.entries) {
     out += std::string(", ") + f.name + ": " + f.type->given_as + (f.required ? "" : " = ...");
   }
@@ -202,7 +202,11 @@ void bind(const Table& table) {
   const Class& of = table.of;
   method_as(
       signature(table), of, "__init__",
-      [&](value_and_holder& self, const py::kwargs& given) {
+      [&](value_and_holder& self, const py::args& name, const py::kwargs& given) {
+        if (name.size() > (table.name < 0 || given.contains("name") ? 0 : 1)) {
+          throw py::type_error(table.kind + ": takes keywords; name all but the first, its name");
+        }
+        if (!name.empty()) given["name"] = name[0];
         self.value_ptr() = of.copy(of.value(made(table, given)));
       },
       py::detail::is_new_style_constructor());

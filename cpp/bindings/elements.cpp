@@ -111,6 +111,9 @@ void bind_loads(py::module_& m) {
   limit.attr("STIFF") = false;
   limit.attr("OWN_PACE") = false;
   limit.attr("PASSIVE") = true;
+  limit.attr("HOLDS") = false;
+  limit.attr("DRAWN") = "";
+  limit.attr("PROPORTIONS") = py::tuple();
   kinds["limit"] = limit;
   m.attr("LOAD_KINDS") = kinds;
 }

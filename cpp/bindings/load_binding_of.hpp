@@ -2,6 +2,8 @@
 
 #include "description.hpp"
 #include "load_binding.hpp"
+#include "seacrane/elements/loads/proportion.hpp"
+#include "seacrane/elements/loads/span.hpp"
 
 template <class Load>
 const LoadBinding& load_binding() {
@@ -26,6 +28,18 @@ const LoadBinding& load_binding() {
         type.attr("STIFF") = seacrane::StiffLoad<Load>;
         type.attr("OWN_PACE") = requires { requires Load::own_pace; };
         type.attr("PASSIVE") = requires { requires Load::passive; };
+        type.attr("HOLDS") = requires { requires Load::holds; };
+        type.attr("DRAWN") = [] {
+          if constexpr (requires { Load::drawn; }) return Load::drawn;
+          return std::is_base_of_v<seacrane::SpanDescription, Description> ? "spring" : "";
+        }();
+        py::list proportions;
+        if constexpr (requires { Load::proportions; }) {
+          for (const seacrane::Proportion& one : Load::proportions) {
+            proportions.append(py::make_tuple(one.field, one.beside, one.makes, one.least, one.most));
+          }
+        }
+        type.attr("PROPORTIONS") = py::tuple(proportions);
         return type;
       },
       .add =

@@ -636,7 +636,7 @@ class Body:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, mass: typing.SupportsFloat, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike = ..., position: numpy.typing.ArrayLike = ..., quaternion: numpy.typing.ArrayLike = ..., velocity: numpy.typing.ArrayLike = ..., angular_velocity: numpy.typing.ArrayLike = ..., gravity: bool = ..., size: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, name: str, *, mass: typing.SupportsFloat, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike = ..., position: numpy.typing.ArrayLike = ..., quaternion: numpy.typing.ArrayLike = ..., velocity: numpy.typing.ArrayLike = ..., angular_velocity: numpy.typing.ArrayLike = ..., gravity: bool = ..., size: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -740,7 +740,7 @@ class Joint:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, kind: str, first: str, second: str, first_frame: Frame, second_frame: Frame, **parameters: typing.SupportsFloat) -> None:
+    def __init__(self, name: str, *, kind: str, first: str, second: str, first_frame: Frame, second_frame: Frame, **parameters: typing.SupportsFloat) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -847,7 +847,7 @@ class Driver:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, joint: str, coordinate: str, curve: Curve | typing.SupportsFloat) -> None:
+    def __init__(self, name: str, *, joint: str, coordinate: str, curve: Curve | typing.SupportsFloat) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -886,7 +886,7 @@ class Point:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, name: str, *, body: str, point: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -909,9 +909,12 @@ class HeaveCompensator:
     """
     Active heave compensation: a stroke that follows the motion of a point, and that a winch or an actuator follows; see Scene.add_heave_compensation. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> HeaveCompensator:
@@ -928,7 +931,7 @@ class HeaveCompensator:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., direction: numpy.typing.ArrayLike = ..., winch: str = ..., actuator: str = ..., ratio: typing.SupportsFloat = ..., gain: typing.SupportsFloat = ..., high_pass: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., lag_order: typing.SupportsFloat = ..., actuator_frequency: typing.SupportsFloat = ..., actuator_damping: typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_stroke: typing.SupportsFloat = ..., settling: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, body: str, point: numpy.typing.ArrayLike = ..., direction: numpy.typing.ArrayLike = ..., winch: str = ..., actuator: str = ..., ratio: typing.SupportsFloat = ..., gain: typing.SupportsFloat = ..., high_pass: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., lag_order: typing.SupportsFloat = ..., actuator_frequency: typing.SupportsFloat = ..., actuator_damping: typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_stroke: typing.SupportsFloat = ..., settling: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1016,9 +1019,12 @@ class Actuator:
     """
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad). Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Actuator:
@@ -1035,7 +1041,7 @@ class Actuator:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, joint: str, coordinate: str, stiffness: typing.SupportsFloat = ..., damping: typing.SupportsFloat = ..., feed_forward: Curve | typing.SupportsFloat = ..., reference: Curve | typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, joint: str, coordinate: str, stiffness: typing.SupportsFloat = ..., damping: typing.SupportsFloat = ..., feed_forward: Curve | typing.SupportsFloat = ..., reference: Curve | typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1078,9 +1084,12 @@ class PointForce:
     """
     A constant force at a body-fixed point, in inertial or body axes. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PointForce:
@@ -1097,7 +1106,7 @@ class PointForce:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., force: numpy.typing.ArrayLike, body_axes: bool = ...) -> None:
+    def __init__(self, name: str, *, body: str, point: numpy.typing.ArrayLike = ..., force: numpy.typing.ArrayLike, body_axes: bool = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1130,9 +1139,12 @@ class Spring:
     """
     Tension between two body-fixed points: stiffness times elongation, or a table of tension over length, plus damping times the rate of length. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = 'spring'
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = True
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Spring:
@@ -1149,7 +1161,7 @@ class Spring:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., stiffness: typing.SupportsFloat = ..., damping: typing.SupportsFloat = ..., natural_length: typing.SupportsFloat = ..., lengths: numpy.typing.ArrayLike = ..., forces: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, name: str, *, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., stiffness: typing.SupportsFloat = ..., damping: typing.SupportsFloat = ..., natural_length: typing.SupportsFloat = ..., lengths: numpy.typing.ArrayLike = ..., forces: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1207,9 +1219,12 @@ class ForceTable:
     """
     Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ForceTable:
@@ -1226,7 +1241,7 @@ class ForceTable:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., times: numpy.typing.ArrayLike, wrenches: numpy.typing.ArrayLike) -> None:
+    def __init__(self, name: str, *, body: str, point: numpy.typing.ArrayLike = ..., times: numpy.typing.ArrayLike, wrenches: numpy.typing.ArrayLike) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1259,9 +1274,12 @@ class FunctionForce:
     """
     A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = True
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FunctionForce:
@@ -1276,7 +1294,7 @@ class FunctionForce:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, address: int, parameters: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, name: str, *, body: str, address: int, parameters: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __reduce__(self) -> typing.Any:
         ...
@@ -1303,9 +1321,12 @@ class FlowForce:
     length, V the horizontal flow relative to `point`, in axes that follow the body's yaw; C over `angles`,
     where the relative flow goes, from the bow towards port, by periodic cubic splines. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FlowForce:
@@ -1322,7 +1343,7 @@ class FlowForce:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, speed: Curve | typing.SupportsFloat, direction: typing.SupportsFloat, frontal_area: typing.SupportsFloat, lateral_area: typing.SupportsFloat, length: typing.SupportsFloat, angles: numpy.typing.ArrayLike, coefficients: numpy.typing.ArrayLike) -> None:
+    def __init__(self, name: str, *, body: str, point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, speed: Curve | typing.SupportsFloat, direction: typing.SupportsFloat, frontal_area: typing.SupportsFloat, lateral_area: typing.SupportsFloat, length: typing.SupportsFloat, angles: numpy.typing.ArrayLike, coefficients: numpy.typing.ArrayLike) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1385,9 +1406,12 @@ class Friction:
     """
     Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = True
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Friction:
@@ -1404,7 +1428,7 @@ class Friction:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, joint: str, coordinate: str, load: typing.SupportsFloat, speed: typing.SupportsFloat) -> None:
+    def __init__(self, name: str, *, joint: str, coordinate: str, load: typing.SupportsFloat, speed: typing.SupportsFloat) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1437,9 +1461,12 @@ class SoftStop:
     """
     Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_stop. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = True
     PASSIVE: typing.ClassVar[bool] = True
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SoftStop:
@@ -1456,7 +1483,7 @@ class SoftStop:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, joint: str, coordinate: str, minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., stiffness: typing.SupportsFloat, damping: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, joint: str, coordinate: str, minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., stiffness: typing.SupportsFloat, damping: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1499,9 +1526,12 @@ class Line:
     """
     An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Line:
@@ -1518,7 +1548,7 @@ class Line:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, EA: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., rung: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ..., paid_out_by: str = ..., share: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, EA: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., rung: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ..., paid_out_by: str = ..., share: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1701,9 +1731,12 @@ class GasSpring:
     """
     A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_gas_spring. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = 'spring'
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = True
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = (('length', 'distance', '{} times the distance', 0.05, 20.0))
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> GasSpring:
@@ -1720,7 +1753,7 @@ class GasSpring:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, pressure: typing.SupportsFloat, volume: typing.SupportsFloat, length: typing.SupportsFloat, exponent: typing.SupportsFloat = ..., pushes: bool = ..., damping: typing.SupportsFloat = ..., quadratic_damping: typing.SupportsFloat = ..., minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., stop_stiffness: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, pressure: typing.SupportsFloat, volume: typing.SupportsFloat, length: typing.SupportsFloat, exponent: typing.SupportsFloat = ..., pushes: bool = ..., damping: typing.SupportsFloat = ..., quadratic_damping: typing.SupportsFloat = ..., minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., stop_stiffness: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1808,9 +1841,12 @@ class PendulumDamping:
     """
     Damping of a load that swings below a point, as a ratio of critical; see Scene.add_pendulum_damping. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = (('mass', 'mass', '{} times the mass that swings', 0.0033333333333333335, 300.0))
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PendulumDamping:
@@ -1827,7 +1863,7 @@ class PendulumDamping:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., ratio: typing.SupportsFloat, mass: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., ratio: typing.SupportsFloat, mass: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1870,9 +1906,12 @@ class SpanDrag:
     """
     Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = (('length', 'distance', '{} times the span', 0.05, 20.0))
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SpanDrag:
@@ -1889,7 +1928,7 @@ class SpanDrag:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, coefficient: typing.SupportsFloat, flow: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, name: str, *, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, coefficient: typing.SupportsFloat, flow: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1947,9 +1986,12 @@ class HydraulicCylinder:
     """
     A hydraulic cylinder between two body-fixed points, with the pressures of its chambers and its valves; see Scene.add_hydraulic_cylinder. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = 'cylinder'
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = True
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = True
     @staticmethod
     def example() -> HydraulicCylinder:
@@ -1966,7 +2008,7 @@ class HydraulicCylinder:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., full_area: typing.SupportsFloat, rod_side_area: typing.SupportsFloat, retracted_length: typing.SupportsFloat, stroke: typing.SupportsFloat, pressure: typing.SupportsFloat, pressure_rod: typing.SupportsFloat, hose_volume: typing.SupportsFloat, hose_volume_rod: typing.SupportsFloat, oil_modulus: typing.SupportsFloat = ..., hose_modulus: typing.SupportsFloat = ..., cylinder_modulus: typing.SupportsFloat = ..., air: typing.SupportsFloat = ..., vapour_pressure: typing.SupportsFloat = ..., pump_pressure: typing.SupportsFloat = ..., tank_pressure: typing.SupportsFloat = ..., rated_flow: typing.SupportsFloat = ..., rated_flow_rod: typing.SupportsFloat = ..., rated_drop: typing.SupportsFloat = ..., laminar_drop: typing.SupportsFloat = ..., overlap: typing.SupportsFloat = ..., spool_lag: typing.SupportsFloat = ..., pump_check: bool = ..., makeup_flow: typing.SupportsFloat = ..., relief_pressure: typing.SupportsFloat = ..., relief_pressure_rod: typing.SupportsFloat = ..., relief_flow: typing.SupportsFloat = ..., relief_override: typing.SupportsFloat = ..., counterbalance_pressure: typing.SupportsFloat = ..., counterbalance_pressure_rod: typing.SupportsFloat = ..., counterbalance_flow: typing.SupportsFloat = ..., counterbalance_range: typing.SupportsFloat = ..., pilot_ratio: typing.SupportsFloat = ..., command: Curve | typing.SupportsFloat = ..., reference: Curve | typing.SupportsFloat = ..., gain: typing.SupportsFloat = ..., rate_gain: typing.SupportsFloat = ..., internal_leakage: typing.SupportsFloat = ..., external_leakage: typing.SupportsFloat = ..., viscous_friction: typing.SupportsFloat = ..., friction: typing.SupportsFloat = ..., friction_speed: typing.SupportsFloat = ..., stop_stiffness: typing.SupportsFloat = ..., accumulator_volume: typing.SupportsFloat = ..., accumulator_pressure: typing.SupportsFloat = ..., accumulator_flow: typing.SupportsFloat = ..., accumulator_exponent: typing.SupportsFloat = ..., rupture_time: typing.SupportsFloat = ..., rupture_area: typing.SupportsFloat = ..., rod_side_ruptures: bool = ..., discharge_coefficient: typing.SupportsFloat = ..., oil_density: typing.SupportsFloat = ..., refuse_void: bool = ...) -> None:
+    def __init__(self, name: str, *, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., full_area: typing.SupportsFloat, rod_side_area: typing.SupportsFloat, retracted_length: typing.SupportsFloat, stroke: typing.SupportsFloat, pressure: typing.SupportsFloat, pressure_rod: typing.SupportsFloat, hose_volume: typing.SupportsFloat, hose_volume_rod: typing.SupportsFloat, oil_modulus: typing.SupportsFloat = ..., hose_modulus: typing.SupportsFloat = ..., cylinder_modulus: typing.SupportsFloat = ..., air: typing.SupportsFloat = ..., vapour_pressure: typing.SupportsFloat = ..., pump_pressure: typing.SupportsFloat = ..., tank_pressure: typing.SupportsFloat = ..., rated_flow: typing.SupportsFloat = ..., rated_flow_rod: typing.SupportsFloat = ..., rated_drop: typing.SupportsFloat = ..., laminar_drop: typing.SupportsFloat = ..., overlap: typing.SupportsFloat = ..., spool_lag: typing.SupportsFloat = ..., pump_check: bool = ..., makeup_flow: typing.SupportsFloat = ..., relief_pressure: typing.SupportsFloat = ..., relief_pressure_rod: typing.SupportsFloat = ..., relief_flow: typing.SupportsFloat = ..., relief_override: typing.SupportsFloat = ..., counterbalance_pressure: typing.SupportsFloat = ..., counterbalance_pressure_rod: typing.SupportsFloat = ..., counterbalance_flow: typing.SupportsFloat = ..., counterbalance_range: typing.SupportsFloat = ..., pilot_ratio: typing.SupportsFloat = ..., command: Curve | typing.SupportsFloat = ..., reference: Curve | typing.SupportsFloat = ..., gain: typing.SupportsFloat = ..., rate_gain: typing.SupportsFloat = ..., internal_leakage: typing.SupportsFloat = ..., external_leakage: typing.SupportsFloat = ..., viscous_friction: typing.SupportsFloat = ..., friction: typing.SupportsFloat = ..., friction_speed: typing.SupportsFloat = ..., stop_stiffness: typing.SupportsFloat = ..., accumulator_volume: typing.SupportsFloat = ..., accumulator_pressure: typing.SupportsFloat = ..., accumulator_flow: typing.SupportsFloat = ..., accumulator_exponent: typing.SupportsFloat = ..., rupture_time: typing.SupportsFloat = ..., rupture_area: typing.SupportsFloat = ..., rod_side_ruptures: bool = ..., discharge_coefficient: typing.SupportsFloat = ..., oil_density: typing.SupportsFloat = ..., refuse_void: bool = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2259,9 +2301,12 @@ class ImmersedPart:
     """
     Water on a part of a body: buoyancy, added mass over depth, slam, drag; see Scene.add_immersed. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ImmersedPart:
@@ -2278,7 +2323,7 @@ class ImmersedPart:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, shape: str = ..., point: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., size: numpy.typing.ArrayLike, fill: typing.SupportsFloat = ..., density: typing.SupportsFloat, depths: numpy.typing.ArrayLike, added_masses: numpy.typing.ArrayLike, volumes: numpy.typing.ArrayLike = ..., drag: numpy.typing.ArrayLike = ..., row: str = ..., place: typing.SupportsFloat = ..., count: typing.SupportsFloat = ..., step: numpy.typing.ArrayLike = ..., wave_factor: typing.SupportsFloat = ..., source: str = ..., slow_added_masses: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, name: str, *, body: str, shape: str = ..., point: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., size: numpy.typing.ArrayLike, fill: typing.SupportsFloat = ..., density: typing.SupportsFloat, depths: numpy.typing.ArrayLike, added_masses: numpy.typing.ArrayLike, volumes: numpy.typing.ArrayLike = ..., drag: numpy.typing.ArrayLike = ..., row: str = ..., place: typing.SupportsFloat = ..., count: typing.SupportsFloat = ..., step: numpy.typing.ArrayLike = ..., wave_factor: typing.SupportsFloat = ..., source: str = ..., slow_added_masses: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2381,9 +2426,12 @@ class EntrappedWater:
     """
     Water in a compartment of a body, which comes and goes through openings; see Scene.add_entrapped_water. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> EntrappedWater:
@@ -2400,7 +2448,7 @@ class EntrappedWater:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, height: typing.SupportsFloat, opening_points: numpy.typing.ArrayLike, opening_areas: numpy.typing.ArrayLike, air: str, exponent: typing.SupportsFloat = ..., air_pressure: typing.SupportsFloat = ..., discharge_coefficient: typing.SupportsFloat = ..., initial: typing.SupportsFloat = ..., density: typing.SupportsFloat, wave_factor: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, body: str, point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, height: typing.SupportsFloat, opening_points: numpy.typing.ArrayLike, opening_areas: numpy.typing.ArrayLike, air: str, exponent: typing.SupportsFloat = ..., air_pressure: typing.SupportsFloat = ..., discharge_coefficient: typing.SupportsFloat = ..., initial: typing.SupportsFloat = ..., density: typing.SupportsFloat, wave_factor: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2478,9 +2526,12 @@ class ImmersedSpan:
     """
     Water on a straight span of wire between two points: buoyancy, added mass, drag; see Scene.add_line. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ImmersedSpan:
@@ -2497,7 +2548,7 @@ class ImmersedSpan:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: Curve | typing.SupportsFloat, added_mass_coefficient: typing.SupportsFloat = ..., drag_coefficient: typing.SupportsFloat, drag_coefficient_along: typing.SupportsFloat = ..., source: str = ..., paid_out_by: str = ..., share: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: Curve | typing.SupportsFloat, added_mass_coefficient: typing.SupportsFloat = ..., drag_coefficient: typing.SupportsFloat, drag_coefficient_along: typing.SupportsFloat = ..., source: str = ..., paid_out_by: str = ..., share: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2575,9 +2626,12 @@ class WoundSpan:
     """
     A segment of a line with mass that is paid out and hauled in: the mass that its ends gain, and that moves past them; see Scene.add_line. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> WoundSpan:
@@ -2594,7 +2648,7 @@ class WoundSpan:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., mass_per_length: typing.SupportsFloat, length: Curve | typing.SupportsFloat, below_first: typing.SupportsFloat, below_second: typing.SupportsFloat, paid_out_by: str = ...) -> None:
+    def __init__(self, name: str, *, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., mass_per_length: typing.SupportsFloat, length: Curve | typing.SupportsFloat, below_first: typing.SupportsFloat, below_second: typing.SupportsFloat, paid_out_by: str = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2652,9 +2706,12 @@ class SeabedNode:
     """
     A level seabed under a point of a line: it bears, and holds by friction; see Scene.add_line. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = True
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SeabedNode:
@@ -2671,7 +2728,7 @@ class SeabedNode:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., depth: typing.SupportsFloat, stiffness: typing.SupportsFloat, damping: typing.SupportsFloat = ..., friction: typing.SupportsFloat = ..., load: typing.SupportsFloat = ..., give: typing.SupportsFloat = ..., anchor: numpy.typing.ArrayLike = ...) -> None:
+    def __init__(self, name: str, *, body: str, point: numpy.typing.ArrayLike = ..., depth: typing.SupportsFloat, stiffness: typing.SupportsFloat, damping: typing.SupportsFloat = ..., friction: typing.SupportsFloat = ..., load: typing.SupportsFloat = ..., give: typing.SupportsFloat = ..., anchor: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2729,9 +2786,12 @@ class Contact:
     """
     Points of a body against the surface of another, which presses and rubs; see Scene.add_contact. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = True
     PASSIVE: typing.ClassVar[bool] = False
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Contact:
@@ -2748,7 +2808,7 @@ class Contact:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, on: str, points: numpy.typing.ArrayLike, surface: str = ..., place: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., size: numpy.typing.ArrayLike = ..., edge: typing.SupportsFloat = ..., stiffness: typing.SupportsFloat, damping: typing.SupportsFloat = ..., compressions: numpy.typing.ArrayLike = ..., forces: numpy.typing.ArrayLike = ..., friction: typing.SupportsFloat = ..., shear_stiffness: typing.SupportsFloat = ..., shear_damping: typing.SupportsFloat = ..., hold: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, body: str, on: str, points: numpy.typing.ArrayLike, surface: str = ..., place: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., size: numpy.typing.ArrayLike = ..., edge: typing.SupportsFloat = ..., stiffness: typing.SupportsFloat, damping: typing.SupportsFloat = ..., compressions: numpy.typing.ArrayLike = ..., forces: numpy.typing.ArrayLike = ..., friction: typing.SupportsFloat = ..., shear_stiffness: typing.SupportsFloat = ..., shear_damping: typing.SupportsFloat = ..., hold: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2845,9 +2905,12 @@ class Limit:
     """
     What a joint does one way only; see Scene.add_line and add_stop. Immutable.
     """
+    DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
+    HOLDS: typing.ClassVar[bool] = False
     OWN_PACE: typing.ClassVar[bool] = False
     PASSIVE: typing.ClassVar[bool] = True
+    PROPORTIONS: typing.ClassVar[tuple] = tuple()
     STIFF: typing.ClassVar[bool] = False
     def __copy__(self) -> Limit:
         ...
@@ -2859,7 +2922,7 @@ class Limit:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, kind: str, joint: str, coordinate: str = ..., minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., restitution: typing.SupportsFloat = ..., sticking_speed: typing.SupportsFloat = ...) -> None:
+    def __init__(self, name: str, *, kind: str, joint: str, coordinate: str = ..., minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., restitution: typing.SupportsFloat = ..., sticking_speed: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2989,7 +3052,7 @@ class VesselHydrodynamics:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, added_mass: numpy.typing.ArrayLike = ..., linear_damping: numpy.typing.ArrayLike = ..., quadratic_damping: numpy.typing.ArrayLike = ..., restoring: numpy.typing.ArrayLike = ..., mooring_stiffness: numpy.typing.ArrayLike = ..., mooring_damping: numpy.typing.ArrayLike = ..., memory: typing.Any = ..., kinematics: str = ..., floats: bool = ...) -> None:
+    def __init__(self, name: str, *, body: str, added_mass: numpy.typing.ArrayLike = ..., linear_damping: numpy.typing.ArrayLike = ..., quadratic_damping: numpy.typing.ArrayLike = ..., restoring: numpy.typing.ArrayLike = ..., mooring_stiffness: numpy.typing.ArrayLike = ..., mooring_damping: numpy.typing.ArrayLike = ..., memory: typing.Any = ..., kinematics: str = ..., floats: bool = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -3063,7 +3126,7 @@ class GroupHydrodynamics:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, vessels: collections.abc.Sequence[str], added_mass: numpy.typing.ArrayLike = ..., memory: typing.Any = ...) -> None:
+    def __init__(self, name: str, *, vessels: collections.abc.Sequence[str], added_mass: numpy.typing.ArrayLike = ..., memory: typing.Any = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...

@@ -34,9 +34,11 @@ def record() -> dict[str, Any]:
 
 def test_every_scene_load_and_integrator_is_recorded_with_its_settings(record: dict[str, Any]) -> None:
     scenes = record["scenes"].values()
-    assert list(record["scenes"]) == list(CASES)
+    new = [name for name in CASES if name not in record["scenes"]]
+    assert list(record["scenes"]) == list(CASES), f"tests/bits.json:1: python -m bits --record --scenes {new}"
     assert len(CASES) >= 60 and min(len(scene["runs"]) for scene in scenes) >= 2
-    assert {kind for scene in scenes for kind in scene["loads"]} == set(_core.LOAD_KINDS)
+    loads = {kind for scene in scenes for kind in scene["loads"]}
+    assert loads == set(_core.LOAD_KINDS), "tools/bits/scenes/loads.py:1: no scene has another kind"
     settings = [run["settings"] for scene in scenes for run in scene["runs"].values()]
     assert {told["integrator"] for told in settings} == set(integrator_names())
     for told in settings:

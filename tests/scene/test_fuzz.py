@@ -21,6 +21,7 @@ from fuzz.grow import grown
 from fuzz.limits import Hang
 from fuzz.mutate import mutate_text
 from fuzz.targets import TARGETS, Target, cases, quiet
+from where import at
 
 from seacrane.errors import FileFormatError
 from seacrane.warnings import PartialSetWarning
@@ -50,7 +51,8 @@ def test_corpus(name: str, tmp_path: Path) -> None:
     with quiet():
         for path in cases(target):
             found[target.run(path.read_bytes(), tmp_path)] += 1
-    assert found["value"] >= 1
+    place = at("tests/fuzz/targets.py", "TARGETS = ")
+    assert found["value"], f"{place}: no seed in tests/fuzz/corpus/{name} is read; add one of its own program"
     assert found["no case"] == 0
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from inspect import Parameter, Signature
+from typing import Any, Concatenate, ParamSpec
 
 import numpy as np
 
@@ -29,6 +30,7 @@ from seacrane.inputs.frames import axes_across, axes_along
 from seacrane.inputs.keywords import nearest, taken
 from seacrane.inputs.shown import shown
 
+P = ParamSpec("P")
 Force = _core.PointForce | _core.ForceTable | _core.FunctionForce
 C_FUNCTION: type[Any] = ctypes.CFUNCTYPE(None).mro()[1]  # of ctypes, any
 _FUNCTIONS: list[Any] = []  # that scenes call: they stay as long as Python runs
@@ -239,15 +241,31 @@ def _force_of(what: str, force: Any) -> tuple[partial[Any], tuple[str, ...]]:
     return partial(_core.PointForce, force=numbers), ("point", "body_axes")
 
 
-def add_spring(
-    scene: Description, name: str, *, first: str, second: str, first_point: Any = (0.0, 0.0, 0.0),
-    second_point: Any = (0.0, 0.0, 0.0), stiffness: float = 0.0, damping: float = 0.0,
-    natural_length: float = 0.0, lengths: Sequence[float] = (), forces: Sequence[float] = (),
-) -> _core.Spring:  # fmt: skip
-    """A spring-damper between points of two bodies (m, body coordinates): linear (N/m, N s/m, m), or a
-    table of tension `forces` (N) over `lengths` (m)."""
-    given: dict[str, Any] = {key: value for key, value in locals().items() if key != "scene"}
-    return put_load(scene, _core.Spring(**given))
+def adds(kind: Callable[P, AnyNamed]) -> Callable[Concatenate[Any, P], AnyNamed]:
+    """The method of a scene that adds a load of a kind, whose keywords are the entries of its `FIELDS`."""
+    known: Any = kind
+    own = [
+        Parameter(
+            field.name,
+            Parameter.POSITIONAL_OR_KEYWORD if field.role == "name" else Parameter.KEYWORD_ONLY,
+            default=Parameter.empty if field.required else field.default,
+            annotation=Any,
+        )
+        for field in known.FIELDS
+    ]
+
+    def add(scene: Description, /, *name: P.args, **entries: P.kwargs) -> AnyNamed:
+        return put_load(scene, kind(*name, **entries))
+
+    about = known.__doc__.partition("; see Scene.")[0].removesuffix(" Immutable.")
+    rows = [f"{one.name} : {one.unit or one.type}\n    {one.text}".rstrip() for one in known.FIELDS]
+    add.__doc__ = "\n".join((about, "", "Parameters", "----------", *rows))
+    made: Any = add
+    made.__signature__ = Signature([Parameter("scene", Parameter.POSITIONAL_ONLY), *own])
+    return made  # type: ignore[no-any-return]
+
+
+add_spring = adds(_core.Spring)
 
 
 def add_load(scene: Description, element: Any = None, *, kind: str | None = None, **entries: Any) -> Any:

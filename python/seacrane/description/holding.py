@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from seacrane import _core
 from seacrane.description.description import Description, Some
 from seacrane.description.elements import add_driver
-from seacrane.description.loads import named, springs_of
+from seacrane.description.loads import holding_loads, named
 from seacrane.description.once import once, once_in_any_sea, sharing
 from seacrane.description.roles import CraneRoles
 
@@ -17,7 +16,7 @@ Drive = tuple[str, str, str]  # label, joint and coordinate
 
 def free_drives(scene: Description, roles: CraneRoles) -> list[Drive]:
     """Slew drive, luffs and cylinders of a crane on which nothing acts: no driver, actuator or other load on
-    the joint, luffing rope, spring or oil between its two bodies; none where C functions may."""
+    the joint, luffing rope, or load that holds between its two bodies; none where C functions may."""
     if scene.function_forces:
         return []
     return [drive for drive in _drives(scene, roles) if not _acted_on(scene, drive[1])]
@@ -37,12 +36,10 @@ def _drives(scene: Description, roles: CraneRoles) -> Iterator[Drive]:
 
 def _acted_on(scene: Description, joint: str) -> bool:
     ends = {scene.joints[joint].first, scene.joints[joint].second}
-    springs = [spring for _, spring in springs_of(scene.springs, scene.loads)]
-    cylinders = [load for load in scene.loads.values() if isinstance(load, _core.HydraulicCylinder)]
     return (
         any(driver.joint == joint for driver in scene.drivers.values())
         or any(joint in named(one, "joint") for one in scene.all_loads() if not type(one).PASSIVE)
-        or any({one.first, one.second} == ends for one in (*springs, *cylinders))
+        or any({one.first, one.second} == ends for one in holding_loads(scene.all_loads()))
     )
 
 

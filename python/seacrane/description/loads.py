@@ -5,7 +5,7 @@ A new kind of load is its C++ file with an entry in `elements/loads/registry.hpp
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 import numpy as np
@@ -104,18 +104,15 @@ def without_compensation(loads: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def springs_of(
-    springs: Mapping[str, _core.Spring], loads: Mapping[str, Any]
-) -> list[tuple[str, _core.Spring | _core.GasSpring]]:
-    """Names and elements of springs, and of the gas springs among loads, for drawings; without springs whose
-    ends are beyond any view, as those of moorings are."""
-    near = [
-        (name, one)
-        for name, one in springs.items()
-        if max(map(abs, (*map(float, one.first_point), *map(float, one.second_point)))) < BEYOND
-    ]
-    gas = [(name, load) for name, load in loads.items() if isinstance(load, _core.GasSpring)]
-    return [*near, *gas]
+def drawn_springs(loads: Iterable[Any]) -> list[Any]:
+    """Loads that are drawn as springs, but for those with an end beyond any view, as moorings have."""
+    drawn = [load for load in loads if type(load).DRAWN == "spring"]
+    return [load for load in drawn if np.abs([load.first_point, load.second_point]).max() < BEYOND]
+
+
+def holding_loads(loads: Iterable[Any]) -> list[Any]:
+    """Loads between two bodies that carry a weight, and hold the drive of a joint between the two."""
+    return [load for load in loads if type(load).HOLDS]
 
 
 def whole_of(name: str, line: _core.Line) -> str:

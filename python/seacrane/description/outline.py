@@ -12,7 +12,7 @@ from seacrane.description.crane_parts import tips
 from seacrane.description.description import GROUND, Description
 from seacrane.description.given import floating_bodies, given_vessels, shown_size
 from seacrane.description.limit_state import Range
-from seacrane.description.loads import joint_ends, lines_of, path_of, springs_of
+from seacrane.description.loads import drawn_springs, joint_ends, lines_of, path_of
 from seacrane.description.suspension import hung_loads
 
 NO_BOUND = 1e7  # m or rad: a bound here or beyond is none
@@ -34,7 +34,7 @@ def outline_of(scene: Description) -> dict[str, Any]:
         if name in bodies and point not in bodies[name]["points"]:
             bodies[name]["points"].append(point)
     spans = [ends for name, ends in joined.items() if scene.joints[name].kind == "distance"]
-    for _, spring in springs_of(scene.springs, scene.loads):
+    for spring in drawn_springs(scene.all_loads()):
         spans.append(((spring.first, spring.first_point), (spring.second, spring.second_point)))
     for line in lines_of(scene.loads).values():
         spans += pairwise(path_of(line))

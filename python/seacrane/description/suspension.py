@@ -10,8 +10,7 @@ from typing import Any
 from seacrane import _core
 from seacrane.description.description import Description
 from seacrane.description.given import floating_bodies
-from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.loads import joint_ends, lines_of, path_of, springs_of, whole_of
+from seacrane.description.loads import holding_loads, joint_ends, lines_of, path_of, whole_of
 from seacrane.description.once import once_in_any_sea
 from seacrane.description.roles import CraneRoles
 from seacrane.description.rungs import RIGID, WITH_MASS
@@ -321,7 +320,5 @@ def _ties(scene: Description) -> Iterator[tuple[str, str, str]]:
     for name, line in lines_of(scene.loads).items():
         for first, second in combinations(dict.fromkeys(line.bodies), 2):
             yield name, first, second
-    for name, spring in [*scene.springs.items(), *springs_of({}, scene.loads)]:
-        yield name, spring.first, spring.second
-    for name, cylinder in hydraulic_cylinders(scene).items():
-        yield name, cylinder.first, cylinder.second
+    for load in holding_loads(scene.all_loads()):
+        yield load.name, load.first, load.second

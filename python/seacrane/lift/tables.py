@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+import inspect
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
@@ -177,6 +178,19 @@ CRANE = keys_of(
 )
 CONTROL = control_keys(tuple(key for key in CRANE if key.name in (*POSE, "payload")))
 COMMAND = keys_of(elements.add_actuator, _core.Actuator, only=("joint", "name", "coordinate", "reference"))
+
+
+def _of_kinds() -> Iterator[Table]:
+    """Of loads that are the one call of their kind, whose keywords are all entries of `FIELDS`."""
+    for kind, type_ in _core.LOAD_KINDS.items():
+        word = kind.replace(" ", "_")
+        add = getattr(Scene, f"add_{word}", None)
+        known = {"scene", *(field.name for field in type_.FIELDS)}
+        if add and known.issuperset(inspect.signature(add).parameters):
+            yield _call(word, add, type_)
+
+
+ONE_CALL = tuple(_of_kinds())
 _ALL = (
     replace(
         _call(
@@ -202,12 +216,10 @@ _ALL = (
     Table(name="crane", text=_summary(add_crane), keys=CRANE),
     Table(name="joint", text=_summary(elements.add_joint), keys=_joint_keys(), add=elements.add_joint),
     _call("driver", elements.add_driver, _core.Driver),
-    _call("actuator", elements.add_actuator, _core.Actuator),
     _call(
         "force", elements.add_force, _core.ForceTable, _core.PointForce, without=("parameters",),
         force={"shapes": ((3,), (-1, 6))},
     ),
-    _call("spring", elements.add_spring, _core.Spring),
     _call(
         "line", lines.add_line, _core.Line,
         tension_at_start={"unit": "N"}, first_point=POINT, second_point=POINT,
@@ -248,11 +260,10 @@ _ALL = (
         air={"choices": immersed.AIR}, exponent={"unit": ""},
         openings={"type": "tables", "keys": keys_of(Opening, more={"point": POINT, "area": {"unit": "m2"}})},
     ),
-    _call("pendulum_damping", wind_current.add_pendulum_damping, _core.PendulumDamping),
+    *ONE_CALL,
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
     _call("stop", limits.add_stop, _core.SoftStop, _core.Limit),
-    _call("friction", limits.add_friction, _core.Friction),
     _call("contact", limits.add_contact, _core.Contact, **CONTACT),
     _call("point", recorded.add_point, _core.Point),
     _call(

@@ -14,8 +14,7 @@ from seacrane.crane.mass_properties import MassProperties, Member, Tube, member_
 from seacrane.description import crane_parts
 from seacrane.description.description import Description
 from seacrane.description.given import USUAL_SIZE, floating_bodies, given_vessels, shown_size
-from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
-from seacrane.description.loads import lines_of, path_of
+from seacrane.description.loads import holding_loads, lines_of, path_of
 from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.hydro.hull.hull import VOLUME, shipped_hull
@@ -172,12 +171,10 @@ def body_points(scene: Description, name: str) -> list[Array]:
     places: list[tuple[str, Any]] = []
     for joint in scene.joints.values():
         places += [(joint.first, joint.first_frame.point), (joint.second, joint.second_frame.point)]
-    for spring in scene.springs.values():
-        places += [(spring.first, spring.first_point), (spring.second, spring.second_point)]
     for line in lines_of(scene.loads).values():
         places += path_of(line)
-    for cylinder in hydraulic_cylinders(scene).values():
-        places += [(cylinder.first, cylinder.first_point), (cylinder.second, cylinder.second_point)]
+    for load in holding_loads(scene.all_loads()):
+        places += [(load.first, load.first_point), (load.second, load.second_point)]
     places += crane_parts.tips(scene).values()
     return [np.asarray(point, dtype=float).reshape(3) for body, point in places if body == name]
 

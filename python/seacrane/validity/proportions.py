@@ -12,7 +12,7 @@ from seacrane import _core
 from seacrane.arrays import Array
 from seacrane.description.description import GROUND
 from seacrane.description.given import borne_mass, floating_bodies, given_vessels, welded_mass, with_mass
-from seacrane.description.loads import whole_of
+from seacrane.description.loads import named, whole_of
 from seacrane.description.places import ANGLES, placed
 from seacrane.description.rungs import WITH_MASS
 from seacrane.description.suspension import line_weights, suspensions, weights_on
@@ -37,10 +37,11 @@ FLOWS = ("rated_flow", "rated_flow_rod", "makeup_flow", "relief_flow", "counterb
 
 
 def disproportions(around: Around, element: Any) -> Iterator[str]:
-    """One message for each value of an element that does not fit; none of a kind that is not known here."""
+    """One message for each value of an element that does not fit: by its own proportions, and those here."""
     look = _MADE_BY.get(type(element))
-    units = {field.name: field.unit for field in type(element).FIELDS} if look else {}
-    for field, makes, size, over, least, most in look(around, element) if look else ():
+    made = [*_own(around, element), *(look(around, element) if look else ())]
+    units = {field.name: field.unit for field in type(element).FIELDS}
+    for field, makes, size, over, least, most in made:
         value = _over(size, over)
         if value == 0.0 or least <= abs(value) <= most:
             continue
@@ -77,6 +78,15 @@ class Around:
         ends = (element.first, element.first_point), (element.second, element.second_point)
         return float(np.linalg.norm(placed(self.scene, *ends[1]) - placed(self.scene, *ends[0])))
 
+    def beside(self, element: Any, what: str) -> float:
+        """What a number of a load is compared with, in the words of `proportion.hpp`."""
+        if what == "distance":
+            return self.distance(element)
+        last = named(element, "body")[-1]
+        if what == "mass" or not with_mass(self.scene, last):
+            return self.mass(last)
+        return float(np.linalg.eigvalsh(np.asarray(self.scene.bodies[last].inertia))[0])
+
     def mass(self, *bodies: str) -> float:
         """The smallest of these bodies', kg; infinite of the ground, and of a ship whose motion is given."""
         there = with_mass(self.scene, *bodies)
@@ -104,6 +114,12 @@ class Around:
     def at_start(self, curve: _core.Curve) -> float:
         """A curve where the run starts."""
         return float(curve.evaluate(self.times[:1])[0, 0])
+
+
+def _own(around: Around, element: Any) -> Iterator[Made]:
+    """What the header of a load says of its numbers, beside what it acts on."""
+    for field, beside, makes, least, most in getattr(type(element), "PROPORTIONS", ()):
+        yield field, makes, getattr(element, field), around.beside(element, beside), least, most
 
 
 def _over(value: float, other: float) -> float:
@@ -159,7 +175,6 @@ def _line(around: Around, line: _core.Line) -> Iterator[Made]:
 def _gas_spring(around: Around, gas: _core.GasSpring) -> Iterator[Made]:
     ends = gas.first, gas.second
     yield "volume", "{} m of stroke", gas.volume, gas.area, 0.02, 1000.0
-    yield "length", "{} times the distance", gas.length, around.distance(gas), 0.05, 20.0
     for key in ("minimum", "maximum"):
         if getattr(gas, key) < 1e7:
             yield key, "{} times the length", getattr(gas, key), gas.length, 0.02, 50.0
@@ -201,7 +216,6 @@ def _flow(around: Around, flow: _core.FlowForce) -> Iterator[Made]:
 
 
 def _span(around: Around, span: _core.SpanDrag) -> Iterator[Made]:
-    yield "length", "{} times the span", span.length, around.distance(span), 0.05, 20.0
     if span.density > WATER:
         yield "flow", "water at {} m/s", float(np.linalg.norm(span.flow)), 1.0, 0.0, FAST_WATER
 
@@ -287,10 +301,6 @@ def _contact(around: Around, contact: _core.Contact) -> Iterator[Made]:
     yield "place", "a surface {} m away", apart, 1.0, 0.0, 3000.0
 
 
-def _pendulum(around: Around, swing: _core.PendulumDamping) -> Iterator[Made]:
-    yield "mass", "{} times the mass that swings", swing.mass, around.mass(swing.second), 1.0 / 300.0, 300.0
-
-
 def _spring(around: Around, spring: _core.Spring) -> Iterator[Made]:
     distance, bodies = around.distance(spring), (spring.first, spring.second)
     if 0.0 < distance < 1e5:
@@ -351,7 +361,6 @@ _MADE_BY: Mapping[type, Callable[[Around, Any], Iterator[Made]]] = {
     _core.Contact: _contact,
     _core.WoundSpan: _wet_span,
     _core.SeabedNode: _seabed,
-    _core.PendulumDamping: _pendulum,
     _core.Spring: _spring,
     _core.Actuator: _pushed,
     _core.PointForce: _pushed,

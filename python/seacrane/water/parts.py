@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, get_args
 
 import numpy as np
 
@@ -297,6 +297,4 @@ class Opening:
 
 
 Part = BoxPart | PlatePart | CylinderPart | SpherePart | TablePart
-PARTS: dict[str, type[Part]] = {
-    kind.kind: kind for kind in (BoxPart, PlatePart, CylinderPart, SpherePart, TablePart)
-}
+PARTS: dict[str, type[Part]] = {kind.kind: kind for kind in get_args(Part)}

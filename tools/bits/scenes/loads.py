@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import sys
+from pathlib import Path
 
 import numpy as np
 
@@ -10,7 +12,12 @@ from bits.case import by, case
 from bits.scenes.parts import HULL_IN_FLOW, G, guided, heaving, ramp, thrown, with_load
 from seacrane import Curve, Scene
 from seacrane import scene as of
+from seacrane.lift.tables import ONE_CALL
 from seacrane.scene import gust_curve
+
+sys.path.append(str(Path(__file__).parents[3] / "tests" / "scenes"))
+
+from slipped_scenes import SAMPLES
 
 BDF, IDA = by("cvode-bdf", "redundant"), by("ida", "redundant")
 POINTERS = [ctypes.POINTER(ctypes.c_double)] * 3
@@ -144,3 +151,9 @@ def heave_compensator() -> Scene:
     steered["drive"] = of.Drive(frequency=1.5, maximum_rate=0.3)
     scene.add_heave_compensation(name="ahc", body="ship", point=(0, 0, 20.0), winch="hoist", **steered)
     return scene
+
+
+for one in ONE_CALL:  # those that have no scene above
+    if one.name not in globals():
+        sample = SAMPLES[one.name.replace("_", " ")]
+        case(name=one.name)(lambda sample=sample: sample.scene(sample.numbers))

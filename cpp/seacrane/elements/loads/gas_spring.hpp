@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seacrane/elements/loads/margin.hpp"
+#include "seacrane/elements/loads/proportion.hpp"
 #include "seacrane/elements/loads/span.hpp"
 #include "seacrane/math/power.hpp"
 
@@ -55,6 +56,8 @@ struct GasSpringDescription : SpanDescription {
 /// side = 1, or -1 for one that pushes. Beyond an end stop by a depth d it adds stop_stiffness d back.
 struct GasSpring {
   static constexpr const char* kind = "gas spring";
+  static constexpr bool holds = true;
+  static constexpr Proportion proportions[] = {{"length", "distance", "{} times the distance", 0.05, 20.0}};
   using Description = GasSpringDescription;
 
   Description d;

@@ -31,6 +31,8 @@ namespace seacrane {
 /// load-holding valve the hose is at the atmosphere then, and the hole in series with that valve.
 struct HydraulicCylinder {
   static constexpr const char* kind = "hydraulic cylinder";
+  static constexpr bool holds = true;
+  static constexpr const char* drawn = "cylinder";
   static constexpr const char* follows_as = "actuator";
   using Description = HydraulicCylinderDescription;
   /// Where power enters and is lost: pump and tank give positive, all others take, negative.

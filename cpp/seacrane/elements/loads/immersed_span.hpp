@@ -71,6 +71,7 @@ struct ImmersedSpanDescription : SpanDescription {
 /// The ledger counts v^T m P v / 2 as kinetic energy, and buoyancy as a power.
 struct ImmersedSpan {
   static constexpr const char* kind = "immersed span";
+  static constexpr const char* drawn = "";  // what it acts on is
   static constexpr bool from_outside = true;
   using Description = ImmersedSpanDescription;
 

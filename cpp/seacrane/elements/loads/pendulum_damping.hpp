@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "seacrane/elements/loads/proportion.hpp"
 #include "seacrane/elements/loads/span.hpp"
 
 namespace seacrane {
@@ -38,6 +39,9 @@ struct PendulumDampingDescription : SpanDescription {
 struct PendulumDamping {
   static constexpr const char* kind = "pendulum damping";
   static constexpr bool packs = true;
+  static constexpr const char* drawn = "";  // what it acts on is
+  static constexpr Proportion proportions[] = {
+      {"mass", "mass", "{} times the mass that swings", 1.0 / 300.0, 300.0}};
   using Description = PendulumDampingDescription;
 
   Description d;

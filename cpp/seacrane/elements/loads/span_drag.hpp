@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "seacrane/elements/loads/proportion.hpp"
 #include "seacrane/elements/loads/span.hpp"
 
 namespace seacrane {
@@ -34,6 +35,8 @@ struct SpanDragDescription : SpanDescription {
 /// F = -rho / 2 C_D diameter length |v| v, v the velocity of that end in the fluid less its part along n.
 struct SpanDrag {
   static constexpr const char* kind = "span drag";
+  static constexpr const char* drawn = "";  // what it acts on is
+  static constexpr Proportion proportions[] = {{"length", "distance", "{} times the span", 0.05, 20.0}};
   static constexpr bool from_outside = true;
   using Description = SpanDragDescription;
 

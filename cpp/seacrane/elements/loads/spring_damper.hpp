@@ -35,6 +35,7 @@ struct SpringDescription : SpanDescription {
 struct SpringDamper {
   static constexpr const char* kind = "spring";
   static constexpr bool packs = true;
+  static constexpr bool holds = true;
   using Description = SpringDescription;
 
   Description d;

@@ -62,6 +62,7 @@ struct WoundSpanDescription : SpanDescription {
 /// booked as a power. The momentum of what is on the drum is left out.
 struct WoundSpan {
   static constexpr const char* kind = "wound span";
+  static constexpr const char* drawn = "";  // what it acts on is
   static constexpr bool from_outside = true;
   using Description = WoundSpanDescription;
 
