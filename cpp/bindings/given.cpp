@@ -7,8 +7,6 @@
 namespace given {
 namespace {
 
-
-
 std::string written(const py::handle& value) { return py::str(value).cast<std::string>(); }
 std::string type_name(const py::handle& value) {
   return py::type::of(value).attr("__name__").cast<std::string>();

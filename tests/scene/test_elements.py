@@ -18,6 +18,7 @@ from numpy.testing import assert_allclose
 from test_scene_file import every_kind
 
 from seacrane import Scene, SceneError, _core
+from seacrane.description.description import all_loads
 from seacrane.description.loads import LOAD_KINDS, bodies_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs.plain_data import INFINITE
@@ -96,7 +97,7 @@ def test_a_joints_own_numbers_are_checked(kind: str) -> None:
 @pytest.mark.parametrize("kind", SAVED)
 def test_a_load_is_saved_pickled_and_reported(kind: str, tmp_path: Path) -> None:
     scene = loaded_scene(kind)
-    load = scene.all_loads()[0]
+    load = all_loads(scene)[0]
     assert reloaded(scene, tmp_path) == scene and pickle.loads(pickle.dumps(load)) == load
     assert copy.deepcopy(load) == load and f"<{type(load).__name__} 'load'" in repr(load)
     again = three_bodies()
@@ -107,7 +108,7 @@ def test_a_load_is_saved_pickled_and_reported(kind: str, tmp_path: Path) -> None
 @pytest.mark.parametrize("kind", LOADS)
 def test_a_load_tells_its_bodies_and_moves_no_other(kind: str) -> None:
     scene = loaded_scene(kind)
-    concerned = bodies_of(scene.all_loads()[0], scene.joints)
+    concerned = bodies_of(all_loads(scene)[0], scene.joints)
     assert concerned and set(concerned) <= set(scene.bodies)
     if kind in FORCELESS:
         concerned = []
@@ -127,7 +128,7 @@ def described(kind: str) -> tuple[Scene, Any]:
             "point": lambda: scene.add_point(name="load", body="third"),
             "driver": lambda: scene.add_driver("joint", curve=0.0, name="load"),
             "body": lambda: scene.add_body("load", mass=1e3, inertia=(1e3,) * 3, size=(1, 1, 1))}  # fmt: skip
-    return scene, make[kind]() if kind in make else scene.all_loads()[0]
+    return scene, make[kind]() if kind in make else all_loads(scene)[0]
 
 
 @pytest.mark.parametrize("kind", [*SAVED, *OTHERS])

@@ -12,6 +12,7 @@ from lift_examples import every_table
 from where import ROOT, at
 
 from seacrane import Scene, _core
+from seacrane.description.description import all_loads
 from seacrane.description.loads import LOAD_KINDS, kind_of
 from seacrane.hydro.readers.load import FORMATS
 from seacrane.lift.tables import TABLES
@@ -45,7 +46,7 @@ def lacking(kind: str, written: set[str]) -> Iterator[str]:
 
 @pytest.mark.warns("SeabedWarning")
 def test_every_kind_of_load_has_all_that_belongs_to_it() -> None:
-    written = {kind_of(load) for load in every_table().all_loads()}
+    written = {kind_of(load) for load in all_loads(every_table())}
     told = "\n".join(told for kind in LOAD_KINDS for told in lacking(kind, written))
     assert not told, told
 

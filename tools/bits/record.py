@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from bits.case import CASES, Case, Settings
 from seacrane import Result, Scene, ensemble, simulate
 from seacrane.description.channels import CHANNELS, DERIVED
+from seacrane.description.description import all_loads
 from seacrane.description.loads import kind_of
 from seacrane.run.channel_names import core_channels, missing_names
 
@@ -41,7 +42,7 @@ def recorded(name: str) -> Record:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         scene = case.build()
-        kinds = sorted({kind_of(load) for load in scene.all_loads()})
+        kinds = sorted({kind_of(load) for load in all_loads(scene)})
         return {"loads": kinds, "runs": {label(method): _run(case, method) for method in case.methods}}
 
 

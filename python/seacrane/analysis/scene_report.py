@@ -10,7 +10,7 @@ from seacrane import _core
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.compilation import compile_scene, moves
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
-from seacrane.description.description import Description
+from seacrane.description.description import Description, all_loads
 from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.holding import held_drives, with_holds
 from seacrane.description.loads import kind_of, named
@@ -119,7 +119,7 @@ def elements_of(scene: Description) -> Rows:
 
 def _loads_by_kind(scene: Description) -> Rows:
     kinds: dict[str, list[str]] = {}
-    for load in scene.all_loads():
+    for load in all_loads(scene):
         kind = kind_of(load)
         kinds.setdefault(LABELS.get(kind, f"{kind}s"), []).append(f"{load.name} ({_place(load)})")
     return list(kinds.items())

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.arrays import Array
-from seacrane.description.description import SETTINGS, Description
+from seacrane.description.description import SETTINGS, Description, all_loads
 from seacrane.description.holding import with_holds
 from seacrane.description.loads import changed, lines_of, refuse_winch_of_segment
 from seacrane.description.once import forgetting, once
@@ -180,7 +180,7 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
             refuse_winch_of_segment(line)
     loads = [  # the core knows no "auto"
         changed(load, rung=ELASTIC) if isinstance(load, _core.Line) and load.rung == AUTO else load
-        for load in scene.all_loads()
+        for load in all_loads(scene)
     ]
     settings: dict[str, Any] = {
         key: number_of(f"scene {scene.name!r}: {key}", getattr(scene, key)) for key in SETTINGS

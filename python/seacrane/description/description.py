@@ -138,9 +138,10 @@ class Description:
         out.__post_init__()
         return out
 
-    def all_loads(self) -> list[Any]:
-        """Loads of all kinds."""
-        return [element for key in LOADS for element in getattr(self, key).values()]
+
+def all_loads(scene: Description) -> list[Any]:
+    """Loads of all kinds."""
+    return [element for key in LOADS for element in getattr(scene, key).values()]
 
 
 def insert(kind: str, table: dict[str, Any], element: AnyNamed) -> AnyNamed:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from seacrane.description.description import Description, Some
+from seacrane.description.description import Description, Some, all_loads
 from seacrane.description.elements import add_driver
 from seacrane.description.loads import holding_loads, named
 from seacrane.description.once import once, once_in_any_sea, sharing
@@ -38,8 +38,8 @@ def _acted_on(scene: Description, joint: str) -> bool:
     ends = {scene.joints[joint].first, scene.joints[joint].second}
     return (
         any(driver.joint == joint for driver in scene.drivers.values())
-        or any(joint in named(one, "joint") for one in scene.all_loads() if not type(one).PASSIVE)
-        or any({one.first, one.second} == ends for one in holding_loads(scene.all_loads()))
+        or any(joint in named(one, "joint") for one in all_loads(scene) if not type(one).PASSIVE)
+        or any({one.first, one.second} == ends for one in holding_loads(all_loads(scene)))
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.crane_parts import tips
-from seacrane.description.description import GROUND, Description
+from seacrane.description.description import GROUND, Description, all_loads
 from seacrane.description.given import floating_bodies, given_vessels, shown_size
 from seacrane.description.limit_state import Range
 from seacrane.description.loads import drawn_springs, joint_ends, lines_of, path_of
@@ -34,7 +34,7 @@ def outline_of(scene: Description) -> dict[str, Any]:
         if name in bodies and point not in bodies[name]["points"]:
             bodies[name]["points"].append(point)
     spans = [ends for name, ends in joined.items() if scene.joints[name].kind == "distance"]
-    for spring in drawn_springs(scene.all_loads()):
+    for spring in drawn_springs(all_loads(scene)):
         spans.append(((spring.first, spring.first_point), (spring.second, spring.second_point)))
     for line in lines_of(scene.loads).values():
         spans += pairwise(path_of(line))

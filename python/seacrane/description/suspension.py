@@ -8,7 +8,7 @@ from itertools import combinations, pairwise
 from typing import Any
 
 from seacrane import _core
-from seacrane.description.description import Description
+from seacrane.description.description import Description, all_loads
 from seacrane.description.given import floating_bodies
 from seacrane.description.loads import holding_loads, joint_ends, lines_of, path_of, whole_of
 from seacrane.description.once import once_in_any_sea
@@ -320,5 +320,5 @@ def _ties(scene: Description) -> Iterator[tuple[str, str, str]]:
     for name, line in lines_of(scene.loads).items():
         for first, second in combinations(dict.fromkeys(line.bodies), 2):
             yield name, first, second
-    for load in holding_loads(scene.all_loads()):
+    for load in holding_loads(all_loads(scene)):
         yield load.name, load.first, load.second

@@ -13,6 +13,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.accuracy import simpler_scenes as simpler
 from seacrane.description.databases import source_of
+from seacrane.description.description import all_loads
 from seacrane.description.given import given_vessels
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.loads import bodies_of, changed, lines_of, whole_of
@@ -99,7 +100,7 @@ def _between(scene: Scene, block: str, load: str) -> list[str]:
 
 def _carried_by_lines(scene: Scene, block: str, known: set[str]) -> bool:
     """Whether nothing but these lines acts on a body."""
-    others = [load for load in scene.all_loads() if load.name not in known]
+    others = [load for load in all_loads(scene) if load.name not in known]
     jointed = any(block in (joint.first, joint.second) for joint in scene.joints.values())
     return (
         block in scene.bodies and not jointed and not any(block in bodies_of(o, scene.joints) for o in others)

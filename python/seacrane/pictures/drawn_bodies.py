@@ -12,7 +12,7 @@ from seacrane.arrays import Array
 from seacrane.crane import Crane, load_crane, shipped_cranes
 from seacrane.crane.mass_properties import MassProperties, Member, Tube, member_axes
 from seacrane.description import crane_parts
-from seacrane.description.description import Description
+from seacrane.description.description import Description, all_loads
 from seacrane.description.given import USUAL_SIZE, floating_bodies, given_vessels, shown_size
 from seacrane.description.loads import holding_loads, lines_of, path_of
 from seacrane.errors import SceneError
@@ -173,7 +173,7 @@ def body_points(scene: Description, name: str) -> list[Array]:
         places += [(joint.first, joint.first_frame.point), (joint.second, joint.second_frame.point)]
     for line in lines_of(scene.loads).values():
         places += path_of(line)
-    for load in holding_loads(scene.all_loads()):
+    for load in holding_loads(all_loads(scene)):
         places += [(load.first, load.first_point), (load.second, load.second_point)]
     places += crane_parts.tips(scene).values()
     return [np.asarray(point, dtype=float).reshape(3) for body, point in places if body == name]

@@ -12,7 +12,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.arrays import Array
 from seacrane.description.crane_parts import luffing_ropes
-from seacrane.description.description import Description
+from seacrane.description.description import Description, all_loads
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.line_path import described_poses, laid
 from seacrane.description.loads import drawn_springs, lines_of, winch_of
@@ -57,7 +57,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
             stop = end_of(scene, bodies, joint.second, joint.second_frame.point)
             slack = float(joint.parameters["length"]) if pulls else 0.0
             found.append(_wire(name, "wire" if pulls else "link", start, stop, length=slack))
-    for spring in drawn_springs(scene.all_loads()):
+    for spring in drawn_springs(all_loads(scene)):
         found.append(_wire(spring.name, "spring", *_ends(scene, bodies, spring), length=_free_length(spring)))
     for name, line in lines_of(scene.loads).items():
         found += _over(scene, bodies, name, line)

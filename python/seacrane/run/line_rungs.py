@@ -15,7 +15,7 @@ from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
 from seacrane.analysis.linearise import LARGEST
 from seacrane.arrays import Array
 from seacrane.description.compilation import compiled
-from seacrane.description.description import Description
+from seacrane.description.description import Description, all_loads
 from seacrane.description.loads import lines_of, on_winch
 from seacrane.description.once import once
 from seacrane.description.rungs import ELASTIC, QUASI_STATIC, automatic, with_rungs
@@ -105,7 +105,7 @@ def _why_elastic(scene: Scene, known: Integrator, *, controlled: bool) -> str:
         return "inputs are set during the run, and their jumps may make it ring"
     if scene.orientation != "quaternion":
         return f"the orientation is {scene.orientation!r}"
-    for load in scene.all_loads():
+    for load in all_loads(scene):
         if type(load).OWN_PACE:  # it strikes, or nobody knows its frequency
             return f"{type(load).__name__} {load.name!r} may shake a line faster than anything known"
     for name, part in immersed_parts(scene).items():
@@ -293,7 +293,7 @@ def excitations(scene: Description, *, start: float, end: float) -> Iterator[tup
     """
     if scene.waves is not None:
         yield "the sea", *_sea(scene.waves)
-    for element in (*scene.drivers.values(), *scene.all_loads()):
+    for element in (*scene.drivers.values(), *all_loads(scene)):
         for name, value in element.__getstate__().items():
             for curve in value if isinstance(value, list) else [value]:
                 if not isinstance(curve, _core.Curve):

@@ -10,6 +10,7 @@ import numpy as np
 
 from seacrane import _core, warnings
 from seacrane.arrays import Array
+from seacrane.description.description import all_loads
 from seacrane.description.given import (
     beside_surface,
     borne_mass,
@@ -141,7 +142,7 @@ def _warn_of_ballast(scene: Description) -> None:
     for vessel in (one for one in scene.vessels.values() if one.floats):
         hull = scene.bodies[vessel.body]
         carried = carried_by(scene, vessel.body)
-        if any(_holds(scene, load, carried) for load in scene.all_loads()):
+        if any(_holds(scene, load, carried) for load in all_loads(scene)):
             continue
         weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
         restoring = np.asarray(vessel.restoring)[2:5, 2:5]

@@ -9,6 +9,7 @@ import numpy as np
 
 from seacrane import _core, warnings
 from seacrane.arrays import Array
+from seacrane.description.description import all_loads
 from seacrane.description.line_path import Laid, described_poses, laid
 from seacrane.description.loads import lines_of, whole_of, winch_of, winches_of
 from seacrane.description.once import once_in_any_sea
@@ -211,7 +212,7 @@ def _hung(scene: Description, lines: Lines) -> list[str]:
     joints = [one for name, one in scene.joints.items() if name not in seats and one.kind != "free"]
     carried = {body for one in joints for body in (one.first, one.second)}
     carried |= {vessel.body for vessel in scene.vessels.values()}
-    for load in (one for one in scene.all_loads() if not isinstance(one, _core.Line)):
+    for load in (one for one in all_loads(scene) if not isinstance(one, _core.Line)):
         carried |= {getattr(load, "first", ""), getattr(load, "second", "")}
     on_lines = dict.fromkeys(body for line in lines.values() for body in line.bodies)
     known = [body for body in on_lines if body in scene.bodies and body not in carried]
