@@ -404,8 +404,7 @@ class WaveTable:
     A wave load by Hermite interpolation of degree 11 on a global time grid; immutable.
     
     |table - exact| <= 3.72e-10 step^12 sum |a X_ij| omega^12 at any time (Hermite remainder), plus rounding. Knots are
-    computed when a run reaches them and held in a ring of fixed size: constant memory for any duration; or they are
-    those of a whole period, handed over.
+    computed when a run reaches them and held in a ring of fixed size: constant memory for any duration.
     
     Parameters
     ----------
@@ -413,22 +412,13 @@ class WaveTable:
     relative_bound : float
         The bound over sum |a X_ij|, 1e-14 to 1e-2; it sets the step. The default 1e-9 is about 1e-8 of a load's
         standard deviation with 200 components.
-    period : float
-        With `knots`: of the load, s.
-    knots : array_like, shape (count, 3, 7), optional
-        Value, rate and acceleration of the six loads and the elevation at the times period k / count. Copied.
     
     Raises
     ------
     ValueError
-        `relative_bound` is out of range, there are too few knots for it, or they are not those of the load.
+        `relative_bound` is out of range.
     """
-    @staticmethod
-    def largest_step(load: ExactWaveLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09) -> float:
-        """
-        The widest step (s) that keeps the bound.
-        """
-    def __init__(self, load: ExactWaveLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09, period: typing.SupportsFloat | typing.SupportsIndex = 0.0, knots: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+    def __init__(self, load: ExactWaveLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -449,11 +439,6 @@ class WaveTable:
     def step(self) -> float:
         """
         Distance of the knots, s.
-        """
-    @property
-    def stored_knots(self) -> int:
-        """
-        Knots kept for good; 0 where they are made during a run.
         """
 class DriftLoad:
     """
@@ -490,14 +475,9 @@ class DriftLoad:
         """
 class DriftTable:
     """
-    A DriftLoad by Hermite interpolation on a global time grid, as WaveTable; knots have the shape (count, 3, 6).
+    A DriftLoad by Hermite interpolation on a global time grid, as WaveTable.
     """
-    @staticmethod
-    def largest_step(load: DriftLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09) -> float:
-        """
-        The widest step (s) that keeps the bound.
-        """
-    def __init__(self, load: DriftLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09, period: typing.SupportsFloat | typing.SupportsIndex = 0.0, knots: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+    def __init__(self, load: DriftLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -514,11 +494,6 @@ class DriftTable:
     def step(self) -> float:
         """
         Distance of the knots, s.
-        """
-    @property
-    def stored_knots(self) -> int:
-        """
-        Knots kept for good; 0 where they are made during a run.
         """
 class PositionedWaveLoad:
     """
