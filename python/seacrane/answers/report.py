@@ -19,10 +19,10 @@ from seacrane.answers import checks
 from seacrane.answers.lift_sheet import LiftSheet, lift_sheet
 from seacrane.answers.particulars import particulars, stage_table
 from seacrane.answers.reported_curves import hook_loads
-from seacrane.answers.summary import Summary, summary
+from seacrane.answers.summary import Summary, require_result, summary
 from seacrane.arrays import Array
 from seacrane.description.suspension import hung_loads
-from seacrane.errors import FileFormatError, SceneError, SeacraneError
+from seacrane.errors import FileFormatError, SeacraneError
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.inputs.keywords import named
 from seacrane.inputs.replaceable import GENERATOR
@@ -79,10 +79,7 @@ def report(result: Result, *, title: str | None = None, requires: Answer | None 
     SceneError
         If what is given is no result.
     """
-    if not isinstance(result, Result):
-        raise SceneError(
-            f"result is a {type(result).__name__}; give what simulate() or Result.load() returns"
-        )
+    require_result(result)
     heading = str(result.stats["scene"]) if title is None else title
     return Report(title=heading, html=page_of("report.html", title=heading, run=result, requires=requires))
 

@@ -139,6 +139,13 @@ class Summary(Rows[SummaryRow]):
         return [*([STARRED] if starred else []), *([DASHED] if blind else []), *outputs, *self.remarks]
 
 
+def require_result(result: object) -> None:
+    """SceneError for what is no result in memory."""
+    if not isinstance(result, Result):
+        fix = "its load()" if hasattr(result, "load") else "what simulate() or Result.load() returns"
+        raise SceneError(f"result is a {type(result).__name__}; give {fix}")
+
+
 @named
 def summary(
     result: Result,
@@ -171,10 +178,7 @@ def summary(
     SceneError
         For what is no result, a part of it that holds no output, or statics of several poses.
     """
-    if not isinstance(result, Result):
-        raise SceneError(
-            f"result is a {type(result).__name__}; give what simulate() or Result.load() returns"
-        )
+    require_result(result)
     known = _static(static)
     part = _part(result, after, before)
     time = result.time[part]
