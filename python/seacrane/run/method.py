@@ -190,12 +190,8 @@ def start_state(scene: Scene, start: Any, *, time: float = 0.0) -> _core.State |
     raise SceneError(f"start is {shown(start)}; give a seacrane.State, or {REST!r} for the state at rest")
 
 
-def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Scene, _core.Model, str]:
-    """The scene, its compiled model and the formulation that a run with this method steps.
-
-    Raises SceneError for a combination that does not exist.
-    """
-    model = scene.compile() if model is None else model
+def formulation_of(model: _core.Model, method: Method) -> str:
+    """The formulation that a run with this method steps; SceneError for a combination that does not exist."""
     known, formulation = integrator(method.integrator), method.formulation
     reason = _redundant_because(model, known)
     if formulation == "recursive" and reason:
@@ -211,7 +207,7 @@ def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Sc
             "redundant, and it solves for every reaction; give one of them more freedom, or choose "
             "'cvode-bdf', which projects"
         )
-    return scene, model, formulation
+    return formulation
 
 
 def _redundant_because(model: _core.Model, known: Integrator) -> str | None:

@@ -39,7 +39,16 @@ from seacrane.run.channel_names import (
 )
 from seacrane.run.derived import derived_extremes, followed_extremes, named_channels, own_values
 from seacrane.run.line_rungs import COMPILED, all_elastic, line_rungs, struck, warn_of_quasi_static
-from seacrane.run.method import REST, Method, Shorthand, Start, core_options, settled, start_state, stepped
+from seacrane.run.method import (
+    REST,
+    Method,
+    Shorthand,
+    Start,
+    core_options,
+    formulation_of,
+    settled,
+    start_state,
+)
 from seacrane.run.modes import Modes
 from seacrane.run.outputs import Outputs, output_times
 from seacrane.run.stats import about_of, event_findings, lasting_stats, ruptures, sea_settings, settings_of
@@ -84,7 +93,7 @@ class Run:
     Attributes
     ----------
     scene, model, formulation
-        What is stepped: the scene with stabilised joints where the method cannot project.
+        What is stepped, its lines on the rungs that were chosen.
     method, outputs, start, t_end
         As given, or their defaults.
     settings : dict
@@ -129,7 +138,8 @@ class Run:
         else:
             self.rungs = all_elastic(automatic(given), COMPILED)
         scene = with_rungs(given, {name: rung.name for name, rung in self.rungs.items()})
-        self.scene, self.model, self.formulation = stepped(scene, model, self.method)
+        self.scene, self.model = scene, scene.compile() if model is None else model
+        self.formulation = formulation_of(self.model, self.method)
         self.start = self._started()
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
         self._check(begins=begins)
@@ -232,7 +242,7 @@ class Run:
         self.interrupted = False
         self.steered = set(self._steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
-        self.lanes: dict[str, Any] = {}  # how it was stepped beside others, where that was asked for
+        self.lanes: dict[str, Any] = {}  # how it was formulation_of beside others, where that was asked for
 
     def _started(self) -> _core.State:
         """The state at the start; one of the model but for what rungs of lines add is carried over."""

@@ -36,7 +36,16 @@ from seacrane.run.commands import commanded
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.joined import Piece, counted, joined
 from seacrane.run.locate import Course, to_its_end
-from seacrane.run.method import REST, Method, Shorthand, Start, core_options, settled, start_state, stepped
+from seacrane.run.method import (
+    REST,
+    Method,
+    Shorthand,
+    Start,
+    core_options,
+    formulation_of,
+    settled,
+    start_state,
+)
 from seacrane.run.outputs import Outputs
 from seacrane.run.plan import check_limits, checked_stages, waiting, without
 from seacrane.run.run import Run
@@ -275,7 +284,8 @@ class StagedRun:
         record = self.state.record
         if record is None:
             return dict.fromkeys(COUNTED_ON, 0.0)
-        _, model, formulation = stepped(self.scene, self.model, self.method)
+        model = self.scene.compile() if self.model is None else self.model
+        formulation = formulation_of(model, self.method)
         options = core_options(self.method, formulation, channels=set(), output_times=[])
         core = _core.Simulation(model=model, start=self.state, options=options)
         now = counted(self.scene, model, core.snapshot())
