@@ -13,9 +13,9 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 from seacrane import Curve, Move, Result, Scene, Stage, Until, natural_modes, shipped_database, simulate
+from seacrane.hydro import BoxPart
 from seacrane.result import heavy_line_tension
 from seacrane.warnings import ScatteredWavesWarning, StiffWarning
-from seacrane.water import BoxPart
 
 warnings.simplefilter("ignore", ScatteredWavesWarning)  # of the waves that the hull makes: docs/water.md
 G, RHO, HS, TP = 9.80665, 1025.0, 1.5, 7.0  # m/s2, kg/m3, m, s

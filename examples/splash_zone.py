@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Result, Scene, Stage, Until, shipped_database, simulate
+from seacrane.hydro import BoxPart, PlatePart
 from seacrane.warnings import ScatteredWavesWarning
-from seacrane.water import BoxPart, PlatePart
 
 warnings.simplefilter("ignore", ScatteredWavesWarning)  # of the waves that the hull makes: docs/water.md
 G, RHO, HS, TP = 9.80665, 1025.0, 1.5, 6.0  # m/s2, kg/m3, m, s

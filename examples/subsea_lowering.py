@@ -21,8 +21,8 @@ from seacrane import (
     shipped_database,
     simulate,
 )
+from seacrane.hydro import BoxPart
 from seacrane.warnings import ScatteredWavesWarning
-from seacrane.water import BoxPart
 
 warnings.simplefilter("ignore", ScatteredWavesWarning)  # of the waves that the hull makes: docs/water.md
 G, RHO, HS, TP, SEEDS = 9.80665, 1025.0, 1.5, 7.0, (1, 2)  # m/s2, kg/m3, m, s

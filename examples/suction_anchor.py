@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Curve, Result, Scene, simulate
-from seacrane.water import CylinderPart
+from seacrane.hydro import CylinderPart
 
 G, RHO, MASS, D, H = 9.80665, 1025.0, 90e3, 6.0, 12.0  # m/s2, kg/m3, kg, m, m
 AREA, HATCH, RATE, AIR = np.pi / 4.0 * D**2, 1.0, 0.25, 101325.0 - 2339.0  # m2, m2, m/s, Pa over vapour's

@@ -122,6 +122,8 @@ CALLS = {
     "read_wamit_group": Call("read_wamit", renamed=BY_BODY),
 }
 FFT = re.compile(r"""\bevaluation=(["'])fft\1""")  # which was the table, made in another way
+ROOMS = {"needs": "answers", "water": "hydro"}
+ROOM = re.compile(r"\b(seacrane|sc)\.(needs|water)\b(\.from_mesh\b)?")
 PASSIVE = re.compile(r"""\b(memory|kind)=(["'])passive\2""")  # a kind of fluid memory that is gone
 
 GONE = {
@@ -134,7 +136,7 @@ GONE = {
     "JointRecord": "crane.parts(...).joints are JointData",
     "RigidPart": "no part is taken out of a vessel's mass: give vessel_parameters a database without it",
     "JointedCrane": "JointedCrane is Crane, as of load_crane; crane.tip(coordinates=x) is crane.tip(**x)",
-    "coefficient_scatter": "it is ensemble(partial(needs.scattered, scene), over={'case': [...]}, keep=...)",
+    "coefficient_scatter": "it is ensemble of partial(answers.scattered, scene), over={'case': [...]}",
 }
 
 
@@ -144,6 +146,7 @@ def ported(text: str) -> tuple[str, list[str]]:
         (text.count("\n", 0, found.start()) + 1, "memory by motion takes a limit, and no r2")
         for found in PASSIVE.finditer(text)
     ]
+    text = ROOM.sub(_in_new_room, text)
     text = FFT.sub(r"evaluation=\1table\1", PASSIVE.sub(r"\1=\2by-motion\2", text))
     starts = [0]
     for line in text.encode().splitlines(keepends=True):
@@ -158,6 +161,11 @@ def ported(text: str) -> tuple[str, list[str]]:
         data = data[:begin] + new_text.encode() + data[end:]
         notes += [(node.lineno, note)] if note else []
     return data.decode(), [f"line {line}: {note}" for line, note in sorted(notes)]
+
+
+def _in_new_room(found: re.Match[str]) -> str:
+    """A name of a room that another took in; `from_mesh` of a part says of what it is."""
+    return f"{found[1]}.{ROOMS[found[2]]}{'.part_from_mesh' if found[3] else ''}"
 
 
 Change = tuple[ast.expr | ast.stmt, str, str]

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from seacrane import Scene, cases, needs, simulate, trade
+from seacrane import Scene, answers, cases, simulate, trade
 from seacrane.accuracy.quantities import compare, quantities_of
 
 from .section import RESULTS, Section, significant
@@ -42,13 +42,17 @@ def _changed(scene: Scene) -> dict[str, Scene]:
     assert waves is not None
     count = len(waves.omega)
     return {
-        "no memory": needs.with_memory(scene, "none"),
+        "no memory": answers.with_memory(scene, "none"),
         "memory by-motion": cases.case2(memory="by-motion"),
         "memory convolution": cases.case2(memory="convolution"),
         "waves summed exactly": scene.copy(waves=replace(waves, evaluation="exact")),
-        f"{count // 2} strongest of {count} components": scene.copy(waves=needs.strongest(waves, count // 2)),
-        f"{count // 4} strongest of {count} components": scene.copy(waves=needs.strongest(waves, count // 4)),
-        "crane locked": needs.locked(scene),
+        f"{count // 2} strongest of {count} components": scene.copy(
+            waves=answers.strongest(waves, count // 2)
+        ),
+        f"{count // 4} strongest of {count} components": scene.copy(
+            waves=answers.strongest(waves, count // 4)
+        ),
+        "crane locked": answers.locked(scene),
     }
 
 

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterator
 
 from seacrane import Scene, shipped_database
-from seacrane.water import BoxPart
+from seacrane.hydro import BoxPart
 
 from .section import Section
 from .sources import CRANE
@@ -58,6 +58,6 @@ SECTION = Section(
     head=["formulation", "strips", "dry, no sea [ns]", "dry, in waves [ns]", "wet, no sea [ns]",
           "wet, in waves [ns]", "over dry, no sea", "over dry, in waves"],
     rows=wet_parts,
-    sources=(*CRANE, "python/seacrane/water", "cpp/seacrane/elements/loads/immersed*",
+    sources=(*CRANE, "python/seacrane/hydro/parts", "cpp/seacrane/elements/loads/immersed*",
              "cpp/seacrane/elements/loads/*water*", "cpp/seacrane/elements/loads/wet_volume.hpp"),
 )  # fmt: skip

@@ -10,7 +10,7 @@ import numpy as np
 from measured_row import Array, MeasuredRow, Source
 
 from seacrane import Scene, simulate
-from seacrane.water import CylinderPart
+from seacrane.hydro import CylinderPart
 
 SOURCE = Source(
     title="Cylinder that falls into water",

@@ -11,7 +11,7 @@ from measured_row import Array, MeasuredRow, Source
 from scipy.special import gamma
 
 from seacrane import Scene, simulate
-from seacrane.water import TablePart
+from seacrane.hydro import TablePart
 
 SOURCE = Source(
     title="Wedge that falls into water",

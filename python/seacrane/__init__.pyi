@@ -22,7 +22,6 @@ from seacrane import scene as scene
 from seacrane import crane as crane
 from seacrane import hydro as hydro
 from seacrane import sea as sea
-from seacrane import water as water
 from seacrane import cases as cases
 
 # Run it
@@ -79,9 +78,8 @@ from seacrane import operability as operability
 # What settings cost and what error they bring
 from seacrane.accuracy.trade_study import trade as trade
 from seacrane.accuracy.step_error import step_error as step_error
-from seacrane.needs.required import required as required
+from seacrane.answers.required import required as required
 from seacrane import accuracy as accuracy
-from seacrane import needs as needs
 
 # What went wrong
 from seacrane.errors import SeacraneError as SeacraneError

@@ -8,8 +8,7 @@ import numpy as np
 
 from seacrane import Scene, Stage, _core
 from seacrane.accuracy.case import Case
-from seacrane.hydro import two_barges
-from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart
+from seacrane.hydro import BoxPart, CylinderPart, Opening, PlatePart, two_barges
 from stability_atlas.axis import Axis
 
 WATER, SIDE, GRAVITY = 1025.0, 2.0, 9.80665  # kg/m3, m, m/s2

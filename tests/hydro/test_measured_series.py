@@ -15,7 +15,7 @@ from seacrane import MotionHistory
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.operability import WaveHindcast
 from seacrane.sea import MeasuredWaves
-from seacrane.series.series_file import heading_of, unit_of_words
+from seacrane.sea.series_file import heading_of, unit_of_words
 from seacrane.statistics import MeasuredSeries, interpolated
 from seacrane.warnings import ClockDriftWarning, FilledGapWarning, NoisyMotionWarning, OutlierWarning
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from seacrane import Scene, SceneError, simulate
 from seacrane.analysis.least_pulls import least_pulls
-from seacrane.water import BoxPart, Opening
+from seacrane.hydro import BoxPart, Opening
 
 Array = NDArray[np.float64]
 G, RHO, EA = 9.80665, 1025.0, 5e7

@@ -11,9 +11,8 @@ from seacrane.cases import vessel
 from seacrane.crane import Payload
 from seacrane.ensembles import HookLoadControl, LinearControl
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.hydro import shipped_database
+from seacrane.hydro import BoxPart, shipped_database
 from seacrane.statistics import controlled_mean
-from seacrane.water import BoxPart
 
 Array = NDArray[np.float64]
 

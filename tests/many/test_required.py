@@ -11,13 +11,12 @@ import pytest
 from ensemble_studies import drifting_hull
 
 import seacrane as sc
-from seacrane import needs
-from seacrane.hydro import two_barges
-from seacrane.needs import Choice, Loss, choices_of, missing_from
-from seacrane.needs.required import least_of
+from seacrane import answers
+from seacrane.answers import Choice, Loss, choices_of, missing_from
+from seacrane.answers.required import least_of
+from seacrane.hydro import BoxPart, two_barges
 from seacrane.scene import Pump, Valve
 from seacrane.scene.file import scene_digest
-from seacrane.water import BoxPart
 
 LENGTH, RATIO, G = 5.0, 0.02, 9.80665
 OMEGA = math.sqrt(G / LENGTH)
@@ -130,7 +129,7 @@ def test_the_set_is_run_once_against_the_full_one_and_its_script_makes_it(monkey
     found = sc.required(scene, keep=peak, within=0.02, t_end=3.0)
     assert [row.of for row in found.taken] and found.least.evaluations < 0.5
     assert len({row.of for row in found.taken}) == len(found.taken)
-    held = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses}
+    held = {"scene": scene.copy(), "answers": answers, "dataclasses": dataclasses}
     exec(found.script, held)
     least = sc.simulate(held["scene"], 3.0)["hook_load"].max()
     full = sc.simulate(scene, 3.0)["hook_load"].max()
@@ -150,7 +149,7 @@ def test_a_script_makes_what_is_measured(described: Any) -> None:
     tried = [*choices_of(scene), *missing_from(scene)]
     assert tried
     for choice in tried:
-        held = {"scene": scene.copy(), "needs": needs, "dataclasses": dataclasses, "np": np}
+        held = {"scene": scene.copy(), "answers": answers, "dataclasses": dataclasses, "np": np}
         exec(choice.script, held)
         assert scene_digest(held["scene"]) == scene_digest(choice.made(scene)), choice.name
 
@@ -181,7 +180,7 @@ def test_oil_that_holds_is_as_good_as_a_driver() -> None:
 
 def test_fewer_waves_keep_their_loads_over_the_heading_and_drift_is_left_out_or_missed() -> None:
     scene = drifting(phase="actual")
-    few, all_of_them = needs.strongest(scene.waves, 5), needs.strongest(scene.waves, 20)
+    few, all_of_them = answers.strongest(scene.waves, 5), answers.strongest(scene.waves, 20)
     kept = np.isin(scene.waves.omega, few.omega)
     assert kept.sum() == 5
     hull, whole = few.hull(), scene.waves.hull()
@@ -206,7 +205,7 @@ def test_hulls_that_do_not_feel_each_other_need_no_group() -> None:
     assert np.abs(run - right).max() < 0.02 * np.ptp(right, axis=0).max()
     near = barges()
     near_run, without = (
-        sc.simulate(scene, 60.0)["position"] for scene in (near, needs.uncoupled(near, "two barges"))
+        sc.simulate(scene, 60.0)["position"] for scene in (near, answers.uncoupled(near, "two barges"))
     )
     assert np.abs(near_run - without).max() > 0.05
 

@@ -1,4 +1,4 @@
-"""trade(): its rows, front, choice and file; and the changed scenes of `needs`."""
+"""trade(): its rows, front, choice and file; and the changed scenes of `answers`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 from trade_scenes import a_run_each, pendulum
 
 import seacrane as sc
-from seacrane import cases, needs
+from seacrane import answers, cases
 from seacrane._core import Integrator, integrators
 from seacrane.accuracy import Trade, methods, trade_study
 from seacrane.accuracy.measured import Reference
@@ -96,11 +96,11 @@ def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Int
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: sc.Scene) -> None:
-    scenes = [needs.with_memory(case2, "by-motion", level=limit) for limit in (0.05, 0.01)]
+    scenes = [answers.with_memory(case2, "by-motion", level=limit) for limit in (0.05, 0.01)]
     few, more = (scene.compile().memory_states for scene in scenes)
     assert few < more
     built = cases.case2(memory="by-motion")
-    changed = needs.with_memory(case2, "by-motion")
+    changed = answers.with_memory(case2, "by-motion")
     ship = built.vessels["vessel"]
     mooring = {name: getattr(ship, name) for name in ("mooring_stiffness", "mooring_damping")}
     changed.replace("vessel", kind="vessel", **mooring)

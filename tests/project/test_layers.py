@@ -13,10 +13,10 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE, CORE = ROOT / "python" / "seacrane", ROOT / "cpp" / "seacrane"
 # Rooms from the ground up: each may import from those before it.
 FLOORS = """
-    errors warnings version one_thread arrays | lazy | inputs | plotting sea | hydro.data | hydro.memory
-    | hydro.vessel | hydro.database | hydro.group | hydro.readers | hydro.hull | hydro | description
-    | series water | validity | crane | analysis | scene | result | statistics | run | accuracy | simulation
-    | ensembles | operability | pictures | answers | needs | lift | cases | cli | __main__
+    errors warnings version one_thread arrays | lazy | inputs | plotting | sea | hydro.data | hydro.memory
+    | hydro.vessel | hydro.database | hydro.group | hydro.readers | hydro.hull | hydro.parts | hydro
+    | description | crane | analysis | scene | result | statistics | run | accuracy | simulation
+    | ensembles | operability | pictures | answers | lift | cases | cli | __main__
 """
 ROOMS = {name: floor for floor, names in enumerate(FLOORS.split("|")) for name in names.split()}
 HIDDEN = ("cli", "inputs.netcdf_limits")  # commands, and h5py once a file is opened: --help is quick

@@ -11,9 +11,9 @@ from ensemble_studies import pendulum
 
 import seacrane as sc
 import seacrane.accuracy.choice
+import seacrane.analysis.left_range
 import seacrane.run.advance
 import seacrane.run.run
-import seacrane.validity.left_range
 from seacrane.warnings import NotFiniteWarning, UnjudgedWarning
 
 
@@ -22,7 +22,7 @@ def fails(*_: Any) -> Any:
 
 
 LOOKS: dict[str, tuple[Any, str]] = {
-    "a look at its range": (seacrane.validity.left_range, "lifting"),
+    "a look at its range": (seacrane.analysis.left_range, "lifting"),
     "a look at events": (seacrane.run.run, "event_findings"),
     "modes": (seacrane.run.advance, "slow_findings"),
 }

@@ -12,10 +12,10 @@ import pytest
 
 from seacrane import Result, Run, Scene, SceneError, SimulationError, State, _core, simulate
 from seacrane._core import integrators
+from seacrane.analysis.left_range import findings
 from seacrane.answers import report
 from seacrane.cases import vessel
 from seacrane.errors import OutputMemoryError
-from seacrane.validity.left_range import findings
 from seacrane.warnings import (
     FullTurnWarning,
     OutsideDatabaseWarning,

@@ -14,9 +14,8 @@ import pytest
 from mistaken_units import raos, record
 
 import seacrane as sc
-from seacrane.hydro import load_database
+from seacrane.hydro import BoxPart, CylinderPart, PlatePart, SpherePart, load_database
 from seacrane.warnings import NoisyMotionWarning, RaoPhaseWarning, UnitWarning
-from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart
 
 SHORT, ALL = {"rtol": 1e-2, "dt_out": 0.1}, [sc.Stage(name="all", duration=0.1)]
 

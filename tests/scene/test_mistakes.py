@@ -26,12 +26,11 @@ import seacrane
 from seacrane import Curve, MotionRaos, SampledController, Scene, Stage, Until, simulate
 from seacrane.analysis import balance, driven, equilibrium, reflected_inertia
 from seacrane.crane import Payload
-from seacrane.hydro import HydroGroup, ikeda_roll_damping, shipped_database
+from seacrane.hydro import BoxPart, HydroGroup, PlatePart, TablePart, ikeda_roll_damping, shipped_database
 from seacrane.hydro.hull.hull import shipped_hull
 from seacrane.scene import Chamber, Gas, Piston, Pump, Rupture, Valve
 from seacrane.scene.wind_current import FlowCoefficients
 from seacrane.sea import SeaState, WaveSystem, jonswap
-from seacrane.water import BoxPart, PlatePart, TablePart
 
 PAGE = (Path(__file__).parents[2] / "docs" / "mistakes.md").read_text()
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}

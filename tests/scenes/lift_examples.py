@@ -10,9 +10,9 @@ import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
 from seacrane.description.hydraulic_cylinders import VALUES
+from seacrane.hydro import BoxPart, Opening, SpherePart
 from seacrane.lift.tables import TABLES
 from seacrane.scene import gust_curve, heave, spline_curve
-from seacrane.water import BoxPart, Opening, SpherePart
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
 

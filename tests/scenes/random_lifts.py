@@ -17,10 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Result, Run, Scene, SeacraneError, Stage, State, Until, shipped_database, simulate
-from seacrane.hydro import HydroGroup, two_barges
+from seacrane.hydro import BoxPart, CylinderPart, HydroGroup, Opening, PlatePart, SpherePart, two_barges
 from seacrane.scene import Oil, Piston
 from seacrane.sea.dispersion import wavenumber
-from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart, SpherePart
 
 Array = NDArray[np.float64]
 G = 9.80665

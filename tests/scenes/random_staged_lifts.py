@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import Scene, Stage, Until
-from seacrane.water import BoxPart
+from seacrane.hydro import BoxPart
 
 MASS, HIGH, BED = 20e3, 8.0, -7.0  # kg; m, where the load hangs at first, and the bed below the sea
 HALF = 1.0  # m, of the load's height

@@ -12,7 +12,7 @@ import numpy as np
 from seacrane import Curve, Scene, _core
 from seacrane.description.elements import add_load
 from seacrane.description.waves import Waves
-from seacrane.water import BoxPart
+from seacrane.hydro import BoxPart
 
 MASS, G = 2e4, 9.80665
 INERTIA = np.diag([3e4, 3e4, 3e4])

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from seacrane import Scene, _core
+from seacrane.hydro import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
+from seacrane.hydro.parts.parts import Part
 from seacrane.run.lanes import module_of
-from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
-from seacrane.water.parts import Part
 
 Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from seacrane import Result, Scene, simulate
+from seacrane.analysis.hull_range import LARGEST_PHASE, slowly
+from seacrane.analysis.left_range import findings
 from seacrane.description.outline import ship_size
-from seacrane.hydro import shipped_database
+from seacrane.hydro import SpherePart, shipped_database
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.run import Run
-from seacrane.validity.hull_range import LARGEST_PHASE, slowly
-from seacrane.validity.left_range import findings
 from seacrane.warnings import (
     ForwardSpeedWarning,
     LargeHeelWarning,
@@ -24,7 +24,6 @@ from seacrane.warnings import (
     NoWaveLoadsWarning,
     ScatteredWavesWarning,
 )
-from seacrane.water import SpherePart
 
 G = 9.80665
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, linear_model, motion_rao, natural_modes, simulate
 from seacrane.analysis import response_summed
+from seacrane.analysis.hull_range import gap_between, relative_findings
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
@@ -26,7 +27,6 @@ from seacrane.hydro import (
 from seacrane.hydro.data.memory_model import MODEL_MATRICES, MemoryBlock, MemoryModel
 from seacrane.hydro.memory.certificate import independent_blocks
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.validity.hull_range import gap_between, relative_findings
 from seacrane.warnings import RelativePlaceWarning
 
 Array = NDArray[np.float64]

@@ -12,9 +12,9 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SceneError, _core, cases, simulate
+from seacrane.analysis.hull_range import peak_frequency
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.scene import ByHeading, HullLoads, Waves
-from seacrane.validity.hull_range import peak_frequency
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SceneError, simulate
-from seacrane.water import BoxPart, CylinderPart
+from seacrane.hydro import BoxPart, CylinderPart
 
 Array = NDArray[np.float64]
 G, RHO, ATMOSPHERE, VAPOUR = 9.80665, 1025.0, 101325.0, 2339.0

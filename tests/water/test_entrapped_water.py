@@ -15,9 +15,9 @@ from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, equilibrium, simulate
+from seacrane.hydro import BoxPart, CylinderPart, Opening
 from seacrane.scene import Waves
 from seacrane.sea import Current
-from seacrane.water import BoxPart, CylinderPart, Opening
 
 Array = NDArray[np.float64]
 ROUNDED = 1e-3  # m, the head over which the root is rounded off

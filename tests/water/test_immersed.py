@@ -16,11 +16,11 @@ from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, simulate
 from seacrane.description.elements import add_load
+from seacrane.hydro import BoxPart, CylinderPart, PlatePart, SpherePart, circle_added_mass, perforation_factor
+from seacrane.hydro.parts.parts import Part
 from seacrane.run import Run
 from seacrane.scene import Waves
 from seacrane.sea import Current
-from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, circle_added_mass, perforation_factor
-from seacrane.water.parts import Part
 
 Array = NDArray[np.float64]
 SLICE: dict[str, Any] = {"length": 1.0, "diameter": 1.0, "drag": 0.0, "ends": ("joined", "joined")}

@@ -16,9 +16,10 @@ from scipy.integrate import quad
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 
 from seacrane import Scene, SceneError, simulate
+from seacrane.hydro import BoxPart, MeshPart, part_from_mesh
+from seacrane.hydro.parts import panel_added_mass
+from seacrane.hydro.parts.panel_added_mass import MeshShape, volumes_below
 from seacrane.warnings import MeshConvergenceWarning
-from seacrane.water import BoxPart, MeshPart, from_mesh, panel_added_mass
-from seacrane.water.panel_added_mass import MeshShape, volumes_below
 
 Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0
@@ -59,7 +60,7 @@ def test_the_volume_below_a_level_is_that_of_the_clipped_polyhedron(seed: int) -
 def test_a_box_floats_level_as_a_box_part() -> None:
     for depth in (0.2, 0.77, 1.3, 1.6, 4.0):
         forces = []
-        for part in (from_mesh(BOX, **ROUGH), BoxPart(size=(2.0, 1.0, 1.5))):
+        for part in (part_from_mesh(BOX, **ROUGH), BoxPart(size=(2.0, 1.0, 1.5))):
             scene, at = Scene(name="float", gravity=G), (0.0, 0.0, 0.75 - depth)
             scene.add_body(name="load", mass=1e7, inertia=(1e7, 1e7, 1e7), position=at, gravity=False)
             scene.add_immersed("load", parts=[part], density=RHO)
@@ -76,7 +77,7 @@ def test_a_sphere_has_the_added_mass_of_hulme_in_both_limits() -> None:
     half = 2.0 / 3.0 * np.pi * radius**3
     mesh = mesh_shapes.sphere(radius)
     middle = 0.5 * float(np.ptp(mesh[..., 2]))  # its corners are a little outside
-    part = from_mesh(mesh, panels=300, draughts=(middle, 2.0 * middle))
+    part = part_from_mesh(mesh, panels=300, draughts=(middle, 2.0 * middle))
     fast, slow = at(part, middle)
     assert fast[2] / half == pytest.approx(0.5, rel=0.02)
     assert slow[2] / half == pytest.approx(0.8310, rel=0.02)
@@ -102,7 +103,7 @@ def test_a_wedge_has_the_added_mass_of_a_double_wedge_and_with_wetting_that_of_o
     for length in lengths:
         mesh = mesh_shapes.prism(mesh_shapes.wedge(deadrise, 1.0), length)
         plain, wetted = (
-            from_mesh(mesh, panels=int(50 * length), draughts=(0.5, 1.0), wetting=w)
+            part_from_mesh(mesh, panels=int(50 * length), draughts=(0.5, 1.0), wetting=w)
             for w in (1.0, np.pi / 2.0)
         )  # as many panels in each metre, so that both err alike
         assert at(wetted, 0.5 / (np.pi / 2.0))[0] == pytest.approx(at(plain, 0.5)[0], rel=1e-3)
@@ -120,7 +121,7 @@ def test_a_flat_bottom_gains_half_of_a_plates_added_mass_over_the_depth_of_its_s
     first = 0.5 * 0.579 * np.pi / 4.0 * side**3  # m3, DNV-RP-N103 as of `BoxPart`
     early, found = 0.02, {}  # m
     for slam in (None, 8.0):
-        part = from_mesh(mesh, slam=slam, panels=200, draughts=(0.04, 0.1, 0.5, 1.0))
+        part = part_from_mesh(mesh, slam=slam, panels=200, draughts=(0.04, 0.1, 0.5, 1.0))
         up, coefficient = part.added_masses[:, 2] / RHO, slam or 5.0
         over = 2.0 * first / (coefficient * side**2)
         assert up[0] == 0.0
@@ -133,32 +134,32 @@ def test_a_flat_bottom_gains_half_of_a_plates_added_mass_over_the_depth_of_its_s
 
 def test_a_ladder_is_found_on_disk_again_to_the_bit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SEACRANE_CACHE", str(tmp_path))
-    first = from_mesh(BOX, **ROUGH)
+    first = part_from_mesh(BOX, **ROUGH)
     (file,) = (tmp_path / "added_mass").iterdir()
     real = panel_added_mass._Panels.solved
     monkeypatch.setattr(panel_added_mass._Panels, "solved", Mock(side_effect=AssertionError("solved again")))
     with monkeypatch.context() as without:
         without.setitem(sys.modules, "capytaine", None)
-        assert from_mesh(BOX, wetting=1.2, perforation=0.1, **ROUGH).volumes[-1] == first.volumes[-1]
-        again = from_mesh(BOX, **ROUGH)
+        assert part_from_mesh(BOX, wetting=1.2, perforation=0.1, **ROUGH).volumes[-1] == first.volumes[-1]
+        again = part_from_mesh(BOX, **ROUGH)
     for name in ("depths", "volumes", "added_masses", "low_frequency_added_masses", "size"):
         assert np.array_equal(getattr(first, name), getattr(again, name)), name
     assert (first.source, first.mended, first.panel_error) == (again.source, again.mended, again.panel_error)
     for other in ({"scale": 0.999}, {"panels": 61}, {"draughts": (0.3, 0.75, 1.6)}):
         with pytest.raises(AssertionError, match="solved again"):
-            from_mesh(BOX, **(ROUGH | other))
+            part_from_mesh(BOX, **(ROUGH | other))
     file.write_bytes(file.read_bytes()[:300])
     monkeypatch.setattr(panel_added_mass._Panels, "solved", real)
-    assert np.array_equal(from_mesh(BOX, **ROUGH).added_masses, first.added_masses)
+    assert np.array_equal(part_from_mesh(BOX, **ROUGH).added_masses, first.added_masses)
 
 
 def test_a_file_is_read_with_its_scale_and_density_and_holes_are_factors(tmp_path: Path) -> None:
     path = stl(tmp_path / "template.stl", 1000.0 * BOX)
     with pytest.raises(SceneError, match=r"'template.stl': is 2000 m large.*scale=0.001"):
-        from_mesh(path)
-    plain = from_mesh(path, scale=1e-3, source="drawing 12", **ROUGH)
+        part_from_mesh(path)
+    plain = part_from_mesh(path, scale=1e-3, source="drawing 12", **ROUGH)
     assert plain.volumes[-1] == pytest.approx(3.0, rel=1e-6)
-    holed = from_mesh(BOX, perforation=0.2, density=1000.0, **ROUGH)
+    holed = part_from_mesh(BOX, perforation=0.2, density=1000.0, **ROUGH)
     assert holed.added_masses == pytest.approx(plain.added_masses * 0.7551 * 1000.0 / RHO, rel=1e-3)
     piece = next(holed.pieces(900.0))
     assert piece.added_masses == pytest.approx(holed.added_masses * 0.9, rel=1e-12)
@@ -174,10 +175,10 @@ def test_a_file_is_read_with_its_scale_and_density_and_holes_are_factors(tmp_pat
 )  # fmt: skip
 def test_bad_meshes_and_numbers_are_refused(mesh: Any, given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):
-        from_mesh(mesh, **given)
+        part_from_mesh(mesh, **given)
 
 
 def test_panels_that_do_not_suffice_are_told() -> None:
     with pytest.warns(MeshConvergenceWarning, match="changes by") as told:
-        part = from_mesh(mesh_shapes.box((2.0, 2.0, 0.1)), panels=50, draughts=(0.1, 0.5))
+        part = part_from_mesh(mesh_shapes.box((2.0, 2.0, 0.1)), panels=50, draughts=(0.1, 0.5))
     assert part.panel_error > 0.05 and f"by {part.panel_error:.1%}" in str(told[0].message)

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, simulate
-from seacrane.water import CylinderPart, circle_added_mass
+from seacrane.hydro import CylinderPart, circle_added_mass
 
 Array = NDArray[np.float64]
 D, LENGTH = 8.0, 60.0

@@ -17,9 +17,9 @@ from wet_scenes import EXACT, FORMS, RHO, G, quaternion
 
 from seacrane import Scene, simulate
 from seacrane.description.channels import FIXED
+from seacrane.hydro import BoxPart, CylinderPart, SpherePart
 from seacrane.run import Run
 from seacrane.scene import Waves
-from seacrane.water import BoxPart, CylinderPart, SpherePart
 
 Array = NDArray[np.float64]
 BUOYANCY, WAVES, ADDED, DRAG, SLAM = range(5)

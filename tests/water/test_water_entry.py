@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import _core
-from seacrane.water import circle_added_mass
+from seacrane.hydro import circle_added_mass
 
 Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[2]

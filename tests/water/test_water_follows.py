@@ -32,11 +32,11 @@ from seacrane.analysis.drag_in_sea import drag_in_components, mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.answers import statics, summary
 from seacrane.description.wet_parts import immersed_parts
+from seacrane.hydro import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
+from seacrane.hydro.parts.added_mass import sphere_table
+from seacrane.hydro.parts.parts import Part
 from seacrane.run import Stage, Until
 from seacrane.sea import Current, jonswap
-from seacrane.water import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
-from seacrane.water.added_mass import sphere_table
-from seacrane.water.parts import Part
 
 Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0

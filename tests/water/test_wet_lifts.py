@@ -16,11 +16,11 @@ from hull_shapes import stl
 
 from seacrane import Curve, Lift, Scene, SceneError, balance, equilibrium, shipped_database, simulate
 from seacrane.errors import FileFormatError
+from seacrane.hydro import BoxPart, CylinderPart, Opening, PlatePart, SpherePart, TablePart, part_from_mesh
 from seacrane.inputs.frames import heel_and_trim
 from seacrane.pictures.drawn_bodies import looks
 from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.warnings import LineRungWarning, OverloadWarning
-from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart, SpherePart, TablePart, from_mesh
 
 G, RHO = 9.80665, 1025.0
 MASS, BLOCK, SIZE, FILL = 40e3, 2e3, (6.0, 4.0, 3.0), 0.5
@@ -132,8 +132,9 @@ def test_a_mesh_in_a_lift_file_is_that_of_a_script(tmp_path: Path) -> None:
     path.write_text(MESHED, encoding="utf-8")
     lifted, scene = Lift.load(path), Scene(name="lift")
     scene.add_body("load", mass=4000.0, size=(2.0, 1.0, 1.5))
-    part = from_mesh(mesh, scale=1e-3, draughts=(0.3, 0.75, 1.5), panels=60, wetting=1.2, perforation=0.1,
-                     drag_area=(1.0, 2.0, 3.0), point=(0.0, 0.0, 0.1), source="drawn")  # fmt: skip
+    part = part_from_mesh(mesh, scale=1e-3, draughts=(0.3, 0.75, 1.5), panels=60, wetting=1.2,
+                          perforation=0.1, drag_area=(1.0, 2.0, 3.0), point=(0.0, 0.0, 0.1),
+                          source="drawn")  # fmt: skip
     (expected,) = scene.add_immersed("load", parts=[part])
     assert lifted.scene().loads["load.1"] == expected
     lifted.save(again)

@@ -7,8 +7,8 @@ from operability_scenes import vessel
 
 from seacrane import Criterion, equilibrium, simulate
 from seacrane.analysis.rest_state import held
+from seacrane.hydro import SpherePart
 from seacrane.operability.linear_channels import LinearSeas
-from seacrane.water import SpherePart
 
 MASS, DIAMETER, RHO, G = 30e3, 2.5, 1025.0, 9.80665  # kg, m, kg/m3, m/s2
 TOP = (-50.0, 0.0, 20.0)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from seacrane.accuracy.case import Case
 from seacrane.accuracy.expected import unit_error
 from seacrane.accuracy.quantities import Quantity, channels_of, compare, limits_of, quantities_of
+from seacrane.analysis.after_run import require_finite
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.arrays import Array
 from seacrane.description.loads import any_stiff
@@ -23,7 +24,6 @@ from seacrane.run.advance import finished
 from seacrane.run.method import start_state
 from seacrane.run.run import Run
 from seacrane.run.staged_run import StagedRun
-from seacrane.validity.after_run import require_finite
 
 if TYPE_CHECKING:
     from seacrane.result import Result

@@ -19,11 +19,11 @@ from seacrane.accuracy.asked import BESIDE, Asked, asked
 from seacrane.accuracy.case import Case
 from seacrane.accuracy.expected import MARGIN, STIFF, TIGHTEST, expected_error, method_for, probe_of
 from seacrane.accuracy.model_error import model_errors
+from seacrane.analysis.after_run import Finding, tried, warn_of
 from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.caller import warn_caller
 from seacrane.run.method import Method, settled
-from seacrane.validity.after_run import Finding, tried, warn_of
 from seacrane.warnings import AnotherCourseWarning
 
 if TYPE_CHECKING:

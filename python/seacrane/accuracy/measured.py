@@ -12,13 +12,13 @@ from seacrane.accuracy.case import Case, OutOfTime, timed
 from seacrane.accuracy.methods import TIGHT
 from seacrane.accuracy.quantities import Quantity, channels_of, compare, motion_of
 from seacrane.accuracy.row import COMPLETED, NOT_FINITE, REFUSED, SLOW, STOPPED, UNKNOWN, Row
+from seacrane.analysis.after_run import require_finite
 from seacrane.arrays import Array
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import require_finite
 
 CHECKS = ("constraint_error", "constraint_error_before_projection", "energy_balance", "absolute_work",
           "quaternion", "velocity", "angular_velocity")  # fmt: skip

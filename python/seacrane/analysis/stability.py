@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.analysis.left_range import LARGEST_HEEL
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.analysis.taut_lines import slack_lines
 from seacrane.arrays import Array, Complex
@@ -19,7 +20,6 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
-from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import CreepingRestWarning, LargeHeelWarning, UnstableRestWarning
 
 LEAST_GROWTH = 1e-3  # 1/s: what takes ten minutes to double is not told

@@ -1,4 +1,4 @@
-"""Numbers in an engineer's words: the summary of a run, statics, allowable loads."""
+"""Numbers in an engineer's words: the summary of a run, statics, allowable loads, what a scene requires."""
 
 from seacrane.lazy import face
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.inverse import crane_of, path_through, places_in, places_of, posed, values_of
+from seacrane.analysis.left_range import LARGEST_HEEL
 from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.stability import Growing, growing
 from seacrane.answers.rest_columns import HOOK_STIFFNESS, AtRest, columns_of, pulls_of
@@ -30,7 +31,6 @@ from seacrane.inputs.plausible import angle_of
 from seacrane.one_thread import one_thread
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result import Result
-from seacrane.validity.left_range import LARGEST_HEEL
 from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
 
 NOTHING = 1e-8  # m, deg, kN, t: as printed

@@ -97,8 +97,8 @@ def trade(arguments: argparse.Namespace) -> int:
     source = load_source(arguments.scene, arguments)
     folder = output_folder(arguments.out)
     from seacrane import accuracy
-    from seacrane.needs import required
-    from seacrane.needs.required import usual
+    from seacrane.answers import required
+    from seacrane.answers.required import usual
     from seacrane.run.outputs import Outputs
 
     outputs = Outputs(dt_out=(source.outputs or Outputs()).dt_out)

@@ -12,12 +12,10 @@ of a body ("tip.z in barge").
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import reduce
-from math import pi
-from types import MappingProxyType
 from typing import Any, NamedTuple, NoReturn, TypeVar
 
 import numpy as np
@@ -25,9 +23,8 @@ import numpy as np
 from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
+from seacrane.inputs.units import ANGLE, UNITS, Dimension, power, product, unit_text
 
-Dimension = tuple[Fraction, Fraction, Fraction, Fraction]
-BASE = ("kg", "m", "s", "rad")
 Value = TypeVar("Value")
 LONGEST, DEEPEST = 1000, 40  # characters; parentheses, calls and signs within each other
 FUNCTIONS = {"sqrt": 1, "abs": 1, "hypot": 2, "atan2": 2, "min": 0, "max": 0}  # arguments; 0: two or more
@@ -37,46 +34,6 @@ OF_TWO: dict[str, Callable[[Any, Any], Any]] = {
     "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide,
     "hypot": np.hypot, "atan2": np.arctan2, "min": np.minimum, "max": np.maximum,
 }  # fmt: skip
-
-
-def _dimension(*exponents: int) -> Dimension:
-    return tuple(map(Fraction, exponents))  # type: ignore[return-value]
-
-
-PURE, ANGLE = _dimension(0, 0, 0, 0), _dimension(0, 0, 0, 1)
-_OF_DIMENSION: dict[tuple[int, ...], dict[str, float]] = {  # kg, m, s, rad: units, the SI one first, in SI
-    (0, 0, 0, 0): {"1": 1.0}, (0, 0, 0, 1): {"rad": 1.0, "deg": pi / 180.0},
-    (0, 0, -1, 1): {"rad/s": 1.0, "deg/s": pi / 180.0}, (0, 0, -2, 1): {"rad/s2": 1.0},
-    (0, 1, 0, 0): {"m": 1.0, "mm": 1e-3}, (0, 2, 0, 0): {"m2": 1.0}, (0, 3, 0, 0): {"m3": 1.0},
-    (0, 1, -1, 0): {"m/s": 1.0}, (0, 1, -2, 0): {"m/s2": 1.0}, (0, 3, -1, 0): {"m3/s": 1.0},
-    (0, 0, 1, 0): {"s": 1.0}, (1, 0, 0, 0): {"kg": 1.0, "t": 1e3}, (1, 1, -2, 0): {"N": 1.0, "kN": 1e3},
-    (1, 1, -1, 0): {"N s": 1.0}, (1, 2, -2, 0): {"N m": 1.0, "J": 1.0, "kN m": 1e3},
-    (1, 0, -2, 0): {"N/m": 1.0}, (1, 2, -3, 0): {"W": 1.0}, (1, -1, -2, 0): {"Pa": 1.0, "bar": 1e5},
-}  # fmt: skip
-UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
-    {unit: (si, _dimension(*of)) for of, units in _OF_DIMENSION.items() for unit, si in units.items()}
-)
-
-
-def product(dimensions: Sequence[Dimension]) -> Dimension:
-    """The dimension of quantities multiplied with each other."""
-    kg, m, s, rad = (sum(exponents, Fraction(0)) for exponents in zip(*dimensions, strict=True))
-    return kg, m, s, rad
-
-
-def power(dimension: Dimension, exponent: Fraction) -> Dimension:
-    """The dimension of a quantity to a power."""
-    kg, m, s, rad = (one * exponent for one in dimension)
-    return kg, m, s, rad
-
-
-def unit_text(dimension: Dimension) -> str:
-    """The SI unit, such as "m/s", or "kg m^2" where it has no name here."""
-    for text, (factor, known) in UNITS.items():
-        if known == dimension and factor == 1.0:
-            return text
-    parts = zip(BASE, dimension, strict=True)
-    return " ".join(base if exponent == 1 else f"{base}^{exponent}" for base, exponent in parts if exponent)
 
 
 _UNIT = "|".join(sorted((re.escape(unit) for unit in UNITS if unit != "1"), key=len, reverse=True))

@@ -11,6 +11,7 @@ from threading import Lock
 from typing import Any, TypeVar
 
 from seacrane import _core
+from seacrane.analysis.after_run import Finding, require_finite
 from seacrane.description.given import given_vessels
 from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.members import Value
@@ -29,7 +30,6 @@ from seacrane.run.run import Run
 from seacrane.run.stage import Stage
 from seacrane.run.staged_run import StagedRun
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import Finding, require_finite
 from seacrane.version import __version__
 
 TOGETHER = 4  # members of a pack whose runs are in memory at a time

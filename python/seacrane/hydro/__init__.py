@@ -1,4 +1,4 @@
-"""Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
+"""Hydrodynamics: databases of vessels, readers, self-check, fluid memory; parts of a load in water."""
 
 from seacrane.lazy import face
 

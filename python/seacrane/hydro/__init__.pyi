@@ -1,4 +1,4 @@
-"""Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
+"""Hydrodynamics: databases of vessels, readers, self-check, fluid memory; parts of a load in water."""
 
 from seacrane.inputs.mesh_files import read_stl as read_stl
 from seacrane.hydro.data.hydro_data import DriftCoefficients as DriftCoefficients
@@ -60,3 +60,13 @@ from seacrane._core import RetardationFunctions as RetardationFunctions
 from seacrane._core import StateSpaceBlock as StateSpaceBlock
 from seacrane._core import TwistHistory as TwistHistory
 from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics as VesselHydrodynamics
+from seacrane.hydro.parts.flat_parts import BoxPart as BoxPart
+from seacrane.hydro.parts.flat_parts import PlatePart as PlatePart
+from seacrane.hydro.parts.parts import CylinderPart as CylinderPart
+from seacrane.hydro.parts.parts import SpherePart as SpherePart
+from seacrane.hydro.parts.parts import TablePart as TablePart
+from seacrane.hydro.parts.parts import Opening as Opening
+from seacrane.hydro.parts.mesh_part import MeshPart as MeshPart
+from seacrane.hydro.parts.mesh_part import part_from_mesh as part_from_mesh
+from seacrane.hydro.parts.added_mass import circle_added_mass as circle_added_mass
+from seacrane.hydro.parts.added_mass import perforation_factor as perforation_factor

@@ -13,8 +13,9 @@ from seacrane.description.curves import spline_curve
 from seacrane.description.waves import STRETCHING
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import LatinHypercube
-from seacrane.hydro import load_database
+from seacrane.hydro import load_database, part_from_mesh
 from seacrane.hydro.data.motion_raos import MotionRaos
+from seacrane.hydro.parts.parts import PARTS
 from seacrane.lift.keys import EITHER, Key, keys_of
 from seacrane.run.method import FORMULATIONS
 from seacrane.run.stage import Stage
@@ -25,8 +26,6 @@ from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import SPECTRA
 from seacrane.scene.wind_current import gust_curve
 from seacrane.sea import Current, SeaState, WaveSystem
-from seacrane.water import from_mesh
-from seacrane.water.parts import PARTS
 
 CHOSEN: dict[str, dict[str, Any]] = {
     "spectrum": {"type": "text", "choices": SPECTRA},
@@ -259,7 +258,7 @@ def part_keys() -> tuple[Key, ...]:
         "ends": {"type": "texts"}, "wall": LENGTH,
         "draughts": ROW | {"unit": "m"}, "slam": {"type": "number"}, "wetting": {"type": "number"},
     }  # fmt: skip
-    of_mesh = keys_of(from_mesh, more=more, without=("density",))
+    of_mesh = keys_of(part_from_mesh, more=more, without=("density",))
     found = {key.name: key for key in of_mesh}
     found |= {key.name: key for kind in PARTS.values() for key in keys_of(kind, more=more)}
     kind = Key("kind", "text", required=True, choices=(*PARTS, "mesh"), text="What it is.")

@@ -12,6 +12,7 @@ from seacrane import _core
 from seacrane.crane.parts import Payload
 from seacrane.description import elements
 from seacrane.description.hydraulic_cylinders import VALUES
+from seacrane.hydro import Opening
 from seacrane.inputs.values import entries_of
 from seacrane.lift.inner_keys import (
     CHANNEL_UNITS,
@@ -58,7 +59,6 @@ from seacrane.scene.hung_load import Slings
 from seacrane.scene.line_fluid import Seabed, Wire
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
-from seacrane.water import Opening
 
 LEFT = ("left",)  # of a heel or trim: as it comes
 START: dict[str, Any] = {

@@ -19,8 +19,8 @@ from seacrane.inputs.checked import number_of, numbers_of, require_unmasked, tex
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import decoded, read_whole
-from seacrane.series.mending import dates_of_numbers
-from seacrane.series.series_file import DELIMITERS, plain_number
+from seacrane.sea.mending import dates_of_numbers
+from seacrane.sea.series_file import DELIMITERS, plain_number
 
 if TYPE_CHECKING:
     import xarray

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.after_run import require_finite
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.modal_analysis import quadrature_frequencies
 from seacrane.analysis.parts_in_waves import PartsInWaves
@@ -24,7 +25,6 @@ from seacrane.run.run import Run
 from seacrane.scene.realised_sea import spectrum_named
 from seacrane.scene.scene import Scene
 from seacrane.sea import Spreading
-from seacrane.validity.after_run import require_finite
 
 MOVE = 1e-4  # m and rad, m/s and rad/s
 PUSH = 1e-3  # m/s2 and rad/s2, of states of the fluid and of loads on the vessel

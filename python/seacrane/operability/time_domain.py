@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.after_run import require_finite
 from seacrane.arrays import Array
 from seacrane.description.databases import without_databases
 from seacrane.ensembles.ensemble import Ensemble, ensemble
@@ -24,7 +25,6 @@ from seacrane.operability.criterion import Criterion, RecordNumbers, reached, re
 from seacrane.operability.linear_channels import LinearSeas
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import require_finite
 
 
 @dataclass(frozen=True, kw_only=True)

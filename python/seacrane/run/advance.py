@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import Callable, Iterator, Sequence
 
 from seacrane import _core
+from seacrane.analysis.after_run import Finding, tried, warn_of
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.errors import SimulationError
 from seacrane.result.result import Result
@@ -13,7 +14,6 @@ from seacrane.run.interrupts import Interrupts
 from seacrane.run.modes import FEWEST_STEPS, Modes, growing, stiffness, unsteady_oil
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import Calls, SampledController
-from seacrane.validity.after_run import Finding, tried, warn_of
 
 Look = Callable[[float], None]
 NEAR = 0.8  # of a limit: from there on a run in another sea is looked at by itself

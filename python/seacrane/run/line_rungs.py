@@ -11,6 +11,7 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from seacrane import _core
 from seacrane._core import Integrator
+from seacrane.analysis.after_run import Finding
 from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
 from seacrane.analysis.linearise import LARGEST
 from seacrane.arrays import Array
@@ -23,7 +24,6 @@ from seacrane.description.wet_parts import immersed_parts, starts_wet
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import Finding
 from seacrane.warnings import LineRungWarning, QuasiStaticLineWarning
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for the squares of cubics

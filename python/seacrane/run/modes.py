@@ -11,13 +11,13 @@ import numpy as np
 
 from seacrane import _core
 from seacrane._core import integrator as integrator_of
+from seacrane.analysis.after_run import Finding
 from seacrane.analysis.linearise import LARGEST, jacobian
 from seacrane.arrays import Array
 from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import any_stiff, lines_of, whole_of
 from seacrane.one_thread import one_thread
-from seacrane.validity.after_run import Finding
 from seacrane.warnings import GrowingModeWarning, StiffWarning, UnsteadyOilWarning
 
 MOST_DAMPING = 0.05  # ratio: what is damped more, waves and drives keep in bounds

@@ -11,6 +11,10 @@ import numpy as np
 
 from seacrane import _core
 from seacrane._core import integrator
+from seacrane.analysis.after_run import NOT_FINITE, Finding, as_text, not_finite, tried
+from seacrane.analysis.implausible import warn_of_description
+from seacrane.analysis.left_range import findings
+from seacrane.analysis.line_checks import bound_findings
 from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, DERIVED, OWN
 from seacrane.description.compilation import compiled, compiled_in_sea
@@ -53,10 +57,6 @@ from seacrane.run.modes import Modes
 from seacrane.run.outputs import Outputs, output_times
 from seacrane.run.stats import about_of, event_findings, lasting_stats, ruptures, sea_settings, settings_of
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import NOT_FINITE, Finding, as_text, not_finite, tried
-from seacrane.validity.implausible import warn_of_description
-from seacrane.validity.left_range import findings
-from seacrane.validity.line_checks import bound_findings
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -7,6 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
+from seacrane.analysis.after_run import Finding, as_text, warn_of
+from seacrane.analysis.implausible import check_contact_connected, warn_of_description
+from seacrane.analysis.line_checks import warn_of_connected
 from seacrane.description.channels import COUNTED_ON, OWN
 from seacrane.description.compilation import compiled_in_sea
 from seacrane.description.description import LOADS
@@ -52,9 +55,6 @@ from seacrane.run.run import Run
 from seacrane.run.sampled_controller import Calls, SampledController, checked_controllers
 from seacrane.run.stage import Level, Stage
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import Finding, as_text, warn_of
-from seacrane.validity.implausible import check_contact_connected, warn_of_description
-from seacrane.validity.line_checks import warn_of_connected
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

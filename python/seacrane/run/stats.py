@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.analysis.after_run import Finding
 from seacrane.description.description import Description
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.once import once
@@ -20,7 +21,6 @@ from seacrane.result.about import About, Event
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import Finding
 from seacrane.version import __version__
 from seacrane.warnings import BoilingOilWarning, ThroughSeatWarning
 

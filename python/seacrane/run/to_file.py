@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.analysis.after_run import Finding, as_text, warn_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
@@ -29,7 +30,6 @@ from seacrane.run.sampled_controller import Calls, SampledController
 from seacrane.run.staged_run import StagedRun
 from seacrane.scene.file import scene_digest
 from seacrane.scene.scene import Scene
-from seacrane.validity.after_run import Finding, as_text, warn_of
 
 CAPACITY = 1024  # outputs to take memory for at first
 

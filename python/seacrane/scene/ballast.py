@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.implausible import warn_of_capsize
 from seacrane.analysis.inverse import drive_loads, hold_vessel, path_through, places_in, posed
 from seacrane.analysis.rest_state import held, rest_from, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
@@ -24,7 +25,6 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import heel_and_trim, rotation_matrix
 from seacrane.plotting.table import Answer, Column, Table
-from seacrane.validity.implausible import warn_of_capsize
 from seacrane.warnings import BallastOutsideHullWarning
 
 EXACT = 1e-9  # rad: heel and trim for which the moment that is left would account

@@ -11,15 +11,15 @@ from seacrane import _core
 from seacrane.description.description import Description, require
 from seacrane.description.elements import put_load
 from seacrane.errors import SceneError
+from seacrane.hydro.parts.density import SEA_WATER, density_of
+from seacrane.hydro.parts.mesh_part import part_from_mesh
+from seacrane.hydro.parts.parts import PARTS, Opening, Part
 from seacrane.inputs.checked import finite_of, name_of, positive_of, shaped_of, text_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.shown import shown
 from seacrane.inputs.values import made_of, told_by
-from seacrane.water.density import SEA_WATER, density_of
-from seacrane.water.mesh_part import from_mesh
-from seacrane.water.parts import PARTS, Opening, Part
 
-MAKERS: Mapping[str, Callable[..., Part]] = {**PARTS, "mesh": from_mesh}
+MAKERS: Mapping[str, Callable[..., Part]] = {**PARTS, "mesh": part_from_mesh}
 FARTHEST = 10.0  # sizes of a body, or of a part, beyond which a part is not on it
 LARGEST_LEAN = np.radians(60.0)
 ATMOSPHERE = 101325.0  # Pa
@@ -45,9 +45,9 @@ def add_immersed(
     body : str
         Name of the body. Its weight stays as it is.
     parts : sequence
-        `seacrane.water.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, what
-        `seacrane.water.from_mesh` makes, or tables {"kind": "box", ...} with their entries; of the kind
-        "mesh" those of `from_mesh`.
+        `seacrane.hydro.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, what
+        `seacrane.hydro.part_from_mesh` makes, or tables {"kind": "box", ...} with their entries; of the kind
+        "mesh" those of `part_from_mesh`.
     wave_factor : float
         By which the waves of the sea are multiplied at the parts: what a hull beside makes of them. Before a
         wall it is 2, in a lee below 1. Beside a ship 1 is a `ScatteredWavesWarning`.
@@ -76,7 +76,7 @@ def add_immersed(
     label = owner if name is None else name_of("immersed parts", name)
     density_of(what, density)
     if isinstance(parts, Mapping | str) or not isinstance(parts, Sequence) or not parts:
-        raise SceneError.of(f"{what}: parts", f"is {shown(parts)}; give a list of parts of seacrane.water")
+        raise SceneError.of(f"{what}: parts", f"is {shown(parts)}; give a list of parts of seacrane.hydro")
     made = [_part(what, one) for one in parts]
     whole = scene.bodies[owner]
     reach = float(np.sqrt(1.5 * np.trace(np.asarray(whole.inertia)) / whole.mass))  # of a box of that inertia
@@ -111,7 +111,7 @@ def _part(what: str, given: Any) -> Part:
     if isinstance(given, Part):
         return given
     if not isinstance(given, Mapping):
-        raise SceneError.of(f"{what}: parts", f"holds {shown(given)}; give parts of seacrane.water")
+        raise SceneError.of(f"{what}: parts", f"holds {shown(given)}; give parts of seacrane.hydro")
     entries = dict(given)
     kind = entries.pop("kind", None)
     if kind not in MAKERS:
@@ -150,7 +150,7 @@ def add_entrapped_water(
     body : str
         Name of the body. Its mass and weight are without the water.
     openings : sequence
-        `seacrane.water.Opening`, or tables {"point": ..., "area": ...}; 12 at most.
+        `seacrane.hydro.Opening`, or tables {"point": ..., "area": ...}; 12 at most.
     air : str, optional
         Above the water: "vented", which comes and goes by the openings alone, against their resistance;
         "free", against none; or "shut", whose mass stays while no opening lets air through, and which expands
@@ -181,7 +181,7 @@ def add_entrapped_water(
     require(scene, what, "body", body)
     if isinstance(openings, Mapping | str) or not isinstance(openings, Sequence) or not openings:
         raise SceneError.of(
-            f"{what}: openings", f"is {shown(openings)}; give a list of seacrane.water.Opening"
+            f"{what}: openings", f"is {shown(openings)}; give a list of seacrane.hydro.Opening"
         )
     holes = [made_of(what, "openings", Opening, one) for one in openings]
     bottom, tall = shaped_of(f"{what}: point", point, (3,)), positive_of(f"{what}: height", height, "m")

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike
 from seacrane import _core
 from seacrane.arrays import Array
 from seacrane.errors import SceneError
+from seacrane.hydro.parts.density import SEA_WATER, density_of
 from seacrane.inputs.checked import finite_of, not_negative_of, number_of, positive_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.values import made_of
 from seacrane.scene.wind_current import AIR
-from seacrane.water.density import SEA_WATER, density_of
 
 _Point = tuple[str, Array]  # a body and a point in its coordinates, m
 MEDIA = ("air", "sea")

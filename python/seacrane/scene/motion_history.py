@@ -18,8 +18,8 @@ from seacrane.inputs.checked import rows_of, text_of, texts_of, vector_of
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import listed
-from seacrane.series.measured_series import MeasuredSeries
-from seacrane.series.series_file import heading_of
+from seacrane.sea.measured_series import MeasuredSeries
+from seacrane.sea.series_file import heading_of
 from seacrane.warnings import AngleUnitWarning, NoisyMotionWarning, UnitWarning
 
 COMPASS = ("heading", "hdg")

@@ -17,11 +17,11 @@ from seacrane.description.places import place_of
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
+from seacrane.hydro.parts.density import SEA_WATER
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of, positive_of, rows_of, text_of
 from seacrane.sea import Current, SeaState, Spreading, WaveSystem, cos_2s, jonswap
 from seacrane.warnings import BlockedWavesWarning, SecondOrderFlowWarning, UnitWarning
-from seacrane.water.density import SEA_WATER
 
 if TYPE_CHECKING:
     import xarray

@@ -14,17 +14,7 @@ from seacrane import _core
 from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, COUNTED_ON, FIXED, OWN, unit_of
 from seacrane.description.description import GROUND, Description, coordinate_of, insert, require
-from seacrane.description.expression import (
-    UNITS,
-    Curve,
-    Dimension,
-    Number,
-    Program,
-    dimension_of,
-    parsed,
-    unit_text,
-    worked_out,
-)
+from seacrane.description.expression import Curve, Number, Program, dimension_of, parsed, worked_out
 from seacrane.description.limit_state import LimitState, Range
 from seacrane.description.pick import Pick, pick_of
 from seacrane.description.places import ANGLES, MOTION, POSE
@@ -33,6 +23,7 @@ from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, text
 from seacrane.inputs.keywords import taken
 from seacrane.inputs.plain_data import DERIVED
 from seacrane.inputs.shown import shown
+from seacrane.inputs.units import UNITS, Dimension, unit_text
 from seacrane.inputs.values import told_by
 
 Vector = tuple[float, float, float]

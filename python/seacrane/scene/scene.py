@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
+from seacrane.analysis.implausible import warn_of_capsize
 from seacrane.analysis.scene_report import elements_of, scene_report
 from seacrane.description import compilation, elements, places
 from seacrane.description.description import Description
@@ -33,7 +34,6 @@ from seacrane.scene import (
 from seacrane.scene.add_crane import add_crane
 from seacrane.scene.ballast import add_ballast
 from seacrane.scene.realised_sea import sea_at
-from seacrane.validity.implausible import warn_of_capsize
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from seacrane.analysis.hull_range import peak_frequency
 from seacrane.arrays import Array, Complex
 from seacrane.description.databases import database_of
 from seacrane.description.description import Description
@@ -22,7 +23,6 @@ from seacrane.hydro.data.interpolation import spline_weights
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import MOTIONS
-from seacrane.validity.hull_range import peak_frequency
 from seacrane.warnings import WavesWithoutLoadWarning
 
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load

@@ -16,6 +16,7 @@ from seacrane.description.description import Description, require
 from seacrane.description.elements import put_load
 from seacrane.description.places import ORIGIN
 from seacrane.errors import SceneError
+from seacrane.hydro.parts.density import SEA_WATER
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shaped_of, vector_of
@@ -23,7 +24,6 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.values import told_by
 from seacrane.warnings import DoubleCountedDampingWarning
-from seacrane.water.density import SEA_WATER
 
 SLOWEST, FASTEST = 1.0 / 600.0, 0.5  # Hz: the spectrum is one of an hour's wind, fitted from 1/600 Hz on
 FREQUENCY_STREAM, PHASE_STREAM = 2**32, 2**32 + 1  # of Philox; a sea counts its own up from 0

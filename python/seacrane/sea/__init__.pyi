@@ -1,4 +1,4 @@
-"""Seas: spectra, spreading, measured records, several wave systems, and the waves they are realised into."""
+"""Seas: spectra, spreading, several wave systems and the waves they are realised into; measured series."""
 
 from seacrane.sea.systems import SeaState as SeaState
 from seacrane.sea.systems import WaveSystem as WaveSystem

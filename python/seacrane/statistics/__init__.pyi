@@ -15,7 +15,7 @@ from seacrane.statistics.control_variate import controlled_mean as controlled_me
 from seacrane.statistics.control_variate import ControlledMean as ControlledMean
 from seacrane.statistics.record import spectrum_estimate as spectrum_estimate
 from seacrane.statistics.record import SpectrumEstimate as SpectrumEstimate
-from seacrane.series.measured_series import MeasuredSeries as MeasuredSeries
-from seacrane.series.mending import interpolated as interpolated
+from seacrane.sea.measured_series import MeasuredSeries as MeasuredSeries
+from seacrane.sea.mending import interpolated as interpolated
 from seacrane.statistics.compare import compare as compare
 from seacrane.statistics.compare import Comparison as Comparison

@@ -19,7 +19,7 @@ from seacrane.inputs.shown import listed, shown
 from seacrane.plotting.panel import Line, Panel, Sheet, draw
 from seacrane.plotting.table import Answer, Column, Table, read_as
 from seacrane.result import Result
-from seacrane.series.measured_series import MeasuredSeries
+from seacrane.sea.measured_series import MeasuredSeries
 from seacrane.warnings import UncertainShiftWarning
 
 if TYPE_CHECKING:

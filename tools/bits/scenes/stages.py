@@ -7,7 +7,7 @@ import numpy as np
 from bits.case import by, case
 from bits.scenes.parts import UP, G, with_load
 from seacrane import Curve, Frame, Move, Scene, Stage, Until, shipped_database
-from seacrane.water import BoxPart
+from seacrane.hydro import BoxPart
 
 HOOK = {"bodies": ["ground", "load"], "points": [(0.0, 0.0, 21.0), (0.0, 0.0, 0.0)]}
 

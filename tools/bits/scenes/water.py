@@ -7,8 +7,8 @@ import numpy as np
 from bits.case import by, case
 from bits.scenes.parts import G, with_load
 from seacrane import Scene
+from seacrane.hydro import BoxPart, CylinderPart, Opening, PlatePart, SpherePart
 from seacrane.sea import Current
-from seacrane.water import BoxPart, CylinderPart, Opening, PlatePart, SpherePart
 
 
 def into_waves() -> Scene:

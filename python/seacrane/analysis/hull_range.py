@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from seacrane import _core, warnings
+from seacrane.analysis.after_run import Finding, peak
 from seacrane.arrays import Array
 from seacrane.description.given import given_vessels
 from seacrane.description.once import once
 from seacrane.hydro import HydroDatabase
 from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix
-from seacrane.validity.after_run import Finding, peak
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.arrays import Array
-from seacrane.description.expression import UNITS, unit_text
 from seacrane.errors import FileFormatError
 from seacrane.inputs.looks_like import looks_like
 from seacrane.inputs.shown import listed, shown
+from seacrane.inputs.units import UNITS, unit_text
 from seacrane.inputs.whole_file import decoded, read_whole
 
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "nodata"])

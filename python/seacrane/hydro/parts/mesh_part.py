@@ -1,4 +1,4 @@
-"""`from_mesh`: a part of a load by tables that a closed mesh and a panel code make."""
+"""`part_from_mesh`: a part of a load by tables that a closed mesh and a panel code make."""
 
 from __future__ import annotations
 
@@ -12,15 +12,10 @@ from numpy.typing import ArrayLike
 
 from seacrane.arrays import Array
 from seacrane.errors import SceneError
-from seacrane.inputs.brief import brief
-from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of, shaped_of, text_of, vector_of
-from seacrane.inputs.shown import shown
-from seacrane.warnings import MeshConvergenceWarning
-from seacrane.water.added_mass import RAMP_KNOTS, ROUNDING, perforation_factor, ramp
-from seacrane.water.density import SEA_WATER, density_of
-from seacrane.water.flat_parts import LEAST_SLAM, MOST_PERFORATION, Piece, check_slam, share_of
-from seacrane.water.panel_added_mass import (
+from seacrane.hydro.parts.added_mass import RAMP_KNOTS, ROUNDING, perforation_factor, ramp
+from seacrane.hydro.parts.density import SEA_WATER, density_of
+from seacrane.hydro.parts.flat_parts import LEAST_SLAM, MOST_PERFORATION, Piece, check_slam, share_of
+from seacrane.hydro.parts.panel_added_mass import (
     MOST_PANELS,
     MeshShape,
     PanelLadder,
@@ -28,7 +23,12 @@ from seacrane.water.panel_added_mass import (
     panel_ladder,
     volumes_below,
 )
-from seacrane.water.parts import TablePart
+from seacrane.hydro.parts.parts import TablePart
+from seacrane.inputs.brief import brief
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import number_of, shaped_of, text_of, vector_of
+from seacrane.inputs.shown import shown
+from seacrane.warnings import MeshConvergenceWarning
 
 MOST_DRAUGHTS, FEWEST_PANELS = 60, 50
 MOST_WETTING = 2.0  # that of a circle as it touches (Wagner)
@@ -40,7 +40,7 @@ APART = 1e-5  # of the height: the least between two depths
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class MeshPart(TablePart):
-    """What `from_mesh` makes: a table of the added mass that a fast motion feels, with that of a slow one.
+    """What `part_from_mesh` makes: a table of added mass that a fast motion feels, with that of a slow one.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class MeshPart(TablePart):
             )  # fmt: skip
 
 
-def from_mesh(
+def part_from_mesh(
     mesh: str | os.PathLike[str] | ArrayLike, *, scale: float = 1.0, draughts: ArrayLike | None = None,
     wetting: float = 1.0, slam: float | None = None, perforation: float = 0.0,
     drag_area: ArrayLike = (0.0, 0.0, 0.0), panels: int = 400, source: str = "",
@@ -243,7 +243,7 @@ def _warn(what: str, part: MeshPart) -> None:
 
 
 class _DepthTable:
-    """Added mass over density (m3) over depth, from a ladder of a mesh; wetting and C_S as of `from_mesh`.
+    """Added mass over density (m3) over depth, from a ladder of a mesh; wetting, C_S as of `part_from_mesh`.
 
     `added` and `low` (n, 3) are those at the `rungs` (n,), m, from 0 to where the fluid is unbounded, before
     pile-up and ramp; `over` is the ramp of a flat bottom, m.

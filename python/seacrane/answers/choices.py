@@ -39,7 +39,7 @@ class Choice:
     ----------
     name : What the scene is after it, such as "no air drag on load".
     script : str
-        Lines of Python that do the same to a described `scene`; `needs` is `seacrane.needs`.
+        Lines of Python that do the same to a described `scene`; `needs` is `seacrane.answers`.
     made : callable
         The changed copy of a scene. What it changes may have gone by another choice: it then does nothing.
     of : str
@@ -181,7 +181,7 @@ def held_crane(scene: Scene) -> Iterator[Choice]:
     if scene.actuators:
         yield Choice(
             name="crane held where it starts",
-            script="scene = needs.locked(scene)",
+            script="scene = answers.locked(scene)",
             made=simpler.locked,
             of="drives",
         )
@@ -227,7 +227,7 @@ def fewer_waves(scene: Scene) -> Iterator[Choice]:
         count = int(np.ceil(share * len(waves.omega)))
         if count < len(waves.omega):
             name = f"{count} of {len(waves.omega)} wave components"
-            script = f"needs.strongest(scene.waves, {count})"
+            script = f"answers.strongest(scene.waves, {count})"
             yield _on_waves(name, script, partial(simpler.strongest, count=count), "wave components")
 
 
@@ -295,7 +295,7 @@ def _memory(kind: str, level: float | None = None) -> Choice:
     more = "" if level is None else f", level={level:g}"
     return Choice(
         name=name if level is None else f"{name} within {100 * level:g} %",
-        script=f'scene = needs.with_memory(scene, "{kind}"{more})',
+        script=f'scene = answers.with_memory(scene, "{kind}"{more})',
         made=partial(simpler.with_memory, kind=kind, level=level),
         of="fluid memory",
     )
@@ -314,7 +314,7 @@ def no_coupling(scene: Scene) -> Iterator[Choice]:
     for name, group in scene.groups.items():
         yield Choice(
             name=f"no coupling of {' and '.join(group.vessels)}",
-            script=f'scene = needs.uncoupled(scene, "{name}")',
+            script=f'scene = answers.uncoupled(scene, "{name}")',
             made=partial(uncoupled, name=name),
             of=f"coupling of group {name}",
         )
@@ -375,7 +375,7 @@ def scatter(scene: Scene) -> Iterator[Choice]:
         told = " to ".join(f"{100 * share:g}" for share in dict.fromkeys([shares[0], shares[-1]]))
         yield Choice(
             name=f"{case} in water, by {told} %",
-            script=f'scene = needs.scattered(scene, "{case}")',
+            script=f'scene = answers.scattered(scene, "{case}")',
             made=partial(simpler.scattered, case=case),
             of="coefficients in water",
         )

@@ -12,12 +12,12 @@ import numpy as np
 
 from seacrane.arrays import Array
 from seacrane.errors import SceneError
+from seacrane.hydro.parts.added_mass import PLATE_SOURCE, box_deep, box_growth, perforation_factor
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import finite_of, not_negative_of, number_of, positive_of, shaped_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.warnings import UnitWarning
-from seacrane.water.added_mass import PLATE_SOURCE, box_deep, box_growth, perforation_factor
 
 LEAST_SLAM_ROUND, LEAST_SLAM = 3.0, 5.0  # DNV-RP-N103 (unverified)
 MOST_PERFORATION = 0.5  # where the factor ends

@@ -105,7 +105,7 @@ def _mean_depths(corners: Array) -> Array:
 
 def closed_mesh(mesh: Any, scale: Any) -> tuple[str, Array]:
     """What messages call a mesh, and its triangles (n, 3, 3), m, anticlockwise from outside; errors as of
-    `seacrane.water.from_mesh`."""
+    `seacrane.hydro.part_from_mesh`."""
     what, triangles = _triangles_of(mesh)
     factor = positive_of(f"{what}: scale", scale)
     with np.errstate(over="ignore", invalid="ignore"):

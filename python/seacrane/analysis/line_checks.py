@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from seacrane import _core, warnings
+from seacrane.analysis.after_run import Finding, peak
 from seacrane.arrays import Array
 from seacrane.description.description import all_loads
 from seacrane.description.line_path import Laid, described_poses, laid
@@ -18,7 +19,6 @@ from seacrane.description.suspension import bodies_below, line_weights
 from seacrane.description.wet_parts import carried_by_water, immersed_parts
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.validity.after_run import Finding, peak
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.after_run import Finding, peak
 from seacrane.arrays import Array
 from seacrane.description.crane_parts import placed, tip_radius
 from seacrane.description.once import once_in_any_sea
@@ -19,7 +20,6 @@ from seacrane.description.suspension import bodies_below, hung_loads, suspension
 from seacrane.description.wet_parts import carried_by_water
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.validity.after_run import Finding, peak
 from seacrane.warnings import LargeSwingWarning, LoadInHullWarning, LoadOffDeckWarning, OverloadWarning
 
 if TYPE_CHECKING:

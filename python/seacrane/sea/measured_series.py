@@ -16,8 +16,8 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import positive_of, text_of, vector_of
 from seacrane.inputs.shown import listed, shown
 from seacrane.plotting.table import Answer, Column, Table
-from seacrane.series.mending import ALIASED, BROKEN, is_even, low_passed, on_grid, share_above, step_of
-from seacrane.series.reading import FEWEST, Columns, read_series
+from seacrane.sea.mending import ALIASED, BROKEN, is_even, low_passed, on_grid, share_above, step_of
+from seacrane.sea.reading import FEWEST, Columns, read_series
 
 MOST_FILLED = 32  # times as many samples as there are, of which the rest would be in gaps
 

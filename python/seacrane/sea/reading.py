@@ -15,8 +15,8 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import finite_of, flag_of, not_negative_of, positive_of
 from seacrane.inputs.shown import listed, shown
-from seacrane.series.mending import BROKEN, POSIX, filled, outliers, step_of, unit_since_1970
-from seacrane.series.series_file import Heading, SeriesFile, plain_words, unit_of_words
+from seacrane.sea.mending import BROKEN, POSIX, filled, outliers, step_of, unit_since_1970
+from seacrane.sea.series_file import Heading, SeriesFile, plain_words, unit_of_words
 from seacrane.warnings import ClockDriftWarning, FilledGapWarning, OutlierWarning
 
 Bools = NDArray[np.bool_]

@@ -9,10 +9,7 @@ from typing import Any, ClassVar, get_args
 import numpy as np
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import not_negative_of, number_of, positive_of, shaped_of, vector_of
-from seacrane.inputs.keywords import named
-from seacrane.inputs.shown import shown
-from seacrane.water.added_mass import (
+from seacrane.hydro.parts.added_mass import (
     CIRCLE_SOURCE,
     RAMP_KNOTS,
     SPHERE_SOURCE,
@@ -23,7 +20,7 @@ from seacrane.water.added_mass import (
     sphere_table,
     wetted_at,
 )
-from seacrane.water.flat_parts import (
+from seacrane.hydro.parts.flat_parts import (
     LEAST_SLAM_ROUND,
     MOST_STRIPS,
     BoxPart,
@@ -34,6 +31,9 @@ from seacrane.water.flat_parts import (
     check_slam,
     check_strips,
 )
+from seacrane.inputs.checked import not_negative_of, number_of, positive_of, shaped_of, vector_of
+from seacrane.inputs.keywords import named
+from seacrane.inputs.shown import shown
 
 CIRCLE_SLAM = np.pi  # von Karman: what the added mass of a circle gives as it touches
 DISC_DRAG = 1.17  # C_D of a thin disc across the flow (Hoerner, Fluid-Dynamic Drag; unverified)

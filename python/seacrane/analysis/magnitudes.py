@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.proportions import Around, disproportions
 from seacrane.arrays import Array
 from seacrane.description.description import ELEMENTS, KINDS, LOADS
 from seacrane.description.loads import BEYOND, kind_of, named
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.plausible import TURN
-from seacrane.validity.proportions import Around, disproportions
 from seacrane.warnings import UnitWarning
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from statistics import median
 from typing import Any
 
-from seacrane.needs.choices import Choice
+from seacrane.answers.choices import Choice
 from seacrane.plotting.table import Answer, Column, Table
 
 

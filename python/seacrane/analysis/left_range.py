@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane import warnings
+from seacrane.analysis.after_run import Finding, peak, tried
+from seacrane.analysis.hull_range import current_findings, hull_findings, motions, relative_findings
+from seacrane.analysis.lifting import lifting
+from seacrane.analysis.line_checks import line_findings
 from seacrane.arrays import Array
 from seacrane.description.places import ANGLES, Pose, coordinate_at, wrapped
 from seacrane.inputs.frames import MOTIONS, rotation_matrix
-from seacrane.validity.after_run import Finding, peak, tried
-from seacrane.validity.hull_range import current_findings, hull_findings, motions, relative_findings
-from seacrane.validity.lifting import lifting
-from seacrane.validity.line_checks import line_findings
 
 if TYPE_CHECKING:
     from seacrane import _core

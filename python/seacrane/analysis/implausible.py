@@ -9,6 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane import _core, warnings
+from seacrane.analysis.hull_range import beside, peak_of
+from seacrane.analysis.lifting import warn_of_loads_in_hulls
+from seacrane.analysis.line_checks import warn_of_line_starts
+from seacrane.analysis.magnitudes import warn_of_units
 from seacrane.arrays import Array
 from seacrane.description.description import all_loads
 from seacrane.description.given import (
@@ -32,10 +36,6 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import angle_of
-from seacrane.validity.hull_range import beside, peak_of
-from seacrane.validity.lifting import warn_of_loads_in_hulls
-from seacrane.validity.line_checks import warn_of_line_starts
-from seacrane.validity.magnitudes import warn_of_units
 
 if TYPE_CHECKING:
     from seacrane.description.description import Description

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 
 from seacrane._core import State
+from seacrane.answers.choices import Choice, choices_of, missing_from
+from seacrane.answers.requirements import Loss, Requirements
 from seacrane.description.channels import unit_of
 from seacrane.description.given import given_vessels
 from seacrane.description.suspension import hung_loads
@@ -22,8 +24,6 @@ from seacrane.inputs.caller import silently
 from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
-from seacrane.needs.answer import Loss, Requirements
-from seacrane.needs.choices import Choice, choices_of, missing_from
 from seacrane.result import Result
 from seacrane.run.method import Method, Start, settled
 from seacrane.run.outputs import Outputs
@@ -196,7 +196,7 @@ def required(
         In place of a simulation: from a scene to what `keep` takes its numbers from, such as
         ``lambda scene: allowable_hs(scene, ...)``.
     choices : iterable of Choice, optional
-        To try; default: `seacrane.needs.choices_of` the scene.
+        To try; default: `seacrane.answers.choices_of` the scene.
     repeats : int
         Timed runs of each, by turns with the scene as it stands.
     progress : bool

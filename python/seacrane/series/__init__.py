@@ -1,1 +1,0 @@
-"""Measured series: their files, their clock, what is mended in them, and the values themselves."""
