@@ -51,11 +51,10 @@ def lift(*, controlled: bool = False, gas: bool = False) -> Scene:
     end, point = "load", (0.0, 0.0, 0.0)
     if gas:
         scene.add_body(name="hook", mass=HOOK, inertia=(500.0, 500.0, 500.0), position=hook)
-        stiffness = MASS * (2.0 * np.pi / PERIOD) ** 2
-        scene.add_gas_spring(
-            "passive", first="hook", second="load", area=0.05, damping=2.0 * OIL * np.sqrt(stiffness * MASS),
-            gas=Gas(force=MASS * scene.gravity, stiffness=stiffness), stops=Stops(minimum=1.0, maximum=5.0),
-        )  # fmt: skip
+        k = MASS * (2.0 * np.pi / PERIOD) ** 2
+        gas, stops = Gas(area=0.05, force=MASS * scene.gravity, stiffness=k), Stops(minimum=1.0, maximum=5.0)
+        damping = 2.0 * OIL * np.sqrt(k * MASS)
+        scene.add_spring("passive", first="hook", second="load", gas=gas, damping=damping, stops=stops)
         end = "hook"
     scene.add_line(name="hoist", bodies=[jib, end], points=[head, point], EA=EA, length=rope)
     scene.add_winch(line="hoist")

@@ -18,7 +18,7 @@ WEIGHT = 10e3 * 9.80665  # N
 # Case 2's crane, swung out, its payload 25 m below the tip; guide lines brake the swing.
 scene = cases.case2(payload=Payload(link_length=25.0))
 body, tip = scene.roles[""].tip
-scene.add_pendulum_damping(name="guide lines", first=body, second="payload", first_point=tip, ratio=0.03)
+scene.add_spring(name="guide lines", first=body, second="payload", first_point=tip, damping_ratio=0.03)
 
 table = allowable_hs(
     scene,

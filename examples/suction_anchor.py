@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Curve, Result, Scene, simulate
-from seacrane.hydro import CylinderPart
+from seacrane.hydro import Compartment, CylinderPart
 
 G, RHO, MASS, D, H = 9.80665, 1025.0, 90e3, 6.0, 12.0  # m/s2, kg/m3, kg, m, m
 AREA, HATCH, RATE, AIR = np.pi / 4.0 * D**2, 1.0, 0.25, 101325.0 - 2339.0  # m2, m2, m/s, Pa over vapour's
@@ -28,13 +28,11 @@ def lift(height: float, rate: float, inside: float, **hatch: object) -> Result:
         EA=5e8, tension_at_start=MASS * G,
     )  # fmt: skip
     scene.add_winch("wire", rate=Curve.quintic(start_time=2.0, end_time=4.0, start=0.0, end=rate), lag=0.1)
-    scene.add_immersed(
-        "anchor", parts=[CylinderPart(length=H, diameter=D, axes=UP, strips=1, end_drag=0.0)], density=RHO
+    shell = CylinderPart(length=H, diameter=D, axes=UP, strips=1, end_drag=0.0)
+    water = Compartment(
+        name="inside", area=AREA, height=H, point=(0.0, 0.0, -H / 2), initial=inside * AREA * H, **hatch
     )
-    scene.add_entrapped_water(
-        "anchor", name="inside", area=AREA, height=H, point=(0.0, 0.0, -H / 2), density=RHO,
-        initial=inside * AREA * H, **hatch,
-    )  # fmt: skip
+    scene.add_immersed("anchor", parts=[shell], inside=water, density=RHO)
     scene.add_sea(vessel=None, hs=1.0, tp=7.0, direction_deg=0.0, seed=4)
     return simulate(scene, t_end=80.0, dt_out=0.05, start="rest")
 

@@ -66,7 +66,7 @@ OIL = _values(
     rupture="Rupture rupture_time=time rupture_area=area rod_side_ruptures=rod_side discharge_coefficient",
 )
 GAS = _values(
-    gas="Gas pressure volume force stiffness exponent",
+    gas="Gas area pressure volume force stiffness length exponent pushes",
     stops="Stops minimum maximum stop_stiffness=stiffness",
 )
 DRIVE = _values(
@@ -77,15 +77,23 @@ LINE = _values(
     " added_mass_coefficient density flow medium seabed",
     sheaves="Sheaves radii axes turns efficiencies frictions slip_speed",
 )
+INSIDE = _values(
+    inside="Compartment area height openings point air exponent air_pressure discharge_coefficient"
+    " initial name"
+)
 OF_OTHERS = {"pressure", "gain", "friction", "air", "overlap"}  # keys of dicts that may be of anything
 IMPORTED = "import the values from seacrane.scene; in dicts of keywords one replaces another as a whole"
+SWING = "give damping_ratio: what was left out was 0.005"
+COMPARTMENT = "import Compartment from seacrane.hydro; it may go into the add_immersed of the body's parts"
 WITH_MASS = "import the values from seacrane.scene; rung='with mass' goes, and segment_rung is rung"
 CALLS = {
     "add_hydraulic_cylinder": Call("add_hydraulic_cylinder", values=OIL, note=IMPORTED),
     "add_line": Call("add_line", values=LINE, note=WITH_MASS),
     "add_vessel": Call("add_vessel", renamed={"mooring_period": "mooring"}),
-    "add_gas_spring": Call("add_gas_spring", values=GAS, note=IMPORTED),
+    "add_gas_spring": Call("add_spring", values=GAS, note=IMPORTED),
+    "add_pendulum_damping": Call("add_spring", renamed={"ratio": "damping_ratio"}, note=SWING),
     "add_heave_compensation": Call("add_heave_compensation", values=DRIVE, note=IMPORTED),
+    "add_entrapped_water": Call("add_immersed", values=INSIDE, note=COMPARTMENT),
     "add_drift": Call("add_sea", words={"drift": "True"}, dropped=("outside",), note=AGAIN),
     "use_actual_position": Call("add_sea", words={"phase": '"actual"'}, note=AGAIN),
     "use_slow_position": Call("add_sea", words={"phase": '"slow"'}, note=AGAIN),

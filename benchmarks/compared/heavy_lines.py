@@ -31,7 +31,7 @@ def catenary() -> Iterator[Row]:
 def swinging() -> Iterator[Row]:
     """A point mass with the default of a payload's swing."""
     scene = pendulum(1e-3)
-    scene.add_pendulum_damping(name="swing", first="ground", second="load")
+    scene.add_spring(name="swing", first="ground", second="load", damping_ratio=0.005)
     result = simulate(scene, t_end=30.0, rtol=1e-10)
     yield Row(
         subject=SUBJECT, compared="pendulum with 0.5 % of critical damping: angle over its start, 30 s",

@@ -38,9 +38,7 @@ def study_scene() -> Scene:
     """Case 2 with its payload 25 m below the tip, and guide lines."""
     scene = cases.case2(payload=Payload(mass=MASS, link_length=LINK))
     body, tip = scene.roles[""].tip
-    scene.add_pendulum_damping(
-        name="guide lines", first=body, second="payload", first_point=tip, ratio=GUIDED
-    )
+    scene.add_spring(name="guide lines", first=body, second="payload", first_point=tip, damping_ratio=GUIDED)
     return scene
 
 

@@ -31,7 +31,7 @@ short, long = wires
 hung = ("head", jib, head, HEAD, short), ("tail", "trolley", (0, 0, 0), TAIL, long)
 for name, body, at, (a, b), length in hung:
     scene.add_line(name, bodies=[body, "pile"], points=[at, (a, 0, b)], EA=EA, length=length)
-scene.add_pendulum_damping(name="air", first="ground", second="pile", first_point=(x, y, z), ratio=0.05)
+scene.add_spring(name="air", first="ground", second="pile", first_point=(x, y, z), damping_ratio=0.05)
 names, stages = ("head.length", "tail.length", "rail.displacement"), [Stage(name="0", duration=40.0)]
 for angle in ANGLES[1:]:
     to = zip(names, by_hand(angle)[1:4] - (0, 0, rail), strict=True)

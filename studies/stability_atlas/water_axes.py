@@ -8,7 +8,7 @@ import numpy as np
 
 from seacrane import Scene, Stage, _core
 from seacrane.accuracy.case import Case
-from seacrane.hydro import BoxPart, CylinderPart, Opening, PlatePart, two_barges
+from seacrane.hydro import BoxPart, Compartment, CylinderPart, Opening, PlatePart, two_barges
 from stability_atlas.axis import Axis
 
 WATER, SIDE, GRAVITY = 1025.0, 2.0, 9.80665  # kg/m3, m, m/s2
@@ -61,11 +61,12 @@ def _tank(share: float, **openings: Any) -> Scene:
         EA=1e8, tension_at_start=2e5, damping_ratio=0.05,
     )  # fmt: skip
     up = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0))
-    scene.add_immersed("tank", parts=[CylinderPart(length=TANK_HEIGHT, diameter=2.3, axes=up, strips=1)])
-    scene.add_entrapped_water(
-        "tank", name="inside", area=TANK_AREA, height=TANK_HEIGHT, point=(0.0, 0.0, -0.5 * TANK_HEIGHT),
+    shell = CylinderPart(length=TANK_HEIGHT, diameter=2.3, axes=up, strips=1)
+    water = Compartment(
+        name="inside", area=TANK_AREA, height=TANK_HEIGHT, point=(0.0, 0.0, -0.5 * TANK_HEIGHT),
         initial=share * TANK_AREA * TANK_HEIGHT, **openings,
     )  # fmt: skip
+    scene.add_immersed("tank", parts=[shell], inside=water)
     return scene
 
 

@@ -18,15 +18,14 @@ from seacrane.scene import Gas, Stops
 G = 9.80665
 MASS, AREA, LENGTH = 20e3, 0.02, 8.0  # kg, m2, m
 VOLUME = 0.15  # m3
-GAS = Gas(pressure=MASS * G / AREA, volume=VOLUME)
+GAS = Gas(area=AREA, pressure=MASS * G / AREA, volume=VOLUME)
 
 
 def hung(*, height: float = -LENGTH, velocity: float = 0.0, **settings: Any) -> Scene:
     """A load below a gas spring that carries its weight."""
     scene, state = Scene(name="passive"), {"position": (0, 0, height), "velocity": (0, 0, velocity)}
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), **state)
-    settings = {"area": AREA, "gas": GAS} | settings
-    scene.add_gas_spring("phc", first="ground", second="load", **settings)
+    scene.add_spring("phc", first="ground", second="load", **{"gas": GAS} | settings)
     return scene
 
 
@@ -40,7 +39,7 @@ def test_the_natural_period_is_that_of_kappa_p_a2_over_v(exponent: float) -> Non
 
 def test_force_and_stiffness_give_the_same_gas() -> None:
     k = 1.4 * MASS * G * AREA / VOLUME
-    by_force = hung(gas=Gas(force=MASS * G, stiffness=k)).loads["phc"]
+    by_force = hung(gas=Gas(area=AREA, force=MASS * G, stiffness=k)).loads["phc"]
     by_gas = hung().loads["phc"]
     assert by_force.pressure == pytest.approx(by_gas.pressure, rel=1e-14)
     assert by_force.volume == pytest.approx(by_gas.volume, rel=1e-14)
@@ -50,10 +49,11 @@ def test_force_and_stiffness_give_the_same_gas() -> None:
 @pytest.mark.parametrize(("exponent", "pushes"), [(1.0, True), (1.4, False)])
 def test_large_strokes_follow_the_gas_law(exponent: float, pushes: bool) -> None:
     damping, quadratic = 2e3, 3e3
-    oil = {"gas": replace(GAS, exponent=exponent), "damping": damping, "quadratic_damping": quadratic}
+    gas = replace(GAS, exponent=exponent, pushes=pushes)
+    oil = {"gas": gas, "damping": damping, "quadratic_damping": quadratic}
     scene = hung(velocity=-2.0, **oil)
     if pushes:
-        scene = hung(height=LENGTH, velocity=-2.0, pushes=True, stops=Stops(minimum=1.0), **oil)
+        scene = hung(height=LENGTH, velocity=-2.0, stops=Stops(minimum=1.0), **oil)
         scene.add_joint(kind="prismatic", name="guide", first="ground", second="load", axis=(0, 0, 1))
     out = record(scene, 8.0, rtol=1e-10)
     length = out["gas_spring_length"][:, 0]
@@ -106,7 +106,7 @@ def test_both_formulations_agree_and_energy_closes() -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"gas": Gas(pressure=1e5, force=1e5)}, "give pressure and volume, or force and stiffness"),
+        ({"gas": replace(GAS, force=1e5)}, "give pressure and volume, or force and stiffness"),
         ({"stops": Stops(maximum=7.0)}, "length is 8 m, and its stops are at 0 and 7 m"),
         ({"stops": Stops(maximum=16.0)}, "would have -0.01 m3 at the end of its stroke"),
     ],

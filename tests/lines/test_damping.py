@@ -50,7 +50,7 @@ def decay(time: Array, ratio: float) -> Array:
 @pytest.mark.parametrize("ratio", [0.005, 0.2])
 def test_a_point_mass_swings_with_that_ratio_of_critical_damping(ratio: float, formulation: str) -> None:
     scene = pendulum()
-    scene.add_pendulum_damping(name="swing", first="ground", second="load", ratio=ratio)
+    scene.add_spring(name="swing", first="ground", second="load", damping_ratio=ratio)
     result = simulate(scene, t_end=30.0, rtol=1e-10, formulation=formulation)
     assert swing(result) == pytest.approx(1e-3 * decay(result.time, ratio), abs=1e-8)
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
@@ -81,9 +81,8 @@ def test_swing_damping_makes_no_momentum_and_no_force_along_the_wire() -> None:
     rng = np.random.default_rng(3)
     thrown(scene, rng, "tip", "load")
     points = rng.normal(size=(2, 3))
-    scene.add_pendulum_damping(
-        name="swing", first="tip", second="load", first_point=points[0], second_point=points[1], ratio=0.4
-    )
+    ends = {"first": "tip", "second": "load", "first_point": points[0], "second_point": points[1]}
+    scene.add_spring(name="swing", damping_ratio=0.4, **ends)
     terms = Evaluator(scene.compile()).terms(0.0, scene.compile().initial_state)
     wrench = np.asarray(terms["mass"] @ terms["acceleration"]).reshape(2, 6)
     places = np.array([scene.bodies[name].position for name in ("tip", "load")])

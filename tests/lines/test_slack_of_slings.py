@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from seacrane import Scene, SceneError, simulate
 from seacrane.analysis.least_pulls import least_pulls
-from seacrane.hydro import BoxPart, Opening
+from seacrane.hydro import BoxPart, Compartment, Opening
 
 Array = NDArray[np.float64]
 G, RHO, EA = 9.80665, 1025.0, 5e7
@@ -82,9 +82,8 @@ def test_each_of_four_slings_carries_a_quarter_of_what_the_water_does_not(depth:
     scene, inside = rigged(depth), 0.0
     if filled:
         holes = [Opening(point=(0.0, 0.0, side), area=0.2) for side in (-1.0, 1.0)]
-        scene.add_entrapped_water(
-            "load", area=3.0, height=2.0, point=(0.0, 0.0, -1.0), openings=holes, density=RHO
-        )
+        water = Compartment(area=3.0, height=2.0, point=(0.0, 0.0, -1.0), openings=holes)
+        scene.add_immersed("load", inside=water, density=RHO)
         inside = RHO * G * 6.0
     least = least_pulls(scene)
     assert least["wire"] == pytest.approx(DRY + BLOCK * G - LIFT + inside, rel=1e-12)

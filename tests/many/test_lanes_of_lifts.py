@@ -42,13 +42,12 @@ def many_loads() -> Scene:
     scene.add_spring("table", first="bob", second="weight", lengths=[0.5, 1.0, 3.0], forces=[0.0, 4.0, 9.0])
     scene.add_spring("spring", first="bob", second="weight", stiffness=30.0, damping=2.0, natural_length=1.0)
     scene.add_force("weight", name="push", point=(0.1, 0, 0), force=(1.0, 2.0, 3.0))
-    scene.add_pendulum_damping(name="damping", first="bob", second="weight", ratio=0.2)
+    scene.add_spring(name="damping", first="bob", second="weight", damping_ratio=0.2)
     rows = [(1.0, 0, 0, 0, 0, 0), (0, 4.0, 1.0, 0.5, 0, 0.2)]
     scene.add_force("weight", name="gust", times=[0.0, 5.0], force=rows)
-    gas, stops = Gas(pressure=4e4, volume=0.1, exponent=1.3), Stops(minimum=0.2, maximum=5.0)
-    scene.add_gas_spring(
-        "gas", first="ground", second="weight", area=1e-3, gas=gas, length=3.0, damping=2.0, stops=stops
-    )
+    gas = Gas(area=1e-3, pressure=4e4, volume=0.1, exponent=1.3, length=3.0)
+    stops = Stops(minimum=0.2, maximum=5.0)
+    scene.add_spring("gas", first="ground", second="weight", gas=gas, damping=2.0, stops=stops)
     scene.add_friction("pin", load=0.4, speed=0.02)
     scene.add_stop(joint="pin", minimum=-2.0, maximum=2.0, stiffness=50.0)
     scene.add_wind(body="weight", frontal_area=0.3, lateral_area=0.5)

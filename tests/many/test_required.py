@@ -32,7 +32,7 @@ def pendulum() -> sc.Scene:
     scene.add_body(name="bob", mass=1e3, inertia=(1.0, 1.0, 1.0), position=(SWING, 0.0, -LENGTH))
     scene.add_joint(kind="distance", name="rod", first="ground", second="bob", point=(0, 0, 0),
                     second_point=(SWING, 0.0, -LENGTH))  # fmt: skip
-    scene.add_pendulum_damping("friction", first="ground", second="bob", ratio=RATIO)
+    scene.add_spring("friction", first="ground", second="bob", damping_ratio=RATIO)
     scene.add_wind(body="bob", frontal_area=2.0, lateral_area=3.0, drag_coefficient=0.0)
     return scene
 

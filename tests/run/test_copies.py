@@ -29,8 +29,8 @@ def all_kinds() -> Scene:
     scene.add_channel(joint="pin", minimum=-2.0, maximum=2.0)
     scene.add_limit_state(channel="position", maximum=9.0, names={"body": "hull"})
     scene.add_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
-    gas = Gas(pressure=1e5, volume=3.0)
-    scene.add_gas_spring(name="passive", first="hull", second="arm", area=0.1, gas=gas, length=0.7)
+    gas = Gas(area=0.1, pressure=1e5, volume=3.0, length=0.7)
+    scene.add_spring(name="passive", first="hull", second="arm", gas=gas)
     scene.add_hydraulic_cylinder(
         name="ram", first="hull", second="arm", full_area=0.1, rod_side_area=0.07, retracted_length=0.5,
         stroke=9.0, chamber=Chamber(pressure=1e6 / 3.0), rod_chamber=Chamber(pressure=1e5), command=0.1,

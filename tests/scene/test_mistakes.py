@@ -98,8 +98,8 @@ def hung(line: dict[str, Any] | None = None, **winch: Any) -> None:
 
 
 def on_gas(pressure: float, volume: float) -> None:
-    scene, gas = with_load((0, 0, -10)), Gas(pressure=pressure, volume=volume)
-    scene.add_gas_spring("gas", first="ground", second="load", area=0.05, gas=gas)
+    scene, gas = with_load((0, 0, -10)), Gas(area=0.05, pressure=pressure, volume=volume)
+    scene.add_spring("gas", first="ground", second="load", gas=gas)
     simulate(scene, t_end=0.2)
 
 

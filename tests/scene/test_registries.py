@@ -35,7 +35,7 @@ def lacking(kind: str, written: set[str]) -> Iterator[str]:
     if word not in TABLES and kind not in written | IN_NO_TEXT:
         yield f"{at(ADDED, 'add_load')}: no add_{word} of its entries, so no table of lift files"
     if word in TABLES and f"`[{word}]`" not in pages:
-        yield f"{at('docs/lift-files.md', '`[pendulum_damping]`')}: no page has `add_{word}` and `[{word}]`"
+        yield f"{at('docs/lift-files.md', '`[friction]`')}: no page has `add_{word}` and `[{word}]`"
     if kind not in " ".join((ROOT / "CHANGELOG.md").read_text(encoding="utf-8").lower().split()):
         yield f"{at('CHANGELOG.md', '## ')}: no line on the {kind}"
     if word in TABLES and f"add_{word}" not in tests:

@@ -10,9 +10,9 @@ import numpy as np
 
 from seacrane import Curve, FlowCoefficients, Frame, Scene
 from seacrane.description.hydraulic_cylinders import VALUES
-from seacrane.hydro import BoxPart, Opening, SpherePart
+from seacrane.hydro import BoxPart, Compartment, Opening, SpherePart
 from seacrane.lift.tables import TABLES
-from seacrane.scene import gust_curve, heave, spline_curve
+from seacrane.scene import gust_curve, heave, spline_curve, springs
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
 
@@ -97,9 +97,9 @@ brake_give_m = 2e-3
 [[heave_compensation]]
 name = "ahc"; body = "hull"; point_m = [1, 2, 3]; winch = "hoist"; ratio = 1.5; high_pass_Hz = 0.02
 lag_s = 0.3; lag_order = 2; drive = { frequency_Hz = 1.5, maximum_rate_m_per_s = 2, maximum_stroke_m = 3 }
-[[gas_spring]]
-name = "phc"; first = "box"; second = "bob"; area_m2 = 0.05; length_m = 4; damping_N_s_per_m = 100
-gas = { force_N = 2e4, stiffness_N_per_m = 3e3, exponent = 1.3 }; stops = { minimum_m = 1, maximum_m = 7 }
+[[spring]]; name = "phc"; first = "box"; second = "bob"; damping_N_s_per_m = 100
+gas = { area_m2 = 0.05, length_m = 4, force_N = 2e4, stiffness_N_per_m = 3e3, exponent = 1.3 }
+stops = { minimum_m = 1, maximum_m = 7 }
 [[hydraulic_cylinder]]
 name = "ram"; first = "box"; second = "bob"; full_area_m2 = 0.05; rod_side_area_m2 = 0.03
 retracted_length_m = 0.1; stroke_m = 20; chamber.pressure_Pa = 2e6; rod_chamber.pressure_Pa = 1e6
@@ -122,11 +122,11 @@ density_kg_per_m3 = 1000; drag_coefficient_along = 0.02; added_mass_coefficient 
     { kind = "sphere", diameter_m = 0.4 },
     { kind = "box", size_m = [1, 2, 0.5], strips = [2, 1], point_m = [0, 0, 0.1], slam = 6 },
 ]
-[[entrapped_water]]; name = "skirt"; body = "bob"; area_m2 = 1.5; height_m = 0.5; point_m = [0, 0, -0.15]
+[immersed.inside]; name = "skirt"; area_m2 = 1.5; height_m = 0.5; point_m = [0, 0, -0.15]
 openings = [{ point_m = [0, 0.5, -0.1], area_m2 = 0.02 }, { point_m = [0.5, 0, 0.3], area_m2 = 0.01 }]
 air = "shut"; exponent = 1.2; air_pressure_Pa = 1.1e5; initial_m3 = 0.5
-[pendulum_damping]
-name = "swing"; first = "ground"; first_point_m = [0, 0, 9]; second = "bob"; ratio = 0.01
+[[spring]]
+name = "swing"; first = "ground"; first_point_m = [0, 0, 9]; second = "bob"; damping_ratio = 0.01
 [[wind]]; body = "bob"; frontal_area_m2 = 2; lateral_area_m2 = 3; drag_coefficient = 0.8
 [[wind]]; body = "hull"; direction_deg = 90; frontal_area_m2 = 400; lateral_area_m2 = 1200; length_m = 100
 coefficients = { angle_deg = [0, 90, 180], x = [0.9, 0, -0.9], y = [0, 0.8, 0], yaw = [0, 0.1, 0] }
@@ -173,7 +173,8 @@ areas = [{ cylinder = "luff", full_m2 = 0.5, rod_side_m2 = 0.25 }]
 
 UNIT = re.compile("(?:_(?:m2|m3|m|kg|N|Pa|s2|s|Hz|W|deg|rad|per))+$")
 KINDS: dict[str, Any] = {"first_frame": Frame, "second_frame": Frame, "openings": Opening}
-KINDS |= VALUES | heave.VALUES | {"coefficients": FlowCoefficients}
+KINDS |= {"inside": Compartment, "coefficients": FlowCoefficients}
+KINDS |= VALUES | heave.VALUES | springs.VALUES
 PARTS = {"sphere": SpherePart, "box": BoxPart}
 CURVES = {"spline": spline_curve, "gust": gust_curve}
 ORDINATES = {"value", "start", "end", "amplitude", "offset", "values"}

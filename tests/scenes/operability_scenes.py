@@ -30,5 +30,5 @@ def soft_wire() -> Scene:
                    position=(top[0], 0.0, top[2] - WIRE - WEIGHT / spring))  # fmt: skip
     scene.add_line(name="wire", bodies=["vessel", "load"], points=[top, (0.0, 0.0, 0.0)], EA=spring * WIRE,
                    length=WIRE)  # fmt: skip
-    scene.add_pendulum_damping("swing", first="vessel", second="load", first_point=top, ratio=0.05)
+    scene.add_spring("swing", first="vessel", second="load", first_point=top, damping_ratio=0.05)
     return scene

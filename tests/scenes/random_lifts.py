@@ -204,8 +204,8 @@ class Lift:
             scene.add_immersed("load", parts=[parts[lift.part]])
         if lift.compartment:
             openings = [Opening(area=0.02, point=(0.0, 0.0, end * 0.3 * height)) for end in (-1.0, 1.0)]
-            scene.add_entrapped_water("load", area=0.3 * length * breadth, height=0.6 * height,
-                                      point=(0.0, 0.0, -0.3 * height), openings=openings)  # fmt: skip
+            inside = {"area": 0.3 * length * breadth, "height": 0.6 * height, "openings": openings}
+            scene.add_immersed("load", inside=inside | {"point": (0.0, 0.0, -0.3 * height)})
 
     def add_contacts(self) -> None:
         lift, view, scene = self.lift, self.view, self.scene

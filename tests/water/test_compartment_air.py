@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SceneError, simulate
-from seacrane.hydro import BoxPart, CylinderPart
+from seacrane.hydro import BoxPart, Compartment, CylinderPart
 
 Array = NDArray[np.float64]
 G, RHO, ATMOSPHERE, VAPOUR = 9.80665, 1025.0, 101325.0, 2339.0
@@ -19,7 +19,7 @@ A = np.pi / 4.0 * D**2
 MOUTH = {"point": (0.0, 0.0, 0.0), "area": A}
 UPRIGHT = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0))  # of a cylinder's x
 FORMS = ("recursive", "redundant")
-SHUT = {"air": "shut", "exponent": 1.0}
+SHUT: dict[str, Any] = {"air": "shut", "exponent": 1.0}
 
 
 def vent(area: float) -> dict[str, Any]:
@@ -36,10 +36,9 @@ def bucket(lean: float, mouth: float, curve: Curve, *openings: dict[str, Any], *
     scene.add_joint("guide", kind="prismatic", first="ground", second="anchor", point=at, axis=axis)
     scene.add_driver(joint="guide", curve=curve, name="led")
     shell = CylinderPart(length=H, diameter=D, axes=UPRIGHT, strips=1, point=(0, 0, H / 2))
-    scene.add_immersed("anchor", parts=[shell])
-    if openings:
-        inside: dict[str, Any] = {"area": A, "height": H, "name": "water", "density": RHO}
-        scene.add_entrapped_water("anchor", openings=list(openings), **inside | more)
+    given: dict[str, Any] = {"area": A, "height": H, "name": "water"} | more
+    inside = Compartment(openings=openings, **given) if openings else None
+    scene.add_immersed("anchor", parts=[shell], inside=inside, density=RHO)
     return scene
 
 
@@ -149,13 +148,10 @@ def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(for
         tension_at_start=MASS * G, damping_ratio=0.3,
     )  # fmt: skip
     scene.add_winch("hoist", rate=Curve.quintic(start_time=2.0, end_time=4.0, start=0.0, end=-0.25), lag=0.1)
-    scene.add_immersed(
-        "anchor", parts=[CylinderPart(length=H, diameter=D, axes=UPRIGHT, strips=1, end_drag=0.0)]
-    )
-    scene.add_entrapped_water(
-        "anchor", area=A, height=H, openings=[{"point": (0, 0, -H / 2), "area": A}], point=(0, 0, -H / 2),
-        initial=A * H, density=RHO, name="water", **SHUT,
-    )  # fmt: skip
+    shell = CylinderPart(length=H, diameter=D, axes=UPRIGHT, strips=1, end_drag=0.0)
+    bottom: dict[str, Any] = {"point": (0, 0, -H / 2), "area": A}
+    water = Compartment(**bottom, height=H, openings=[bottom], initial=A * H, name="water", **SHUT)
+    scene.add_immersed("anchor", parts=[shell], inside=water, density=RHO)
     result = simulate(scene, 80.0, dt_out=0.05, start="rest", formulation=form)
     pull = result.select("line_tension", line="hoist")
     z = result.select("position", body="anchor", axis="z")
@@ -173,8 +169,8 @@ def test_a_column_hangs_under_a_shut_lid_as_high_as_air_carries_it_and_falls(for
 
 @pytest.mark.parametrize(
     ("openings", "given", "message"),
-    [([MOUTH], {}, "no opening is in its lid"), ([MOUTH], {"air": "shut"}, "give exponent"),
-     ([MOUTH], {"air": "free", "exponent": 1.2}, "leave exponent out"),
+    [([MOUTH], {}, "no opening is in its lid"), ([MOUTH], {"air": "shut"}, "exponent is 0, and air is shut"),
+     ([MOUTH], {"air": "free", "exponent": 1.2}, "exponent is 1.2, and air is free"),
      ([MOUTH, MOUTH], {"air": "free"}, "openings in its bottom take 2")],
 )  # fmt: skip
 def test_what_geometry_does_not_tell_is_asked_for(openings: Any, given: dict[str, Any], message: str) -> None:
@@ -187,7 +183,7 @@ def test_a_compartment_outside_its_parts_is_refused(part: dict[str, Any]) -> Non
     """Of steel alone, and beside them."""
     scene = Scene(name="outside", gravity=G)
     scene.add_body("anchor", mass=MASS, size=(4, 4, 8))
-    scene.add_immersed("anchor", parts=[BoxPart(size=(4, 4, 8), **part)])
-    scene.add_entrapped_water("anchor", area=12.0, height=8.0, openings=[{"point": (0, 0, 8), "area": 1.0}])
+    inside = Compartment(area=12.0, height=8.0, openings=[{"point": (0, 0, 8), "area": 1.0}])
+    scene.add_immersed("anchor", parts=[BoxPart(size=(4, 4, 8), **part)], inside=inside)
     with pytest.raises(SceneError, match="'water in anchor' is outside the parts of 'anchor'"):
         scene.compile()

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, equilibrium, simulate
-from seacrane.hydro import BoxPart, CylinderPart, Opening
+from seacrane.hydro import BoxPart, Compartment, CylinderPart, Opening
 from seacrane.scene import Waves
 from seacrane.sea import Current
 
@@ -25,18 +25,16 @@ BOTTOM = ((0.0, 0.0, 0.0), 0.05)  # place and area of an opening
 AREA, HEIGHT, C_D = 3.0, 4.0, 0.62
 
 
-def filled(scene: Scene, *openings: tuple[Any, float], **more: Any) -> _core.EntrappedWater:
+def filled(scene: Scene, *openings: tuple[Any, float], **more: Any) -> None:
     """A compartment of a body "load", whose air is free, in a shell that keeps water out and no more."""
     given = {
-        "air": "free", "area": AREA, "height": HEIGHT, "discharge_coefficient": C_D, "density": RHO,
-        "name": "water",
+        "air": "free", "area": AREA, "height": HEIGHT, "discharge_coefficient": C_D, "name": "water",
     } | more  # fmt: skip
     wide, tall = np.sqrt(given["area"]), given["height"]
     middle = np.add(given.get("point", np.zeros(3)), (0.0, 0.0, 0.5 * tall))
     part = BoxPart(size=(wide, wide, tall), point=middle, added_mass=(0, 0, 0), drag=0.0, source="none")
-    scene.add_immersed("load", parts=[part], density=RHO, name=f"shell of {given['name']}")
-    holes = [Opening(point=point, area=area) for point, area in openings]
-    return scene.add_entrapped_water("load", openings=holes, **given)
+    inside = Compartment(openings=[Opening(point=point, area=area) for point, area in openings], **given)
+    scene.add_immersed("load", parts=[part], inside=inside, density=RHO, name=f"shell of {given['name']}")
 
 
 def standing(z: float, *openings: tuple[Any, float], **more: Any) -> Scene:
@@ -314,7 +312,7 @@ HOLE = {"point": (0.0, 0.0, 0.0), "area": 0.1}
 def test_bad_calls_are_refused(given: dict[str, Any], message: str) -> None:
     scene, told = Scene(name="refused", gravity=G), {"openings": [HOLE], "air": "free"} | given
     scene.add_body(name="load", mass=1e3, inertia=(5e2, 5e2, 5e2), position=(0.0, 0.0, 5.0))
-    scene.add_immersed("load", parts=[BoxPart(size=(1.5, 1.5, 3.0), point=(0.0, 0.0, 1.5))])
+    part = BoxPart(size=(1.5, 1.5, 3.0), point=(0.0, 0.0, 1.5))
     with pytest.raises(SceneError, match=message):
-        scene.add_entrapped_water("load", area=2.0, height=3.0, **told)
+        scene.add_immersed("load", parts=[part], inside=Compartment(area=2.0, height=3.0, **told))
         scene.compile()

@@ -235,11 +235,10 @@ def test_a_load_welded_on_a_body_brings_its_added_mass_and_water_to_the_carrier(
                    angular_velocity=(0.2, 0.3, -0.1))  # fmt: skip
     scene.add_body(name="box", mass=700.0, inertia=(200.0, 300.0, 300.0), position=(1.5, 0.5, 0.2))
     scene.add_joint(kind="weld", name="seafastening", first="deck", second="box", point=(1.0, 0.4, 0.3))
-    scene.add_immersed("box", parts=[BoxPart(size=(2.0, 1.0, 1.5))], density=RHO)
+    water: dict[str, Any] = {"area": 1.0, "height": 1.2, "point": (0, 0, -0.6), "initial": 0.9, "air": "free"}
+    water["openings"] = [{"point": (0.0, 0.0, -0.5), "area": 0.1}]
+    scene.add_immersed("box", parts=[BoxPart(size=(2.0, 1.0, 1.5))], inside=water, density=RHO)
     scene.add_immersed("deck", parts=[SpherePart(diameter=1.8)], density=RHO)
-    hole = {"point": (0.0, 0.0, -0.5), "area": 0.1}
-    scene.add_entrapped_water("box", area=1.0, height=1.2, point=(0.0, 0.0, -0.6), initial=0.9, air="free",
-                              openings=[hole])  # fmt: skip
     found = []
     for merge in (True, False):
         done = Run(scene, 2.0, model=scene.compile(merge=merge), formulation="redundant", **EXACT)

@@ -32,7 +32,7 @@ from seacrane.analysis.drag_in_sea import drag_in_components, mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.answers import statics, summary
 from seacrane.description.wet_parts import immersed_parts
-from seacrane.hydro import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
+from seacrane.hydro import BoxPart, Compartment, CylinderPart, PlatePart, SpherePart, TablePart
 from seacrane.hydro.parts.added_mass import sphere_table
 from seacrane.hydro.parts.parts import Part
 from seacrane.run import Stage, Until
@@ -235,7 +235,8 @@ def test_what_has_no_linear_model_is_refused_by_name() -> None:
     current = {"hs": 0.0, "current": Current(depth=0.0, speed=0.5, direction_deg=0.0)}
     filled = hung(4.0)
     hole = {"point": (0.0, 0.0, 0.0), "area": 0.1}
-    filled.add_entrapped_water("load", area=1.0, height=1.0, openings=[hole], initial=1.0, air="free")
+    water = Compartment(area=1.0, height=1.0, openings=[hole], initial=1.0, air="free")
+    filled.add_immersed("load", inside=water)
     for scene, message in (
         (hung(-1.0), "'load.1': crosses the surface at rest, 1.* m deep of 2 m"),
         (hung(4.0, sea=current), "'load.1': is in a current"), (with_wire(25.0, current), "is in a current"),

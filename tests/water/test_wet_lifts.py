@@ -74,8 +74,8 @@ def test_with_its_ballast_a_vessel_floats_level_with_a_load_in_the_water(height:
     """At its draught too, where the load is half under; water in a compartment weighs on it."""
     scene = lift(height)
     holes = [Opening(point=(0.0, 0.0, z), area=0.1) for z in (-1.0, 1.0)]
-    inside: dict[str, Any] = {"area": 6.0, "height": 2.0, "point": (0.0, 0.0, -1.0), "density": RHO}
-    scene.add_entrapped_water("load", openings=holes, **inside)
+    inside = {"area": 6.0, "height": 2.0, "point": (0.0, 0.0, -1.0), "openings": holes}
+    scene.add_immersed("load", inside=inside, density=RHO)
     found = scene.add_ballast()
     dry = balance(lift(height, wet=False)).weight
     if height < -3.0:

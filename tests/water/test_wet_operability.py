@@ -21,7 +21,7 @@ def test_channels_of_the_linear_model_under_water_are_those_of_a_run() -> None:
     path = {"bodies": ["vessel", "load"], "points": [TOP, (0.0, 0.0, 0.0)]}
     scene.add_line("wire", **path, EA=2e7, tension_at_start=weight, damping_ratio=0.05)
     scene.add_point("ball", body="load")
-    scene.add_pendulum_damping("swing", first="vessel", second="load", first_point=TOP, ratio=0.05)
+    scene.add_spring("swing", first="vessel", second="load", first_point=TOP, damping_ratio=0.05)
     scene.add_immersed("load", parts=[SpherePart(diameter=DIAMETER, drag=0.0)], density=RHO)
     criteria = (
         Criterion(channel="line_tension", names={"line": "wire"}, maximum=1e6),

@@ -59,8 +59,7 @@ def _swings(scene: Description, time: Array, position: Array, quaternion: Array)
                 f"{what}: {lower_end[0]!r} swings {np.degrees(angle):.3g} deg from vertical at t = "
                 f"{time[at]:.6g} s, beyond {np.degrees(LARGEST_SWING):.0f} deg: a pendulum of {period:.3g} s "
                 "gathers what waves and drives put in. Move slower, keep its period away from the sea's, "
-                "hold it by taglines (add_spring), or give it the damping that it has "
-                "(add_pendulum_damping, add_wind)",
+                "hold it by taglines, or give it the damping that it has (add_spring, add_wind)",
             )
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.accuracy import simpler_scenes as simpler
+from seacrane.crane.parts import SWING_RATIO
 from seacrane.description.databases import source_of
 from seacrane.description.description import all_loads
 from seacrane.description.given import given_vessels
@@ -213,7 +214,7 @@ def more_pendulum_damping(scene: Scene) -> Iterator[Choice]:
             ends = {"first": first, "first_point": tuple(map(float, point)), "second": hung.load}
             yield by_calls(
                 f"pendulum damping of {hung.load}",
-                call("add_pendulum_damping", f"{hung.load} swing", **ends),
+                call("add_spring", f"{hung.load} swing", **ends, damping_ratio=SWING_RATIO),
                 of=f"damping of {hung.load}",
             )
 

@@ -61,7 +61,7 @@ class Payload:
     link_length : float
         Tip to the centroid of the top, m.
     swing_damping_ratio : float
-        Of critical damping of its swing, as in `Scene.add_pendulum_damping`; 0 is none. Default: an estimate.
+        Of critical damping of its swing, as in `Scene.add_spring`; 0 is none. Default: an estimate.
     drag_coefficient : float
         C_D of the box in still air, as in `Scene.add_wind`; 0 is no drag. Default 1.05 (Hoerner 1965).
 

@@ -265,9 +265,6 @@ def adds(kind: Callable[P, AnyNamed]) -> Callable[Concatenate[Any, P], AnyNamed]
     return made  # type: ignore[no-any-return]
 
 
-add_spring = adds(_core.Spring)
-
-
 def add_load(scene: Description, element: Any = None, *, kind: str | None = None, **entries: Any) -> Any:
     """Add a load of any kind: one that is described already, such as a FlowForce, or by the name of its kind
     and its entries, as `FIELDS` of its class in `_core.LOAD_KINDS` lists them; returns it."""

@@ -66,6 +66,7 @@ from seacrane.hydro.parts.parts import CylinderPart as CylinderPart
 from seacrane.hydro.parts.parts import SpherePart as SpherePart
 from seacrane.hydro.parts.parts import TablePart as TablePart
 from seacrane.hydro.parts.parts import Opening as Opening
+from seacrane.hydro.parts.parts import Compartment as Compartment
 from seacrane.hydro.parts.mesh_part import MeshPart as MeshPart
 from seacrane.hydro.parts.mesh_part import part_from_mesh as part_from_mesh
 from seacrane.hydro.parts.added_mass import circle_added_mass as circle_added_mass

@@ -18,12 +18,12 @@ from seacrane.description.databases import source_of
 from seacrane.description.description import coordinate_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase, load_hull, shipped_database
+from seacrane.hydro import Compartment, HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.lift.inner_keys import COORDINATE, CURVES, SHIPPED
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import LEFT, Table
-from seacrane.scene import heave
+from seacrane.scene import heave, springs
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.realised_sea import spectrum_named
@@ -50,9 +50,11 @@ _MADE: Mapping[str, Callable[..., Any]] = {
     "history": MotionHistory,
     "raos": lambda **table: _raos(**table),
     "mooring_springs": MooringSpring,
+    "inside": Compartment,
     "systems": lambda **table: _system(table),
     **hydraulic_cylinders.VALUES,
     **heave.VALUES,
+    **springs.VALUES,
 }
 
 

@@ -106,8 +106,8 @@ def keys_of(
         known = _annotated(call, parameter.annotation) | _of_field(fields.get(other.get(name, name)))
         known["text"] = texts.get(name) or known.get("text", "")
         known |= (more or {}).get(name, {})
-        required = parameter.default is parameter.empty
-        found.append(Key(name=name, required=required, entry=other.get(name, ""), **known))
+        required = {"required": parameter.default is parameter.empty}
+        found.append(Key(name=name, entry=other.get(name, ""), **required | known))
     return tuple(found)
 
 

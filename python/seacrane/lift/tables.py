@@ -12,7 +12,7 @@ from seacrane import _core
 from seacrane.crane.parts import Payload
 from seacrane.description import elements
 from seacrane.description.hydraulic_cylinders import VALUES
-from seacrane.hydro import Opening
+from seacrane.hydro import Compartment, Opening
 from seacrane.inputs.values import entries_of
 from seacrane.lift.inner_keys import (
     CHANNEL_UNITS,
@@ -50,6 +50,7 @@ from seacrane.scene import (
     rigging,
     roles,
     sea,
+    springs,
     vessel,
     wind_current,
 )
@@ -148,10 +149,15 @@ CONTACT: dict[str, Any] = {
     "stiffness": {"unit": "N/m"}, "depth": LENGTH,
     "table": {"type": "array", "unit": "m, N", "shapes": ((-1, 2),)},
 }  # fmt: skip
-FEET = tuple(
-    replace(key, required=False)
-    for key in keys_of(limits.add_contact, _core.Contact, more=CONTACT, only=hoist.FEET_KEYS)
-)
+FEET = keys_of(
+    limits.add_contact, _core.Contact, only=hoist.FEET_KEYS,
+    more={key: CONTACT.get(key, {}) | {"required": False} for key in hoist.FEET_KEYS},
+)  # fmt: skip
+OPENINGS = keys_of(Opening, more={"point": POINT, "area": {"unit": "m2"}})
+INSIDE = keys_of(Compartment, _core.EntrappedWater, more={
+    "air": {"choices": ("free", "vented", "shut")},
+    "openings": {"type": "tables", "keys": OPENINGS, "text": "Holes in its wall, 12 at most."},
+})  # fmt: skip
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
 POSE: dict[str, dict[str, Any]] = {
     "slew": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH,
@@ -246,19 +252,15 @@ _ALL = (
     ),
     _call("winch", rigging.add_winch, _core.Line),
     _call(
-        "gas_spring", heave.add_gas_spring, _core.GasSpring,
-        **_values(_core.GasSpring, heave.VALUES, force={"unit": "N"}, stiffness={"unit": "N/m"}),
+        "spring", springs.add_spring, _core.GasSpring, _core.PendulumDamping, _core.Spring,
+        damping_ratio={"bounds": {"minimum": 0.0}},
+        **_values(_core.GasSpring, springs.VALUES, force={"unit": "N"}, stiffness={"unit": "N/m"}),
     ),
     RAM,
     _call("hold_pressures", hydraulics.hold_pressures, several=False),
     _call(
         "immersed", immersed.add_immersed, _core.ImmersedPart,
-        parts={"type": "tables", "keys": part_keys()},
-    ),
-    _call(
-        "entrapped_water", immersed.add_entrapped_water, _core.EntrappedWater,
-        air={"choices": immersed.AIR}, exponent={"unit": ""},
-        openings={"type": "tables", "keys": keys_of(Opening, more={"point": POINT, "area": {"unit": "m2"}})},
+        parts={"type": "tables", "keys": part_keys()}, inside={"type": "table", "keys": INSIDE},
     ),
     *ONE_CALL,
     _flow("wind", wind_current.add_wind),
@@ -279,16 +281,9 @@ _ALL = (
         "limit_state", recorded.add_limit_state,
         maximum=NUMBER | LIMITED, minimum=NUMBER | LIMITED, names={"type": "names"},
     ),
-    Table(
-        name="mesh", text=_summary(bodies.add_mesh), add=bodies.add_mesh,
-        keys=tuple(
-            replace(key, required=key.required or key.name == "file")
-            for key in keys_of(
-                bodies.add_mesh,
-                more={"file": {"type": "file"}, "frame": FRAME},
-                without=("vertices", "faces"),
-            )
-        ),
+    _call(
+        "mesh", bodies.add_mesh, without=("vertices", "faces"), file={"type": "file", "required": True},
+        frame=FRAME,
     ),
     Table(
         name="balance", several=False,

@@ -35,8 +35,8 @@ from seacrane.description.hydraulic_cylinders import Relief as Relief
 from seacrane.description.hydraulic_cylinders import Rupture as Rupture
 from seacrane.description.hydraulic_cylinders import Valve as Valve
 from seacrane.scene.heave import Drive as Drive
-from seacrane.scene.heave import Gas as Gas
-from seacrane.scene.heave import Stops as Stops
+from seacrane.scene.springs import Gas as Gas
+from seacrane.scene.springs import Stops as Stops
 from seacrane._core import Limit as Limit
 from seacrane._core import Line as Line
 from seacrane._core import SoftStop as SoftStop

@@ -14,7 +14,7 @@ from seacrane.crane.data import JointData, MeshData, RopeData
 from seacrane.crane.load_crane import load_crane
 from seacrane.crane.parts import FAR, STRUCTURE, UP, CraneParts, Lean, Payload, leaning
 from seacrane.description.description import Description
-from seacrane.description.elements import add_driver, add_joint, add_spring
+from seacrane.description.elements import add_driver, add_joint
 from seacrane.description.roles import CraneRoles, LuffingRope
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, number_of, positive_of, text_of
@@ -23,6 +23,7 @@ from seacrane.inputs.shown import shown
 from seacrane.scene.bodies import add_body, add_mesh
 from seacrane.scene.recorded import add_range, record_coordinate
 from seacrane.scene.roles import add_roles
+from seacrane.scene.springs import add_spring
 from seacrane.scene.wind_current import damp_load
 
 Array = npt.NDArray[np.float64]

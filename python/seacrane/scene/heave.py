@@ -1,4 +1,4 @@
-"""Heave compensation: active on a winch or an actuator, passive by a gas spring."""
+"""Active heave compensation, on a winch or an actuator."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from seacrane.description.elements import put_load
 from seacrane.description.given import given_vessels
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
 from seacrane.description.loads import path_of, winches_of
-from seacrane.description.places import ORIGIN, apart, placed
+from seacrane.description.places import ORIGIN, placed
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, positive_of, text_of
+from seacrane.inputs.checked import text_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.values import flat, told_by, value
 
@@ -28,7 +28,6 @@ UP = (0.0, 0.0, 1.0)
 LEAST_RATIO = 1e-3  # below it what follows does not move the load
 SHORT = 1e-12  # m
 SIX = ("x", "y", "z", "roll", "pitch", "yaw")
-GAS = (("pressure", "volume"), ("force", "stiffness"))
 
 
 @value(_core.HeaveCompensator, "actuator", "frequency", "damping")
@@ -42,27 +41,7 @@ class Drive:
     settling: float = 0.2  # s
 
 
-@value(_core.GasSpring)
-class Gas:
-    """The gas of a gas spring at its length, by pressure and volume, or by force and stiffness there."""
-
-    pressure: float | None = None  # Pa
-    volume: float | None = None  # m3
-    force: float | None = None  # N
-    stiffness: float | None = None  # N/m
-    exponent: float = 1.4
-
-
-@value(_core.GasSpring, "stop", "stiffness")
-class Stops:
-    """Stops at the ends of a gas spring's stroke."""
-
-    minimum: float = 0.0  # m
-    maximum: float = NO_BOUND  # m
-    stiffness: float = 1e8  # N/m
-
-
-VALUES: dict[str, type[Any]] = {"drive": Drive, "gas": Gas, "stops": Stops}
+VALUES: dict[str, type[Any]] = {"drive": Drive}
 
 
 @told_by(_core.HeaveCompensator)
@@ -137,57 +116,6 @@ def _ratio(scene: Description, what: str, winch: str | None, actuator: str | Non
             "pose; name another, or give ratio"
         )
     return ratio
-
-
-@told_by(_core.GasSpring)
-def add_gas_spring(
-    scene: Description, name: str, *, first: str, second: str, area: float, gas: Gas,
-    first_point: Any = ORIGIN, second_point: Any = ORIGIN, length: float | None = None, pushes: bool = False,
-    damping: float = 0.0, quadratic_damping: float = 0.0, stops: Stops | None = None,
-) -> _core.GasSpring:  # fmt: skip
-    """Join two points by a cylinder on a gas accumulator: passive heave compensation.
-
-    Its tension is p area, with p V^exponent constant; lengthening compresses the gas. About the length it has
-    the stiffness exponent p area^2 / V. Oil damps it. An end stop that is met is an event "<name>.minimum" or
-    "<name>.maximum" of kind "limit". See docs/heave-compensation.md.
-
-    Parameters
-    ----------
-    gas : Gas
-        Its pressure and volume at the length, or the force and the stiffness that it has there.
-    length : float, optional
-        m, at which the gas is told; default: the distance of the points as described.
-    stops : Stops, optional
-        Lengths at which it is stopped. Default: none.
-
-    Raises
-    ------
-    SceneError
-        For pressure and volume beside force and stiffness, or one without the other; what else does not fit
-        is said by `Scene.compile`.
-    """
-    given = {key: one for key, one in locals().items() if key != "scene"}
-    what = f"gas spring {text_of('gas spring: name', name)!r}"
-    entries = _of_gas(what, flat(what, given, VALUES))
-    if length is None:
-        entries["length"] = apart(scene, what, (first, first_point), (second, second_point))
-    return put_load(scene, _core.GasSpring(**entries))
-
-
-def _of_gas(what: str, entries: dict[str, Any]) -> dict[str, Any]:
-    """The entries with pressure and volume, which are there or follow from force and stiffness."""
-    given = [{key: entries.pop(key) for key in pair if key in entries} for pair in GAS]
-    if sorted(map(len, given)) != [0, 2]:
-        has = ", ".join(f"{key}={one}" for pair in given for key, one in pair.items()) or "none"
-        raise SceneError(
-            f"{what}: give pressure and volume, or force and stiffness, both of one pair; it has {has}"
-        )
-    told = {key: positive_of(f"{what}: {key}", one) for pair in given for key, one in pair.items()}
-    if "force" in told:
-        area = positive_of(f"{what}: area", entries["area"], "m2")
-        kappa, force = number_of(f"{what}: exponent", entries["exponent"]), told["force"]
-        told = {"pressure": force / area, "volume": kappa * force * area / told["stiffness"]}
-    return entries | told
 
 
 def _unit(direction: Any) -> Array:

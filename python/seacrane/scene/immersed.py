@@ -13,8 +13,8 @@ from seacrane.description.elements import put_load
 from seacrane.errors import SceneError
 from seacrane.hydro.parts.density import SEA_WATER, density_of
 from seacrane.hydro.parts.mesh_part import part_from_mesh
-from seacrane.hydro.parts.parts import PARTS, Opening, Part
-from seacrane.inputs.checked import finite_of, name_of, positive_of, shaped_of, text_of
+from seacrane.hydro.parts.parts import PARTS, Compartment, Part
+from seacrane.inputs.checked import name_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.shown import shown
 from seacrane.inputs.values import made_of, told_by
@@ -22,23 +22,26 @@ from seacrane.inputs.values import made_of, told_by
 MAKERS: Mapping[str, Callable[..., Part]] = {**PARTS, "mesh": part_from_mesh}
 FARTHEST = 10.0  # sizes of a body, or of a part, beyond which a part is not on it
 LARGEST_LEAN = np.radians(60.0)
-ATMOSPHERE = 101325.0  # Pa
-AIR = ("free", "vented", "shut")
-IN_LID = 1e-9  # of the height, as in the engine
 
 
 @told_by(_core.ImmersedPart)
 def add_immersed(
-    scene: Description, body: str, *, parts: Sequence[Part | Mapping[str, Any]],
-    density: float = SEA_WATER, wave_factor: float = 1.0, name: str | None = None,
+    scene: Description, body: str, *, parts: Sequence[Part | Mapping[str, Any]] = (),
+    inside: Compartment | Mapping[str, Any] | None = None, density: float = SEA_WATER,
+    wave_factor: float = 1.0, name: str | None = None,
 ) -> list[_core.ImmersedPart]:  # fmt: skip
-    """Let water act on parts of a body: buoyancy, added mass, slam and drag of what is below the surface.
+    """Let water act on parts of a body, buoyancy, added mass, slam and drag, and let it into the body.
 
     The water is that of the scene's sea, its waves and its current; without one it is still, its surface at
-    z = 0. The added mass of a part is a mass, which depends on its depth:
-    it is taken into the body's own before accelerations are solved for, so that light bodies of great added
-    mass do not become unstable. What slam takes is the state "<part>.slam_loss" (J); parts touch the water
-    at the events "<part>.touch", and go under at "<part>.awash".
+    z = 0. The added mass of a part is a mass, which depends on its depth: it is taken into the body's own
+    before accelerations are solved for, so that light bodies of great added mass do not become unstable. What
+    slam takes is the state "<part>.slam_loss" (J); parts touch the water at the events "<part>.touch", and go
+    under at "<part>.awash".
+
+    The volume of the water in a compartment is the state "<water>.volume" (m3), what is lost in the openings
+    "<water>.flow_loss" (J), air that is shut in "<water>.air" (m3 at 101,325 Pa), in the channel
+    `load_state`. It is full at the event "<water>.full", empty at "<water>.empty"; at "<water>.leans" its
+    axis is 30 deg from vertical.
 
     Parameters
     ----------
@@ -48,9 +51,12 @@ def add_immersed(
         `seacrane.hydro.BoxPart`, `PlatePart`, `CylinderPart`, `SpherePart` or `TablePart`, what
         `seacrane.hydro.part_from_mesh` makes, or tables {"kind": "box", ...} with their entries; of the kind
         "mesh" those of `part_from_mesh`.
+    inside : Compartment, optional
+        That water comes into, and leaves, through openings; or its keywords. The body's mass and weight are
+        without it.
     wave_factor : float
-        By which the waves of the sea are multiplied at the parts: what a hull beside makes of them. Before a
-        wall it is 2, in a lee below 1. Beside a ship 1 is a `ScatteredWavesWarning`.
+        By which the waves of the sea are multiplied at parts and openings: what a hull beside makes of them.
+        Before a wall it is 2, in a lee below 1. Beside a ship 1 is a `ScatteredWavesWarning`.
     name : str, optional
         Of the parts, "<name>.1", "<name>.2", ...; strips of one count on. Default: that of the body.
 
@@ -62,7 +68,8 @@ def add_immersed(
     Raises
     ------
     SceneError
-        For a body that is not there, a part far from it, bad numbers, and a density that is in t/m3.
+        For a body that is not there, or leans by more than 60 deg with a compartment, a part far from it, bad
+        numbers, a density in t/m3; when compiled, for a compartment outside its parts, or no word on its air.
 
     Notes
     -----
@@ -70,12 +77,19 @@ def add_immersed(
     A of the depth h of the part's lowest point. Half of |A' h'| v^2 is lost both ways: with the jet, and with
     the water that is left behind. Volumes of boxes and cylinders are exact at any attitude, edges rounded
     by a thousandth.
+
+    Of a compartment V' = sum of C_d A_o sign(dh) sqrt(2 g |dh|), with dh the head of the undisturbed sea over
+    an opening less that of the water inside, each zero where the opening is above it, less that of the air.
+    The root is rounded off over a head of 1 mm. The water is a mass with the body, a rod along the axis up to
+    its surface; along the axis only what the bottom less its openings carries, and the lid once it is full.
+    So is its weight. What comes in takes -density V' (v - u); what leaves keeps its velocity. The outer
+    shape's buoyancy is that of the parts, with fill=1 for a compartment.
     """
     owner = require(scene, "immersed parts", "body", body)
     what = f"immersed parts of {owner!r}"
     label = owner if name is None else name_of("immersed parts", name)
     density_of(what, density)
-    if isinstance(parts, Mapping | str) or not isinstance(parts, Sequence) or not parts:
+    if isinstance(parts, Mapping | str) or not isinstance(parts, Sequence) or not (parts or inside):
         raise SceneError.of(f"{what}: parts", f"is {shown(parts)}; give a list of parts of seacrane.hydro")
     made = [_part(what, one) for one in parts]
     whole = scene.bodies[owner]
@@ -104,6 +118,9 @@ def add_immersed(
                 slow_added_masses=piece.slow_added_masses,
             )  # fmt: skip
             out.append(put_load(scene, element))
+    if inside is not None:
+        water = made_of(what, "inside", Compartment, inside)
+        _let_in(scene, what, owner, water, density=density, wave_factor=wave_factor)
     return out
 
 
@@ -129,82 +146,16 @@ def _part(what: str, given: Any) -> Part:
         raise SceneError(f"{what}: {error}") from None
 
 
-@told_by(_core.EntrappedWater)
-def add_entrapped_water(
-    scene: Description, body: str, *, area: float, height: float,
-    openings: Sequence[Opening | Mapping[str, Any]], point: Any = (0.0, 0.0, 0.0),
-    air: str | None = None, exponent: float | None = None, air_pressure: float = ATMOSPHERE,
-    discharge_coefficient: float = 0.6, initial: float = 0.0, density: float = SEA_WATER,
-    wave_factor: float = 1.0, name: str | None = None,
-) -> _core.EntrappedWater:  # fmt: skip
-    """Let water come into a compartment of a body, and leave it, through openings.
-
-    The compartment is a prism that stands on `point` along the body's z axis: a suction anchor, a tube, a
-    bucket. The volume of its water is the state "<name>.volume" (m3), what is lost in the openings
-    "<name>.flow_loss" (J), air that is shut in "<name>.air" (m3 at 101,325 Pa), in the channel `load_state`.
-    It is full at the event
-    "<name>.full", empty at "<name>.empty"; at "<name>.leans" its axis is 30 deg from vertical.
-
-    Parameters
-    ----------
-    body : str
-        Name of the body. Its mass and weight are without the water.
-    openings : sequence
-        `seacrane.hydro.Opening`, or tables {"point": ..., "area": ...}; 12 at most.
-    air : str, optional
-        Above the water: "vented", which comes and goes by the openings alone, against their resistance;
-        "free", against none; or "shut", whose mass stays while no opening lets air through, and which expands
-        and is compressed. Default: "vented" with an opening in the lid; without one, it is asked for.
-    wave_factor : float
-        By which the waves of the sea are multiplied at the openings, as of `add_immersed`.
-    name : str, optional
-        Default: "water in <body>".
-
-    Raises
-    ------
-    SceneError
-        For a body that is not there or leans by more than 60 deg as described, openings outside the
-        compartment, and a density that is in t/m3; when the scene is compiled, for numbers out of bounds, for
-        no opening in its lid and no word on its air, and outside its body's parts.
-
-    Notes
-    -----
-    V' = sum of C_d A_o sign(dh) sqrt(2 g |dh|), with dh the head of the undisturbed sea over an opening less
-    that of the water inside, each zero where the opening is above it, less that of the air. The root is
-    rounded off over a head of 1 mm. The water is a mass with the body, a rod along the axis up to its
-    surface; along the axis only what the bottom less its openings carries, and the lid once it is full. So
-    is its weight. What comes in takes -density V' (v - u); what leaves keeps its velocity. The outer shape's
-    buoyancy is that of `add_immersed`, with fill=1 for a compartment.
-    """
-    label = name_of("entrapped water", name, f"water in {text_of('entrapped water: body', body)}")
-    what = f"entrapped water {label!r}"
-    require(scene, what, "body", body)
-    if isinstance(openings, Mapping | str) or not isinstance(openings, Sequence) or not openings:
-        raise SceneError.of(
-            f"{what}: openings", f"is {shown(openings)}; give a list of seacrane.hydro.Opening"
-        )
-    holes = [made_of(what, "openings", Opening, one) for one in openings]
-    bottom, tall = shaped_of(f"{what}: point", point, (3,)), positive_of(f"{what}: height", height, "m")
-    if air is not None and air not in AIR:
-        raise SceneError.of(f"{what}: air", f"is {shown(air)}; give one of {', '.join(AIR)}")
-    highest = max(np.asarray(hole.point, dtype=float)[2] - bottom[2] for hole in holes)
-    in_lid = "vented" if highest > (1.0 - IN_LID) * tall else ""  # "" is asked for when a scene is compiled
-    kept = in_lid if air is None else air
-    if (kept == "shut") == (exponent is None):
-        asked = "give exponent, 1 (slow) to 1.4 (quick)" if exponent is None else "leave exponent out"
-        raise SceneError.of(f"{what}: air", f"is {kept!r}, and exponent is {shown(exponent)}; {asked}")
-    element = _core.EntrappedWater(
-        name=label, body=body, point=bottom, air=kept,
-        exponent=0.0 if exponent is None else finite_of(f"{what}: exponent", exponent),
-        area=area, height=tall, air_pressure=air_pressure, initial=initial, wave_factor=wave_factor,
-        opening_points=np.array([np.asarray(hole.point, dtype=float) for hole in holes]),
-        opening_areas=[float(hole.area) for hole in holes],
-        discharge_coefficient=discharge_coefficient, density=density_of(what, density),
-    )  # fmt: skip
+def _let_in(scene: Description, what: str, body: str, inside: Compartment, **sea: float) -> None:
+    """Add the water of a compartment; SceneError for a body that leans too far as described."""
     lean = float(np.arccos(np.clip(rotation_matrix(scene.bodies[body].quaternion)[2, 2], -1.0, 1.0)))
     if lean > LARGEST_LEAN:
         raise SceneError(
-            f"{what}: its axis, z of the body, leans by {np.degrees(lean):.3g} deg as described, and levels "
-            f"are right up to {np.degrees(LARGEST_LEAN):.3g} deg; turn the body's axes so that z is upright"
+            f"{what}: z of the body, a compartment's axis, leans by {np.degrees(lean):.3g} deg as described; "
+            f"levels are right up to {np.degrees(LARGEST_LEAN):.3g} deg; turn its axes so that z is upright"
         )
-    return put_load(scene, element)
+    given: dict[str, Any] = {**vars(inside), **sea, "body": body, "air": inside.air_above}
+    holes, given["name"] = given.pop("openings"), name_of("entrapped water", inside.name, f"water in {body}")
+    points = np.array([np.asarray(hole.point, dtype=float) for hole in holes])
+    areas = [float(hole.area) for hole in holes]
+    put_load(scene, _core.EntrappedWater(**given, opening_points=points, opening_areas=areas))

@@ -10,13 +10,13 @@ import numpy as np
 
 from seacrane.arrays import Array
 from seacrane.description.description import GROUND, Description
-from seacrane.description.elements import add_spring
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, positive_of, shaped_of
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.inputs.shown import shown
+from seacrane.scene.springs import add_spring
 from seacrane.warnings import OwnMooringWarning
 
 HORIZONTAL = [0, 1, 5]  # surge, sway, yaw

@@ -28,6 +28,7 @@ from seacrane.scene import (
     rigging,
     roles,
     sea,
+    springs,
     vessel,
     wind_current,
 )
@@ -101,10 +102,8 @@ class Scene(Description):
     add_lift_factors = lift_factors.add_lift_factors
     add_channel = recorded.add_channel
     add_force = elements.add_force
-    add_spring = elements.add_spring
+    add_spring = springs.add_spring
     add_load = elements.add_load
-
-    add_pendulum_damping = wind_current.add_pendulum_damping
 
     add_stop = limits.add_stop
     add_line = lines.add_line
@@ -112,13 +111,11 @@ class Scene(Description):
     add_friction = limits.add_friction
     add_contact = limits.add_contact
     add_heave_compensation = heave.add_heave_compensation
-    add_gas_spring = heave.add_gas_spring
     add_hydraulic_cylinder = hydraulics.add_hydraulic_cylinder
     hold_pressures = hydraulics.hold_pressures
 
     add_vessel = vessel.add_vessel
     add_immersed = immersed.add_immersed
-    add_entrapped_water = immersed.add_entrapped_water
     add_sea = sea.add_sea
     sea_at = sea_at
     add_ballast = add_ballast

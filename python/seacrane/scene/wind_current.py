@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.arrays import Array
-from seacrane.crane.parts import BOX_DRAG, SWING_RATIO
+from seacrane.crane.parts import BOX_DRAG
 from seacrane.description.curves import spline_curve
 from seacrane.description.description import Description, require
 from seacrane.description.elements import put_load
@@ -23,6 +23,7 @@ from seacrane.inputs.checked import name_of, not_negative_of, positive_of, shape
 from seacrane.inputs.keywords import named
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.values import told_by
+from seacrane.scene.springs import add_spring
 from seacrane.warnings import DoubleCountedDampingWarning
 
 SLOWEST, FASTEST = 1.0 / 600.0, 0.5  # Hz: the spectrum is one of an hour's wind, fitted from 1/600 Hz on
@@ -275,49 +276,12 @@ def _flow_of(
     return of_sea.mean(not_negative_of(f"{what}: draught", draught, "m"))
 
 
-@told_by(_core.PendulumDamping)
-def add_pendulum_damping(
-    scene: Description, name: str, *, first: str, second: str, first_point: Any = (0.0, 0.0, 0.0),
-    second_point: Any = None, ratio: float = SWING_RATIO, mass: float = 0.0,
-) -> _core.PendulumDamping:  # fmt: skip
-    """Damping of a load's swing below the point where it hangs, as a ratio of critical.
-
-    -2 ratio mass sqrt(g / L) times the velocity of the load across the line of length L from `first_point` to
-    `second_point`, seen from the first body; the opposite acts on that body at the same place. Nothing acts
-    along the line. A point mass below a fixed point has that ratio exactly. See docs/damping.md.
-
-    Parameters
-    ----------
-    second : str
-        The load.
-    first_point, second_point : array_like, shape (3,)
-        In coordinates of these bodies, m. Default of the second: the load's centre of mass.
-    ratio : float
-        Of critical damping; 0 is none. Default 0.005: an estimate.
-
-    Raises
-    ------
-    SceneError
-        For a load that is not there, or values out of range; the rest comes with `Scene.compile`.
-    """
-    what = f"pendulum damping {name_of('pendulum damping', name)!r}"
-    require(scene, what, "second", second)
-    element = _core.PendulumDamping(
-        name=name, first=first, second=second, first_point=first_point,
-        second_point=scene.bodies[second].center_of_mass if second_point is None else second_point,
-        ratio=ratio, mass=mass,
-    )  # fmt: skip
-    return put_load(scene, element)
-
-
 def damp_load(
     scene: Description, body: str, size: Any, tip: tuple[str, Any], *, ratio: float, drag: float
 ) -> None:
     """The small damping of a box that hangs below a tip, body and point: of its swing, and drag of air."""
     if ratio > 0.0:
-        add_pendulum_damping(
-            scene, f"{body} swing", first=tip[0], first_point=tip[1], second=body, ratio=ratio
-        )
+        add_spring(scene, f"{body} swing", first=tip[0], first_point=tip[1], second=body, damping_ratio=ratio)
     x, y, z = map(float, size)
     if drag > 0.0 and max(x, y, z) > 0.0:
         add_wind(scene, body=body, frontal_area=y * z, lateral_area=x * z, drag_coefficient=drag)

@@ -112,10 +112,9 @@ def soft_stop() -> Scene:
 @case(by("dopri5"), by("cvode-bdf", "redundant"))
 def gas_spring() -> Scene:
     scene = guided(axis=(0, 0, 1), position=(0, 0, -4.2))
-    scene.add_gas_spring(
-        name="phc", first="ground", second="load", area=0.01, length=4.0, damping=500.0,
-        gas=of.Gas(force=2e4, stiffness=6e3, exponent=1.3), stops=of.Stops(minimum=1.0, maximum=7.0),
-    )  # fmt: skip
+    gas = of.Gas(area=0.01, length=4.0, force=2e4, stiffness=6e3, exponent=1.3)
+    stops = of.Stops(minimum=1.0, maximum=7.0)
+    scene.add_spring(name="phc", first="ground", second="load", damping=500.0, gas=gas, stops=stops)
     return scene
 
 
@@ -124,7 +123,7 @@ def pendulum_damping() -> Scene:
     scene = with_load((2.0, 0.3, -7.7), velocity=(0, 0.6, 0))
     ends = {"first": "ground", "second": "load"}
     scene.add_joint(kind="distance", name="rod", point=(0, 0, 0), second_point=(2.0, 0.3, -7.7), **ends)
-    scene.add_pendulum_damping(name="swing", ratio=0.03, **ends)
+    scene.add_spring(name="swing", damping_ratio=0.03, **ends)
     return scene
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from bits.case import by, case
 from bits.scenes.parts import G, with_load
 from seacrane import Scene
-from seacrane.hydro import BoxPart, CylinderPart, Opening, PlatePart, SpherePart
+from seacrane.hydro import BoxPart, Compartment, CylinderPart, Opening, PlatePart, SpherePart
 from seacrane.sea import Current
 
 
@@ -46,9 +46,7 @@ def immersed_parts() -> Scene:
 def entrapped_water() -> Scene:
     """A suction anchor that fills as it goes down, with a skirt in the water."""
     scene = into_waves()
-    scene.add_immersed("load", parts=[BoxPart(size=(2, 2, 3))])
     holes = [Opening(point=(0, 0, -1.5), area=0.8), Opening(point=(0.5, 0, 1.5), area=0.05)]
-    scene.add_entrapped_water(
-        "load", name="inside", area=np.pi, height=3.0, point=(0, 0, -1.5), openings=holes
-    )
+    inside = Compartment(name="inside", area=np.pi, height=3.0, point=(0, 0, -1.5), openings=holes)
+    scene.add_immersed("load", parts=[BoxPart(size=(2, 2, 3))], inside=inside)
     return scene

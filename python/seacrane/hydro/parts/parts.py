@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, get_args
 
 import numpy as np
 
+from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.hydro.parts.added_mass import (
     CIRCLE_SOURCE,
@@ -34,9 +35,11 @@ from seacrane.hydro.parts.flat_parts import (
 from seacrane.inputs.checked import not_negative_of, number_of, positive_of, shaped_of, vector_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import made_of, value
 
 CIRCLE_SLAM = np.pi  # von Karman: what the added mass of a circle gives as it touches
 DISC_DRAG = 1.17  # C_D of a thin disc across the flow (Hoerner, Fluid-Dynamic Drag; unverified)
+IN_LID = 1e-9  # of the height, as in the engine
 CLOSED, OPEN, JOINED = "closed", "open", "joined"  # what an end of a cylinder is
 
 
@@ -66,7 +69,7 @@ class CylinderPart(Shape):
     flooded : bool, optional
         Of a tube: True where the water in it stands as high as outside. Its wall alone keeps water out then;
         what is in it goes along across, and also along it unless both ends are open. False: the whole
-        keeps water out, or `add_entrapped_water` brings it in. An open end needs it.
+        keeps water out, or a `Compartment` brings it in. An open end needs it.
     point, axes, source
         As of all parts: centre (m, body coordinates), axes (columns), and where coefficients are from.
 
@@ -114,7 +117,7 @@ class CylinderPart(Shape):
         if self.flooded is None and OPEN in ends:
             raise SceneError(
                 "cylinder: has an open end; say flooded=True where the water in it stands as high as "
-                "outside, flooded=False where nothing or add_entrapped_water brings it in"
+                "outside, flooded=False where nothing or a Compartment brings it in"
             )
 
     @property
@@ -250,11 +253,11 @@ class TablePart(Shape):
         super().__post_init__()
         depths = vector_of("table: depths", self.depths)
         for name in ("depths", "volumes"):
-            for value in vector_of(f"table: {name}", getattr(self, name)):
-                not_negative_of(f"table: {name}", value, "m" if name == "depths" else "m3")
+            for one in vector_of(f"table: {name}", getattr(self, name)):
+                not_negative_of(f"table: {name}", one, "m" if name == "depths" else "m3")
         shaped_of("table: added_masses", self.added_masses, (len(depths), 3))
-        for value in shaped_of("table: drag_area", self.drag_area, (3,)):
-            not_negative_of("table: drag_area", value, "m2")
+        for one in shaped_of("table: drag_area", self.drag_area, (3,)):
+            not_negative_of("table: drag_area", one, "m2")
         if not self.source:
             raise SceneError("table: has no source; say where its coefficients are from")
 
@@ -294,6 +297,43 @@ class Opening:
     def __post_init__(self) -> None:
         shaped_of("opening: point", self.point, (3,))
         positive_of("opening: area", self.area, "m2")
+
+
+@value(_core.EntrappedWater)
+class Compartment:
+    """A compartment of a body, into which water comes, and which it leaves, through openings.
+
+    It is a prism that stands on `point` along the body's z axis: a suction anchor, a tube, a bucket. Its
+    openings are `Opening`, or tables {"point": ..., "area": ...}; 12 at most. By default `name` is "water in
+    <body>". `air` is that above the water: "vented", coming and going by the openings alone, against their
+    resistance; "free", against none; or "shut", whose mass stays while no opening lets air through, and which
+    expands and is compressed. Default: "vented" with an opening in the lid; without one, it is asked for.
+    """
+
+    area: float  # m2
+    height: float  # m
+    openings: Any
+    point: Any = (0.0, 0.0, 0.0)
+    air: str | None = None
+    exponent: float = 0.0
+    air_pressure: float = 101325.0  # Pa
+    discharge_coefficient: float = 0.6
+    initial: float = 0.0  # m3
+    name: str | None = None
+
+    def __post_init__(self) -> None:
+        given = self.openings
+        if isinstance(given, Mapping | str) or not isinstance(given, Sequence) or not given:
+            raise SceneError.of("compartment: openings", f"is {shown(given)}; give a list of Opening")
+        holes = tuple(made_of("compartment", "openings", Opening, one) for one in given)
+        object.__setattr__(self, "openings", holes)
+
+    @property
+    def air_above(self) -> str:
+        """`air`, or what an opening in the lid says; "" is asked for when a scene is compiled."""
+        bottom = shaped_of("compartment: point", self.point, (3,))[2]
+        lid = bottom + (1.0 - IN_LID) * number_of("compartment: height", self.height)
+        return self.air or ("vented" if any(hole.point[2] > lid for hole in self.openings) else "")
 
 
 Part = BoxPart | PlatePart | CylinderPart | SpherePart | TablePart
