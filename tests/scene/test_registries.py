@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,8 +13,10 @@ from lift_examples import every_table
 from where import ROOT, at
 
 from seacrane import Scene, _core
-from seacrane.description.description import all_loads
+from seacrane.description import elements
+from seacrane.description.description import Description, all_loads
 from seacrane.description.loads import LOAD_KINDS, kind_of
+from seacrane.errors import SceneError
 from seacrane.hydro.readers.load import FORMATS
 from seacrane.lift.tables import TABLES
 from seacrane.pictures.wheels import wires_of
@@ -60,6 +63,19 @@ def test_every_load_between_two_points_is_drawn(kind: str) -> None:
         scene.add_body(name, mass=1.0, inertia=(1.0,) * 3)
     scene.add_load(load)
     assert load.name in {wire["element"] for wire in wires_of(scene, list(scene.bodies))}
+
+
+@pytest.mark.parametrize("kind", LOAD_KINDS)
+def test_one_line_makes_the_method_of_a_kind(kind: str) -> None:
+    """`adds`, a step of the guide to a new load: its keywords are the fields, and it adds that load."""
+    load = LOAD_KINDS[kind].example()
+    add = elements.adds(LOAD_KINDS[kind])
+    keywords = inspect.signature(add).parameters
+    assert list(keywords)[1:] == [field.name for field in load.FIELDS]
+    scene = Description()
+    entries = {field.name: getattr(load, field.name) for field in load.FIELDS}
+    with pytest.raises(SceneError, match=load.name):  # its bodies are not there
+        add(scene, entries.pop("name"), **entries)
 
 
 def test_every_reader_of_hydrodynamic_files_is_fuzzed() -> None:

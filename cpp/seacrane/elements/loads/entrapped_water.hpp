@@ -32,7 +32,7 @@ struct EntrappedWaterDescription {
   static constexpr const char* type = "EntrappedWater";
   static constexpr const char* text =
       "Water in a compartment of a body, which comes and goes through openings; see "
-      "Scene.add_entrapped_water.";
+      "Scene.add_immersed.";
   static constexpr auto fields() {
     using D = EntrappedWaterDescription;
     return std::tuple(

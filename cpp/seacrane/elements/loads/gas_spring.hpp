@@ -21,7 +21,7 @@ struct GasSpringDescription : SpanDescription {
   static constexpr const char* type = "GasSpring";
   static constexpr const char* text =
       "A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see "
-      "Scene.add_gas_spring.";
+      "Scene.add_spring.";
   static constexpr auto fields() {
     using D = GasSpringDescription;
     return std::tuple_cat(

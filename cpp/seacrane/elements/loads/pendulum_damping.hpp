@@ -15,7 +15,7 @@ struct PendulumDampingDescription : SpanDescription {
   static constexpr const char* type = "PendulumDamping";
   static constexpr const char* text =
       "Damping of a load that swings below a point, as a ratio of critical; see "
-      "Scene.add_pendulum_damping.";
+      "Scene.add_spring.";
   static constexpr auto fields() {
     using D = PendulumDampingDescription;
     return std::tuple_cat(
