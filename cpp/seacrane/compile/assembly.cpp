@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <queue>
-#include <set>
 #include <stdexcept>
 
 #include "seacrane/dynamics/constraints.hpp"

@@ -1,7 +1,6 @@
 #include "seacrane/dynamics/maximal.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"

@@ -1,6 +1,5 @@
 #include "seacrane/dynamics/row_space.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "seacrane/math/dense.hpp"

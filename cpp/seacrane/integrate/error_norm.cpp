@@ -1,7 +1,6 @@
 #include "seacrane/integrate/error_norm.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 

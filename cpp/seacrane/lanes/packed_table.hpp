@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "seacrane/lanes/packed_sources.hpp"
 #include "seacrane/math/pack.hpp"

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "seacrane/compile/compile.hpp"
 #include "seacrane/dynamics/constraints.hpp"
 
 namespace seacrane {

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
 #include "seacrane/dynamics/stiff_loads.hpp"

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 #include <tuple>
-#include <utility>
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/math/exponential.hpp"
