@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/formulation.hpp"
-#include "seacrane/integrate/stiff_part.hpp"
+#include "seacrane/integrate/problem.hpp"
 
 namespace seacrane {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "seacrane/integrate/integration_error.hpp"
+#include "seacrane/integrate/integrator.hpp"
 
 namespace seacrane {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/strip/section.hpp"
+#include "seacrane/strip/section_panels.hpp"
 
 namespace seacrane::strip {
 

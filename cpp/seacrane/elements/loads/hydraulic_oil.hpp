@@ -5,8 +5,7 @@
 #include <tuple>
 
 #include "seacrane/elements/field.hpp"
-#include "seacrane/math/exponential.hpp"
-#include "seacrane/math/power.hpp"
+#include "seacrane/math/dual.hpp"
 #include "seacrane/math/select.hpp"
 
 namespace seacrane {
