@@ -52,6 +52,5 @@ SECTION = Section(
     head=["formulation", "points", "without [ns]", "apart [ns]", "closed [ns]", "apart over without",
           "closed over without"],
     rows=contact_cost,
-    sources=(*CRANE, "cpp/seacrane/elements/loads/contact*", "cpp/seacrane/elements/loads/bristle.hpp",
-             "cpp/seacrane/elements/loads/normal_law.hpp"),
+    sources=(*CRANE, "cpp/seacrane/elements/loads/contact*", "cpp/seacrane/elements/loads/surface_law.hpp"),
 )  # fmt: skip

@@ -1,5 +1,5 @@
 #include "bindings.hpp"
-#include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/channel.hpp"
 #include "seacrane/run/channels/registry.hpp"
 
 using namespace seacrane;

@@ -222,10 +222,7 @@ class Evaluator {
   }
   /// Accelerations of all bodies' state points (bodies, 6), by the formulation chosen.
   Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> accelerations(double t, const Array& y) {
-    check(y);
-    std::vector<double> state(stepped().size()), rate(stepped().size());
-    bodies_.read(t, y.data(), state.data());
-    stepped().derivative(t, state.data(), rate.data());
+    evaluate(t, y);
     Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> out(model_->body_count(), 6);
     for (int b = 0; b < model_->body_count(); ++b) {
       out.row(b) = bodies_.accelerations()[static_cast<std::size_t>(b)].transpose();
@@ -234,13 +231,10 @@ class Evaluator {
   }
   /// Factor by which terms cancel in the recursive form at a state.
   double condition(double t, const Array& y) {
-    check(y);
     if (!steps_recursive()) {
       throw std::invalid_argument("condition: belongs to an Evaluator of formulation \"recursive\"");
     }
-    std::vector<double> state(stepped().size()), rate(stepped().size());
-    bodies_.read(t, y.data(), state.data());
-    stepped().derivative(t, state.data(), rate.data());
+    evaluate(t, y);
     return stepped().condition();
   }
   py::dict time_parts(double t, const Array& y, long count) {
@@ -260,6 +254,13 @@ class Evaluator {
                                   std::to_string(model_->layout.size));
     }
     return y.size();
+  }
+  /// By the formulation chosen.
+  void evaluate(double t, const Array& y) {
+    check(y);
+    std::vector<double> state(stepped().size()), rate(stepped().size());
+    bodies_.read(t, y.data(), state.data());
+    stepped().derivative(t, state.data(), rate.data());
   }
   std::vector<std::pair<std::string, double>> measured_parts(double t, const Array& y, long count) {
     if (auto* const recursive = dynamic_cast<RecursiveSystem*>(&stepped())) {
@@ -421,8 +422,7 @@ void bind_model(py::module_& m) {
             return out;
           },
           "By line: the mass (kg) that bounces on it at the start, as on one fall, the frequency of that "
-          "(rad/s), and "
-          "the ratio of critical damping that the lines give it.")
+          "(rad/s), and the ratio of critical damping that the lines give it.")
       .def_property_readonly(
           "scale",
           [](const Model& x) { return Array(static_cast<py::ssize_t>(x.scale.size()), x.scale.data()); },

@@ -3,7 +3,7 @@
 #include "bindings.hpp"
 #include "given.hpp"
 #include "seacrane/elements/check.hpp"
-#include "seacrane/integrate/integration_error.hpp"
+#include "seacrane/integrate/integrator.hpp"
 #include "seacrane/run/contacts.hpp"
 #include "seacrane/run/switches.hpp"
 #include "without_gil.hpp"

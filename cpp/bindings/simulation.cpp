@@ -13,14 +13,15 @@ Array to_array(const std::vector<double>& v) { return Array(static_cast<py::ssiz
 
 std::vector<double> to_values(const Array& a) { return {a.data(), a.data() + a.size()}; }
 
-/// Columns of the rows of a recording, of a channel's shape.
-Array columns(const Recording& r, const RecordedChannel& c, std::size_t offset, py::ssize_t rows) {
+/// Columns of the first `rows` rows of values, of a channel's shape.
+Array columns(const std::vector<double>& values_by_row, std::size_t width, const RecordedChannel& c,
+              std::size_t offset, py::ssize_t rows) {
   std::vector<py::ssize_t> shape{rows};
   for (std::size_t n : c.shape) shape.push_back(static_cast<py::ssize_t>(n));
   Array values(shape);
   double* target = values.mutable_data();
   for (py::ssize_t i = 0; i < rows; ++i) {
-    const double* row = r.rows().data() + static_cast<std::size_t>(i) * r.width() + offset;
+    const double* row = values_by_row.data() + static_cast<std::size_t>(i) * width + offset;
     target = std::copy_n(row, c.size, target);
   }
   return values;
@@ -30,7 +31,9 @@ py::dict channels(const Recording& r, std::size_t most) {
   const auto rows = static_cast<py::ssize_t>(std::min(r.count(), most));
   py::dict out;
   out["time"] = Array(rows, r.times().data());
-  for (const RecordedChannel& c : r.channels()) out[c.channel->name.c_str()] = columns(r, c, c.offset, rows);
+  for (const RecordedChannel& c : r.channels()) {
+    out[c.channel->name.c_str()] = columns(r.rows(), r.width(), c, c.offset, rows);
+  }
   return out;
 }
 
@@ -39,27 +42,20 @@ py::dict extremes(const Recording& r, std::size_t most) {
   py::dict out;
   for (const RecordedChannel& c : r.channels()) {
     if (!c.least) continue;
-    out[c.channel->name.c_str()] =
-        py::make_tuple(columns(r, c, *c.least, rows), columns(r, c, c.largest(), rows));
+    out[c.channel->name.c_str()] = py::make_tuple(columns(r.rows(), r.width(), c, *c.least, rows),
+                                                  columns(r.rows(), r.width(), c, c.largest(), rows));
   }
   return out;
 }
 
 py::dict trail(const Trail& t) {
-  const auto rows = static_cast<py::ssize_t>(t.times.size()), width = static_cast<py::ssize_t>(t.width());
+  const auto rows = static_cast<py::ssize_t>(t.times.size());
   py::dict out;
   out["time"] = Array(rows, t.times.data());
-  py::ssize_t offset = 0;
+  std::size_t offset = 0;
   for (const RecordedChannel* c : t.channels) {
-    std::vector<py::ssize_t> shape = {rows};
-    for (const std::size_t n : c->shape) shape.push_back(static_cast<py::ssize_t>(n));
-    Array values(shape);
-    double* to = values.mutable_data();
-    for (py::ssize_t i = 0; i < rows; ++i, to += c->size) {
-      std::copy_n(t.rows.data() + i * width + offset, c->size, to);
-    }
-    offset += static_cast<py::ssize_t>(c->size);
-    out[c->channel->name.c_str()] = values;
+    out[c->channel->name.c_str()] = columns(t.rows, t.width(), *c, offset, rows);
+    offset += c->size;
   }
   return out;
 }
@@ -78,9 +74,7 @@ py::dict statistics(const Simulation& s) {
   if (s.has_limits() || !s.limits_reached().empty()) {
     out["events"] = s.events().size() + s.limits_reached().size();
   }
-  if (s.has_limits()) {
-    out["impact_energy_lost_J"] = r.energy_lost;
-  }
+  if (s.has_limits()) out["impact_energy_lost_J"] = r.energy_lost;
   if (r.rank) {
     out["smallest_pivot"] = r.rank->pivot;
     out["smallest_pivot_at_s"] = r.rank->time;
@@ -351,8 +345,7 @@ void bind_simulation(py::module_& m) {
            py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("options"))
       .def("advance", &S::advance, py::arg("t_end"), py::arg("progress") = py::none(),
            "Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it, or the interpreter "
-           "ends. "
-           "progress(time) is called now and then. SimulationError while the run is advanced already.")
+           "ends. progress(time) is called now and then. SimulationError while the run is advanced already.")
       .def("__enter__",
            [](const py::object& self) {
              self.cast<S&>().enter();

@@ -1,6 +1,5 @@
 #include "seacrane/sea/spectrum.hpp"
 
-#include <limits>
 #include <memory>
 
 #include "sea_arrays.hpp"

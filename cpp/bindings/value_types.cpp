@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <utility>
 
 #include "description.hpp"
 #include "given.hpp"

@@ -180,13 +180,8 @@ ValueError
                                                 WavePoint{position.first, position.second});
            }),
            py::arg("waves"), py::kw_only(), py::arg("coefficient"), py::arg("position") = Point(0.0, 0.0))
-      .def(
-          "evaluate",
-          [](const DriftLoad& load, const Doubles& times, int derivative) {
-            return derivatives(load, times, derivative);
-          },
-          py::arg("times"), py::kw_only(), py::arg("derivative") = 0,
-          "Forces (N) and moments (N m) at times (s): shape times.shape + (6,); `derivative` 0, 1 or 2.")
+      .def("evaluate", &derivatives<DriftLoad>, py::arg("times"), py::kw_only(), py::arg("derivative") = 0,
+           "Forces (N) and moments (N m) at times (s): shape times.shape + (6,); `derivative` 0, 1 or 2.")
       .def_property_readonly(
           "waves", [](const DriftLoad& load) { return load.waves(); }, "The components (a copy).");
   bind_table<DriftLoad>(m, "DriftTable",

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "seacrane/sea/dispersion.hpp"
+#include "seacrane/sea/current.hpp"
 #include "seacrane/sea/spectrum.hpp"
 
 using seacrane::Spectrum;

@@ -2375,7 +2375,7 @@ class ImmersedPart:
     @property
     def slow_added_masses(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
         """
-        kg, at zero frequency, at the depths: what slow waves feel, for coefficient_scatter alone
+        kg, at zero frequency, at the depths: what slow waves feel, for answers.scattered
         """
     @property
     def source(self) -> str:

@@ -1,12 +1,10 @@
-#include "seacrane/compile/assembly.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
-#include <set>
 #include <stdexcept>
 
+#include "seacrane/compile/steps.hpp"
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/check.hpp"

@@ -7,13 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "seacrane/compile/assembly.hpp"
-#include "seacrane/compile/fast_motions.hpp"
-#include "seacrane/compile/find_kinks.hpp"
-#include "seacrane/compile/groups.hpp"
-#include "seacrane/compile/line_bounces.hpp"
-#include "seacrane/compile/locked_loops.hpp"
-#include "seacrane/compile/start_loads.hpp"
+#include "seacrane/compile/steps.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/heave_signal.hpp"
@@ -26,7 +20,6 @@ namespace {
 // cases closes to 1e-6 of the absolute work at rtol = 1e-6.
 constexpr double kTranslationScale = 0.1;  // m, m/s, times the scene's length scale
 constexpr double kRotationScale = 0.01;    // rad, rad/s: the same at a lever of 10 m
-constexpr double kBeyond = 1e-9;           // m or rad: a start beyond a bound
 constexpr double kLeastGyration = 1e-2;    // over the longest arm of a body, where geometry is judged
 
 class Compiler final : private LoadContext {
@@ -188,6 +181,17 @@ class Compiler final : private LoadContext {
     if (mass > 0.0) model_.gravity.push_back({b, mass * scene_.gravity, moment / mass});
   }
 
+  static ElementModel element_of(const std::string& name, const std::string& kind, const JointData& on) {
+    ElementModel e;
+    e.name = name;
+    e.kind = kind;
+    e.first = on.first;
+    e.second = on.second;
+    e.first_point = on.first_point;
+    e.second_point = on.second_point;
+    return e;
+  }
+
   void joints() {
     model_.joints.resize(joint_kinds().size());
     for (const auto& d : scene_.joints) {
@@ -195,13 +199,7 @@ class Compiler final : private LoadContext {
       if (within_one_body(d)) continue;
       JointData j = joint_data(d);
       j.element = element_[d.name] = static_cast<int>(model_.elements.size());
-      ElementModel e;
-      e.name = d.name;
-      e.kind = d.kind;
-      e.first = j.first;
-      e.second = j.second;
-      e.first_point = j.first_point;
-      e.second_point = j.second_point;
+      ElementModel e = element_of(d.name, d.kind, j);
       const JointKind& kind = *find_joint_kind(d.kind);
       e.slides = kind.slides;
       if (!d.open) {
@@ -216,15 +214,9 @@ class Compiler final : private LoadContext {
     for (const auto& d : scene_.drivers) {
       if (within_one_body(*joint_.at(d.coordinate.joint))) continue;
       DriverData driver{coordinate(d.coordinate), d.curve, static_cast<int>(model_.elements.size())};
-      ElementModel e;
-      e.name = d.name;
-      e.kind = "driver";
+      ElementModel e = element_of(d.name, "driver", driver.coordinate.joint);
       e.rows = 1;
       e.driver = true;
-      e.first = driver.coordinate.joint.first;
-      e.second = driver.coordinate.joint.second;
-      e.first_point = driver.coordinate.joint.first_point;
-      e.second_point = driver.coordinate.joint.second_point;
       model_.elements.push_back(e);
       model_.drivers.push_back(driver);
     }
@@ -307,8 +299,7 @@ class Compiler final : private LoadContext {
   void check_quasi_static() const {
     model_.loads.for_each([&](const LoadList& list, std::size_t i) {
       if (list.inertial_place(i) < 0) return;
-      const std::string what =
-          std::string(list.kind.name) + " '" + list.names[i] + "': its stretch is quasi-static, and ";
+      const std::string what = name_of(list, i) + ": its stretch is quasi-static, and ";
       if (!model_.limits.empty()) {
         throw SceneError(what + "limit '" + model_.limits.front().name +
                          "' makes impacts, which shake the line; choose rung 'elastic'");
@@ -321,7 +312,7 @@ class Compiler final : private LoadContext {
   void take_added_inertia() {
     model_.loads.for_each([&](const LoadList& list, std::size_t i) {
       if (!list.kind.adds_inertia) return;
-      refuse_paper(std::string(list.kind.name) + " '" + list.names[i] + "': it adds inertia, and ");
+      refuse_paper(name_of(list, i) + ": it adds inertia, and ");
       for (const int b : list.bodies[i]) {
         if (b != ground()) model_.bodies[idx(b)].full = true;
       }
@@ -330,35 +321,9 @@ class Compiler final : private LoadContext {
 
   void vessels() {
     for (const auto& d : scene_.vessels) {
-      Vessel v;
-      v.body = place(d.body).body;
-      v.added_mass = d.added_mass;
-      v.linear_damping = d.linear_damping;
-      v.quadratic_damping = d.quadratic_damping;
-      v.restoring = d.restoring.block<3, 3>(2, 2);
-      v.mooring_stiffness = d.mooring_stiffness;
-      v.mooring_damping = d.mooring_damping;
-      try {
-        if (const auto* functions = std::get_if<RetardationFunctions>(&d.memory)) {
-          v.memory = Convolution(*functions);
-        } else {
-          v.memory = Memory(std::get<std::vector<StateSpaceBlock>>(d.memory));
-        }
-      } catch (const std::invalid_argument& error) {
-        throw SceneError("vessel '" + d.name + "': " + error.what());
-      }
-      const BodyDescription& start = scene_.bodies[idx(index_.at(d.body))];
-      // At rest on the still water: a hull described above or below it starts there, and heaves.
-      v.mean_position = {start.position.x(), start.position.y(), 0.0};
-      v.mean_yaw = roll_pitch_yaw<double>(rotation_from_quaternion<double>(start.quaternion))[2];
-      v.mean_axes = rotation_about_z<double>(std::cos(v.mean_yaw), std::sin(v.mean_yaw));
+      model_.vessels.push_back(vessel_at(d, scene_.bodies[idx(index_.at(d.body))]));
+      model_.vessels.back().body = place(d.body).body;
       model_.paper_kinematics = d.kinematics == VesselKinematics::paper;
-      if (model_.paper_kinematics && std::fabs(v.mean_yaw) > 1e-9) {
-        throw SceneError("vessel '" + d.name +
-                         "': kinematics 'paper' act along the inertial axes, and it starts at a heading of " +
-                         to_text(v.mean_yaw) + " rad; start it at 0, or use 'yaw_following'");
-      }
-      model_.vessels.push_back(v);
     }
     for (const auto& d : scene_.wave_loads) {
       const int b = place(d.body).body;
@@ -404,24 +369,25 @@ class Compiler final : private LoadContext {
     for (std::size_t v = 0; v < model_.vessels.size(); ++v) {
       int i = model_.vessels[v].memory_offset;
       const auto* blocks = std::get_if<std::vector<StateSpaceBlock>>(&scene_.vessels[v].memory);
-      for (const auto& block : blocks ? *blocks : std::vector<StateSpaceBlock>()) {
-        for (Eigen::Index k = 0; k < block.a.rows(); ++k) {
-          scale[idx(i++)] = block.state_scale.size() ? block.state_scale[k] : 1.0;
-        }
-      }
+      if (blocks) scale_memory(*blocks, i);
       if (!model_.vessels[v].fast) continue;
       for (int k = 0; k < FastMotion::states; ++k) scale[idx(i++)] = k < 6 ? length : kRotationScale;
     }
     for (std::size_t g = 0; g < model_.groups.size(); ++g) {
       int i = model_.groups[g].memory_offset;
-      for (const StateSpaceBlock& block : scene_.groups[g].memory) {
-        for (Eigen::Index k = 0; k < block.a.rows(); ++k) {
-          scale[idx(i++)] = block.state_scale.size() ? block.state_scale[k] : 1.0;
-        }
-      }
+      scale_memory(scene_.groups[g].memory, i);
     }
     for (std::size_t i = 0; i < model_.load_states.size(); ++i) {
       scale[idx(s.loads) + i] = model_.load_states[i].scale;
+    }
+  }
+
+  /// From state i on, which goes on behind them.
+  void scale_memory(const std::vector<StateSpaceBlock>& blocks, int& i) {
+    for (const StateSpaceBlock& block : blocks) {
+      for (Eigen::Index k = 0; k < block.a.rows(); ++k) {
+        model_.scale[idx(i++)] = block.state_scale.size() ? block.state_scale[k] : 1.0;
+      }
     }
   }
 
@@ -474,22 +440,6 @@ std::shared_ptr<Model> when_open(const std::shared_ptr<Model>& model, ClosedSet 
   return open;
 }
 
-/// Refuses a start beyond a bound.
-void check_start(const Model& model) {
-  if (model.limits.empty()) return;
-  const std::shared_ptr<const Model> view(&model, [](const Model*) {});
-  Terms terms(view);
-  terms.read(0.0, model.initial_state.data());
-  for (std::size_t i = 0; i < model.limits.size(); ++i) {
-    const Limit& limit = model.limits[i];
-    if (holds(model.closed, static_cast<int>(i)) || !limit.kind->closes_again) continue;
-    const double gap = limit.side * evaluate_limit(limit, terms.bodies().data()).value;
-    if (gap >= -kBeyond) continue;
-    throw SceneError("limit '" + limit.name + "': the scene starts " + to_text(-gap) +
-                     " m or rad beyond it; start within the bounds, or correct them");
-  }
-}
-
 }  // namespace
 
 std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) {
@@ -503,7 +453,6 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
   assemble(*model);
   start_fast_motions(*model);
   start_loads(*model);
-  check_start(*model);
   const std::shared_ptr<Model> open = when_open(model, closed);
   hang_on_lines(*model, find_line_bounces(*open));
   hang_on_lines(*open, model->line_bounces);

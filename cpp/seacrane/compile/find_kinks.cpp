@@ -1,11 +1,10 @@
-#include "seacrane/compile/find_kinks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
 
+#include "seacrane/compile/steps.hpp"
 #include "seacrane/dynamics/maximal.hpp"
 
 namespace seacrane {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "seacrane/compile/fast_motions.hpp"
+#include "seacrane/compile/steps.hpp"
 #include "seacrane/elements/check.hpp"
 
 namespace seacrane {

@@ -1,10 +1,9 @@
-#include "seacrane/compile/line_bounces.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 
+#include "seacrane/compile/steps.hpp"
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/loads/line.hpp"
 #include "seacrane/math/dense.hpp"

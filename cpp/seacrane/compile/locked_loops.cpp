@@ -1,9 +1,8 @@
-#include "seacrane/compile/locked_loops.hpp"
-
 #include <algorithm>
 #include <map>
 #include <set>
 
+#include "seacrane/compile/steps.hpp"
 #include "seacrane/dynamics/dependence.hpp"
 #include "seacrane/dynamics/terms.hpp"
 #include "seacrane/math/dense.hpp"

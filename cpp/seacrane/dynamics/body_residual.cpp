@@ -1,7 +1,6 @@
 #include "seacrane/dynamics/body_residual.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "seacrane/dynamics/jacobian.hpp"
 #include "seacrane/dynamics/terms.hpp"

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "seacrane/dynamics/terms.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -34,5 +35,9 @@ void multiplier_load(const Terms& terms, const double* lambda, std::vector<Vec6d
 /// fast. A residual that is left makes speeds jump when it is closed, by the residual times the turning rate;
 /// the history of a multistep method does not survive jumps beyond its tolerance.
 double position_tolerance(const BodyKinematics<double>* bodies, int count);
+
+/// The force of a limit that holds, from the multipliers `lambda` of the model of `terms`, positive in the
+/// direction in which it can act: tension of a wire, push of a stop, pressure on a seat.
+double limit_force(const Limit& limit, const Terms& terms, const double* lambda);
 
 }  // namespace seacrane

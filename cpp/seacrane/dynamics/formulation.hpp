@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/dependence.hpp"
-#include "seacrane/integrate/position_map.hpp"
-#include "seacrane/integrate/system.hpp"
+#include "seacrane/integrate/problem.hpp"
 #include "seacrane/math/types.hpp"
 
 namespace seacrane {

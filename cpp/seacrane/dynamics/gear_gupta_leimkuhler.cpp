@@ -1,7 +1,6 @@
 #include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "seacrane/dynamics/constraints.hpp"
 

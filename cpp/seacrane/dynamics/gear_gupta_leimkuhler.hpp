@@ -5,7 +5,7 @@
 
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/dynamics/residual_jacobian.hpp"
-#include "seacrane/integrate/residual_system.hpp"
+#include "seacrane/integrate/problem.hpp"
 
 namespace seacrane {
 

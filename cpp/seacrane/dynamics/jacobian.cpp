@@ -1,7 +1,6 @@
 #include "seacrane/dynamics/jacobian.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "seacrane/dynamics/maximal.hpp"
 

@@ -11,10 +11,25 @@
 #include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/dynamics/inertial_tensions.hpp"
 #include "seacrane/dynamics/jacobian.hpp"
-#include "seacrane/dynamics/pose_map.hpp"
 #include "seacrane/dynamics/terms.hpp"
+#include "seacrane/integrate/problem.hpp"
+#include "seacrane/model/model.hpp"
 
 namespace seacrane {
+
+/// Poses of all bodies, moved along their twists (StateLayout).
+class PoseMap final : public PositionMap {
+ public:
+  explicit PoseMap(const Model& model) : model_(model), moved_(idx(model.layout.size)) {}
+
+  std::size_t position_size() const override { return idx(model_.layout.velocity); }
+  void move(double h, double* y) override;
+  bool move_jacobian(double h, const double* y, double* out) override;
+
+ private:
+  const Model& model_;
+  std::vector<double> moved_;
+};
 
 /// The paper's formulation, eqs (5)-(9), (32)-(35), in maximal coordinates: every body with six velocities,
 /// every joint with multipliers. Its state is that of the bodies (StateLayout). Users know it as

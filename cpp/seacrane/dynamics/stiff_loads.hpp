@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/formulation.hpp"
-#include "seacrane/elements/loads/load.hpp"
-#include "seacrane/integrate/stiff_part.hpp"
-#include "seacrane/model/model.hpp"
+#include "seacrane/integrate/problem.hpp"
 
 namespace seacrane {
 

@@ -1,11 +1,15 @@
 #include "seacrane/dynamics/terms.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/paper_kinematics.hpp"
+#include "seacrane/model/model.hpp"
 
 namespace seacrane {
 namespace {
@@ -250,6 +254,92 @@ Mat6d Terms::mass_matrix(int body) const {
 Mat6d Terms::symmetric_mass(int body) const {
   const BodyModel& b = model_->bodies[idx(body)];
   return b.full ? inertia_[idx(body)].mass : rigid_mass_matrix(b, bodies_[idx(body)].rotation);
+}
+
+WaveForces::WaveForces(const WaveLoadDescription& sources) : sources_(&sources) {
+  if (sources.table) block_ = std::make_shared<WaveTableBlock>(sources.table->make_block());
+  if (sources.drift_table) {
+    drift_block_ = std::make_shared<DriftTableBlock>(sources.drift_table->make_block());
+  }
+}
+
+void WaveForces::share_knots(const WaveForces& other) {
+  if (sources_->table == other.sources_->table) block_ = other.block_;
+  if (sources_->drift_table == other.sources_->drift_table) drift_block_ = other.drift_block_;
+}
+
+void WaveForces::evaluate(double t, const Vec3d& pose) {
+  const WaveLoadDescription& s = *sources_;
+  if (s.positioned) {
+    PositionedLoad load;
+    s.positioned->evaluate(t, pose[0], pose[1], pose[2], load);
+    force_ = view<6>(load.force);
+    drift_ = view<6>(load.drift);
+    elevation_ = load.elevation;
+    return;
+  }
+  double load[wave_channels];
+  if (s.table) {
+    s.table->evaluate(t, *block_, load);
+  } else {
+    s.exact->evaluate(t, load);
+  }
+  force_ = view<6>(load);
+  elevation_ = load[6];
+  if (s.drift_table) {
+    s.drift_table->evaluate(t, *drift_block_, drift_.data());
+  } else if (s.drift) {
+    s.drift->evaluate(t, drift_.data());
+  }
+}
+
+VesselHistories::VesselHistories(const Model& model) {
+  for (std::size_t v = 0; v < model.vessels.size(); ++v) {
+    const auto* tables = std::get_if<Convolution>(&model.vessels[v].memory);
+    if (tables) histories_.push_back({v, idx(model.vessels[v].body), RunningConvolution(*tables)});
+  }
+}
+
+const RunningConvolution* VesselHistories::of(int vessel) const {
+  for (const History& h : histories_) {
+    if (h.vessel == idx(vessel)) return &h.memory;
+  }
+  return nullptr;
+}
+
+std::vector<TwistHistory> VesselHistories::save() const {
+  std::vector<TwistHistory> out;
+  for (const History& h : histories_) out.push_back(h.memory.save());
+  return out;
+}
+
+void VesselHistories::restore(double t, const std::vector<TwistHistory>& saved) {
+  if (saved.size() != histories_.size()) {
+    throw std::invalid_argument("state: has " + std::to_string(saved.size()) + " histories, the model has " +
+                                std::to_string(histories_.size()) +
+                                " vessels with a convolution; give a state of this scene");
+  }
+  for (std::size_t i = 0; i < saved.size(); ++i) histories_[i].memory.restore(t, saved[i]);
+}
+
+void VesselHistories::start(double t, const std::vector<YawFrame<double>>& frames,
+                            const std::vector<Vec6d>& acceleration) {
+  for (History& h : histories_) {
+    const YawFrame<double>& frame = frames[h.vessel];
+    h.memory.start(t, frame.twist, frame.twist_rate(acceleration[h.body]));
+  }
+}
+
+double VesselHistories::next_sample() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const History& h : histories_) next = std::min(next, h.memory.next());
+  return next;
+}
+
+void VesselHistories::sample(double t, const std::vector<YawFrame<double>>& frames) {
+  for (History& h : histories_) {
+    if (h.memory.next() <= t) h.memory.sample(frames[h.vessel].twist);
+  }
 }
 
 }  // namespace seacrane

@@ -6,14 +6,77 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/dynamics/histories.hpp"
 #include "seacrane/dynamics/inertia.hpp"
-#include "seacrane/dynamics/wave_forces.hpp"
+#include "seacrane/hydro/convolution.hpp"
+#include "seacrane/hydro/vessel.hpp"
 #include "seacrane/math/spd_blocks.hpp"
+#include "seacrane/math/types.hpp"
+#include "seacrane/model/description.hpp"
 #include "seacrane/model/model.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
+
+struct Model;
+
+/// Past motions of the vessels whose fluid memory is a convolution, in their order. They change between steps
+/// only.
+class VesselHistories {
+ public:
+  struct History {
+    std::size_t vessel, body;
+    RunningConvolution memory;
+  };
+
+  explicit VesselHistories(const Model& model);
+
+  bool empty() const { return histories_.empty(); }
+  auto begin() { return histories_.begin(); }
+  auto end() { return histories_.end(); }
+  auto begin() const { return histories_.begin(); }
+  auto end() const { return histories_.end(); }
+  /// The convolution of a vessel; null where its memory has states, or where it has none.
+  const RunningConvolution* of(int vessel) const;
+
+  std::vector<TwistHistory> save() const;
+  /// Goes on from what was saved. Throws std::invalid_argument for histories of another scene.
+  void restore(double t, const std::vector<TwistHistory>& saved);
+  /// At rest before t; yaw frames of the vessels and accelerations of the bodies at t.
+  void start(double t, const std::vector<YawFrame<double>>& frames, const std::vector<Vec6d>& acceleration);
+  /// When the next sample is due: no evaluation may go beyond. Infinity where there are no histories.
+  double next_sample() const;
+  /// Takes the samples due at t.
+  void sample(double t, const std::vector<YawFrame<double>>& frames);
+
+ private:
+  std::vector<History> histories_;
+};
+
+/// Wave loads on one vessel during one run: the loads last evaluated, in axes that follow its yaw about its
+/// reference point, and the scratch of their tables.
+class WaveForces {
+ public:
+  explicit WaveForces(const WaveLoadDescription& sources);
+
+  /// Makes the knots of their tables once for both, where these are the same.
+  void share_knots(const WaveForces& other);
+
+  /// `pose`: x, y (m) and yaw (rad) of the vessel.
+  void evaluate(double t, const Vec3d& pose);
+
+  /// First order; slow drift; N and N m.
+  const Vec6d& force() const { return force_; }
+  const Vec6d& drift() const { return drift_; }
+  Vec6d sum() const { return force_ + drift_; }
+  double elevation() const { return elevation_; }  // m
+
+ private:
+  const WaveLoadDescription* sources_;  // of the model, which outlives every run
+  std::shared_ptr<WaveTableBlock> block_;
+  std::shared_ptr<DriftTableBlock> drift_block_;
+  Vec6d force_ = Vec6d::Zero(), drift_ = Vec6d::Zero();
+  double elevation_ = 0.0;
+};
 
 /// The power of loads: the sum, and the sum of the magnitudes.
 struct Power {

@@ -5,7 +5,7 @@
 
 #include "seacrane/integrate/error_norm.hpp"
 #include "seacrane/integrate/integrator.hpp"
-#include "seacrane/integrate/system.hpp"
+#include "seacrane/integrate/problem.hpp"
 
 namespace seacrane {
 

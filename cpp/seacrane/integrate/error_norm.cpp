@@ -1,11 +1,10 @@
 #include "seacrane/integrate/error_norm.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "seacrane/integrate/integration_error.hpp"
+#include "seacrane/integrate/integrator.hpp"
 
 namespace seacrane {
 namespace {

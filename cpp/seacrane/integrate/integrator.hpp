@@ -1,18 +1,117 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "seacrane/integrate/error_norm.hpp"
-#include "seacrane/integrate/integration_error.hpp"
-#include "seacrane/integrate/last_step.hpp"
-#include "seacrane/integrate/properties.hpp"
 
 namespace seacrane {
+
+/// The integration cannot continue. Thrown in place of a NaN, a hang or a message on the terminal.
+class IntegrationError : public std::runtime_error {
+ public:
+  static constexpr std::size_t no_component = static_cast<std::size_t>(-1);
+
+  IntegrationError(std::string method, double time, double step_size, std::size_t component,
+                   std::string reason);
+
+  const std::string& method() const { return method_; }
+  double time() const { return time_; }
+  double step_size() const { return step_size_; }
+  /// Index of the state component with the largest weighted error (or the first non-finite one).
+  std::size_t component() const { return component_; }
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string method_;
+  double time_;
+  double step_size_;
+  std::size_t component_;
+  std::string reason_;
+};
+
+/// What an integration method is: everything said of it elsewhere, in tables, checks and tests, is made
+/// from this.
+struct IntegratorProperties {
+  /// By which a user asks for it.
+  const char* name;
+  /// What it is, in words.
+  const char* kind;
+  /// The highest one for a method of variable order.
+  int order;
+  int lowest_order = order;
+  /// Order of the embedded method that estimates the error; 0: none.
+  int error_order = 0;
+  /// Order of the solution between the ends of a step; 0: it varies.
+  int dense_order;
+  /// Step without a choice of the user (s); 0: it chooses its steps by the tolerance.
+  double default_step = 0.0;
+  /// |eigenvalue| times step up to which an oscillation does not grow, of an explicit method of fixed step;
+  /// 0: no such limit.
+  double stable_up_to = 0.0;
+  /// Solves with df/dy, so that fast modes do not limit its steps.
+  bool uses_jacobian = false;
+  /// Asks for the PositionMap of the system.
+  bool uses_positions = false;
+  /// Solves the ResidualSystem.
+  bool residual_form = false;
+  /// Loses its history where a run continues from saved steps, or from a changed state.
+  bool restarts = false;
+  /// Has a spectral radius to choose.
+  bool has_spectral_radius = false;
+  /// Steps systems side by side: an error is that of the lane where it is largest, see Tolerances.
+  bool lanes = false;
+  /// How it keeps joints closed, in words.
+  const char* joints = "projection";
+  /// What it is there for, in words.
+  const char* purpose;
+
+  constexpr bool is_adaptive() const { return default_step == 0.0; }
+};
+
+/// A quantity whose change of sign is an event.
+using EventFunction = std::function<double(double t, const double* y)>;
+
+/// The last step of a method, or of one of the systems that it steps side by side.
+class LastStep {
+ public:
+  LastStep(std::string name, std::size_t size);
+  virtual ~LastStep() = default;
+
+  const std::string& name() const { return name_; }
+  std::size_t size() const { return state_.size(); }
+  double time() const { return time_; }
+  /// Start of the last step; time() right after init, reset and load.
+  double previous_time() const { return previous_time_; }
+  /// State at time(), projected where the method projects.
+  const double* state() const { return state_.data(); }
+  /// State at previous_time(), projected likewise.
+  const double* previous_state() const { return previous_state_.data(); }
+
+  /// Dense output of the last step at t in [previous_time(), time()]; not projected.
+  virtual void interpolate(double t, double* y) const = 0;
+
+  /// Time in the last step at which `event` changes sign, to rounding, on the side where it has changed;
+  /// nothing when its sign at time() is that at previous_time(). An event that is zero at the start of the
+  /// step has been found by the step before. Of several events in one step it finds one.
+  std::optional<double> locate(const EventFunction& event);
+
+ protected:
+  double time_ = 0.0;
+  double previous_time_ = 0.0;
+  std::vector<double> state_;
+  std::vector<double> previous_state_;
+
+ private:
+  std::string name_;
+  std::vector<double> event_state_;
+};
 
 inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 

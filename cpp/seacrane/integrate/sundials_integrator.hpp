@@ -2,15 +2,63 @@
 
 #include <algorithm>
 #include <exception>
+#include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "seacrane/integrate/integrator.hpp"
 #include "seacrane/integrate/problem.hpp"
-#include "seacrane/integrate/sundials_handles.hpp"
+#include "seacrane/integrate/sundials_compat.hpp"
 
 namespace seacrane {
+namespace sundials {
+
+struct FreeContext {
+  void operator()(SUNContext context) const { SUNContext_Free(&context); }
+};
+struct FreeVector {
+  void operator()(N_Vector vector) const { N_VDestroy(vector); }
+};
+struct FreeMatrix {
+  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
+};
+struct FreeLinearSolver {
+  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+};
+
+/// The memory of a solver, freed by the solver's own function.
+struct FreeMemory {
+  void (*free)(void**);
+  void operator()(void* memory) const { free(&memory); }
+};
+
+using Memory = std::unique_ptr<void, FreeMemory>;
+using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeContext>;
+using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
+using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix>;
+using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeLinearSolver>;
+
+/// A SUNDIALS vector that looks at values kept elsewhere.
+inline Vector view(std::vector<double>& values, const Context& context) {
+  return Vector(N_VMake_Serial(static_cast<sunindextype>(values.size()), values.data(), context.get()));
+}
+
+inline double* data(N_Vector vector) { return N_VGetArrayPointer(vector); }
+
+/// A dense matrix and the solver for it, of the size of `like`.
+struct DenseAlgebra {
+  DenseAlgebra(N_Vector like, const Context& context)
+      : matrix(SUNDenseMatrix(N_VGetLength(like), N_VGetLength(like), context.get())),
+        solver(SUNLinSol_Dense(like, matrix.get(), context.get())) {
+    if (!matrix || !solver) throw std::runtime_error("SUNDIALS could not set up its dense linear solver");
+  }
+  Matrix matrix;
+  LinearSolver solver;
+};
+
+}  // namespace sundials
 
 /// What the SUNDIALS methods share: the solver's memory, hard stops, exceptions across C, messages, restarts,
 /// dense output and counters.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/integrate/system.hpp"
+#include "seacrane/integrate/problem.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {

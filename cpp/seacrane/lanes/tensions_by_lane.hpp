@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "seacrane/dynamics/recursive/tree_branches.hpp"

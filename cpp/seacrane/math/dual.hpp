@@ -94,6 +94,22 @@ double value_of(const Dual<N>& x) {
   return x.value;
 }
 
+/// A positive number to a constant exponent.
+inline double power(double a, double exponent) { return std::pow(a, exponent); }
+template <int N>
+Dual<N> power(const Dual<N>& a, double exponent) {
+  const double value = std::pow(a.value, exponent);
+  return a.chain(value, exponent * value / a.value);
+}
+
+inline double exponential(double x) { return std::exp(x); }
+
+template <int N>
+Dual<N> exponential(const Dual<N>& x) {
+  const double e = std::exp(x.value);
+  return x.chain(e, e);
+}
+
 }  // namespace seacrane
 
 namespace Eigen {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "seacrane/math/lane_functions.hpp"
 #include "seacrane/math/select.hpp"
-#include "seacrane/math/sincos.hpp"
 
 namespace seacrane {
 

@@ -1,19 +1,15 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "seacrane/elements/body.hpp"
 #include "seacrane/elements/driver.hpp"
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/joint.hpp"
-#include "seacrane/elements/limit.hpp"
 #include "seacrane/elements/loads/load_kind.hpp"
-#include "seacrane/elements/point.hpp"
 #include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/types.hpp"
@@ -21,7 +17,83 @@
 
 /// What the user writes, one value type per kind of element. Names refer to other elements; "ground"
 /// is the inertial frame. Scenes are checked as a whole before they are compiled.
+
 namespace seacrane {
+
+struct BodyDescription {
+  std::string name;
+  double mass = 0.0;
+  Mat3d inertia = Mat3d::Zero();           // about the centre of mass, body axes
+  Vec3d center_of_mass = Vec3d::Zero();    // from the body origin, body axes
+  Vec3d position = Vec3d::Zero();          // of the body origin, inertial frame
+  Vec4d quaternion = {1, 0, 0, 0};         // body to inertial
+  Vec3d velocity = Vec3d::Zero();          // of the body origin, inertial frame
+  Vec3d angular_velocity = Vec3d::Zero();  // inertial frame
+  bool gravity = true;
+  Vec3d size = Vec3d::Zero();  // of the box that it is, about the centre of mass; zero: not told
+
+  static constexpr const char* type = "Body";
+  static constexpr const char* text =
+      "A rigid body: inertia about the centre of mass in body axes, pose of the body origin in the inertial "
+      "frame, quaternion (w, x, y, z) body to inertial.";
+  static constexpr auto fields() {
+    using D = BodyDescription;
+    return std::tuple(
+        required("mass", &D::mass, "kg", "").positive(),
+        required("inertia", &D::inertia, "kg m2", "about the centre of mass, body axes"),
+        optional("center_of_mass", &D::center_of_mass, "m", "body axes").usually(0.0, 500.0),
+        optional("position", &D::position, "m", "of the body origin, inertial frame").usually(0.0, 2e4),
+        optional("quaternion", &D::quaternion, "", "w, x, y, z: body to inertial"),
+        optional("velocity", &D::velocity, "m/s", "of the body origin, inertial frame").usually(0.0, 100.0),
+        optional("angular_velocity", &D::angular_velocity, "rad/s", "inertial frame").usually(0.0, 100.0),
+        optional("gravity", &D::gravity, "", "whether weight acts on it"),
+        optional("size", &D::size, "m", "edges of the box that it is, about its centre of mass, body axes")
+            .usually(1e-3, 500.0));
+  }
+};
+
+inline constexpr double kNoStop = kFarthest;  // m or rad: a bound here or beyond is none
+
+/// Contact that only pushes, or a wire that only pulls:
+///   wire   a distance joint that holds only while it is stretched
+///   stop   bounds on a joint coordinate
+///   seat   a weld that holds only while it is pressed along z of its first frame; let go, it stays open
+struct LimitDescription {
+  std::string name, kind;
+  CoordinateDescription coordinate;              // of a stop; wires and seats name the joint alone
+  double minimum = -kNoStop, maximum = kNoStop;  // of a stop
+  double restitution = 0.0;
+  double sticking_speed = 1e-3;  // m/s or rad/s: approaches below it don't rebound
+
+  static constexpr const char* type = "Limit";
+  static constexpr const char* text = "What a joint does one way only; see Scene.add_line and add_stop.";
+  static constexpr auto fields() {
+    using D = LimitDescription;
+    return std::tuple_cat(
+        std::tuple(required("kind", &D::kind, "", "wire, stop or seat")), on_coordinate<D>(false),
+        std::tuple(
+            optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none").usually(0.0, 500.0),
+            optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none").usually(0.0, 500.0),
+            optional("restitution", &D::restitution, "", "0 to 1").within(0.0, 1.0),
+            optional("sticking_speed", &D::sticking_speed, "m/s or rad/s", "slower impacts do not rebound")
+                .not_negative()
+                .usually(1e-6, 0.5)));
+  }
+};
+
+/// A point of a body, recorded by its name.
+struct PointDescription {
+  std::string name, body;
+  Vec3d point = Vec3d::Zero();
+
+  static constexpr const char* type = "Point";
+  static constexpr const char* text = "A point of a body, whose motion is recorded.";
+  static constexpr auto fields() {
+    using D = PointDescription;
+    return std::tuple(on_body("body", &D::body),
+                      optional("point", &D::point, "m", "coordinates of the body"));
+  }
+};
 
 class SeaField;
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 
 #include "seacrane/elements/joints/prismatic.hpp"
 #include "seacrane/elements/joints/revolute.hpp"

@@ -1,22 +1,78 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "seacrane/elements/loads/gravity.hpp"
+#include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/load_kind.hpp"
 #include "seacrane/hydro/hydro_group.hpp"
 #include "seacrane/model/block_schur.hpp"
 #include "seacrane/model/description.hpp"
-#include "seacrane/model/kinks.hpp"
 #include "seacrane/model/limit.hpp"
-#include "seacrane/model/line_bounce.hpp"
 #include "seacrane/model/merge.hpp"
 #include "seacrane/sea/flow_stencil.hpp"
 
 namespace seacrane {
+
+/// Weight of one body at its centre of mass; z is up.
+struct Gravity {
+  int body = 0;
+  double weight = 0.0;   // N
+  Vec3d center_of_mass;  // from the state point, body axes
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    apply(in, T(weight), out);
+  }
+  /// With another weight in its place, such as one for each lane.
+  template <class T>
+  void apply(const LoadInput<T>& in, const T& of, LoadSum<T>& out) const {
+    const Vec3<T> force(T(0), T(0), -of);
+    if (center_of_mass.isZero(0.0)) {
+      out.wrench[body].force += force;
+      return;
+    }
+    const Vec3<T> lever = in.bodies[body].rotation * center_of_mass.cast<T>();
+    out.wrench[body].add(force, lever);
+  }
+
+  double potential(const LoadInput<double>& in) const {
+    const auto& k = in.bodies[body];
+    return weight * (k.position + k.rotation * center_of_mass).z();
+  }
+};
+
+/// A time at which one curve of one element is not smooth, and what that is worth. Entry p: jump of a
+/// derivative of the velocities' rates, of order p - 1, over the scale of the state where it is largest,
+/// 1/s^p; entry 0: of the velocities themselves.
+struct Kink {
+  double time = 0.0;
+  /// Time over which its neighbours in the same curve are apart, s, halved; infinity for the first and last.
+  double span = 0.0;
+  std::array<double, 4> jump{};
+  /// What jumps beyond the mean of the neighbours: little where samples of something smooth stand close.
+  std::array<double, 4> alone{};
+
+  /// Whether a step of length h over it may err by more than a tolerance (over the scales): by more than
+  /// jump h^p / p!. Of kinks closer than h, a step sees the curve that they follow: then h counts for what is
+  /// not their neighbours', and for all of the jump a quarter of their span, which is what is left of them as
+  /// a ripple. Where a stop costs `lost` steps, kinks closer than these are left to the step control but for
+  /// jumps of velocity or acceleration.
+  bool matters(double h, double tolerance, double lost) const;
+};
+
+/// How a line lets what hangs on it bounce: the slowest mode in which it is stretched about as much as in
+/// any, at the start, of the bodies as they are joined, of all lines as if taut, and of what else holds them
+/// along one direction.
+struct LineBounce {
+  std::string line;
+  double mass = 0.0;   // kg, that has the mode's frequency on this line alone; on n falls a mass over n^2
+  double omega = 0.0;  // rad/s
+  double ratio = 0.0;  // of critical damping, that all lines give the mode
+};
 
 struct Actuator;
 

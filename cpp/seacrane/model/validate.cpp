@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/hydro/hydro_group.hpp"

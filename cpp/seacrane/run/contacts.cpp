@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
-#include "seacrane/dynamics/limit_force.hpp"
-#include "seacrane/run/contact_tolerances.hpp"
 
 namespace seacrane {
 namespace {

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
-#include "seacrane/dynamics/limit_force.hpp"
 #include "seacrane/run/complementarity.hpp"
-#include "seacrane/run/contact_tolerances.hpp"
 #include "seacrane/run/contacts.hpp"
 
 namespace seacrane {

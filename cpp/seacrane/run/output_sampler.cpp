@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "seacrane/dynamics/energy.hpp"
 #include "seacrane/elements/check.hpp"

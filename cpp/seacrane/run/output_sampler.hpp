@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -9,7 +8,7 @@
 #include "seacrane/run/guards.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/restart.hpp"
-#include "seacrane/run/run_options.hpp"
+#include "seacrane/run/stepper.hpp"
 
 namespace seacrane {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "seacrane/dynamics/limit_force.hpp"
 #include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/loads/actuator.hpp"
 

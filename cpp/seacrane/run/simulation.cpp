@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
-#include "seacrane/compile/compile.hpp"
 #include "seacrane/dynamics/constraints.hpp"
 
 namespace seacrane {
@@ -321,6 +321,18 @@ RunStatistics Simulation::statistics() const {
   out.energy_lost = energy_lost();
   out.rank = rank_.report();
   return out;
+}
+
+double KinkStops::next(const std::vector<Kink>& kinks, const Integrator& integrator, double now) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  while (next_ < kinks.size() && kinks[next_].time <= now) ++next_;
+  if (next_ == kinks.size()) return kNone;
+  const double h = integrator.step_in_use(), lost = integrator.steps_lost_by_reset();
+  const auto from = kinks.begin() + static_cast<std::ptrdiff_t>(next_);
+  const auto stop = std::find_if(from, kinks.end(), [&](const Kink& k) {
+    return k.time - now > 2.0 * h || k.matters(h, scaled_tolerance_, lost);
+  });
+  return stop != kinks.end() && stop->time - now <= 2.0 * h ? stop->time : kNone;
 }
 
 }  // namespace seacrane

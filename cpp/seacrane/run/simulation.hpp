@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -7,17 +8,32 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/integrate/integrator.hpp"
+#include "seacrane/model/model.hpp"
 #include "seacrane/run/contacts.hpp"
 #include "seacrane/run/guards.hpp"
-#include "seacrane/run/inputs.hpp"
-#include "seacrane/run/kink_stops.hpp"
 #include "seacrane/run/output_sampler.hpp"
 #include "seacrane/run/restart.hpp"
-#include "seacrane/run/run_options.hpp"
+#include "seacrane/run/stepper.hpp"
 #include "seacrane/run/stepper_pool.hpp"
 #include "seacrane/run/switches.hpp"
 
 namespace seacrane {
+
+/// The kinks of curves over time at which steps end.
+class KinkStops {
+ public:
+  explicit KinkStops(double scaled_tolerance) : scaled_tolerance_(scaled_tolerance) {}
+
+  /// Time of the next kink that matters to a step of the present length; infinity where there is none near.
+  /// Kinks beyond the step are left to the steps that come near them: an integrator must know of a stop a
+  /// little beyond its step, no further.
+  double next(const std::vector<Kink>& kinks, const Integrator& integrator, double now);
+
+ private:
+  double scaled_tolerance_;
+  std::size_t next_ = 0;  // of the kinks of the model
+};
 
 struct RunStatistics {
   Counters counters;

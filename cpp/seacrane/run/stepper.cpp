@@ -1,6 +1,7 @@
 #include "seacrane/run/stepper.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -8,7 +9,6 @@
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/elements/check.hpp"
 #include "seacrane/integrate/registry.hpp"
-#include "seacrane/run/run_options.hpp"
 #include "seacrane/run/switches.hpp"
 
 namespace seacrane {
@@ -79,6 +79,24 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
   integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr, &stiff},
                                integrator_options(stepped, *model, options));
   check_jumps(*model, *integrator, options.integrator);
+}
+
+HeldInputs::HeldInputs(const Model& model, const std::vector<double>& slots) : model_(model) { set(slots); }
+
+void HeldInputs::set(const std::vector<double>& slots) {
+  if (slots.size() != idx(model_.slot_count)) {
+    throw std::invalid_argument("inputs: " + std::to_string(slots.size()) + " values given, the model has " +
+                                std::to_string(model_.slot_count) + " slots");
+  }
+  for (const double v : slots) {
+    if (!std::isfinite(v)) throw std::invalid_argument("inputs: hold a value that is not finite");
+  }
+  slots_ = slots;
+}
+
+void HeldInputs::give_to(Stepper& stepper) const {
+  stepper.system.terms().set_inputs(slots_);
+  stepper.loads.set_inputs(slots_);
 }
 
 }  // namespace seacrane

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "seacrane/compile/compile.hpp"
-#include "seacrane/run/run_options.hpp"
+#include "seacrane/run/stepper.hpp"
 
 namespace seacrane {
 namespace {

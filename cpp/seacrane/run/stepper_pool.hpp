@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "seacrane/run/inputs.hpp"
 #include "seacrane/run/stepper.hpp"
 
 namespace seacrane {

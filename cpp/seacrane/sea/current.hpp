@@ -7,6 +7,10 @@
 
 namespace seacrane {
 
+/// Wavenumber k (rad/m) of omega^2 = g k tanh(k depth), omega >= 0 (rad/s), depth in m (infinity: deep
+/// water).
+double wavenumber(double omega, double depth, double gravity);
+
 /// Steady horizontal current over depth: linear between the depths given, and held beyond the first and the
 /// last. Immutable; empty: the water is at rest.
 class Current {

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "seacrane/math/exp_lane.hpp"
-#include "seacrane/math/sinc_lane.hpp"
+#include "seacrane/math/lane_functions.hpp"
 #include "seacrane/sea/sincos.hpp"
 
 // GCC compiles these loops again for registers of four and of eight doubles, and chooses when the program

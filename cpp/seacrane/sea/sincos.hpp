@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "seacrane/math/sincos.hpp"
+#include "seacrane/math/lane_functions.hpp"
 
 namespace seacrane::sea {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "seacrane/sea/dispersion.hpp"
+#include "seacrane/sea/current.hpp"
 #include "seacrane/sea/require.hpp"
 #include "seacrane/sea/sincos.hpp"
 

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "seacrane/strip/section.hpp"
+#include "seacrane/strip/section_panels.hpp"
 
 namespace seacrane::strip {
 

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "seacrane/sea/require.hpp"

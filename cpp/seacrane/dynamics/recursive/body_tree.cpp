@@ -10,7 +10,6 @@
 
 #include "seacrane/dynamics/recursive/driven_stroke.hpp"
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
-#include "seacrane/dynamics/recursive/tree_coordinate.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/math/rotation.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 #include "seacrane/dynamics/projection.hpp"
 #include "seacrane/elements/check.hpp"

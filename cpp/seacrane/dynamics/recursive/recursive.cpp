@@ -1,7 +1,6 @@
 #include "seacrane/dynamics/recursive/recursive.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>

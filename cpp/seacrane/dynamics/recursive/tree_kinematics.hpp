@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "seacrane/dynamics/recursive/body_tree.hpp"

@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/elements/loads/bristle.hpp"
 #include "seacrane/elements/loads/contact_description.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
-#include "seacrane/elements/loads/normal_law.hpp"
+#include "seacrane/elements/loads/surface_law.hpp"
 
 namespace seacrane {
 

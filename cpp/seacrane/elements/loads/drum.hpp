@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"

@@ -4,61 +4,16 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <vector>
 
-#include "seacrane/elements/field.hpp"
+#include "seacrane/elements/loads/entrapped_water_description.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
-#include "seacrane/math/power.hpp"
+#include "seacrane/math/dual.hpp"
 #include "seacrane/math/select.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
-
-struct EntrappedWaterDescription {
-  std::string name, body;
-  Vec3d point = Vec3d::Zero();  // centre of its bottom, body coordinates
-  double area = 0.0, height = 0.0;
-  std::vector<Vec3d> opening_points;  // likewise
-  std::vector<double> opening_areas;
-  std::string air;
-  double exponent = 0.0, air_pressure = 101325.0;
-  double discharge_coefficient = 0.6;
-  double initial = 0.0;
-  double density = 0.0;
-  double wave_factor = 1.0;
-
-  static constexpr const char* type = "EntrappedWater";
-  static constexpr const char* text =
-      "Water in a compartment of a body, which comes and goes through openings; see "
-      "Scene.add_immersed.";
-  static constexpr auto fields() {
-    using D = EntrappedWaterDescription;
-    return std::tuple(
-        on_body("body", &D::body),
-        optional("point", &D::point, "m", "centre of its bottom, body coordinates"),
-        required("area", &D::area, "m2", "of its section, the same at every height").positive(),
-        required("height", &D::height, "m", "along the body's z").positive(),
-        required("opening_points", &D::opening_points, "m", "centres of its openings, body coordinates"),
-        required("opening_areas", &D::opening_areas, "m2", "of the openings").positive(),
-        required("air", &D::air, "", "above the water: free, vented, or shut in"),
-        optional("exponent", &D::exponent, "", "of air that is shut in: p V^exponent stays").not_negative(),
-        optional("air_pressure", &D::air_pressure, "Pa", "absolute, of air that is shut in, at the start")
-            .not_negative()
-            .usually(1e3, 1e7),
-        optional("discharge_coefficient", &D::discharge_coefficient, "",
-                 "C_d: share of an opening's area that the jet fills")
-            .must_be({.minimum = 0.0, .maximum = 1.0, .above = true})
-            .usually(0.02, 1.0),
-        optional("initial", &D::initial, "m3", "of water in it at the start").not_negative(),
-        required("density", &D::density, "kg/m3", "of the water").positive().usually(900.0, 1100.0),
-        optional("wave_factor", &D::wave_factor, "",
-                 "times the waves of the sea: what a hull beside makes of them")
-            .not_negative()
-            .usually(0.1, 3.0));
-  }
-};
 
 /// Water in a prism along the z axis n of a body, of section A and height H, from its bottom at b. Its volume
 /// V is a state. Heads are pressures over the atmosphere's / (density g). Through each opening, with z_o its
@@ -92,11 +47,9 @@ struct EntrappedWaterDescription {
 struct EntrappedWater {
   static constexpr const char* kind = "entrapped water";
   using Description = EntrappedWaterDescription;
-  static constexpr std::size_t kMostOpenings = 12;
   static constexpr double kRoundedHead = 1e-3;  // m, e
   /// Of e: a level at which as much time has gone by as Torricelli's law takes to none, from any head above.
   static constexpr double kFilm = 0.17387212574195163;
-  static constexpr double kWidest = 10.0;                 // roots of the area, beside the axis
   static constexpr double kUpright = 0.8660254037844386;  // cosine of 30 deg
   static constexpr double kAtmosphere = 101325.0;         // Pa
   static constexpr double kVapour = 2339.0;               // Pa, of water at 20 deg C
@@ -122,35 +75,8 @@ struct EntrappedWater {
   double bottom_share = 1.0, full_share = 1.0;  // of the water, carried along the axis
   double slab = 0.0;                            // m3 below full, over which the lid takes it up
 
-  static void check(const Description& d, const Check& c, SceneNames& names) {
-    names.body(c, d.body);
-    const std::size_t n = d.opening_points.size();
-    if (n == 0 || n > kMostOpenings || d.opening_areas.size() != n) {
-      c.fail("has " + std::to_string(n) + " opening_points and " + std::to_string(d.opening_areas.size()) +
-             " opening_areas; give as many of both, 1 to " + std::to_string(kMostOpenings));
-    }
-    for (std::size_t i = 0; i < n; ++i) check_opening(d, i, c);
-    check_air(d, c);
-    if (d.initial > d.area * d.height) {
-      c.fail("initial is " + to_text(d.initial) + " m3, and it holds " + to_text(d.area * d.height) +
-             " m3; give at most that");
-    }
-  }
-
-  static Description example() {
-    Description d;
-    d.name = "load";
-    d.body = "second";
-    d.point = {0.2, -0.1, -3.0};
-    d.area = 2.0;
-    d.height = 5.0;
-    d.opening_points = {{0.3, 0.2, -2.8}, {-0.4, 0.1, -2.5}};
-    d.opening_areas = {0.05, 0.1};
-    d.air = "vented";
-    d.initial = 4.0;
-    d.density = 0.1;
-    return d;
-  }
+  static void check(const Description& d, const Check& c, SceneNames& names) { d.check(c, names); }
+  static Description example() { return Description::example(); }
 
   template <class Context>
   static EntrappedWater compile(const Description& d, Context& context) {
@@ -164,7 +90,7 @@ struct EntrappedWater {
     for (std::size_t i = 0; i < d.opening_points.size(); ++i) {
       const std::string name = "opening " + std::to_string(i + 1) + " of entrapped water '" + d.name + "'";
       out.openings.push_back({context.attach(d.body, d.opening_points[i]).point, d.opening_areas[i],
-                              context.stencil({.name = name, .waves = d.wave_factor}), end_of(d, i)});
+                              context.stencil({.name = name, .waves = d.wave_factor}), d.end_of(i)});
     }
     out.set_shares();
     out.gravity = context.gravity();
@@ -175,7 +101,7 @@ struct EntrappedWater {
     context.state({d.name + ".flow_loss", "J", 0.0, lifted * scale});
     if (out.air == Air::shut) {
       const double ratio = d.air_pressure / kAtmosphere;
-      const double first = (d.area * d.height - d.initial) * std::pow(ratio, 1.0 / d.exponent);
+      const double first = (d.whole() - d.initial) * std::pow(ratio, 1.0 / d.exponent);
       context.state({d.name + ".air", "m3", first, scale});
       out.states.count = 3;
     }
@@ -207,10 +133,10 @@ struct EntrappedWater {
     const Vec3<T>& turning = k.angular_velocity;
     BodyLoad<T>& on = out.wrench[body];
     on.add(Vec3<T>(T(0), T(0), T(-gravity) * water.mass), water.center);
-    on.force -= cross<T>(turning, cross<T>(turning, water.center)) * water.mass;
+    const Vec3<T> inward = cross<T>(turning, cross<T>(turning, water.center));
+    on.force -= inward * water.mass;
     on.moment -= cross<T>(turning, turning_inertia(water) * turning);
     const Vec3<T> at = k.velocity + cross<T>(turning, water.center);
-    const Vec3<T> inward = cross<T>(turning, cross<T>(turning, water.center));
     on.add(Vec3<T>(water.axis * (water.loose * water.axis.dot(inward))), water.center);
     out.add_power(-water.loose * water.axis.dot(at) * cross<T>(turning, water.axis).dot(at));
     const Exchange<T> flow = exchange(in, water);
@@ -252,7 +178,7 @@ struct EntrappedWater {
     const auto& k = in.bodies[body];
     const Column<double> water = column(in);
     auto own = kMargins;
-    own[0].value = d.area * d.height - water.volume;
+    own[0].value = d.whole() - water.volume;
     own[1].value = water.volume - d.area * kFilm * kRoundedHead;
     own[2].value = water.axis.z() - kUpright;
     own[3].value = water.volume;
@@ -294,7 +220,7 @@ struct EntrappedWater {
   };
   template <class T>
   struct Exchange {
-    std::array<Flow<T>, kMostOpenings> flows;
+    std::array<Flow<T>, Description::kMostOpenings> flows;
     T head{0};  // h_a
     T rate{0};  // of the volume
     bool open = false;
@@ -313,9 +239,9 @@ struct EntrappedWater {
     out.top = bottom + out.axis * out.height;
     out.level = k.position.z() + out.top.z();
     out.velocity = k.velocity + cross<T>(k.angular_velocity, out.top);
-    out.full = !(out.volume < T(whole()));
+    out.full = !(out.volume < T(d.whole()));
     // Carried: bottom_share of the volume, and more as the lid takes it up.
-    const T into = clamped(T((out.volume - T(whole() - slab)) * T(1.0 / slab)), T(0), T(1));
+    const T into = clamped(T((out.volume - T(d.whole() - slab)) * T(1.0 / slab)), T(0), T(1));
     const T up = T(full_share - bottom_share) * into * into * (T(3) - T(2) * into);
     const T rising = T(6.0 * (full_share - bottom_share) / slab) * into * (T(1) - into);
     out.loose = out.mass * (T(1.0 - bottom_share) - up);
@@ -338,7 +264,6 @@ struct EntrappedWater {
     return in.sea->template at_point<T>(stencil, in.time, place);
   }
 
-  double whole() const { return d.area * d.height; }
   double per_head() const { return per_gravity / d.density; }
   double lowest_head() const { return (kVapour - kAtmosphere) * per_head(); }
 
@@ -460,10 +385,8 @@ struct EntrappedWater {
   /// Whether there is water behind every opening, and none before.
   template <class T>
   bool falls_out(const Exchange<T>& all) const {
-    for (std::size_t i = 0; i < openings.size(); ++i) {
-      if (all.flows[i].wet_outside || !all.flows[i].wet_inside) return false;
-    }
-    return true;
+    return std::all_of(all.flows.begin(), all.flows.begin() + openings.size(),
+                       [](const Flow<T>& at) { return !at.wet_outside && at.wet_inside; });
   }
 
   /// Of air that is shut in.
@@ -471,7 +394,7 @@ struct EntrappedWater {
   T kept_head(const LoadInput<T>& in, const Column<T>& water) const {
     const T& amount = in.states[states.first + 2];
     if (!(amount > T(0))) return T(lowest_head());
-    const T ratio = power(T(amount / (T(whole()) - water.volume)), d.exponent);
+    const T ratio = power(T(amount / (T(d.whole()) - water.volume)), d.exponent);
     const T head = T(kAtmosphere * per_head()) * (ratio - T(1));
     return select(head > T(lowest_head()), head, T(lowest_head()));
   }
@@ -526,7 +449,7 @@ struct EntrappedWater {
   T air_rate(const LoadInput<T>& in, const Column<T>& water, const Exchange<T>& flow) const {
     if (!flow.open || per_gravity == 0.0) return T(0);
     const T held = power(T(T(1) + flow.head * T(1.0 / (kAtmosphere * per_head()))), 1.0 / d.exponent);
-    const T room = T(whole()) - water.volume;
+    const T room = T(d.whole()) - water.volume;
     return (held * room - in.states[states.first + 2]) * T(1.0 / kEvenOut);
   }
 
@@ -536,7 +459,13 @@ struct EntrappedWater {
             LoadSum<T>& out) const {
     const Flow<T>& flow = all.flows[i];
     const T weight = T(d.density * gravity);
-    if (openings[i].end != 0) press(in, water, flow, openings[i], out);
+    if (const Opening& opening = openings[i]; opening.end != 0) {  // in an end, which no plate is in
+      const auto& k = in.bodies[body];
+      const Vec3<T> lever = k.rotation * opening.point.cast<T>();
+      const T size = T(d.density * gravity * opening.area * opening.end) * flow.head;
+      out.wrench[body].add(Vec3<T>(water.axis * size), lever);
+      out.add_power(size * water.axis.dot(k.velocity + cross<T>(k.angular_velocity, lever)));
+    }
     if (flow.air) {
       const T loss = weight * flow.rate * flow.head;
       out.add_power(loss);  // which the work on the air has in it already
@@ -552,75 +481,18 @@ struct EntrappedWater {
     return weight * flow.rate * (flow.elevation - water.level - all.head) +
            T(0.5) * mass * (slip.squaredNorm() - less * along * along);
   }
-  /// An opening in an end, which no plate is in.
-  template <class T>
-  void press(const LoadInput<T>& in, const Column<T>& water, const Flow<T>& flow, const Opening& opening,
-             LoadSum<T>& out) const {
-    const auto& k = in.bodies[body];
-    const Vec3<T> lever = k.rotation * opening.point.cast<T>();
-    const T size = T(d.density * gravity * opening.area * opening.end) * flow.head;
-    out.wrench[body].add(Vec3<T>(water.axis * size), lever);
-    out.add_power(size * water.axis.dot(k.velocity + cross<T>(k.angular_velocity, lever)));
-  }
 
-  static int end_of(const Description& d, std::size_t i) {
-    const double over = d.opening_points[i].z() - d.point.z(), rounding = kRounding * d.height;
-    return over < rounding ? -1 : over > d.height - rounding ? 1 : 0;
-  }
-  static double open_share(const Description& d, int end) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < d.opening_areas.size(); ++i) {
-      if (end_of(d, i) == end) sum += d.opening_areas[i];
-    }
-    return sum / d.area;
-  }
   /// A lid takes water up over 3 H (C_d A_o / A)^2: so that the pressure under it begins as that of all that
   /// comes up through its openings.
   void set_shares() {
-    const double lid = open_share(d, 1), jet = d.discharge_coefficient * lid;
-    bottom_share = std::max(0.0, 1.0 - open_share(d, -1));
+    const double lid = d.open_share(1), jet = d.discharge_coefficient * lid;
+    bottom_share = std::max(0.0, 1.0 - d.open_share(-1));
     full_share = std::max(bottom_share, 1.0 - lid);
-    slab = whole() * std::min(1.0, std::max(kLeastSlab, 3.0 * jet * jet));
+    slab = d.whole() * std::min(1.0, std::max(kLeastSlab, 3.0 * jet * jet));
   }
 
   static constexpr int kMostHalvings = 200;
   static constexpr double kBalance = 1e-6;  // of what comes in, to which it is found
-  static constexpr double kRounding = 1e-9;
-
-  static void check_air(const Description& d, const Check& c) {
-    if (d.air != "free" && d.air != "vented" && d.air != "shut") {
-      c.fail("air is '" + d.air + "'; give free, vented or shut");
-    }
-    const bool shut = d.air == "shut";
-    if (shut ? d.exponent < 1.0 || d.exponent > 1.4 : d.exponent != 0.0) {
-      c.fail("exponent is " + to_text(d.exponent) + ", and air is " + d.air +
-             "; give 1 (slow) to 1.4 (quick) for air that is shut in, and none for other air");
-    }
-    for (const int end : {-1, 1}) {
-      if (const double open = open_share(d, end); open > 1.0 + kRounding) {
-        c.fail(std::string("openings in its ") + (end < 0 ? "bottom" : "lid") + " take " + to_text(open) +
-               " of its section; give areas that find place there");
-      }
-    }
-  }
-
-  static void check_opening(const Description& d, std::size_t i, const Check& c) {
-    const Vec3d place = d.opening_points[i] - d.point;
-    const std::string which = "opening " + std::to_string(i + 1);
-    const double rounding = kRounding * d.height;
-    if (place.z() < -rounding || place.z() > d.height + rounding) {
-      c.fail(which + " is at " + to_text(place.z()) + " m over the bottom, and the height is " +
-             to_text(d.height) + " m; give a point between bottom and top, in body coordinates");
-    }
-    if (place.head<2>().norm() > kWidest * std::sqrt(d.area)) {
-      c.fail(which + " is " + to_text(place.head<2>().norm()) + " m beside the middle of a section of " +
-             to_text(d.area) + " m2; give a point on its wall, in body coordinates");
-    }
-    if (d.opening_areas[i] > d.area) {
-      c.fail(which + " has " + to_text(d.opening_areas[i]) + " m2, more than the section of " +
-             to_text(d.area) + " m2; give the area of the opening");
-    }
-  }
 };
 
 }  // namespace seacrane

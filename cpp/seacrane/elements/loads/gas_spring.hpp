@@ -8,7 +8,7 @@
 #include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/elements/loads/proportion.hpp"
 #include "seacrane/elements/loads/span.hpp"
-#include "seacrane/math/power.hpp"
+#include "seacrane/math/dual.hpp"
 
 namespace seacrane {
 

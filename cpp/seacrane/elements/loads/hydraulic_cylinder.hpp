@@ -10,7 +10,6 @@
 #include "seacrane/elements/loads/hydraulic_cylinder_description.hpp"
 #include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/math/dual.hpp"
-#include "seacrane/math/power.hpp"
 #include "seacrane/math/select.hpp"
 
 namespace seacrane {

@@ -2,13 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 #include <tuple>
-#include <utility>
 
 #include "seacrane/elements/field.hpp"
-#include "seacrane/math/exponential.hpp"
-#include "seacrane/math/power.hpp"
+#include "seacrane/math/dual.hpp"
 #include "seacrane/math/select.hpp"
 
 namespace seacrane {

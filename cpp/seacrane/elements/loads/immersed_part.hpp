@@ -40,7 +40,7 @@ namespace seacrane {
 struct ImmersedPart {
   static constexpr const char* kind = "immersed part";
   using Description = ImmersedPartDescription;
-  enum class Shape { box, cylinder, disc, sphere, table };
+  using Shape = Description::Shape;
 
   Description d;
   Shape shape = Shape::box;
@@ -60,28 +60,14 @@ struct ImmersedPart {
   int stencil = -1;              // its point in the sea
 
   static void check(const Description& d, const Check& c, SceneNames& names) { d.check(c, names); }
-
-  static Description example() {
-    Description d;
-    d.name = "load";
-    d.body = "second";
-    d.point = {0.3, -0.2, 0.4};
-    d.axes = Eigen::AngleAxisd(0.4, Vec3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
-    d.size = {7.0, 9.0, 8.0};
-    d.density = 0.1;
-    d.depths = {0.0, 2.0, 5.0, 9.0, 14.0, 20.0};
-    d.added_masses = {{0.0, 0.0, 0.0}, {0.3, 0.4, 0.9}, {0.8, 1.2, 1.6},
-                      {1.5, 2.0, 2.2}, {2.0, 2.6, 2.7}, {2.2, 2.9, 3.0}};
-    d.drag = {0.3, 0.4, 0.5};
-    return d;
-  }
+  static Description example() { return Description::example(); }
 
   template <class Context>
   static ImmersedPart compile(const Description& d, Context& context) {
     const Attachment on = context.attach(d.body, d.point);
     ImmersedPart out;
     out.d = d;
-    out.shape = shape_of(d);
+    out.shape = d.form();
     out.body = on.body;
     out.point = on.point;
     out.first_point = snapped(context.attach(d.body, d.point - d.place * d.step).point);
@@ -92,7 +78,7 @@ struct ImmersedPart {
     out.whole = d.volume();
     out.volume = d.fill * d.volume();
     out.weight = d.density * context.gravity() * out.volume;
-    out.edge = (out.shape == Shape::box ? kRound : 0.1 * kRound) * 0.5 * d.size.maxCoeff();
+    out.edge = (out.shape == Shape::box ? kRoundedShare : 0.1 * kRoundedShare) * 0.5 * d.size.maxCoeff();
     out.added = MonotoneSpline<3>(d.depths, d.added_masses);
     if (d.is("table")) out.wet_volume = MonotoneSpline<1>(d.depths, d.volume_rows());
     if (d.is("table") && out.whole == 0.0) {  // it is wet, and braked, by its height
@@ -102,7 +88,7 @@ struct ImmersedPart {
     }
     const double largest = d.added_masses.back().maxCoeff();
     const double scale = (largest > 0.0 ? largest : 1.0) * context.length_scale();  // at 1 m/s
-    out.widths = widths_of(out.shape, d.size).asDiagonal();
+    out.widths = d.widths().asDiagonal();
     out.stencil = context.stencil({.name = "immersed part '" + (d.row.empty() ? d.name : d.row) + "'",
                                    .count = static_cast<std::size_t>(d.count),
                                    .waves = d.wave_factor});
@@ -268,7 +254,6 @@ struct ImmersedPart {
   }
 
  private:
-  static constexpr double kRound = 1e-3;      // of half a size, or of a cosine
   static constexpr double kLeast = 1e-6;      // of a radius: no attitude is singular
   static constexpr double kStruck = 0.4;      // 2 / C_S, with C_S 5 of what is flat
   static constexpr double kRoundEnds = 0.25;  // of the depth over which a disc is struck
@@ -295,19 +280,6 @@ struct ImmersedPart {
   struct Carried {
     Vec3<T> force, moment;        // about its centre, its axes
     T loss = T(0), power = T(0);  // by slam, and into the energy of the ledger
-  };
-
-  /// |n|, rounded off at zero, exact at 0 and 1, from n^2; and its derivative in n^2.
-  template <class T>
-  struct Rounded {
-    T value, slope;
-    explicit Rounded(const T& square) {
-      using std::sqrt;
-      const double whole = std::sqrt(1.0 + kRound * kRound) - kRound;
-      const T root = sqrt(square + T(kRound * kRound));
-      value = (root - T(kRound)) * T(1.0 / whole);
-      slope = T(0.5 / whole) / root;
-    }
   };
 
   /// How far the part reaches down, and its half widths along the vertical.
@@ -358,7 +330,7 @@ struct ImmersedPart {
     using std::sqrt;
     const double mean = 0.25 * (1.0 + kStruck) * d.size[0], odd = 0.25 * (1.0 - kStruck) * d.size[0];
     const double round = kRoundEnds * kStruck * d.size[0];
-    const T size = sqrt(n * n + T(kRound * kRound));
+    const T size = sqrt(n * n + T(kRoundedShare * kRoundedShare));
     w.along = T(mean) * size + T(odd) * n;
     w.along_rate = (T(mean) * n / size + T(odd)) * n_rate;
     w.shift = T(-round) - w.along;
@@ -417,14 +389,6 @@ struct ImmersedPart {
     at.depth = at.center + as.below;
     at.rate = as.reaches - own.z() + at.rise;
     return at;
-  }
-
-  /// Widths of a box with the second moments of the shape: a mean over it errs from the fourth order on.
-  static Vec3d widths_of(Shape shape, const Vec3d& size) {
-    const double disc = std::sqrt(0.75), ball = std::sqrt(0.6);
-    if (shape == Shape::disc) return {0.0, disc * size[1], disc * size[2]};
-    if (shape == Shape::cylinder) return size.cwiseProduct(Vec3d(1.0, disc, disc));
-    return shape == Shape::sphere ? Vec3d(ball * size) : size;
   }
 
   /// Half of a size along the vertical, from the square of its cosine.
@@ -529,13 +493,6 @@ struct ImmersedPart {
   static Vec3d snapped(const Vec3d& point) {
     constexpr double grid = 0x1p-36;  // 1.5e-11 m
     return (point / grid).array().round() * grid;
-  }
-
-  static Shape shape_of(const Description& d) {
-    if (d.is("cylinder")) return Shape::cylinder;
-    if (d.is("disc")) return Shape::disc;
-    if (d.is("sphere")) return Shape::sphere;
-    return d.is("table") ? Shape::table : Shape::box;
   }
 };
 

@@ -12,6 +12,8 @@
 namespace seacrane {
 
 struct ImmersedPartDescription {
+  enum class Shape { box, cylinder, disc, sphere, table };
+
   std::string name, body;
   std::string shape = "box";
   Vec3d point = Vec3d::Zero();     // its centre, body coordinates
@@ -64,12 +66,25 @@ struct ImmersedPartDescription {
             .usually(0.1, 3.0),
         optional("source", &D::source, "", "where its coefficients are from"),
         optional("slow_added_masses", &D::slow_added_masses, "kg",
-                 "at zero frequency, at the depths: what slow waves feel, for coefficient_scatter alone")
+                 "at zero frequency, at the depths: what slow waves feel, for answers.scattered")
             .not_negative());
   }
 
   bool is(const char* name) const { return shape == name; }
 
+  Shape form() const {
+    if (is("cylinder")) return Shape::cylinder;
+    if (is("disc")) return Shape::disc;
+    if (is("sphere")) return Shape::sphere;
+    return is("table") ? Shape::table : Shape::box;
+  }
+  /// Widths of a box with the second moments of the shape: a mean over it errs from the fourth order on.
+  Vec3d widths() const {
+    const double disc = std::sqrt(0.75), ball = std::sqrt(0.6);
+    if (is("disc")) return {0.0, disc * size[1], disc * size[2]};
+    if (is("cylinder")) return size.cwiseProduct(Vec3d(1.0, disc, disc));
+    return is("sphere") ? Vec3d(ball * size) : size;
+  }
   /// Of all that it encloses, m3.
   double volume() const {
     using std::numbers::pi;
@@ -117,6 +132,21 @@ struct ImmersedPartDescription {
              " depths; give as many of both");
     }
     check_growth("volumes", volume_rows(), c);
+  }
+
+  static ImmersedPartDescription example() {
+    ImmersedPartDescription d;
+    d.name = "load";
+    d.body = "second";
+    d.point = {0.3, -0.2, 0.4};
+    d.axes = Eigen::AngleAxisd(0.4, Vec3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+    d.size = {7.0, 9.0, 8.0};
+    d.density = 0.1;
+    d.depths = {0.0, 2.0, 5.0, 9.0, 14.0, 20.0};
+    d.added_masses = {{0.0, 0.0, 0.0}, {0.3, 0.4, 0.9}, {0.8, 1.2, 1.6},
+                      {1.5, 2.0, 2.2}, {2.0, 2.6, 2.7}, {2.2, 2.9, 3.0}};
+    d.drag = {0.3, 0.4, 0.5};
+    return d;
   }
 
  private:

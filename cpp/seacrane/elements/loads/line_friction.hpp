@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "seacrane/elements/loads/line_path.hpp"
-#include "seacrane/math/exponential.hpp"
+#include "seacrane/math/dual.hpp"
 
 namespace seacrane {
 

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
-#include "seacrane/elements/loads/bristle.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
-#include "seacrane/elements/loads/normal_law.hpp"
+#include "seacrane/elements/loads/surface_law.hpp"
 
 namespace seacrane {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "seacrane/elements/loads/friction.hpp"
-#include "seacrane/elements/loads/normal_law.hpp"
+#include "seacrane/elements/loads/surface_law.hpp"
 
 namespace seacrane {
 

@@ -127,4 +127,19 @@ WetShare<T> wet_sphere(const T& depth, double r) {
   return out;
 }
 
+inline constexpr double kRoundedShare = 1e-3;  // of half a size, or of a cosine
+
+/// |n|, rounded off at zero, exact at 0 and 1, from n^2; and its derivative in n^2.
+template <class T>
+struct Rounded {
+  T value, slope;
+  explicit Rounded(const T& square) {
+    using std::sqrt;
+    const double whole = std::sqrt(1.0 + kRoundedShare * kRoundedShare) - kRoundedShare;
+    const T root = sqrt(square + T(kRoundedShare * kRoundedShare));
+    value = (root - T(kRoundedShare)) * T(1.0 / whole);
+    slope = T(0.5 / whole) / root;
+  }
+};
+
 }  // namespace seacrane

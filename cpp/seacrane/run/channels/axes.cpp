@@ -1,10 +1,9 @@
-#include "seacrane/run/channels/axes.hpp"
-
 #include <map>
 #include <utility>
 
 #include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/loads/actuator.hpp"
+#include "seacrane/run/channels/channel.hpp"
 #include "seacrane/run/channels/of_loads.hpp"
 
 namespace seacrane {

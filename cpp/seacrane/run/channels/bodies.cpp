@@ -1,5 +1,5 @@
 #include "seacrane/dynamics/maximal.hpp"
-#include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {
 namespace {

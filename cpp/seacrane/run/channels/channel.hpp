@@ -97,4 +97,11 @@ inline bool has_extremes(const Channel& channel) {
 /// Shape of an output of the channel.
 std::vector<std::size_t> shape_of(const Channel& channel, const Model& model);
 
+namespace axes {
+
+extern const Axis xyz, wxyz, motion, water;
+extern const Axis body, vessel, joint, joint_coordinate, actuator, driver, link, limit, point, load;
+
+}  // namespace axes
+
 }  // namespace seacrane

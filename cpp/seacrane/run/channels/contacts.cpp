@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "seacrane/elements/loads/contact.hpp"
-#include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/channel.hpp"
 #include "seacrane/run/channels/of_loads.hpp"
 
 namespace seacrane {

@@ -1,7 +1,7 @@
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/loads/actuator.hpp"
-#include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {
 namespace {

@@ -1,6 +1,6 @@
-#include "seacrane/dynamics/limit_force.hpp"
+#include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/maximal.hpp"
-#include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "seacrane/dynamics/maximal.hpp"
-#include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {
 namespace {

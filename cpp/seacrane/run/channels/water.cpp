@@ -3,7 +3,7 @@
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/loads/immersed_part.hpp"
 #include "seacrane/elements/loads/immersed_span.hpp"
-#include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/channel.hpp"
 #include "seacrane/run/channels/of_loads.hpp"
 
 namespace seacrane {

@@ -1,9 +1,9 @@
-#include "seacrane/compile/groups.hpp"
-
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
+#include "seacrane/compile/steps.hpp"
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/elements/check.hpp"
 #include "seacrane/math/dense.hpp"
@@ -41,6 +41,35 @@ void check_mass(const HydroGroupDescription& d, const HydroGroup& group, const M
 }
 
 }  // namespace
+
+Vessel vessel_at(const VesselDescription& d, const BodyDescription& start) {
+  Vessel v;
+  v.added_mass = d.added_mass;
+  v.linear_damping = d.linear_damping;
+  v.quadratic_damping = d.quadratic_damping;
+  v.restoring = d.restoring.block<3, 3>(2, 2);
+  v.mooring_stiffness = d.mooring_stiffness;
+  v.mooring_damping = d.mooring_damping;
+  try {
+    if (const auto* functions = std::get_if<RetardationFunctions>(&d.memory)) {
+      v.memory = Convolution(*functions);
+    } else {
+      v.memory = Memory(std::get<std::vector<StateSpaceBlock>>(d.memory));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw SceneError("vessel '" + d.name + "': " + error.what());
+  }
+  // At rest on the still water: a hull described above or below it starts there, and heaves.
+  v.mean_position = {start.position.x(), start.position.y(), 0.0};
+  v.mean_yaw = roll_pitch_yaw<double>(rotation_from_quaternion<double>(start.quaternion))[2];
+  v.mean_axes = rotation_about_z<double>(std::cos(v.mean_yaw), std::sin(v.mean_yaw));
+  if (d.kinematics == VesselKinematics::paper && std::fabs(v.mean_yaw) > 1e-9) {
+    throw SceneError("vessel '" + d.name +
+                     "': kinematics 'paper' act along the inertial axes, and it starts at a heading of " +
+                     to_text(v.mean_yaw) + " rad; start it at 0, or use 'yaw_following'");
+  }
+  return v;
+}
 
 int vessel_of(const SceneDescription& scene, const std::string& name) {
   return static_cast<int>(std::ranges::find(scene.vessels, name, &VesselDescription::name) -

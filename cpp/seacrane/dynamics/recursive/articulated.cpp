@@ -1,8 +1,0 @@
-#include "seacrane/dynamics/recursive/tree_branches.hpp"
-
-namespace seacrane {
-
-template class TreeKinematics<double>;
-template class ArticulatedTree<double>;
-
-}  // namespace seacrane
