@@ -308,6 +308,8 @@ def _coordinate(variable: Any) -> Array:
 FORMAT = Format(
     name="OrcaFlex",
     files="an OrcaFlex model (.yml) or MaFreDo file (.dhyd)",
+    looks="`%YAML 1.1`, `VesselTypes:`; MaFreDo's groups `mass`, `damping`, `Surge` to `Yaw`",
     can_open=lambda path: is_file_of(path, SUFFIXES),
     read=read_orcaflex,
+    takes=("mass_matrix",),
 )

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.as_read import omega_of
+from seacrane.hydro.readers.as_read import left_out, omega_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import decoded, read_whole
 
@@ -36,6 +36,7 @@ DEFAULTS = {
 }
 UNITS = {"period (s)": "s", "frequency (rad/s)": "rad/s", "frequency (Hz)": "Hz"}
 LAG_OF_EVENT = {"crest": 0.0, "zero down-crossing": 0.5, "trough": 1.0, "zero up-crossing": 1.5}  # pi
+UNREAD = ("SumFrequencyQTFs", "DifferenceFrequencyQTFs", "SeaStateRAOs", "CurrentCoeff", "WindCoeff")
 ADDED_MASS = ", ".join(f"AddedMassMatrix{axis}" for axis in ("X", "Y", "Z", "Rx", "Ry", "Rz"))
 DAMPING = ", ".join(f"Damping{axis}" for axis in ("X", "Y", "Z", "Rx", "Ry", "Rz"))
 STIFFNESS = "HydrostaticStiffnessz, HydrostaticStiffnessRx, HydrostaticStiffnessRy"
@@ -172,9 +173,12 @@ def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None
     omega, added_mass, damping = _matrices(kind, state)
     sea = _Node(path, "Environment", model.value.get("Environment") or {})
     name = f"{kind.at('Name').text()}, {state.at('Name').text()}"
+    unread = [
+        one for one in UNREAD if any(_has_rows(state.value[key]) for key in state.value if one in str(key))
+    ]
     x, y, z = origin
     return VesselType(
-        name=name, source=f"OrcaFlex model {path.name}, {name}", origin=origin,
+        name=name, source=f"OrcaFlex model {path.name}, {name}" + left_out(unread), origin=origin,
         place=f"reference origin of the OrcaFlex vessel type, ({x:g}, {y:g}, {z:g}) m in its axes",
         symmetry=kind.at("Symmetry").text() if kind.has("Symmetry") else "None",
         length=kind.at("Length").finite() if kind.has("Length") else None,
@@ -193,6 +197,13 @@ def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None
         rho=sea.at("Density").finite() * KILO if sea.has("Density") else None,
         depth=sea.at("WaterDepth").number() if sea.has("WaterDepth") else math.inf,
     )  # fmt: skip
+
+
+def _has_rows(value: Any) -> bool:
+    """Whether there is a list of lists, or of tables."""
+    if isinstance(value, dict):
+        return any(map(_has_rows, value.values()))
+    return isinstance(value, list) and bool(value) and isinstance(value[0], list | dict)
 
 
 def _document(path: Path) -> dict[str, Any]:

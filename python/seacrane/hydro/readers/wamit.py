@@ -355,6 +355,8 @@ def _trusted(listing: Listing, body: GroupBody, symmetric: bool, omega: Array) -
 FORMAT = Format(
     name="WAMIT",
     files="a WAMIT folder, stem or file (.1 .3 .hst .out, with .4, .frc and .8, .9 or .12d)",
+    looks="numbers alone: period, i, j, A, B in `.1`, period, heading, i, modulus, phase and parts in `.3`",
     can_open=is_wamit,
     read=read_wamit,
+    takes=("mass_matrix",),
 )
