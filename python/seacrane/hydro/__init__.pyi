@@ -43,6 +43,7 @@ from seacrane.hydro.memory.certificate import require_passive as require_passive
 from seacrane.hydro.memory.fit import fit_memory as fit_memory
 from seacrane.hydro.memory.retardation import RetardationModel as RetardationModel
 from seacrane.hydro.memory.retardation import retardation_functions as retardation_functions
+from seacrane.hydro.readers.aqwa import read_aqwa as read_aqwa
 from seacrane.hydro.readers.bemio import read_bemio as read_bemio
 from seacrane.hydro.readers.capytaine import read_capytaine as read_capytaine
 from seacrane.hydro.readers.load import available_speeds as available_speeds

@@ -14,7 +14,7 @@ from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
 from seacrane.hydro.group.parts import afloat
-from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, veres, wamit
+from seacrane.hydro.readers import aqwa, bemio, capytaine, nemoh, orcaflex, veres, wamit
 from seacrane.hydro.readers.as_read import Given
 from seacrane.hydro.readers.format import Format, Loaded
 from seacrane.inputs.caller import silently
@@ -29,7 +29,7 @@ OURS = Format(  # any NetCDF file but Capytaine's: one of no known kind is refus
     read=HydroDatabase.load,
     speeds=lambda path: (HydroDatabase.load(path).speed,),
 )
-FORMATS = (capytaine.FORMAT, OURS, *(kind.FORMAT for kind in (veres, wamit, orcaflex, bemio, nemoh)))
+FORMATS = (capytaine.FORMAT, OURS, *(kind.FORMAT for kind in (veres, wamit, orcaflex, aqwa, bemio, nemoh)))
 NAMED = 5  # files in a message
 SAME_DEPTH = 1e-6
 SAME_SPEED = 1e-9  # m/s
@@ -47,7 +47,7 @@ def load_database(
     """Read a hydrodynamic database of any supported kind: of several hulls in one water, a `HydroGroup`.
 
     NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
-    the set), OrcaFlex (a text model, or MaFreDo's form), BEMIO's HDF5 (of WEC-Sim),
+    the set), OrcaFlex (a text model, or MaFreDo's form), Aqwa (.AH1 or .LIS), BEMIO's HDF5 (of WEC-Sim),
     NEMOH (a folder). ``source`` tells as what it was read, and what of it was left out. Hulls of a group are
     moved to reference points on the still water, as scenes need them (`HydroGroup.at`).
 
