@@ -55,6 +55,7 @@ from seacrane.hydro.readers.veres import read_veres as read_veres
 from seacrane.hydro.readers.veres import VeresHydrostatics as VeresHydrostatics
 from seacrane.hydro.readers.veres import read_veres_hydrostatics as read_veres_hydrostatics
 from seacrane.hydro.readers.wamit import read_wamit as read_wamit
+from seacrane.hydro.readers.write import write_database as write_database
 from seacrane.hydro.vessel.parameters import VesselParameters as VesselParameters
 from seacrane.hydro.vessel.parameters import vessel_parameters as vessel_parameters
 from seacrane._core import RetardationFunctions as RetardationFunctions
