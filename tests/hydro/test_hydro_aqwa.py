@@ -70,8 +70,8 @@ def test_cylinder_of_database_and_listing(aqwa: Path) -> None:
 def test_rm3_of_four_codes(aqwa: Path, shared: Path) -> None:
     """Loads with their phases, and matrices, as far as the codes agree.
 
-    Aqwa's model has water in the narrow gap between float and spar, which couples their surge: both moving as
-    one are compared in it. It is in 49.5 m of water, the others in deep water, which long waves tell.
+    Aqwa's surge of float and spar is coupled as by water in a narrow gap between them: both moving as one are
+    compared in it. It is in 49.5 m of water, the others in deep water, which long waves tell.
     """
     found = read_aqwa(aqwa / "RM3.AH1")
     assert found.names == ("structure1", "structure2")

@@ -24,7 +24,7 @@ from seacrane.warnings import RoughDataWarning
 OURS = Format(  # any NetCDF file but Capytaine's: one of no known kind is refused by what it lacks of ours
     name="seacrane",
     files="a NetCDF file (.nc) of seacrane",
-    looks="attribute `format` of seacrane; what `HydroDatabase.save` and `seacrane hydro --write` write",
+    looks="attribute `format` of seacrane; what `HydroDatabase.save` writes",
     can_open=capytaine.is_netcdf,
     read=HydroDatabase.load,
     speeds=lambda path: (HydroDatabase.load(path).speed,),
