@@ -23,7 +23,7 @@ from seacrane.crane import load_crane
 from seacrane.crane.urdf import read_urdf
 from seacrane.errors import FileFormatError, SceneError, SimulationError
 from seacrane.hydro import Hull, HydroDatabase
-from seacrane.hydro.readers import bemio, capytaine, nemoh, nemoh_files, orcaflex, veres, wamit
+from seacrane.hydro.readers import aqwa, bemio, capytaine, nemoh, nemoh_files, orcaflex, veres, wamit
 from seacrane.inputs.mesh_files import read_gltf
 from seacrane.inputs.netcdf_limits import LARGEST_DATABASE as LARGEST
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, arrays_in
@@ -214,6 +214,7 @@ _ORCAFLEX = _under(_HYDRO, "orcaflex orcaflex_model")
 _VERES = _under(_HYDRO, "veres veres_files text_records")
 _WAMIT = _under(_HYDRO, "wamit wamit_listing wamit_tables text_records")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
+_AQWA = _under(_HYDRO, "aqwa aqwa_files")
 _RECORDED = (*_under("sea", "series_file reading mending"), "scene/motion_history.py")
 _LIFT = _under("lift", "document check_keys")
 _JOINTED = _under("crane", "load_crane")
@@ -249,6 +250,8 @@ _ALL = [
     *_set_targets("veres", _VERES_FILES, _of(veres.read_veres, _stem), _VERES),
     *_set_targets("wamit", _WAMIT_FILES, _of(wamit.read_wamit, _stem), _WAMIT),
     *_set_targets("nemoh", _NEMOH_FILES, _of_nemoh, _NEMOH),
+    Target("aqwa", "aqwa", "hull.AH1", aqwa.read_aqwa, _AQWA),
+    Target("aqwa-listing", "aqwa", "hull.LIS", aqwa.read_aqwa, _AQWA),
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
     *_set_targets("wamit-group", "box.out box.1 box.3 box.hst", _wamit_pair, _WAMIT),
     Target("wamit-listing", "wamit", "box.out", _wamit_pair, _WAMIT),

@@ -217,6 +217,52 @@ def test_files_that_are_missing_or_side_by_side(copy: Path, database: HydroDatab
         load_database(copy)
 
 
+def test_forces_by_haskind_alone(copy: Path, database: HydroDatabase) -> None:
+    """Taken as those by diffraction are; told is what they are."""
+    (copy / "tanker.3").rename(copy / "tanker.2")
+    with pytest.warns(PartialSetWarning, match=r"tanker\.2: read in place of \.3, .* Haskind"):
+        found = read_wamit(copy)
+    assert np.array_equal(found.force, database.force) and np.array_equal(
+        found.motion_rao, database.motion_rao
+    )
+
+
+def test_motions_alone(copy: Path, database: HydroDatabase) -> None:
+    """Forces are solved of them with masses and matrices: those by diffraction as near as the motions are."""
+    (copy / "tanker.3").unlink()
+    with pytest.warns(PartialSetWarning, match=r"tanker\.4: .* motions that the forces are solved of"):
+        found = read_wamit(copy)
+    assert found.motion_rao is None
+    assert np.abs(motion_response(found) - database.motion_rao).max() < 1e-9
+    waves = found.omega < 2.0 * np.pi / 5.0
+    sizes = np.abs(database.force[:, waves]).max(axis=(0, 1))
+    assert np.all(np.abs(found.force - database.force)[:, waves].max(axis=(0, 1)) < 0.05 * sizes)
+    (copy / "tanker.frc").unlink()
+    with (
+        pytest.warns(PartialSetWarning),
+        pytest.raises(FileFormatError, match="only with the masses; give mass"),
+    ):
+        read_wamit(copy)
+
+
+@pytest.mark.parametrize(
+    ("there", "told"),
+    [
+        ("4", r"tanker\.1: no such file; .* there are \.4, and no \.1, \.hst$"),
+        ("2", r"tanker\.1: no such file; .* there are \.2, and no \.1, \.hst$"),
+        ("1 hst out", r"tanker\.3: no such file; .* one of \.3 \(forces by diffraction\), .* and no \.3$"),
+        *((kind, rf"there are \.{kind}, and no .* second order") for kind in ("10d", "11d", "12d", "12s")),
+    ],
+)  # fmt: skip
+def test_what_is_missing_is_told(there: str, told: str, tmp_path: Path, tanker: Path) -> None:
+    for suffix in there.split():
+        (tmp_path / f"tanker.{suffix}").write_text(" 8.0 8.0 0.0 0.0 1 1.0 0.0 1.0 0.0\n")
+        if suffix == "out":
+            shutil.copyfile(tanker / "tanker.out", tmp_path / "tanker.out")
+    with pytest.raises(FileFormatError, match=told):
+        load_database(tmp_path / f"tanker.{there.split()[0]}")
+
+
 def drift_rows(database: HydroDatabase, kind: str) -> tuple[str, np.ndarray]:
     """Text of a file of mean loads at two periods and three headings, and the loads in SI (3, 2, 6)."""
     value = np.random.default_rng(5).normal(size=(3, 2, 6))  # by heading, period
@@ -225,10 +271,10 @@ def drift_rows(database: HydroDatabase, kind: str) -> tuple[str, np.ndarray]:
     for (p, period), (h, heading) in itertools.product(enumerate((8.0, 12.0)), enumerate((0.0, 90.0, 180.0))):
         for i in motions:
             real = value[h, p, i - 1]
-            first = [period, period] if kind == ".12d" else [period]
+            first = [period, period] if kind.endswith("d") else [period]
             numbers = [heading, heading, i, abs(real), 0.0 if real > 0.0 else 180.0, real, 0.0]
             rows.append([*first, *numbers])
-            if kind != ".12d":  # two headings: no single wave
+            if not kind.endswith("d"):  # two headings: no single wave
                 rows.append([*first, heading, heading + 5.0, *numbers[2:]])
             elif p == 0:  # two periods beat: no mean load
                 rows.append([8.0, 12.0, *numbers])
@@ -237,7 +283,7 @@ def drift_rows(database: HydroDatabase, kind: str) -> tuple[str, np.ndarray]:
     return text, value[:, ::-1] * database.rho * database.g * there
 
 
-@pytest.mark.parametrize("kind", [".8", ".9", ".12d"])
+@pytest.mark.parametrize("kind", [".8", ".9", ".12d", ".11d", ".10d"])
 def test_mean_drift(copy: Path, database: HydroDatabase, kind: str) -> None:
     """Of one wave alone, in SI (ULEN is 1); frequencies rise; pressures are taken before momentum (.8)."""
     if kind == ".9":

@@ -17,6 +17,7 @@ import numpy as np
 sys.path.extend(map(str, (Path(__file__).resolve().parents[2] / "tests").glob("*/")))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
+from aqwa_writer import ah1, listing, run_of, run_of_group
 from fuzz.netcdf_spec import spec_of
 from fuzz.targets import CORPUS
 from lift_examples import EVERY_TABLE
@@ -25,7 +26,7 @@ from test_scene_file import every_kind
 
 from seacrane import Result, Scene, cases, shipped_database, simulate
 from seacrane.crane.load_crane import SHIPPED
-from seacrane.hydro import HydroDatabase, motion_response
+from seacrane.hydro import HydroDatabase, motion_response, two_barges
 from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.scene.file import described
 
@@ -70,6 +71,17 @@ def database_seeds(folder: Path) -> None:
         put_spec("database", name, database, folder)
 
 
+def aqwa_seeds() -> None:
+    """One structure in both files, and a pair."""
+    one = run_of(small_hull(), (0.0, 0.0, 1.0))
+    put("aqwa", "hull", ah1(one))
+    put("aqwa-listing", "hull", listing(one))
+    pair = two_barges(lid_damping=None)
+    few = {"omega": pair.omega[40:42], "added_mass": pair.added_mass[40:42], "damping": pair.damping[40:42]}
+    less = {"heading": pair.heading[:2], "force": pair.force[:2, 40:42], "depth": 500.0}
+    put("aqwa", "pair", ah1(run_of_group(dataclasses.replace(pair, **few, **less))))
+
+
 def put_spec(target: str, name: str, saved: Any, folder: Path) -> None:
     saved.save(folder / "seed.nc")
     put(target, name, spec_of(folder / "seed.nc"))
@@ -93,6 +105,7 @@ def main() -> None:
         put_spec("result", "run", simulate(cases.case1(), t_end=1.0, dt_out=0.5), Path(name))
         put_spec("result", "small", pendulum(), Path(name))
     scene_seeds()
+    aqwa_seeds()
     put("crane", "shipped", (SHIPPED / "knuckle_boom_250t.toml").read_bytes())
     put("lift", "every-table", EVERY_TABLE)
     put("lift", "case3", (SHIPPED.parent / "lifts" / "case3.toml").read_bytes())

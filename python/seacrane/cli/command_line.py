@@ -18,8 +18,8 @@ FAILED, MISUSED, INTERRUPTED = 1, 2, 130
 DESCRIPTION = "Offshore crane, payload and vessel moving together in waves."
 SCENE = "case1, case2, case3, vessel (the vessel alone in waves), a lift (.toml) or a scene file; data only"
 PATH = (
-    "a file or folder of any supported kind: a VERES or WAMIT folder or common stem, or a NetCDF file of "
-    "seacrane or Capytaine"
+    "a file or folder of any supported kind: a VERES or WAMIT folder or common stem, a NetCDF file of "
+    "seacrane or Capytaine, and others (`seacrane hydro` lists them)"
 )
 FOLDER = "folder to write to; made if absent"
 RESULT = "a result that `seacrane run` wrote"
@@ -86,14 +86,19 @@ COMMANDS: dict[str, tuple[str, str, Sequence[Row]]] = {
     )),
     "hydro": ("data_commands",
               "read a hydrodynamic database and print the verdict table of its self-check", (
-        ("path", "PATH", str, PATH),
+        ("path", "PATH", str, f"{PATH}; without one, a table of all kinds", {"nargs": "?"}),
         ("--memory", ("by-motion", "per-pair"), str,
          "kind of the memory that is fitted; default by-motion, where the file holds none"),
         ("--band", ("LOW", "HIGH"), float, "rad/s that the memory is fitted over", {"nargs": 2}),
         ("--depth", "M", float, "water depth, of a file that holds several"),
+        ("--mass", ("T", "X", "Y", "Z", "RX", "RY", "RZ"), float,
+         "mass in t, its centre in m from the file's reference point, and radii of gyration in m, of a file "
+         "that holds none", {"nargs": 7}),
+        ("--write", "FILE", str,
+         "also write it: NetCDF of seacrane (.nc), or WAMIT's .1 .3 .hst .frc (.1); read back and compared"),
         AS_JSON,
         ("--out", "DIR", str, "also plot the database into this folder; made if absent"),
-        ("--overwrite", FLAG, str, "replace earlier plots in that folder"),
+        ("--overwrite", FLAG, str, "replace earlier plots in that folder, and what --write names"),
     )),
     "trade": ("run_command", "measure what every setting costs and what error it brings: trade.csv and "
               "trade.png; a call that was stopped goes on", (

@@ -15,6 +15,7 @@ from seacrane.cli.output import output_folder, to_json
 from seacrane.plotting.table import table_of
 
 if TYPE_CHECKING:
+    from seacrane.arrays import Array
     from seacrane.hydro import CheckRow, HydroDatabase, HydroGroup
 
 COLUMNS = ("check", "value", "limit", "verdict")
@@ -24,14 +25,22 @@ KINDS = {(".", ".py"): "scripts", ("jobs", ".py"): "jobs", ("lifts", ".toml"): "
 
 def hydro(arguments: argparse.Namespace) -> int:
     """Print the verdict table; a failing verdict is a finding about the file, not an error of ours."""
-    from seacrane.hydro import HydroGroup, load_database
+    from seacrane.hydro import HydroGroup, load_database, write_database
 
+    if arguments.path is None:
+        return _formats(as_json=arguments.json)
     band = None if arguments.band is None else (arguments.band[0], arguments.band[1])
-    database = load_database(arguments.path, depth=arguments.depth, trusted_band=band)
+    mass = None if arguments.mass is None else _mass(arguments.mass)
+    database = load_database(arguments.path, depth=arguments.depth, trusted_band=band, mass_matrix=mass)
+    if not arguments.json:
+        print(database.source)
     if isinstance(database, HydroGroup):
         return _of_group(database, arguments)
     database = _with_memory(database, kind=arguments.memory, asked=band is not None)
-    _show(database.check(), as_json=arguments.json)
+    written = []
+    if arguments.write is not None:
+        written = write_database(database=database, path=arguments.write, overwrite=arguments.overwrite)
+    _show([*database.check(), *written], as_json=arguments.json)
     if arguments.out is not None:
         from seacrane.hydro.database.figures import SHEETS, save_hydro_figures
 
@@ -43,16 +52,35 @@ def hydro(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _formats(*, as_json: bool) -> int:
+    """What can be read, and by what it is known."""
+    from seacrane.hydro.readers.format import told_of
+    from seacrane.hydro.readers.load import FORMATS
+
+    head, rows = ("kind", "files", "known by", "may be given"), told_of(FORMATS)
+    print(to_json([dict(zip(head, row, strict=True)) for row in rows]) if as_json else table_of(head, rows))
+    return 0
+
+
+def _mass(given: Sequence[float]) -> Array:
+    """The matrix (6, 6) of t, centre and radii of gyration."""
+    import numpy as np
+
+    from seacrane.hydro import rigid_mass_matrix
+
+    mass, centre, radii = 1e3 * given[0], np.array(given[1:4]), np.array(given[4:])
+    return rigid_mass_matrix(mass, centre, np.diag(mass * radii**2))
+
+
 def _of_group(group: HydroGroup, arguments: argparse.Namespace) -> int:
     """The table of several hulls; their memory, which takes minutes, where it is asked for."""
     from seacrane.errors import SceneError
     from seacrane.hydro import fit_memory
 
-    if arguments.out is not None:
+    if arguments.out is not None or arguments.write is not None:
         raise SceneError(
-            f"group {group.name!r}: --out draws one hull, and the file holds {', '.join(group.names)}; "
-            "leave it "
-            "out, or draw load_database(path)[name].plot()"
+            f"group {group.name!r}: --out and --write take one hull, and the file holds "
+            f"{', '.join(group.names)}; leave them out, or take load_database(path)[name]"
         )
     if arguments.memory is not None:
         group = dataclasses.replace(group, memory=fit_memory(database=group, kind=arguments.memory))

@@ -43,6 +43,7 @@ from seacrane.hydro.memory.certificate import require_passive as require_passive
 from seacrane.hydro.memory.fit import fit_memory as fit_memory
 from seacrane.hydro.memory.retardation import RetardationModel as RetardationModel
 from seacrane.hydro.memory.retardation import retardation_functions as retardation_functions
+from seacrane.hydro.readers.aqwa import read_aqwa as read_aqwa
 from seacrane.hydro.readers.bemio import read_bemio as read_bemio
 from seacrane.hydro.readers.capytaine import read_capytaine as read_capytaine
 from seacrane.hydro.readers.load import available_speeds as available_speeds
@@ -54,6 +55,7 @@ from seacrane.hydro.readers.veres import read_veres as read_veres
 from seacrane.hydro.readers.veres import VeresHydrostatics as VeresHydrostatics
 from seacrane.hydro.readers.veres import read_veres_hydrostatics as read_veres_hydrostatics
 from seacrane.hydro.readers.wamit import read_wamit as read_wamit
+from seacrane.hydro.readers.write import write_database as write_database
 from seacrane.hydro.vessel.parameters import VesselParameters as VesselParameters
 from seacrane.hydro.vessel.parameters import vessel_parameters as vessel_parameters
 from seacrane._core import RetardationFunctions as RetardationFunctions

@@ -90,6 +90,11 @@ def _is_round(found: Hydrodynamics, first: int) -> bool:
     return bool(np.all(np.abs(a[:, 0] - a[:, 1]) <= ROUND * np.abs(a[:, 0])) and np.any(a[:, 0]))
 
 
+def left_out(names: Sequence[str]) -> str:
+    """The end of a source: what stands there and is not read."""
+    return f"; left out: {', '.join(names)[:200]}" if names else ""
+
+
 def mirrored(matrices: Array) -> Array:
     """Symmetric matrices (..., k, k) of which a file holds one half: the other is its mirror image."""
     lower = np.tril(np.ones(matrices.shape[-2:], dtype=bool), -1)
@@ -159,7 +164,8 @@ def mass_of_file(
         wrong = "its mass matrix is not positive definite: no mass or no inertia in some motion"
     if wrong:
         raise FileFormatError(
-            f"{where or asked.where}: {wrong}; give {asked.reader}(mass_matrix=...), (6, 6) in SI"
+            f"{where or asked.where}: {wrong}; give {asked.reader}(mass_matrix=...), (6, 6) in SI, or to "
+            "load_database, or seacrane hydro --mass"
         )
     return matrix
 

@@ -159,6 +159,8 @@ def _number(path: Path, file: Any, name: str) -> float:
 FORMAT = Format(
     name="BEMIO",
     files="an HDF5 file (.h5) of BEMIO",
+    looks="groups `simulation_parameters` and `body1`",
     can_open=lambda path: is_file_of(path, HDF5) and is_bemio(path),
     read=read_bemio,
+    takes=("mass_matrix",),
 )

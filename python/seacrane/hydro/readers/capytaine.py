@@ -380,7 +380,8 @@ def is_netcdf(path: Path) -> bool:
 FORMAT = Format(
     name="Capytaine",
     files="a NetCDF file (.nc) of Capytaine",
+    looks="variables `added_mass`, `radiation_damping`, dimension `influenced_dof`",
     can_open=lambda path: is_netcdf(path) and is_capytaine(path),
     read=read_capytaine,
-    takes=("depth",),
+    takes=("depth", "mass_matrix"),
 )

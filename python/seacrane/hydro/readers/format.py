@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -23,18 +24,36 @@ class Format:
     ----------
     name : for messages.
     files : what a path may be, in words.
+    looks : by what such a file is known when it is opened.
     can_open : whether a path is a file, stem or folder of this kind; opens no more than it needs to tell.
     read : the database, of files that hold several the reader's own choice; or a FileFormatError.
-    takes : "speed" (m/s) or "depth" (m), by which `read` chooses where files may hold several.
+    takes : "speed" (m/s) or "depth" (m), by which `read` chooses where files may hold several; "mass_matrix",
+        where they may hold none.
     speeds : forward speeds in m/s, rising; by default zero alone.
     """
 
     name: str
     files: str
+    looks: str
     can_open: Callable[[Path], bool]
     read: Callable[..., Loaded]
     takes: tuple[str, ...] = ()
     speeds: Callable[[Path], tuple[float, ...]] = lambda path: (0.0,)
+
+
+def told_of(formats: Sequence[Format]) -> list[tuple[str, str, str, str]]:
+    """Rows of a table: name, files, by what they are known, and which arguments the reader has for what such
+    files may lack or hold several of."""
+    usual = {"path", "kind", "motions", "leave_out"}
+    return [
+        (
+            one.name,
+            one.files,
+            one.looks,
+            ", ".join(n for n in signature(one.read).parameters if n not in usual),
+        )
+        for one in formats
+    ]
 
 
 def is_file_of(path: Path, suffixes: tuple[str, ...]) -> bool:

@@ -14,7 +14,8 @@ from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
 from seacrane.hydro.group.parts import afloat
-from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, veres, wamit
+from seacrane.hydro.readers import aqwa, bemio, capytaine, nemoh, orcaflex, veres, wamit
+from seacrane.hydro.readers.as_read import Given
 from seacrane.hydro.readers.format import Format, Loaded
 from seacrane.inputs.caller import silently
 from seacrane.inputs.keywords import named
@@ -23,11 +24,12 @@ from seacrane.warnings import RoughDataWarning
 OURS = Format(  # any NetCDF file but Capytaine's: one of no known kind is refused by what it lacks of ours
     name="seacrane",
     files="a NetCDF file (.nc) of seacrane",
+    looks="attribute `format` of seacrane; what `HydroDatabase.save` writes",
     can_open=capytaine.is_netcdf,
     read=HydroDatabase.load,
     speeds=lambda path: (HydroDatabase.load(path).speed,),
 )
-FORMATS = (capytaine.FORMAT, OURS, *(kind.FORMAT for kind in (veres, wamit, orcaflex, bemio, nemoh)))
+FORMATS = (capytaine.FORMAT, OURS, *(kind.FORMAT for kind in (veres, wamit, orcaflex, aqwa, bemio, nemoh)))
 NAMED = 5  # files in a message
 SAME_DEPTH = 1e-6
 SAME_SPEED = 1e-9  # m/s
@@ -40,12 +42,14 @@ def load_database(
     speed: float | None = None,
     depth: float | None = None,
     trusted_band: tuple[float, float] | None = None,
+    mass_matrix: Given | None = None,
 ) -> HydroDatabase | HydroGroup:
     """Read a hydrodynamic database of any supported kind: of several hulls in one water, a `HydroGroup`.
 
     NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
-    the set), OrcaFlex (a text model, or MaFreDo's form), BEMIO's HDF5 (of WEC-Sim), NEMOH (a folder).
-    Hulls of a group are moved to reference points on the still water, as scenes need them (`HydroGroup.at`).
+    the set), OrcaFlex (a text model, or MaFreDo's form), Aqwa (.AH1 or .LIS), BEMIO's HDF5 (of WEC-Sim),
+    NEMOH (a folder). ``source`` tells as what it was read, and what of it was left out. Hulls of a group are
+    moved to reference points on the still water, as scenes need them (`HydroGroup.at`).
 
     Parameters
     ----------
@@ -55,6 +59,8 @@ def load_database(
     depth : m (inf: deep), for Capytaine's files that hold several; any other file has to be of it.
     trusted_band : (low, high) in rad/s, in place of what the files say. Files that do not tell their panels
         are trusted as far as their matrices are smooth (`HydroDatabase.trusted_band`; None: to the end).
+    mass_matrix : (6, 6) in SI about the file's own reference point, in place of the file's; of several hulls
+        by name.
 
     Raises
     ------
@@ -70,10 +76,10 @@ def load_database(
     """
     found, source = _format_of(Path(path))
     if trusted_band is None:
-        database = _read(found, source, speed, depth)
+        database = _read(found, source, speed, depth, mass_matrix)
     else:
         with silently(RoughDataWarning):
-            database = _trusted(_read(found, source, speed, depth), trusted_band)
+            database = _trusted(_read(found, source, speed, depth, mass_matrix), trusted_band)
     if isinstance(database, HydroGroup):
         database = afloat(database)
     for hull in database.hulls.values() if isinstance(database, HydroGroup) else [database]:
@@ -104,9 +110,13 @@ def load_hull(
     return found
 
 
-def _read(found: Format, path: Path, speed: float | None, depth: float | None) -> Loaded:
-    """What is of a speed and a depth, where they are asked for."""
-    asked = {"speed": speed, "depth": depth}
+def _read(
+    found: Format, path: Path, speed: float | None, depth: float | None, mass_matrix: Given | None
+) -> Loaded:
+    """What is of a speed and a depth, where they are asked for, with a mass matrix in place of the file's."""
+    asked = {"speed": speed, "depth": depth, "mass_matrix": mass_matrix}
+    if mass_matrix is not None and "mass_matrix" not in found.takes:
+        raise FileFormatError(f"{path}: files of {found.name} hold their mass; leave mass_matrix out")
     database = found.read(path, **{name: asked[name] for name in found.takes if asked[name] is not None})
     if speed is not None and "speed" not in found.takes and abs(database.speed - speed) > SAME_SPEED:
         raise FileFormatError(f"{path}: of {database.speed:g} m/s, not of speed {speed:g} m/s")
@@ -159,4 +169,5 @@ def _format_of(path: Path) -> tuple[Format, Path]:
     raise FileFormatError(
         f"{path}: {problem if path.exists() else 'no such file'}; supported: "
         + ", ".join(one.files for one in FORMATS)
+        + "; `seacrane hydro` without a path lists by what they are known"
     )

@@ -176,9 +176,11 @@ def _stiffness_about(centre: Array, stiffness: Array, *, gravity: Array, lift: C
 FORMAT = Format(
     name="NEMOH",
     files="a NEMOH folder (RadiationCoefficients.tec, ExcitationForce.tec, KH.dat, Hydrostatics.dat)",
+    looks="`VARIABLES=` and `Zone t=` of Tecplot, tables of numbers",
     can_open=lambda path: (
         path.name in (RADIATION, EXCITATION, CONTROL)
         or (path.is_dir() and sought(project_of(path), RADIATION) is not None)
     ),
     read=read_nemoh,
+    takes=("mass_matrix",),
 )

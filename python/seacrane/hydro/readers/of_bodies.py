@@ -142,9 +142,9 @@ def floating_body(
         radii = np.array(USUAL_RADII) * (box[1], box[0], box[0])
         warn_caller(
             f"{asked.where}: holds no mass matrix{f' of {name}' if several else ''}, pass mass_matrix to "
-            f"{asked.reader}; the displaced mass {rho * volume:.6g} kg with radii of gyration of "
-            f"{radii[0]:.3g}, {radii[1]:.3g}, {radii[2]:.3g} m (0.36 B, 0.25 L, 0.25 L) is taken, and "
-            "natural periods in roll and pitch follow from that guess",
+            f"{asked.reader}, or seacrane hydro --mass; the displaced mass {rho * volume:.6g} kg with radii "
+            f"of gyration of {radii[0]:.3g}, {radii[1]:.3g}, {radii[2]:.3g} m (0.36 B, 0.25 L, 0.25 L) is "
+            "taken, and natural periods in roll and pitch follow from that guess",
             AssumedInertiaWarning,
         )
         inertia = np.diag(rho * volume * radii**2)

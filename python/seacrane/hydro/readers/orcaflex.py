@@ -7,7 +7,7 @@ phase: a wave of zero phase at r from there is ahead by ``k . r``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from seacrane.arrays import Array, Complex
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.heading_circle import phase_at
+from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.as_read import Asked, rising_degrees
@@ -81,7 +82,8 @@ def read_orcaflex(
     Returns
     -------
     HydroDatabase : zero speed; with the displacement RAOs, where they are on the grid of the load RAOs, as
-        `motion_rao`. Other damping of the vessel type is in ``linear_damping`` and ``quadratic_damping``.
+        `motion_rao`. Other damping of the vessel type is in ``linear_damping`` and ``quadratic_damping``, its
+        wave drift in ``drift``.
 
     Warns
     -----
@@ -145,24 +147,40 @@ def _convert(asked: Asked, kind: VesselType, rho: float | None) -> HydroDatabase
     if motions is not None:
         moved = _moved(kind.origin - motions.origin)
         tables["motion_rao"] = _at_origin(kind, motions, moved, columns)
-    degrees = loads.heading_deg
-    if bow:
-        degrees = np.concatenate([degrees, 180.0 - degrees])
-        tables = {name: np.concatenate([table, table * FORE_AFT]) for name, table in tables.items()}
-    degrees, order = rising_degrees(degrees)
+    heading, tables = _all_round(loads.heading_deg, tables, bow)
     found = hull_or_group(
         asked, [body], fix="restoring", alone={
-            **{name: table[order] for name, table in tables.items()},
+            **tables,
             **{name: matrix_at(kind.added_mass, kind.omega == limit) for name, limit in LIMITS.items()},
             "motion_rao_limit": MOTION_LIMIT,
+            "drift": _drift(kind, bow),
             "port_starboard_symmetric": port,
         },
         name=asked.where.stem, origin=kind.place, source=kind.source,
-        rho=rho, g=GRAVITY, depth=kind.depth, omega=kind.omega[rows], heading=np.radians(degrees),
+        rho=rho, g=GRAVITY, depth=kind.depth, omega=kind.omega[rows], heading=heading,
         added_mass=kind.added_mass[rows], damping=kind.damping[rows],
     )  # fmt: skip
     assert isinstance(found, HydroDatabase)
     return found
+
+
+def _all_round(degrees: Array, tables: Mapping[str, Any], bow: bool) -> tuple[Array, dict[str, Any]]:
+    """Directions in rad, rising, and tables (m, n, 6) of them; of both ends where they are alike."""
+    if bow:
+        degrees = np.concatenate([degrees, 180.0 - degrees])
+        tables = {name: np.concatenate([table, table * FORE_AFT]) for name, table in tables.items()}
+    degrees, order = rising_degrees(degrees)
+    return np.radians(degrees), {name: table[order] for name, table in tables.items()}
+
+
+def _drift(kind: VesselType, bow: bool) -> DriftCoefficients | None:
+    """Mean drift about the reference origin."""
+    told = kind.drift
+    if told is None or not len(told.omega):
+        return None
+    load = told.values @ _moved(told.origin - kind.origin).T
+    heading, tables = _all_round(told.heading_deg, {"coefficient": load}, bow)
+    return DriftCoefficients(heading=heading, omega=told.omega, **tables)
 
 
 def _constant_matrices(asked: Asked, kind: VesselType) -> tuple[Array, Array]:
@@ -290,6 +308,8 @@ def _coordinate(variable: Any) -> Array:
 FORMAT = Format(
     name="OrcaFlex",
     files="an OrcaFlex model (.yml) or MaFreDo file (.dhyd)",
+    looks="`%YAML 1.1`, `VesselTypes:`; MaFreDo's groups `mass`, `damping`, `Surge` to `Yaw`",
     can_open=lambda path: is_file_of(path, SUFFIXES),
     read=read_orcaflex,
+    takes=("mass_matrix",),
 )

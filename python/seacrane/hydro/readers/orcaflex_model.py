@@ -8,16 +8,17 @@ sign conventions of motions and the wave unit can be changed in OrcaFlex; only i
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from seacrane.arrays import Array, Complex
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
-from seacrane.hydro.readers.as_read import omega_of
+from seacrane.hydro.readers.as_read import left_out, omega_of
 from seacrane.inputs.shown import shown
 from seacrane.inputs.whole_file import decoded, read_whole
 
@@ -35,22 +36,24 @@ DEFAULTS = {
 }
 UNITS = {"period (s)": "s", "frequency (rad/s)": "rad/s", "frequency (Hz)": "Hz"}
 LAG_OF_EVENT = {"crest": 0.0, "zero down-crossing": 0.5, "trough": 1.0, "zero up-crossing": 1.5}  # pi
+UNREAD = ("SumFrequencyQTFs", "DifferenceFrequencyQTFs", "SeaStateRAOs", "CurrentCoeff", "WindCoeff")
 ADDED_MASS = ", ".join(f"AddedMassMatrix{axis}" for axis in ("X", "Y", "Z", "Rx", "Ry", "Rz"))
 DAMPING = ", ".join(f"Damping{axis}" for axis in ("X", "Y", "Z", "Rx", "Ry", "Rz"))
 STIFFNESS = "HydrostaticStiffnessz, HydrostaticStiffnessRx, HydrostaticStiffnessRy"
 INERTIA = "MomentOfInertiaTensorX, MomentOfInertiaTensorY, MomentOfInertiaTensorZ"
-RAO_ROWS = "RAOPeriodOrFrequency, " + ", ".join(
-    f"RAO{motion}Amp, RAO{motion}Phase" for motion in ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
-)
+AMPLITUDES = tuple(f"RAO{motion}Amp" for motion in ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"))
+RAO_ROWS = ", ".join(["RAOPeriodOrFrequency", *(f"{one}, {one[:-3]}Phase" for one in AMPLITUDES)])
+DRIFT_ROWS = ", ".join(["RAOPeriodOrFrequency", *AMPLITUDES])
 
 
 @dataclass(frozen=True, eq=False)
 class Raos:
-    """``values`` (m, n, 6) complex, exp(+i omega t), about ``origin`` with zero phase at ``phase_origin``."""
+    """``values`` (m, n, 6) complex, exp(+i omega t), about ``origin`` with zero phase at ``phase_origin``;
+    of mean drift real, per squared amplitude."""
 
     heading_deg: Array
     omega: Array
-    values: Complex
+    values: NDArray[Any]
     origin: Array
     phase_origin: Array
 
@@ -75,6 +78,7 @@ class VesselType:
     origin: Array = field(default_factory=lambda: np.zeros(3))
     length: float | None = None
     motions: Raos | None = None
+    drift: Raos | None = None
     mass: float | None = None
     centre: Array = field(default_factory=lambda: np.zeros(3))
     inertia: Array = field(default_factory=lambda: np.zeros((3, 3)))
@@ -133,17 +137,19 @@ class _Node:
         return value
 
     def table(self, rows: int | None, columns: int) -> Array:
-        """Rows of finite numbers; any number of rows where ``rows`` is None."""
+        """Rows of finite numbers; any number of rows where ``rows`` is None, which begin with a period."""
         lines = self.items()
         if not lines or (rows is not None and len(lines) != rows):
             raise self.error(f"{rows or 'some'} rows are expected, found {len(lines)}")
-        return np.array([line.vector(columns) for line in lines])
+        return np.array([line.vector(columns, period=rows is None) for line in lines])
 
-    def vector(self, count: int) -> Array:
+    def vector(self, count: int, *, period: bool = False) -> Array:
+        """Finite numbers; the first may be a period, which is infinite in the program's default tables."""
         found = self.items()
         if len(found) != count:
             raise self.error(f"{count} numbers are expected, found {len(found)}")
-        return np.array([entry.finite() for entry in found])
+        first = [found[0].number()] if period else []
+        return np.array([*first, *(entry.finite() for entry in found[len(first) :])])
 
 
 def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None) -> VesselType:
@@ -165,18 +171,21 @@ def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None
     state = _named(kind.at("Draughts"), draught, "draught")
     origin = _vector(state, "ReferenceOrigin", np.zeros(3))
     omega, added_mass, damping = _matrices(kind, state)
-    motions = state.has("DisplacementRAOs") and state.at("DisplacementRAOs").has("RAOs")
     sea = _Node(path, "Environment", model.value.get("Environment") or {})
     name = f"{kind.at('Name').text()}, {state.at('Name').text()}"
+    unread = [
+        one for one in UNREAD if any(_has_rows(state.value[key]) for key in state.value if one in str(key))
+    ]
     x, y, z = origin
     return VesselType(
-        name=name, source=f"OrcaFlex model {path.name}, {name}", origin=origin,
+        name=name, source=f"OrcaFlex model {path.name}, {name}" + left_out(unread), origin=origin,
         place=f"reference origin of the OrcaFlex vessel type, ({x:g}, {y:g}, {z:g}) m in its axes",
         symmetry=kind.at("Symmetry").text() if kind.has("Symmetry") else "None",
         length=kind.at("Length").finite() if kind.has("Length") else None,
         omega=omega, added_mass=added_mass * KILO, damping=damping * KILO,
         loads=_raos(kind, state.at("LoadRAOs"), np.full(6, KILO)),
-        motions=_motion_raos(kind, state.at("DisplacementRAOs")) if motions else None,
+        motions=_if_rows(_motion_raos, kind, state, "DisplacementRAOs"),
+        drift=_if_rows(_drift, kind, state, "WaveDrift"),
         mass=state.at("Mass").finite() * KILO if state.has("Mass") else None,
         centre=_vector(state, f"CentreOf{'Mass' if state.has('CentreOfMass') else 'Gravity'}", np.zeros(3)),
         inertia=state.at(INERTIA).table(3, 3) * KILO if state.has(INERTIA) else np.zeros((3, 3)),
@@ -188,6 +197,13 @@ def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None
         rho=sea.at("Density").finite() * KILO if sea.has("Density") else None,
         depth=sea.at("WaterDepth").number() if sea.has("WaterDepth") else math.inf,
     )  # fmt: skip
+
+
+def _has_rows(value: Any) -> bool:
+    """Whether there is a list of lists, or of tables."""
+    if isinstance(value, dict):
+        return any(map(_has_rows, value.values()))
+    return isinstance(value, list) and bool(value) and isinstance(value[0], list | dict)
 
 
 def _document(path: Path) -> dict[str, Any]:
@@ -254,12 +270,34 @@ def _matrices(kind: _Node, state: _Node) -> tuple[Array, Array, Array]:
     return omega, np.array(tables[0]).reshape(-1, 6, 6), np.array(tables[1]).reshape(-1, 6, 6)
 
 
+def _if_rows(read: Callable[[_Node, _Node], Raos], kind: _Node, state: _Node, key: str) -> Raos | None:
+    """A table that may have no rows: the program writes ``RAOs: []`` then."""
+    if not state.has(key) or not state.at(key).has("RAOs") or state.at(key).at("RAOs").value == []:
+        return None
+    return read(kind, state.at(key))
+
+
 def _raos(kind: _Node, node: _Node, scale: Array) -> Raos:
     """A table of amplitudes and phases as complex numbers."""
+    found = _table(kind, node, RAO_ROWS)
+    values = found.values[:, :, ::2] * scale * np.exp(-1j * _lag(kind, found.values[:, :, 1::2]))
+    return replace(found, values=values)
+
+
+def _drift(kind: _Node, node: _Node) -> Raos:
+    """Mean drift of the wave frequencies that are neither 0 nor infinite, rising."""
+    found = _table(kind, node, DRIFT_ROWS)
+    order = np.argsort(found.omega)
+    order = order[(found.omega[order] > 0.0) & np.isfinite(found.omega[order])]
+    return replace(found, omega=found.omega[order], values=found.values[:, order] * KILO)
+
+
+def _table(kind: _Node, node: _Node, columns: str) -> Raos:
+    """The numbers of a table by direction and period, with its origins."""
     headings = node.at("RAOs").items()
     if not headings:
         raise node.error("RAOs is empty; give the load RAOs of the vessel type")
-    tables = [entry.at(RAO_ROWS).table(None, 13) for entry in headings]
+    tables = [entry.at(columns).table(None, columns.count(",") + 1) for entry in headings]
     for entry, table in zip(headings, tables, strict=True):
         if table.shape != tables[0].shape or np.any(table[:, 0] != tables[0][:, 0]):
             raise entry.error("periods or frequencies differ from those of the first direction")
@@ -268,7 +306,7 @@ def _raos(kind: _Node, node: _Node, scale: Array) -> Raos:
     return Raos(
         heading_deg=np.array([entry.at("RAODirection").finite() for entry in headings]),
         omega=_to_omega(kind, rows[0, :, 0].tolist()),
-        values=rows[:, :, 1::2] * scale * np.exp(-1j * _lag(kind, rows[:, :, 2::2])),
+        values=rows[:, :, 1:],
         origin=origin,
         phase_origin=_vector(node, "PhaseOrigin", origin),
     )

@@ -351,6 +351,7 @@ def _trusted(omega: Array) -> tuple[float, float] | None:
 FORMAT = Format(
     name="VERES",
     files="a ShipX/VERES folder, stem or file (.re7 with .re8, .re1, .re2, .hyd)",
+    looks="`.re7`: six lines of text, then density and gravity, main dimensions, counts and tables",
     can_open=is_veres,
     read=read_veres,
     takes=("speed",),

@@ -1,4 +1,4 @@
-"""Reader of WAMIT results: ``.1 .3 .4 .hst .8 .9 .12d`` (numbers), ``.out`` (water, bodies), ``.frc`` (mass).
+"""Reader of WAMIT: ``.1 .2 .3 .4 .hst .8 .9 .12d`` (numbers), ``.out`` (water, bodies), ``.frc`` (mass).
 
 File axes and headings are ours (x forward, y port, z up; heading = direction of travel from +x towards +y;
 exp(+i omega t)). Dimensions follow the WAMIT manual, chapter 3, with length scale L: A rho L^k and B rho
@@ -25,8 +25,9 @@ from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.hydro_data import DriftCoefficients
 from seacrane.hydro.data.hydro_group_data import GroupBody
+from seacrane.hydro.data.motion import force_of_motion
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-from seacrane.hydro.readers.as_read import Asked, Given, mass_of_file, rising_degrees
+from seacrane.hydro.readers.as_read import Asked, Given, left_out, mass_of_file, rising_degrees
 from seacrane.hydro.readers.format import Format, Loaded, sibling, stem_of
 from seacrane.hydro.readers.of_bodies import density_of, floating_body, hull_or_group, of_each
 from seacrane.hydro.readers.wamit_listing import (
@@ -42,28 +43,30 @@ from seacrane.hydro.readers.wamit_listing import (
 )
 from seacrane.hydro.readers.wamit_tables import (
     BY_PREFERENCE,
+    LOADS,
+    NEEDED,
+    QUADRATIC,
     RADIATION,
+    SUFFIXES,
     WAVES,
+    Files,
     Radiation,
     WaveTable,
     radiation_of,
     read_mean_drift,
     read_restoring,
     read_table,
+    require_set,
     waves_of,
 )
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
 from seacrane.warnings import PartialSetWarning, RoundedPhaseWarning
 
-Files = dict[str, Path | None]  # by suffix
-
-SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
-SET = ("WAMIT", (".1", ".out"), SUFFIXES)  # as `stem_of` takes it
-NEEDED = (".1", ".3", ".hst")
+SET = ("WAMIT", (".1", ".out"), (*SUFFIXES, *QUADRATIC))  # as `stem_of` takes it
 HASKIND_LIMIT = np.full(6, 0.01)  # two force methods differ by the mesh's error
 HASKIND_FLOOR = np.array([0.05, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4])  # surge in beam seas is a difference of errors
-DIFFRACTION_LIMIT = np.full(6, 1e-3)  # the forces of .3 themselves, in seven digits
+SAME_LIMIT = np.full(6, 1e-3)  # motions of the forces that are read, in seven digits
 PANELS_PER_WAVELENGTH = 8.0
 
 
@@ -81,10 +84,12 @@ def read_wamit(
 ) -> Loaded:
     """Read the WAMIT results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
-    One body, at the origin of the waves, needs ``.1``, ``.3``, ``.hst`` and ``.out``. ``.4`` adds the
-    motions, against which `check` compares; ``.frc``, of either form, the mass; ``.9``, ``.8`` or ``.12d``
-    (the first of them that is there) the mean drift. Several bodies need ``.out`` alone, and are read from
-    ``.1`` and ``.3`` where both are there: the phases of the listing are rounded to degrees. Zero speed.
+    One body, at the origin of the waves, needs ``.1``, ``.3``, ``.hst`` and ``.out``. Without ``.3`` the
+    forces are those of ``.2``, or what makes the motions of ``.4``, which takes the masses. ``.4`` adds the
+    motions, against which `check` compares; ``.frc``, of either form, the mass; ``.9``, ``.8``, ``.12d``,
+    ``.11d`` or ``.10d`` (the first of them that is there) the mean drift. Several bodies need ``.out`` alone,
+    and are read from ``.1`` and ``.3`` where both are there: the phases of the listing are rounded to
+    degrees. Zero speed.
 
     Parameters
     ----------
@@ -108,7 +113,7 @@ def read_wamit(
     -----
     AssumedDensityWarning : neither ``.frc`` nor ``.out`` holds a density.
     AssumedInertiaWarning : no mass, in ``.frc`` or as ``mass_matrix``.
-    PartialSetWarning : periods or headings are not the same in all files.
+    PartialSetWarning : periods or headings are not the same in all files; or there is no ``.3``.
     RoundedPhaseWarning : the forces are those of the listing.
 
     Raises
@@ -125,11 +130,8 @@ def read_wamit(
         if files[".cfg"] is not None:
             check_period_output(files[".cfg"])
         listing = None if files[".out"] is None else read_listing(files[".out"])
-        lacking = next((suffix for suffix in NEEDED if files[suffix] is None), None)
-        if (listing is None or len(listing.bodies) == 1) and lacking is not None:
-            raise FileFormatError(
-                f"{stem}{lacking}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
-            )
+        if listing is None or len(listing.bodies) == 1:
+            require_set(stem, files)
         listing = listing or _listing_as_given(stem, volume, depth, g, length_scale)
         return _convert(asked, files, listing, rho)
 
@@ -142,7 +144,7 @@ def is_wamit(path: Path) -> bool:
         stem = stem_of(path, *SET)
     except FileFormatError:
         return False
-    if not path.is_dir() and any(sibling(stem, suffix) is not None for suffix in NEEDED):
+    if not path.is_dir() and any(sibling(stem, one) is not None for one in (*NEEDED, *LOADS, *QUADRATIC)):
         return True
     listing = sibling(stem, ".out") if path.is_dir() or path.suffix.lower() == ".out" else None
     return listing is not None and count_bodies(listing) > 1
@@ -167,28 +169,35 @@ def _listing_as_given(stem: Path, volume: float | None, depth: float, g: float, 
 
 
 def _numbers(files: Files, listing: Listing) -> tuple[Radiation, WaveTable, str]:
-    """Matrices and forces, non-dimensional, and which files hold them."""
+    """Matrices and loads, non-dimensional, and the suffix of the file that holds the latter."""
     count = len(listing.bodies)
-    if files[".1"] is not None and files[".3"] is not None:
-        rows, forces = read_table(files[".1"], RADIATION), read_table(files[".3"], WAVES)
-        told = ".1, .3, .out"
+    kind = next(one for one in LOADS if files[one] is not None) if count == 1 else ".3"
+    matrices, loads = files[".1"], files[kind]
+    if matrices is not None and loads is not None:
+        rows, forces = read_table(matrices, RADIATION), read_table(loads, WAVES)
+        if kind != ".3":
+            warn_caller(
+                f"{loads}: read in place of .3, which is not there: {LOADS[kind]}"
+                + (" that the forces are solved of" if kind == ".4" else ""),
+                PartialSetWarning,
+            )
     else:
         rows, forces = listed_tables(listing)
-        told = ".out alone"
+        kind = ".out"
         warn_caller(
             f"{listing.path}: wave forces are read from the listing, whose phases are rounded to degrees: "
             "each is off by up to 0.9 % of its size. Give the .1 and .3 files beside it",
             RoundedPhaseWarning,
         )
-    return radiation_of(rows, bodies=count), waves_of(forces, bodies=count), told
+    return radiation_of(rows, bodies=count), waves_of(forces, bodies=count), kind
 
 
 def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) -> Loaded:
     """The database or the group in SI."""
     stem, count = asked.where, len(listing.bodies)
-    radiation, waves, told = _numbers(files, listing)
+    radiation, waves, kind = _numbers(files, listing)
     motion = None
-    if files[".4"] is not None and count == 1:
+    if files[".4"] is not None and count == 1 and kind != ".4":
         motion = waves_of(read_table(files[".4"], WAVES), bodies=1)
     control = None if files[".frc"] is None or count > 1 else read_force_control(files[".frc"])
     for value in [] if files[".out"] is None or files[".1"] is None else radiation.period:
@@ -217,13 +226,21 @@ def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) ->
         at = np.searchsorted(table.heading_deg, heading_deg)[order]
         return np.asarray(table.values[np.ix_(at, np.searchsorted(table.period, period)[::-1])])
 
+    of_motions = kind == ".4"
+    if of_motions and asked.mass_matrix is None and (control is None or control.mass is None):
+        raise FileFormatError(
+            f"{stem}.3: no such file, and forces follow from the motions of .4 only with the masses; give "
+            "mass_matrix=, (6, 6) in SI, or .frc"
+        )
     bodies = _bodies(asked, files, listing, rho, control)
     own: dict[str, Any] = {}
     origin = "origin of WAMIT's global axes, on the still waterline"
     lids = ", ".join(f"{body.name} {body.lid_panels}" for body in listing.bodies)
+    told = ".out alone" if kind == ".out" else ".1, .3, .out"
     source = f"WAMIT {listing.version} files {stem.name} ({told}); interior lid panels: {lids}"
     if count == 1:
         haskind = control is None or control.motions_option != 2
+        alike = haskind == (kind == ".2")
         symmetric = listing.symmetric
         if symmetric is None:
             symmetric = keeps_sides_apart(radiation.added_mass)
@@ -231,8 +248,8 @@ def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) ->
             "port_starboard_symmetric": symmetric,
             "trusted_band": _trusted(listing, bodies[0], symmetric, omega),
             "motion_rao": None if motion is None else picked(motion) / scale**ROTATIONS,
-            "motion_rao_limit": HASKIND_LIMIT if haskind else DIFFRACTION_LIMIT,
-            "motion_rao_floor": HASKIND_FLOOR if haskind else np.full(6, 1e-4),
+            "motion_rao_limit": SAME_LIMIT if alike else HASKIND_LIMIT,
+            "motion_rao_floor": np.full(6, 1e-4) if alike else HASKIND_FLOOR,
             "drift": _drift(files, listing, rho),
         }
         height = listing.bodies[0].position[2]
@@ -242,15 +259,27 @@ def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) ->
         source = f"WAMIT {listing.version} files {stem.name} ({read}): {listing.title}"
         if motion is not None:
             source += f"; motions by WAMIT from {'Haskind' if haskind else 'diffraction'} forces"
-    return hull_or_group(
+    units = scale**-ROTATIONS if of_motions else rho * g * scale ** (2 + turns)
+    found = hull_or_group(
         asked, bodies, fix="the .hst file of this run", alone=own,
         name=stem.name, origin=origin, source=source, rho=rho, g=g, depth=listing.depth,
         omega=omega, heading=direction,
-        force=picked(waves) * rho * g * scale ** (2 + turns),
+        force=picked(waves) * units,
         added_mass=radiation.added_mass[rows] * mass_scale,
         **{name: limit * mass_scale for name, limit in radiation.limits.items()},
         damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
     )  # fmt: skip
+    found = replace(found, source=found.source + left_out(_unread(stem, files)))
+    return replace(found, force=force_of_motion(found, found.force)) if of_motions else found
+
+
+def _unread(stem: Path, files: Files) -> list[str]:
+    """Files of the stem that nothing is read of."""
+    drift = next((one for one in BY_PREFERENCE if files[one] is not None), "")
+    haskind = ".2" if files[".3"] is None else ""
+    read = {".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", drift, haskind}
+    every = (file for file in sorted(stem.parent.iterdir()) if file.with_suffix("") == stem)
+    return [file.name for file in every if file.suffix.lower() not in read]
 
 
 def _bodies(
@@ -354,7 +383,9 @@ def _trusted(listing: Listing, body: GroupBody, symmetric: bool, omega: Array) -
 
 FORMAT = Format(
     name="WAMIT",
-    files="a WAMIT folder, stem or file (.1 .3 .hst .out, with .4, .frc and .8, .9 or .12d)",
+    files="a WAMIT folder, stem or file (.1 .3 .hst .out, with .2, .4, .frc and .8, .9 or .12d)",
+    looks="numbers alone: period, i, j, A, B in `.1`, period, heading, i, modulus, phase and parts in `.3`",
     can_open=is_wamit,
     read=read_wamit,
+    takes=("mass_matrix",),
 )

@@ -1,8 +1,9 @@
-"""Numeric output files of WAMIT, non-dimensional as they are, every row accounted for: ``.1 .3 .4 .hst``, and
-mean drift in ``.9`` (pressures), ``.8`` (momentum) and ``.12d`` (difference frequencies).
+"""Numeric output files of WAMIT, non-dimensional as they are, every row accounted for: ``.1 .2 .3 .4 .hst``,
+and mean drift in ``.9`` (pressures), ``.8`` (momentum) and ``.12d .11d .10d`` (difference frequencies).
 
-Rows of ``.8`` and ``.9``: period, two headings, i, modulus, phase, real and imaginary part; of ``.12d`` two
-periods first. The mean load of one wave is that of equal headings and equal periods (WAMIT manual, 3.8).
+Rows of ``.8`` and ``.9``: period, two headings, i, modulus, phase, real and imaginary part; of ``.12d`` and
+its like two periods first. The mean load of one wave is that of equal headings and equal periods (WAMIT
+manual, 3.8).
 """
 
 from __future__ import annotations
@@ -16,11 +17,13 @@ from numpy.typing import NDArray
 
 from seacrane.arrays import Array, Complex
 from seacrane.errors import FileFormatError
+from seacrane.hydro.readers.format import sibling
 from seacrane.hydro.readers.text_records import is_number, number_at, text_of
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import PartialSetWarning
 
 IntArray = NDArray[np.int64]
+Files = dict[str, Path | None]  # by suffix
 
 ZERO_FREQUENCY_PERIOD = -1.0
 INFINITE_FREQUENCY_PERIOD = 0.0
@@ -32,9 +35,17 @@ LIMITS = {
 }
 BODY_AXES = (-6.0, -5.0, -4.0)  # rows of mean moments in the axes of the body, beside those of space
 
-MOMENTUM, PRESSURES, SECOND_ORDER = ".8", ".9", ".12d"
-BY_PREFERENCE = (PRESSURES, MOMENTUM, SECOND_ORDER)  # all six loads first
-RADIATION, WAVES = (4, 5), (7,)  # numbers in a line of .1, and of .3 and .4
+MOMENTUM, PRESSURES, SECOND_ORDER = ".8", ".9", (".12d", ".11d", ".10d")
+BY_PREFERENCE = (PRESSURES, MOMENTUM, *SECOND_ORDER)  # all six loads first
+SUFFIXES = (".1", ".2", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
+QUADRATIC = (*SECOND_ORDER, ".12s", ".11s", ".10s")
+NEEDED = (".1", ".hst")
+LOADS = {
+    ".3": "forces by diffraction",
+    ".2": "forces by Haskind's relation",
+    ".4": "motions",
+}  # by preference
+RADIATION, WAVES = (4, 5), (7,)  # numbers in a line of .1, and of .2, .3 and .4
 NO_PERIOD = "ends without a positive period; the file is truncated, or of limits alone"
 REAL_TOLERANCE = 1e-3  # of the largest of its motion: a mean load has no imaginary part
 
@@ -68,13 +79,34 @@ class Radiation:
 
 @dataclass(frozen=True, eq=False)
 class WaveTable:
-    """Periods (n,) in s and headings (m,) in degrees, both rising; values (m, n, 6 k): complex of a ``.3``
-    or ``.4`` file, real of mean drift; non-dimensional."""
+    """Periods (n,) in s and headings (m,) in degrees, both rising; values (m, n, 6 k): complex of a ``.2``,
+    ``.3`` or ``.4`` file, real of mean drift; non-dimensional."""
 
     path: Path
     period: Array
     heading_deg: Array
     values: NDArray[Any]
+
+
+def require_set(stem: Path, files: Files) -> None:
+    """Raise unless one body's matrices, stiffness and loads are there; told is what is there instead."""
+    lacking = [suffix for suffix in NEEDED if files[suffix] is None]
+    if not any(files[suffix] for suffix in LOADS):
+        lacking.append(".3")
+    if not lacking:
+        return
+    there = [suffix for suffix in dict.fromkeys((*files, *QUADRATIC)) if sibling(stem, suffix)]
+    hint = ""
+    if set(there) & set(QUADRATIC):
+        hint = (
+            ". Files .10, .11, .12 are of second order, loads of pairs of waves at their difference (d) or "
+            "sum (s): mean drift is read of the former, beside such a set"
+        )
+    raise FileFormatError(
+        f"{stem}{lacking[0]}: no such file; WAMIT needs {', '.join(NEEDED)} and one of "
+        f"{', '.join(f'{suffix} ({what})' for suffix, what in LOADS.items())} of the same stem; there are "
+        f"{', '.join(there)}, and no {', '.join(lacking)}{hint}"
+    )
 
 
 def radiation_of(table: Table, *, bodies: int) -> Radiation:
@@ -149,7 +181,7 @@ def read_mean_drift(path: Path) -> WaveTable:
 
     Raises FileFormatError: truncated or damaged, with the line; or no row of one wave alone.
     """
-    first = 2 if path.suffix.lower() == SECOND_ORDER else 1  # columns of periods
+    first = 2 if path.suffix.lower() in SECOND_ORDER else 1  # columns of periods
     table = read_table(path, (first + 7,))
     one_wave = (table.values[:, 0] == table.values[:, first - 1]) & (
         table.values[:, first] == table.values[:, first + 1]
