@@ -1704,7 +1704,7 @@ class Line:
         """
 class GasSpring:
     """
-    A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_gas_spring. Immutable.
+    A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_spring. Immutable.
     """
     DRAWN: typing.ClassVar[str] = 'spring'
     FIELDS: typing.ClassVar[tuple]
@@ -1814,7 +1814,7 @@ class GasSpring:
         """
 class PendulumDamping:
     """
-    Damping of a load that swings below a point, as a ratio of critical; see Scene.add_pendulum_damping. Immutable.
+    Damping of a load that swings below a point, as a ratio of critical; see Scene.add_spring. Immutable.
     """
     DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
@@ -2399,7 +2399,7 @@ class ImmersedPart:
         """
 class EntrappedWater:
     """
-    Water in a compartment of a body, which comes and goes through openings; see Scene.add_entrapped_water. Immutable.
+    Water in a compartment of a body, which comes and goes through openings; see Scene.add_immersed. Immutable.
     """
     DRAWN: typing.ClassVar[str] = ''
     FIELDS: typing.ClassVar[tuple]
