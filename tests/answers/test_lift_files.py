@@ -19,7 +19,9 @@ from seacrane.cli import main
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.inputs.units import UNITS, in_si, others_of
 from seacrane.lift.build import times_of
+from seacrane.lift.keys import suffix
 from seacrane.lift.lift import LIFTS
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import TABLES
@@ -122,6 +124,66 @@ def test_written_and_read_again_it_is_equal(name: str, tmp_path: Path) -> None:
     assert Lift(lift.tables) == lift == pickle.loads(pickle.dumps(lift))
 
 
+TYPED = {  # of the lift with every table: in SI, and as an engineer types it
+    "mass_kg = 12.5": "mass_t = 0.0125", "inertia_kg_m2 = [1, 2, 3]": "inertia_t_m2 = [1e-3, 2e-3, 3e-3]",
+    "EA_N = 1e6": "EA_kN = 1000", "breaking_load_N = 6e5": "breaking_load_MN = 0.6",
+    "tensions_N = [0, 1000]": "tensions_kN = [0, 1]", "maximum_power_W = 5e4": "maximum_power_kW = 50",
+    "stiffness_N_m_per_rad = 1e3": "stiffness_kN_m_per_rad = 1", "from_s = 9": "from_min = 0.15",
+    "feed_forward_N_m = 5.5": "feed_forward_kN_m = 0.0055", "brake_give_m = 2e-3": "brake_give_mm = 2",
+    "stiffness_N_per_m = 100\n": "stiffness_N_per_mm = 0.1\n", "full_area_m2 = 0.05": "full_area_cm2 = 500",
+    "pressure_Pa = 2e7": "pressure_bar = 200", "initial_m3 = 0.5": "initial_l = 500",
+    "rated_flow_m3_per_s = 0.01": "rated_flow_l_per_min = 600", "maximum_N = 8e4": "maximum_kN = 80",
+    "density_kg_per_m3 = 1000": "density_t_per_m3 = 1",
+    "length_m = 1.25": "length_mm = 1250", "damping_N_s_per_m = 100\n": "damping_kN_s_per_m = 0.1\n",
+    'rate_m_per_s = {kind = "quintic", start_time_s = 0, end_time_s = 2, start = 0, end = 0.5}':
+    'rate_m_per_min = {kind = "quintic", start_time_s = 0, end_time_s = 2, start = 0, end = 30}',
+}  # fmt: skip
+BY_HAND = {
+    "t": 1000.0, "tf": 9806.65, "kN": 1e3, "bar": 1e5, "N/mm": 1e3, "kN/m2": 1e3, "mm": 1e-3, "kn": 0.514444,
+    "l/min": 1.0 / 60e3, "rpm": 0.1047198, "kN m/deg": 57295.8, "tf m": 9806.65, "h": 3600.0, "cm2": 1e-4,
+}  # fmt: skip
+
+
+@pytest.mark.warns("SeabedWarning")
+def test_units_that_an_engineer_types(tmp_path: Path) -> None:
+    """The scene and its digest are those of the same file in SI, and the file is written back as typed."""
+    text = EVERY_TABLE
+    for si, typed in TYPED.items():
+        assert si in text, si
+        text = text.replace(si, typed, 1)
+    lift, plain = lift_of(text, tmp_path), lift_of(EVERY_TABLE, tmp_path, "si.toml")
+    assert lift.scene() == plain.scene() and lift != plain
+    assert scene_digest(lift.scene()) == scene_digest(plain.scene())
+    lift.save(tmp_path / "again.toml")
+    written = (tmp_path / "again.toml").read_text(encoding="utf-8")
+    assert all(typed.partition(" = ")[0] in written for typed in TYPED.values())
+    jsonschema = pytest.importorskip("jsonschema", reason="needs the package 'jsonschema'")
+    jsonschema.Draft7Validator(schema()).validate(tomllib.loads(text))
+
+
+def test_the_table_of_units() -> None:
+    """Factors by hand; what is typed in decimals is the SI number of these decimals; a page names each."""
+    for unit, factor in BY_HAND.items():
+        assert in_si(1.0, unit) == pytest.approx(factor, rel=2e-6)
+    assert all(in_si(k / 10.0, "mm") == float(f"{k / 10.0}e-3") for k in range(1, 2000))
+    assert in_si(-3.3, "tf") == pytest.approx(-32361.945) and in_si(1e308, "kN") == float("inf")
+    page = (ROOT / "docs" / "lift-files.md").read_text(encoding="utf-8")
+    typed = {one for unit in UNITS for one in others_of(unit) if UNITS[one][0] != 1.0}
+    assert [one for one in sorted(typed) if f"`_{suffix(one)}`" not in page] == []
+    for table in TABLES.values():
+        spelled = [one for key in table.keys for one in key.spellings]
+        assert len(set(spelled)) == len(spelled), "no two keys may be spelled alike"
+
+
+def test_a_study_may_give_a_key_of_its_lift_in_another_unit(tmp_path: Path) -> None:
+    lift_of(HEAD + "[run]\nt_end_s = 60\n", tmp_path)
+    study = 'run = { t_end_min = 0.5 }\n[study]\nlift = "my_lift.toml"\nover.seed = [1]\nexposure_h = 3\n'
+    keep = '[[study.keep]]\nname = "a"\nchannel = "position"\n'
+    lift = lift_of(HEAD + study + keep, tmp_path, "study.toml")
+    assert lift.t_end == 30.0 and lift.study is not None and lift.study.exposure == 10800.0
+    assert lift.tables["run"] == {"t_end_min": 0.5}
+
+
 def test_texts_of_any_kind_are_written(tmp_path: Path) -> None:
     lift = Lift({"notes": {"a b": 'quote " and \\ and\nline \x7f\t', "é": "λ", "x": [True, -0.0, 1e300, 7]}})
     lift.save(tmp_path / "notes.toml")
@@ -195,7 +257,10 @@ VESSEL = '[vessel]\ndatabase = "hull_115"\nmemory = "none"\n'
 DRIVEN = '[driver]\njoint = "x"\n'
 ONE, TWO = '{ kind = "constant", value = 1 }', '{ kind = "constant", value = 2 }'
 MISTAKES = [
-    ("[crane.payload]\nmass_t = 3", 4, "mass_t .*nearest: mass_kg"), ("\n[crain]", 4, "nearest: crane"),
+    ("[crane.payload]\nmas_kg = 3", 4, "mas_kg .*nearest: mass_kg"), ("\n[crain]", 4, "nearest: crane"),
+    ("[crane.payload]\nmass_kN = 3", 4, "is in kN, and mass in kg; give mass_kg or mass_t$"),
+    ("[crane.payload]\nmass_t = 3\nmass_kg = 3e3", 4, "mass_t stands beside mass_kg"),
+    ("[hoist]\nEA_t = 3e3", 4, "in t, and EA in N; give EA_N or EA_kN or EA_MN or EA_tf$"),
     ("[crane]\nslew_deg = 3\nslew_rad = 1", 4, "slew_"), ('[sea]\nhs_m = "two"', 4, "hs_m .*'two'"),
     ("[sea]\nseed = 1.5", 4, "whole"), ("[sea]\nhs_m = 2\ntp_s = -1", 5, "tp_s .*above 0"),
     ("[study.over]\nhs = 2", 4, "hs .*list"), ("[study]\nkep = [1]", 4, "nearest: keep"),

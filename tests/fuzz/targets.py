@@ -28,6 +28,7 @@ from seacrane.inputs.mesh_files import read_gltf
 from seacrane.inputs.netcdf_limits import LARGEST_DATABASE as LARGEST
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, arrays_in
 from seacrane.inputs.state import load_state
+from seacrane.operability import ScatterDiagram, WaveHindcast
 from seacrane.result import Result
 from seacrane.statistics import MeasuredSeries
 
@@ -187,6 +188,23 @@ def _motion_record(path: Path) -> Any:
     return [history.time, history.motion]
 
 
+def _log(path: Path) -> Any:
+    """A sensor's sentences, with a rate where they have no clock."""
+    found = MeasuredSeries.load(path, rate_hz=10.0, maximum_gap=1.0)
+    return [found.time, *found.columns.values()]
+
+
+def _sea_states(path: Path) -> Any:
+    """Heights that are not known are NaN; those that are have to be finite."""
+    found = WaveHindcast.load(path, utc_offset=None)
+    return [found.hs[found.known], found.tp[found.known]]
+
+
+def _scatter(path: Path) -> Any:
+    found = ScatterDiagram.load(path, units={"hs": "m", "tp": "s"}, classes="middle")
+    return [found.hs, found.tp, found.counts]
+
+
 def _state(path: Path) -> Any:
     """A state file as it is, then with its checksum made right, so that damage reaches the reader."""
     content = path.read_bytes()
@@ -215,7 +233,9 @@ _VERES = _under(_HYDRO, "veres veres_files text_records")
 _WAMIT = _under(_HYDRO, "wamit wamit_listing wamit_tables text_records")
 _NEMOH = _under(_HYDRO, "nemoh nemoh_files")
 _AQWA = _under(_HYDRO, "aqwa aqwa_files")
-_RECORDED = (*_under("sea", "series_file reading mending"), "scene/motion_history.py")
+_COLUMNS = _under("sea", "series_file reading mending")
+_RECORDED = (*_COLUMNS, "scene/motion_history.py")
+_SEAS = (*_COLUMNS, "operability/sea_states.py")
 _LIFT = _under("lift", "document check_keys")
 _JOINTED = _under("crane", "load_crane")
 _URDF = _under("crane", "urdf")
@@ -270,6 +290,12 @@ _ALL = [
            refusals=(SceneError,)),
     Target("series", "series", "mru.csv", _series, _RECORDED, refusals=_SEEN),
     Target("motion-record", "series", "mru.csv", _motion_record, _RECORDED, refusals=_SEEN),
+    *(Target(name, "log", "mru.log", _log, _under("sea/records", "nmea kind"), refusals=_SEEN)
+      for name in ("pashr", "prdid", "tss1")),
+    Target("ndbc", "ndbc", "buoy.txt", _sea_states, (*_SEAS, "sea/records/ndbc.py"), refusals=_SEEN),
+    Target("spotter", "spotter", "bulk.csv", _sea_states, ("sea/records/spotter.py",), refusals=_SEEN),
+    Target("sea-states", "ndbc", "site.csv", _sea_states, _SEAS, refusals=_SEEN),
+    Target("scatter", "scatter", "site.csv", _scatter, ("sea/records/scatter.py",), refusals=_SEEN),
     Target("state", "state", "run.state", _state, ("inputs/state.py",)),
     _netcdf("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py"),
     _netcdf("mafredo", "ship.dhyd", _of_mafredo, f"{_HYDRO}/orcaflex.py"),

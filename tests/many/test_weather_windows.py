@@ -164,6 +164,11 @@ def test_a_file_of_wavespectra_is_read(tmp_path: Path) -> None:
         other.to_netcdf(tmp_path / "other.nc")
         found = WaveHindcast.load(tmp_path / "other.nc", names=names)
         np.testing.assert_allclose(found.tp, hindcast.tp, rtol=1e-3)
+    era.swh.attrs["units"], era.pp1d.attrs["units"] = "cm", "s"
+    era.to_netcdf(tmp_path / "download")  # whatever its name is
+    np.testing.assert_allclose(WaveHindcast.load(tmp_path / "download").hs, 0.01 * hindcast.hs)
+    with pytest.raises(FileFormatError, match="hs is in 'furlong'; give units="):
+        WaveHindcast.load(tmp_path / "download", units={"hs": "furlong"})
     xarray.concat([dataset, dataset.assign_coords(site=[1])], dim="site").to_netcdf(tmp_path / "two.nc")
     with pytest.raises(FileFormatError, match=r"hs lies over site \(2\)"):
         WaveHindcast.load(tmp_path / "two.nc")
@@ -175,7 +180,7 @@ def test_a_csv_is_read(tmp_path: Path) -> None:
     hindcast = WaveHindcast.load(path)
     assert hindcast.step_hours == 3.0
     assert hindcast.known.tolist() == [True, False]
-    path.write_text("time,hs,tp\n2019-01-01,1\n2019-01-02,1,8\n2019-01-02,1,8\n")
+    path.write_text("time [UTC],hs,tp\n2019-01-01,1,\n2019-01-02,1,8\n2019-01-02,1,8\n")
     with pytest.raises(SceneError, match="comes after"):
         WaveHindcast.load(path)
 

@@ -13,9 +13,9 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE, CORE = ROOT / "python" / "seacrane", ROOT / "cpp" / "seacrane"
 # Rooms from the ground up: each may import from those before it.
 FLOORS = """
-    errors warnings version one_thread arrays | lazy | inputs | plotting | sea | hydro.data | hydro.memory
-    | hydro.vessel | hydro.database | hydro.group | hydro.readers | hydro.hull | hydro.parts | hydro
-    | description | crane | analysis | scene | result | statistics | run | accuracy | simulation
+    errors warnings version one_thread arrays | lazy | inputs | plotting | sea.records | sea | hydro.data
+    | hydro.memory | hydro.vessel | hydro.database | hydro.group | hydro.readers | hydro.hull | hydro.parts
+    | hydro | description | crane | analysis | scene | result | statistics | run | accuracy | simulation
     | ensembles | operability | pictures | answers | lift | cases | cli | __main__
 """
 ROOMS = {name: floor for floor, names in enumerate(FLOORS.split("|")) for name in names.split()}

@@ -256,6 +256,7 @@ EXPRESSIONS: dict[str, tuple[str, str, Callable[[Result], Any]]] = {
     "heel": ("heel[hull] - 10 deg", "rad", lambda r: r.select("heel", body="hull") - np.radians(10.0)),
     "power": ("1e3 kg * acceleration[load, z] * velocity[load, z]", "W",
               lambda r: 1e3 * of_load(r, "z", "acceleration") * of_load(r, "z")),
+    "units": ("load.z + 6 m/min(2, 3) - 6 m/min * 10 s", "m", lambda r: z(r, "load") + 3.0 - 1.0),
     "constant": ("2.5e1 kN", "N", lambda r: np.full(r.time.size, 25e3)),
 }  # fmt: skip
 

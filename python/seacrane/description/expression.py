@@ -40,7 +40,7 @@ _UNIT = "|".join(sorted((re.escape(unit) for unit in UNITS if unit != "1"), key=
 _NAME = r"""(?:[^\W0-9]\w*|'[^']*'|"[^"]*")"""
 _TOKEN = re.compile(
     rf"""\s*(?:
-    (?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?:\s*(?P<unit>{_UNIT})(?![\w\[.]))?
+    (?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?:\s*(?P<unit>{_UNIT})(?![\w\[.]|\s*\())?
   | (?P<place>{_NAME}\.v?[xyz])(?!\w)(?:\s+in\s+(?P<along>{_NAME}))?
   | (?P<curve>[^\W0-9]\w*\s*\[[^\[\]]*\])
   | (?P<word>[^\W0-9]\w*)

@@ -1,10 +1,10 @@
-"""Units that a text may have, with what each is in SI and of which dimension."""
+"""Units that a text or a key of a file may have, with what each is in SI and of which dimension."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import pi
+from math import inf, isfinite, pi
 from types import MappingProxyType
 
 Dimension = tuple[Fraction, Fraction, Fraction, Fraction]
@@ -16,18 +16,48 @@ def _dimension(*exponents: int) -> Dimension:
 
 
 PURE, ANGLE = _dimension(0, 0, 0, 0), _dimension(0, 0, 0, 1)
+G = 9.80665  # m/s2, standard: of a tonne-force
 _OF_DIMENSION: dict[tuple[int, ...], dict[str, float]] = {  # kg, m, s, rad: units, the SI one first, in SI
     (0, 0, 0, 0): {"1": 1.0}, (0, 0, 0, 1): {"rad": 1.0, "deg": pi / 180.0},
-    (0, 0, -1, 1): {"rad/s": 1.0, "deg/s": pi / 180.0}, (0, 0, -2, 1): {"rad/s2": 1.0},
-    (0, 1, 0, 0): {"m": 1.0, "mm": 1e-3}, (0, 2, 0, 0): {"m2": 1.0}, (0, 3, 0, 0): {"m3": 1.0},
-    (0, 1, -1, 0): {"m/s": 1.0}, (0, 1, -2, 0): {"m/s2": 1.0}, (0, 3, -1, 0): {"m3/s": 1.0},
-    (0, 0, 1, 0): {"s": 1.0}, (1, 0, 0, 0): {"kg": 1.0, "t": 1e3}, (1, 1, -2, 0): {"N": 1.0, "kN": 1e3},
-    (1, 1, -1, 0): {"N s": 1.0}, (1, 2, -2, 0): {"N m": 1.0, "J": 1.0, "kN m": 1e3},
-    (1, 0, -2, 0): {"N/m": 1.0}, (1, 2, -3, 0): {"W": 1.0}, (1, -1, -2, 0): {"Pa": 1.0, "bar": 1e5},
+    (0, 0, -1, 1): {"rad/s": 1.0, "deg/s": pi / 180.0, "rpm": pi / 30.0},
+    (0, 0, -2, 1): {"rad/s2": 1.0, "deg/s2": pi / 180.0},
+    (0, 1, 0, 0): {"m": 1.0, "mm": 1e-3}, (0, 2, 0, 0): {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6},
+    (0, 1, -1, 0): {"m/s": 1.0, "m/min": 1.0 / 60.0, "kn": 1852.0 / 3600.0}, (0, 1, -2, 0): {"m/s2": 1.0},
+    (0, 3, 0, 0): {"m3": 1.0, "l": 1e-3}, (0, 3, -1, 0): {"m3/s": 1.0, "l/min": 1e-3 / 60.0},
+    (0, 0, 1, 0): {"s": 1.0, "min": 60.0, "h": 3600.0}, (1, 0, 0, 0): {"kg": 1.0, "t": 1e3},
+    (1, -1, 0, 0): {"kg/m": 1.0, "t/m": 1e3}, (1, -3, 0, 0): {"kg/m3": 1.0, "t/m3": 1e3},
+    (1, 1, 0, 0): {"kg m": 1.0, "t m": 1e3}, (1, 2, 0, 0): {"kg m2": 1.0, "t m2": 1e3},
+    (1, 1, -2, 0): {"N": 1.0, "kN": 1e3, "MN": 1e6, "tf": 1e3 * G}, (1, 1, -1, 0): {"N s": 1.0},
+    (1, 2, -2, 0): {"N m": 1.0, "J": 1.0, "kN m": 1e3, "MN m": 1e6, "tf m": 1e3 * G},
+    (1, 0, -2, 0): {"N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "tf/m": 1e3 * G},
+    (1, 0, -1, 0): {"N s/m": 1.0, "kN s/m": 1e3},
+    (1, 2, -2, -1): {"N m/rad": 1.0, "kN m/rad": 1e3, "N m/deg": 180.0 / pi, "kN m/deg": 180e3 / pi},
+    (1, 2, -1, -1): {"N m s/rad": 1.0, "kN m s/rad": 1e3}, (1, 2, -3, 0): {"W": 1.0, "kW": 1e3},
+    (1, -1, -2, 0): {"Pa": 1.0, "N/m2": 1.0, "kPa": 1e3, "bar": 1e5, "MPa": 1e6, "kN/m2": 1e3},
+    (-1, 4, 1, 0): {"m3/s/Pa": 1.0, "l/min/bar": 1e-8 / 60.0},
 }  # fmt: skip
 UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
     {unit: (si, _dimension(*of)) for of, units in _OF_DIMENSION.items() for unit, si in units.items()}
 )
+
+
+def others_of(unit: str) -> tuple[str, ...]:
+    """The units of another size and the same dimension, in which a person may give what is in this one."""
+    if unit not in UNITS:
+        return ()
+    size, dimension = UNITS[unit]
+    return tuple(one for one, (factor, of) in UNITS.items() if of == dimension and factor != size)
+
+
+def in_si(value: float, unit: str) -> float:
+    """A number of a unit in SI, rounded once from its decimals: 35.7 mm are 0.0357 m to the last bit."""
+    factor = UNITS[unit][0]
+    if factor == 1.0 or value == 0.0 or not isfinite(value):
+        return value
+    try:
+        return float(Fraction(repr(float(value))) * Fraction(repr(factor)))
+    except OverflowError:
+        return inf if value > 0.0 else -inf
 
 
 def product(dimensions: Sequence[Dimension]) -> Dimension:

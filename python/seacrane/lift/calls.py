@@ -20,8 +20,9 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.hydro import Compartment, HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.lift.inner_keys import COORDINATE, CURVES, SHIPPED
-from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
+from seacrane.inputs.units import others_of
+from seacrane.lift.inner_keys import COORDINATE, CURVES, FROM, SHIPPED
+from seacrane.lift.keys import EITHER, Key, into_si
 from seacrane.lift.tables import LEFT, Table
 from seacrane.scene import heave, springs
 from seacrane.scene.mooring import MooringSpring
@@ -35,7 +36,6 @@ Keywords = dict[str, Any]
 Scale = Callable[[Any], Any]
 LONGEST_GUST = 1e7  # s times components: fourteen hours of the usual 200
 ANGLES = ("angle", "roll", "pitch", "yaw")
-RADIANS = {degrees: radians for radians, degrees in DEGREES.items()}
 SEA_OF_SYSTEMS = ("depth", "placement")
 MOORINGS = ("mooring", "mooring_period", "mooring_springs")
 SHIPS = ("database", "raos", "history", "motion")  # what tells which vessel it is
@@ -106,9 +106,9 @@ def require_unit(
 
     `what` is meant; `otherwise`: the fix where no key is in it.
     """
-    units = {*own.split(EITHER)}
+    units = {each for unit in own.split(EITHER) for each in (unit, *others_of(unit))}
     for key in keys:
-        right = [one for one, unit in key.spellings.items() if {unit, RADIANS.get(unit)} & units]
+        right = [one for one, unit in key.spellings.items() if unit in units]
         for spelling, unit in key.spellings.items():
             if spelling in values and unit and spelling not in right:
                 fix = f"give {' or '.join(right)}" if right else otherwise
@@ -278,7 +278,7 @@ def curve_from(given: Any, unit: str) -> float | Curve:
     first, *others = (given,) if isinstance(given, Mapping) else given
     curve = _piece(first, scale)
     for piece in others:
-        curve = curve.then(time=piece["from_s"], curve=_piece(piece, scale))
+        curve = curve.then(time=keywords([FROM], piece)["from"], curve=_piece(piece, scale))
     return curve
 
 
@@ -288,7 +288,8 @@ def _piece(piece: Mapping[str, Any], scale: Scale) -> Curve:
         for spelling, unit in key.spellings.items():
             if spelling in piece:
                 own = into_si(unit) if unit else scale
-                arguments[key.name] = own(piece[spelling])
+                plain = key.type in ("text", "whole")
+                arguments[key.name] = piece[spelling] if plain else own(piece[spelling])
     return _CURVE_OF[piece["kind"]](**arguments)
 
 

@@ -20,7 +20,7 @@ from seacrane.inputs.plain_data import plain_notes
 from seacrane.inputs.shown import shown
 from seacrane.lift.document import Document, Place, read_document
 from seacrane.lift.inner_keys import CURVES, FROM, LIFTS, RANGE
-from seacrane.lift.keys import Key
+from seacrane.lift.keys import EITHER, UNIT_OF_SUFFIX, Key
 from seacrane.lift.tables import TABLES, Table
 
 LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
@@ -46,6 +46,11 @@ class Entry:
     def title(self) -> str:
         """As the file has it, with its place among several."""
         return titled(self.path)
+
+    def spelling(self, name: str) -> str:
+        """How the file spells a key, with its unit; no text where it has not got it."""
+        spelled = (one for key in self.table.keys if key.name == name for one in key.spellings)
+        return next((one for one in spelled if one in self.values), "")
 
     def fail(self, text: str, *inside: str | int) -> NoReturn:
         """Raise a FileFormatError about the table, or about what is inside."""
@@ -110,7 +115,8 @@ def _with_lift(own: tuple[Entry, ...], study: Entry) -> tuple[Entry, ...]:
     for entry in entries_of(document, path.parent):
         if entry.table.name == "run" and "run" in given:
             run = given["run"]
-            found[found.index(run)] = replace(run, values=MappingProxyType({**entry.values, **run.values}))
+            others = _without(entry, *(key.name for key in run.table.keys if run.spelling(key.name)))
+            found[found.index(run)] = replace(run, values=MappingProxyType({**others.values, **run.values}))
         elif entry.table.name not in given:
             found.append(_without(entry, *chosen) if entry.table.name == "method" else entry)
     order = [*TABLES]
@@ -158,10 +164,7 @@ class Checker:
         found: dict[str, Any] = {}
         for spelling, value in given.items():
             if spelling not in spelled:
-                near = nearest(spelling, tuple(spelled))
-                self.document.fail(
-                    (*path, spelling), f"{short(spelling)} is unknown in {titled(path)}; {near}"
-                )
+                self.document.fail((*path, spelling), _unknown(spelling, keys, titled(path)))
             found[spelling] = self._value((*path, spelling), spelled[spelling], value)
         for key in keys:
             present = [spelling for spelling in key.spellings if spelling in found]
@@ -169,7 +172,9 @@ class Checker:
                 told = f"{present[1]} stands beside {present[0]} in {titled(path)}; give one"
                 self.document.fail((*path, present[1]), told)
             if key.required and not present:
-                self.document.fail(path, f"{titled(path)} has no {' or '.join(key.spellings)}; add it")
+                own = [one for one, unit in key.spellings.items() if unit in key.unit.split(EITHER)]
+                told = " or ".join(own or key.spellings)
+                self.document.fail(path, f"{titled(path)} has no {told}; add it")
         return MappingProxyType(found)
 
     def _value(self, path: Place, key: Key, value: Any) -> Any:
@@ -301,6 +306,18 @@ def nearest(name: str, known: tuple[str, ...]) -> str:
     """What a message adds to an unknown name."""
     near = difflib.get_close_matches(name[:LONGEST_NAME], known, MOST_NEAR, LEAST)
     return f"nearest: {' or '.join(near)}" if near else f"known are {', '.join(known)}"
+
+
+def _unknown(spelling: str, keys: Iterable[Key], title: str) -> str:
+    """Of a key with the unit of another dimension those that fit it, else names that are alike."""
+    keys = tuple(keys)
+    for key in sorted(keys, key=lambda one: -len(one.name)):
+        unit = UNIT_OF_SUFFIX.get(spelling.removeprefix(f"{key.name}_"))
+        if key.units and unit and spelling.startswith(f"{key.name}_"):
+            fits = " or ".join(key.spellings)
+            return f"{short(spelling)} in {title} is in {unit}, and {key.name} in {key.unit}; give {fits}"
+    near = nearest(spelling, tuple(one for key in keys for one in key.spellings))
+    return f"{short(spelling)} is unknown in {title}; {near}"
 
 
 def plain(value: Any) -> Any:

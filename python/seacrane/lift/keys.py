@@ -1,14 +1,14 @@
 """Keys of a lift file: a keyword of the API and its unit, such as mass_kg; from the tables of the engine.
 
 The rule: a table is a call, a key is a keyword of that call with its unit as a suffix. Spaces of the unit are
-"_", a stroke is "_per_": ``damping_N_s_per_m``. Radians may be degrees (``slew_deg``). Where the unit
-depends on a joint's coordinate ("m or rad"), the suffix says which one is meant.
+"_", a stroke is "_per_": ``damping_N_s_per_m``. It may be any unit of the same dimension (``slew_deg``,
+``mass_t``; inputs/units.py has the table). Where the unit depends on a joint's coordinate ("m or rad"), the
+suffix says which one is meant.
 """
 
 from __future__ import annotations
 
 import inspect
-import math
 import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping
@@ -19,10 +19,10 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 import numpy as np
 
 from seacrane._core import Curve
+from seacrane.inputs.units import UNITS, in_si, others_of
 
 MIXED = ", "  # between the units of an array of several: no suffix says them
 EITHER = " or "  # between the units of a displacement and an angle
-DEGREES = {"rad": "deg", "rad/s": "deg/s"}
 SECTIONS = ("Parameters", "Attributes")
 TYPES = {str: "text", float: "number", int: "whole", bool: "flag", Literal: "text"}
 
@@ -53,11 +53,7 @@ class Key:
         """Units that a file may give it in; of several the first is a displacement's, then an angle's."""
         if not self.unit or MIXED in self.unit or self.name.endswith("_deg"):
             return ()
-        return tuple(
-            spelling
-            for unit in self.unit.split(EITHER)
-            for spelling in (unit, *([DEGREES[unit]] if unit in DEGREES else []))
-        )
+        return tuple(spelling for unit in self.unit.split(EITHER) for spelling in (unit, *others_of(unit)))
 
     @property
     def spellings(self) -> dict[str, str]:
@@ -66,8 +62,9 @@ class Key:
 
     def bounds_in(self, unit: str) -> dict[str, float]:
         """What its numbers must be in one of its units."""
-        scale = 180.0 / math.pi if unit.startswith("deg") else 1.0
-        return {word: bound * scale for word, bound in self.bounds.items()}
+        if unit.startswith("deg"):
+            return {word: float(np.degrees(bound)) for word, bound in self.bounds.items()}
+        return {word: bound / UNITS.get(unit, (1.0,))[0] for word, bound in self.bounds.items()}
 
 
 def suffix(unit: str) -> str:
@@ -75,9 +72,18 @@ def suffix(unit: str) -> str:
     return re.sub(r"^_", "", unit.removeprefix("1").replace("/", "_per_").replace(" ", "_"))
 
 
+UNIT_OF_SUFFIX = {suffix(unit): unit for unit in UNITS}
+
+
 def into_si(unit: str) -> Callable[[Any], Any]:
-    """From a file's unit to that of the API."""
-    return np.radians if unit.startswith("deg") else lambda value: value
+    """From a file's unit to that of the API, of a number or of numbers in tuples."""
+    if unit.startswith("deg"):
+        return np.radians
+
+    def converted(value: Any) -> Any:
+        return tuple(map(converted, value)) if isinstance(value, tuple) else in_si(value, unit)
+
+    return converted if unit in UNITS and UNITS[unit][0] != 1.0 else lambda value: value
 
 
 def keys_of(

@@ -178,15 +178,10 @@ class Lift:
         if method is not None and checked["accuracy"] is not None:
             with refused_at(method):
                 refuse_what_is_chosen(checked["method"], {}, ())
-        if run is not None and checked["stages"] and "t_end_s" in run.values:
-            run.fail(
-                "t_end_s stands beside [[stage]]: a lift ends with its last stage; leave it out", "t_end_s"
-            )
-        if study is not None and checked["stages"] and "exposure_s" in study.values:
-            study.fail(
-                "exposure_s is for runs without stages: extremes are those of one lift; leave it out",
-                "exposure_s",
-            )
+        if run is not None and checked["stages"] and (end := run.spelling("t_end")):
+            run.fail(f"{end} stands beside [[stage]]: a lift ends with its last stage; leave it out", end)
+        if study is not None and checked["stages"] and (key := study.spelling("exposure")):
+            study.fail(f"{key} is for runs without stages: extremes are those of one lift; leave it out", key)
         for name, value in checked.items():
             object.__setattr__(self, name, value)
 

@@ -83,8 +83,8 @@ def _rules(key: Key) -> list[Json]:
         return []
     if key.required:
         return [{"oneOf": [{"required": [one]} for one in spellings]}]
-    pairs = [[a, b] for i, a in enumerate(spellings) for b in spellings[i + 1 :]]
-    return [{"not": {"required": pair}} for pair in pairs]
+    given = [{"required": [one]} for one in spellings]
+    return [{"oneOf": [*given, {"not": {"anyOf": given}}]}]
 
 
 def _described(key: Key, unit: str) -> Json:

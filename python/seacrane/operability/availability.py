@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -16,6 +19,7 @@ from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import ascending
 from seacrane.operability.hindcast import WaveHindcast
 from seacrane.plotting.table import Answer, Column, Table
+from seacrane.sea.records.scatter import read_scatter
 
 if TYPE_CHECKING:
     import xarray
@@ -82,6 +86,37 @@ class ScatterDiagram:
     def __repr__(self) -> str:
         shape = " x ".join(map(str, self.counts.shape))
         return f"<ScatterDiagram: {shape} ranges, {self.counts.sum():g} sea states>"
+
+    @classmethod
+    def load(
+        cls, path: str | os.PathLike[str], *, rows: Literal["hs", "tp"] | None = None,
+        units: Mapping[str, str] | None = None, classes: Literal["lower", "middle", "upper"] | None = None,
+    ) -> ScatterDiagram:  # fmt: skip
+        """Read a scatter table: a text file of classes of Hs in one direction and of Tp in the other.
+
+        Classes are limits such as "0.5-1.0", which meet; sums beside them are left out. Cells are counts or
+        percent, and end with a comma, a semicolon or a tab; with one of the latter numbers may have a decimal
+        comma.
+
+        Parameters
+        ----------
+        path : path
+        rows : "hs" or "tp", optional
+            Whose classes stand in the first column; default: as the corner says, such as "Hs [m] \\ Tp [s]".
+        units : mapping of str to str, optional
+            Of "hs" and "tp", where the table does not say them.
+        classes : "lower", "middle" or "upper", optional
+            What one number for each class is, where the table has no limits.
+
+        Raises
+        ------
+        FileFormatError
+            For what is no such table, or does not say what is asked for here; with the line.
+        SceneError
+            As for arrays.
+        """
+        file = Path(path)
+        return cls(**read_scatter(file, rows=rows, units=units, classes=classes), source=file.name)
 
     @classmethod
     def of(

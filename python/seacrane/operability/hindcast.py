@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from collections.abc import Iterable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,25 +16,19 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.checked import number_of, numbers_of, require_unmasked, text_of
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.inputs.shown import shown
-from seacrane.inputs.whole_file import decoded, read_whole
+from seacrane.inputs.whole_file import size_of
+from seacrane.operability.sea_states import MOST, NAMES, SI, UNITS, Times, read_sea_states
 from seacrane.sea.mending import dates_of_numbers
-from seacrane.sea.series_file import DELIMITERS, plain_number
+from seacrane.sea.series_file import unit_of_words
 
 if TYPE_CHECKING:
     import xarray
 
 Flags = NDArray[np.bool_]
-Times = NDArray[np.datetime64]
-# Of wavespectra, ERA5 and Copernicus Marine, in this order.
-NAMES = {
-    "time": ("time", "valid_time"),
-    "hs": ("hs", "swh", "VHM0"),
-    "tp": ("tp", "pp1d", "VTPK"),
-    "direction": ("dpm", "dp", "dir", "dm", "mwd", "VMDR"),
-}
-HIGHEST, LONGEST = 40.0, 60.0  # m and s: beyond them a value is in another unit, or none at all
 HOUR = np.timedelta64(1, "h")
-MOST_STEPS = 10_000_000
+MOST_STEPS, FEWEST_STEPS = 10_000_000, 500_000  # of any series, and of one with hardly any sea state
+MOST_FILLED = 32  # times as many steps as sea states
+STARTS = (b"CDF", b"\x89HDF")  # of NetCDF files
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -73,7 +65,7 @@ class WaveHindcast:
         series = {"hs": self._series("hs", time.size), "tp": self._series("tp", time.size)}
         if self.direction_from_deg is not None:
             series["direction_from_deg"] = self._series("direction_from_deg", time.size)
-        for name, largest, unit in (("hs", HIGHEST, "m"), ("tp", LONGEST, "s")):
+        for name, largest, unit in (("hs", MOST["hs"], "m"), ("tp", MOST["tp"], "s")):
             values = series[name]
             wrong = np.flatnonzero((values < 0.0) | (values > largest))
             if wrong.size:
@@ -133,34 +125,49 @@ class WaveHindcast:
         )
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], *, names: Mapping[str, str] | None = None) -> WaveHindcast:
-        """Read a NetCDF file with the names of wavespectra (hs, tp, dpm), ERA5 or Copernicus, or a CSV.
+    def load(
+        cls, path: str | os.PathLike[str], *, names: Mapping[str, str] | None = None,
+        units: Mapping[str, str] | None = None, utc_offset: float | None = None,
+    ) -> WaveHindcast:  # fmt: skip
+        """Read sea states: NetCDF of wavespectra, ERA5 or Copernicus, NDBC, Spotter, or any columns.
 
         Parameters
         ----------
         path : path
-            Ends with .csv: a line of names, then a line for each time, which is as ISO 8601 writes it, or
-            counts from 1970, or is of digits such as 2020013112. Cells end with a comma, a semicolon or a
-            tab; with one of the latter, numbers may have a decimal comma.
+            A file of columns has a line of names with units, then a line for each time, which is a stamp, or
+            counts from 1970, or is of digits such as 2020013112; date and time may stand in several columns.
+            Cells end with a comma, a semicolon or a tab; with one of the latter, numbers may have a decimal
+            comma. docs/operability.md lists the kinds that are told by what they look like.
         names : mapping of str to str, optional
             Names in the file of "time", "hs", "tp" and "direction", where they are others.
+        units : mapping of str to str, optional
+            Of "hs", "tp" and "direction" where the file does not say them, and of "date" "dd/mm/yyyy" or
+            "mm/dd/yyyy".
+        utc_offset : float, optional
+            Hours that the file's clock is ahead of UTC, where the file does not say its zone.
+
+        Returns
+        -------
+        WaveHindcast
+            In UTC; `source` says what is not known, and whether times were moved onto even ones.
 
         Raises
         ------
         FileFormatError
-            For a file that is damaged, or has none of the names.
+            For a file that is damaged, has none of the names, or does not say a unit or a time zone.
         SceneError
-            As for arrays.
+            As for arrays, and for a keyword that makes no sense.
         """
         file = Path(path)
-        given = dict(names or {})
-        for name in given:
-            if name not in NAMES:
-                raise SceneError(f"hindcast: names has {shown(name)}; choose from {', '.join(NAMES)}")
-        asked = {name: (given[name],) if name in given else usual for name, usual in NAMES.items()}
-        if file.suffix.lower() == ".csv":
-            return cls(**_of_csv(file, asked), source=file.name)
-        return _of_netcdf(file, asked)
+        for word, given, known in (("names", names, NAMES), ("units", units, {**UNITS, "date": ""})):
+            for name in given or {}:
+                if name not in known:
+                    raise SceneError(f"hindcast: {word} has {shown(name)}; choose from {', '.join(known)}")
+        if not _is_netcdf(file):
+            return cls(**read_sea_states(file, names or {}, units or {}, utc_offset))
+        others = {name: (other,) for name, other in (names or {}).items()}
+        asked = {name: others.get(name, usual) for name, usual in NAMES.items()}
+        return _of_netcdf(file, asked, units or {})
 
 
 def _times(given: Any) -> Times:
@@ -193,8 +200,12 @@ def _even(time: Times) -> tuple[Times, NDArray[np.intp]]:
             "times, with NaN where nothing is known"
         )
     places = np.asarray((time - time[0]) // step, dtype=np.intp)
-    if places[-1] >= MOST_STEPS:
-        raise SceneError(f"hindcast: {places[-1] + 1} steps of {step} are more than {MOST_STEPS}; give fewer")
+    most = min(max(MOST_FILLED * time.size, FEWEST_STEPS), MOST_STEPS)
+    if places[-1] >= most:
+        raise SceneError(
+            f"hindcast: {places[-1] + 1} steps of {step}, with {time.size} sea states, are more than {most}; "
+            "give fewer"
+        )
     return time[0] + np.arange(places[-1] + 1) * step, places
 
 
@@ -209,52 +220,21 @@ def _named(there: Iterable[str], names: Mapping[str, tuple[str, ...]]) -> dict[s
     return found
 
 
-def _of_csv(path: Path, names: Mapping[str, tuple[str, ...]]) -> dict[str, Any]:
-    text = decoded(read_whole(path)).splitlines()
-    first = next((line for line in text if line.strip()), "")
-    delimiter = next((one for one in DELIMITERS if one in first), ",")
-    try:
-        rows = list(csv.reader(text, delimiter=delimiter))
-        head = [name.strip() for name in rows[0]] if rows else []
-        found = _named(head, names)
-    except csv.Error as error:
-        raise FileFormatError(f"{path}: is no table of text ({error}); write it as UTF-8") from error
-    except FileFormatError as error:
-        raise FileFormatError(f"{path}: {error}") from error
-    columns: dict[str, list[Any]] = {what: [] for what, name in found.items() if name}
-    for number, row in enumerate(rows[1:], start=2):
-        for what, column in columns.items() if row else ():
-            place = head.index(found[what])
-            cell = row[place].strip() if place < len(row) else ""
-            value: Any = plain_number(cell, comma=delimiter != ",")
-            if value is None and what == "time":
-                with suppress(ValueError):
-                    value = np.datetime64(cell.removesuffix("Z"), "s")
-            if value is None:
-                wanted = "a date such as 2020-01-31T12:00" if what == "time" else "a number, or nothing"
-                raise FileFormatError(f"{path}, line {number}: {shown(cell)} is not {wanted}")
-            column.append(value)
-    numbers = [one for one in columns["time"] if isinstance(one, float)]
-    if numbers and len(numbers) < len(columns["time"]):
-        raise FileFormatError(f"{path}: time is {numbers[0]:.10g} beside dates; give dates in every line")
-    if numbers:  # what they count is told by their size and step
-        try:
-            columns["time"] = list(dates_of_numbers(f"{path}: time", np.array(numbers)))
-        except SceneError as error:
-            raise FileFormatError(str(error)) from error
-    direction = columns.pop("direction", None)
-    return {**columns, "direction_from_deg": direction}
+def _is_netcdf(path: Path) -> bool:
+    size_of(path)  # raises for a device or a pipe
+    with path.open("rb") as file:
+        return file.read(4).startswith(STARTS)
 
 
-def _of_netcdf(path: Path, names: Mapping[str, tuple[str, ...]]) -> WaveHindcast:
+def _of_netcdf(path: Path, names: Mapping[str, tuple[str, ...]], units: Mapping[str, str]) -> WaveHindcast:
     import xarray
 
     try:
         with (
             open_netcdf(path, fix="cut out the place and the years asked for"),
-            xarray.open_dataset(path) as data,
+            xarray.open_dataset(path, decode_timedelta=False) as data,
         ):
-            return WaveHindcast(**_of_dataset(data, names), source=path.name)
+            return WaveHindcast(**_of_dataset(data, names, units), source=path.name)
     except FileNotFoundError:
         raise
     except (FileFormatError, *NETCDF_ERRORS) as error:
@@ -263,7 +243,9 @@ def _of_netcdf(path: Path, names: Mapping[str, tuple[str, ...]]) -> WaveHindcast
         raise FileFormatError(f"{path}: {error}") from error
 
 
-def _of_dataset(data: xarray.Dataset, names: Mapping[str, tuple[str, ...]]) -> dict[str, Any]:
+def _of_dataset(
+    data: xarray.Dataset, names: Mapping[str, tuple[str, ...]], units: Mapping[str, str]
+) -> dict[str, Any]:
     found = _named(map(str, data.variables), names)
     out: dict[str, Any] = {"time": data[found["time"]].to_numpy()}
     for what in ("hs", "tp", "direction"):
@@ -275,5 +257,14 @@ def _of_dataset(data: xarray.Dataset, names: Mapping[str, tuple[str, ...]]) -> d
             told = ", ".join(f"{dim} ({size})" for dim, size in other.items())
             raise FileFormatError(f"{found[what]} lies over {told} beside time; select one place")
         key = "direction_from_deg" if what == "direction" else what
-        out[key] = np.asarray(variable.to_numpy(), dtype=float).reshape(-1)
+        factor = 1.0 if what == "direction" else _factor(what, units.get(what, variable.attrs.get("units")))
+        out[key] = factor * np.asarray(variable.to_numpy(), dtype=float).reshape(-1)
     return out
+
+
+def _factor(what: str, words: Any) -> float:
+    """To m or s; a file that says no unit has that of its layout."""
+    factor, unit = (1.0, UNITS[what]) if words is None else unit_of_words(str(words)) or (1.0, "")
+    if unit != SI[UNITS[what]]:
+        raise FileFormatError(f"{what} is in {shown(words)}; give units={{{what!r}: {UNITS[what]!r}}}")
+    return factor

@@ -16,7 +16,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import finite_of, flag_of, not_negative_of, positive_of
 from seacrane.inputs.shown import listed, shown
 from seacrane.sea.mending import BROKEN, POSIX, filled, outliers, step_of, unit_since_1970
-from seacrane.sea.series_file import Heading, SeriesFile, plain_words, unit_of_words
+from seacrane.sea.series_file import ZONES, Heading, SeriesFile, plain_words, unit_of_words
 from seacrane.warnings import ClockDriftWarning, FilledGapWarning, OutlierWarning
 
 Bools = NDArray[np.bool_]
@@ -45,15 +45,20 @@ def read_series(
 ) -> dict[str, Any]:
     """What `MeasuredSeries.load` makes a series of, without filter and resampling."""
     asked = _asked(columns)
-    file = SeriesFile(path, time=next(iter(asked.pop("time", ())), None))
+    given = {plain_words(name): unit for name, unit in (units or {}).items()}
+    if rate_hz is not None:
+        positive_of("rate_hz", rate_hz, "Hz")
+    file = SeriesFile(
+        path, time=next(iter(asked.pop("time", ())), None), rate_hz=rate_hz, dates=given.get("date")
+    )
     clocks = file.clocks()
     wanted = _wanted(file, asked, clocks)
-    given = {plain_words(name): unit for name, unit in (units or {}).items()}
-    scales = {name: _unit(file, one, given.get(name)) for name, one in wanted.items()}
+    scales = {name: unit_of(file, one, given.get(name)) for name, one in wanted.items()}
     numbers, lines, start = file.columns([*clocks, *wanted.values()], len(clocks))
     if numbers.shape[0] < FEWEST:
         raise FileFormatError(
             f"{path}: holds {numbers.shape[0]} rows of numbers; at least {FEWEST} are needed"
+            f"{f': {file.fix}' if file.fix else ''}"
         )
     clock = numbers[:, : len(clocks)] * [
         _seconds(file, one, given.get("time"), None if start else numbers[:, i])
@@ -123,7 +128,7 @@ def _wanted(
     return {name: one for name, one in found.items() if one is not None}
 
 
-def _unit(file: SeriesFile, heading: Heading, given: str | None) -> tuple[float, str]:
+def unit_of(file: SeriesFile, heading: Heading, given: str | None) -> tuple[float, str]:
     """Factor to SI and the SI unit."""
     words = heading.unit if given is None else given
     found = None if words is None else unit_of_words(words)
@@ -142,7 +147,7 @@ def _seconds(file: SeriesFile, heading: Heading, given: str | None, times: Array
     Numbers since 1970 tell it, and whole numbers far apart leave it in doubt.
     """
     named = given or heading.unit
-    found = (1.0, "s") if (named or "s").lower() in ("utc", "iso", "gmt") else unit_of_words(named or "s")
+    found = (1.0, "s") if (named or "s").lower() in ZONES else unit_of_words(named or "s")
     if found is None or found[1] != "s":
         words = f"has the unit {shown(named)}; a time is in s, ms, min or h, or a time stamp"
         raise file.refused(file.header, heading, words)
