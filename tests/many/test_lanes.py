@@ -116,6 +116,7 @@ def reason(over: Any, **given: Any) -> str:
     study = {"over": over, "keep": {"lanes": lanes_of_run}, "lanes": 4, "t_end": 0.2, "rtol": 1e-3}
     made = ensemble(pendulum, **study | given)
     assert not made.failures and (made.dataset.lanes == 1).all()
+    assert made.dataset.attrs["side_by_side"].endswith("twice its time in lanes")
     return str(made.dataset.kept_apart.to_numpy().ravel()[0])
 
 

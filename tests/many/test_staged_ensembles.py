@@ -194,6 +194,8 @@ def test_each_begins_in_the_state_of_its_sea_to_the_bit(waiting: Ensemble) -> No
             assert float(member.lifted) == run.stages[1].end
             assert run.stages[0].start == begin
     assert len(np.unique(waiting.dataset.peak)) == 6
+    told = waiting.dataset.attrs["side_by_side"]
+    assert told.startswith("6 one by one: lifts with start_time") and "twice its time in lanes" in told
 
 
 @pytest.mark.parametrize("pack", [1, 4])

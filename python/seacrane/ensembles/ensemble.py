@@ -68,7 +68,7 @@ class Ensemble:
     dataset : xarray.Dataset
         A variable for everything kept, over the parameters of a grid or over `member`, NaN where a member
         failed or was not run; `failure`, `validity` and `kept_apart` are texts. The attribute `side_by_side`
-        says how many were stepped side by side, and why others were not.
+        says how many were stepped side by side, and why others were not, with the price of it.
     failures : mapping of int to str
         Why members failed, by their number in order of the parameters, the last of a grid fastest.
     certainty : tuple of Certainty
@@ -351,7 +351,7 @@ def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble
     told = dataset.failure.to_numpy().ravel()
     failures = {index: str(text) for index, text in enumerate(told) if text and text != NOT_RUN}
     apart = dataset.kept_apart.to_numpy().ravel()[told == ""]
-    dataset.attrs[SIDE_BY_SIDE] = remark(lanes, Counter(map(str, apart)))
+    dataset.attrs[SIDE_BY_SIDE] = remark(lanes, Counter(map(str, apart)), starts=START_TIME in members.axes)
     return Ensemble(members=members, dataset=dataset, failures=failures)
 
 

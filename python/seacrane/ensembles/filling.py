@@ -25,6 +25,8 @@ Gathered = tuple[int, list[Outcome]]
 SIDE_BY_SIDE = "side_by_side"  # attribute of a dataset
 PARTLY = re.compile(r"from t = \S+ s on: |in part: ")
 MOST_REASONS = 3
+PRICE = "by itself a loop takes about twice its time in lanes"
+WAITING = "lifts with start_time go on from one run"
 
 
 def run_packs(
@@ -172,13 +174,18 @@ def lanes_for(lanes: int | None, pack: int | None, members: Members, *, starts: 
     return asked if of_one_lift and not (isinstance(pack, int) and pack % asked) else 1
 
 
-def remark(lanes: int, told: Mapping[str, int]) -> str:
-    """One line on how members are stepped, by how many were kept apart for each reason."""
+def remark(lanes: int, told: Mapping[str, int], *, starts: bool = False) -> str:
+    """One line on how members are stepped, by how many were kept apart for each reason, and the price of it.
+
+    `starts`: whether they begin at several times of one run.
+    """
     if lanes == 1:
-        return f"{sum(told.values())} one by one"
+        alone = f"{sum(told.values())} one by one"
+        return f"{alone}: {WAITING}; {PRICE}" if starts else alone
     reasons = Counter[str]()
     for why, several in told.items():
         reasons[PARTLY.sub("in part, ", why)] += several
     words = [f"{reasons.pop('', 0)} in {lanes} lanes"]
     words += [f"{several} by themselves: {why}" for why, several in reasons.most_common(MOST_REASONS)]
-    return "; ".join(words + ["..."] * (len(reasons) > MOST_REASONS))
+    words += ["..."] * (len(reasons) > MOST_REASONS) + [PRICE] * bool(reasons)
+    return "; ".join(words)
