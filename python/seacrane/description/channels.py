@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from types import MappingProxyType
 
 from seacrane import _core
@@ -135,6 +135,7 @@ def units_of(channel: str) -> list[str]:
     return listed or CHANNELS[channel].unit.split(" or ")
 
 
+@lru_cache(maxsize=1024)
 def channel_of(name: str) -> str:
     """The channel whose least or largest values an array of a file holds; of others the name itself."""
     for ending in (LEAST, LARGEST):

@@ -7,7 +7,8 @@ scene, and copies share it for as long as they hold the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import wraps
 from itertools import chain
@@ -92,6 +93,16 @@ def _answering(
         return value
 
     return answered
+
+
+@contextmanager
+def unchanged(scene: Description) -> Iterator[None]:
+    """Inside, the scene does not change: it is looked at once, for all that is asked of it."""
+    before = _WORKING_ON.set((scene, answers_of(scene)))
+    try:
+        yield
+    finally:
+        _WORKING_ON.reset(before)
 
 
 def sharing(scene: Scenes, other: Description) -> Scenes:

@@ -44,6 +44,7 @@ from seacrane.run.channel_names import (
 from seacrane.scene.recorded import distance_from_box, picked, programs
 
 Places = Mapping[str, tuple[str, str]]  # joint coordinates by label
+Falls = dict[str, Array]  # the resultant of unit tensions by line
 CHEAP = frozenset(
     ["stroke", "stroke_rate", "cylinder_force", "cylinder_pressure", "slew_angle", "slew_torque",
      "link_tension", "hook_load", "clearance"]
@@ -59,18 +60,21 @@ def named_channels(
 ) -> dict[str, Array]:
     """Channels of the core, and those that are made of them.
 
-    `asked`: which of those that cost most are wanted; None: all.
+    `asked`: which of those that are made are wanted; None: all.
     """
-    wanted = [name for name in MADE if asked is None or name in asked or name in CHEAP]
+    wanted = [name for name in MADE if asked is None or name in asked]
     out = {**arrays, **derived_channels(scene, arrays, wanted)}
     return {name: np.ascontiguousarray(values) for name, values in out.items()}
 
 
 def derived_channels(
-    scene: Description, arrays: Mapping[str, Array], wanted: Iterable[str]
+    scene: Description, arrays: Mapping[str, Array], wanted: Iterable[str], falls: Falls | None = None
 ) -> dict[str, Array]:
-    """Those of `MADE` that are wanted, that the scene has and whose parts are recorded."""
-    made = _Made(scene, arrays)
+    """Those of `MADE` that are wanted, that the scene has and whose parts are recorded.
+
+    `falls` are what `hook_loads` found in these poses.
+    """
+    made = _Made(scene, arrays, falls)
     parts = {name: DERIVED[name].made_of for name in wanted}
     found = [name for name in parts if name in OF_SOME or all(part in arrays for part in parts[name])]
     missing = missing_names(scene, found)
@@ -88,8 +92,8 @@ def squeezed(name: str, array: Array) -> Array:
 class _Made:
     """What channels of one scene are made of, by `MADE`; None where it is not recorded."""
 
-    def __init__(self, scene: Description, arrays: Mapping[str, Array]) -> None:
-        self.scene, self.arrays = scene, arrays
+    def __init__(self, scene: Description, arrays: Mapping[str, Array], falls: Falls | None = None) -> None:
+        self.scene, self.arrays, self.falls = scene, arrays, falls
 
     @cached_property
     def strokes(self) -> Places:
@@ -101,7 +105,7 @@ class _Made:
 
     @cached_property
     def loads(self) -> Array | None:
-        return hook_loads(self.scene, self.arrays)
+        return hook_loads(self.scene, self.arrays, self.falls)
 
     def at(self, body: str, point: ArrayLike) -> Array:
         return position_of(self.scene, self.arrays, body, point)
@@ -280,14 +284,14 @@ MADE: Mapping[str, Callable[[_Made], Array | None]] = {
 }
 
 
-def hook_loads(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
+def hook_loads(scene: Description, arrays: Mapping[str, Array], falls: Falls | None = None) -> Array | None:
     """Loads (time, suspension), N; None where there is none, or the core recorded too little.
 
     Of a rod or wire its tension. Of a line the resultant of all its sections on the body that it reaches
     last, from its first point on: of n falls n times the tension where they are parallel. Of the lowest
-    segment of a line with mass, with the tension at the line's end.
+    segment of a line with mass, with the tension at the line's end. `falls` are known of these poses.
     """
-    lines = list(lines_of(scene.loads).values())
+    lines, known = list(lines_of(scene.loads).values()), {} if falls is None else falls
     lowest = lowest_segments(scene)
     parts = [arrays["tension"]] if "tension" in arrays else []
     if lines:
@@ -295,9 +299,11 @@ def hook_loads(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
         if not all(name in arrays for name in needed):
             return None
         for i, line in enumerate(lines):
-            whole = lowest.get(line.name)
+            whole, fall = lowest.get(line.name), known.get(line.name)
+            if fall is None:
+                fall = known[line.name] = _falls(scene, arrays, line)
             pull = arrays["line_tension"][:, i] if whole is None else arrays["end_tension"][:, whole, 1]
-            parts.append((pull * _falls(scene, arrays, line))[:, None])
+            parts.append((pull * fall)[:, None])
     return np.concatenate(parts, axis=1) if parts else None
 
 
@@ -347,22 +353,24 @@ def followed_extremes(
 
 
 def derived_extremes(
-    scene: Description, arrays: Mapping[str, Array], extremes: Extremes, wanted: Collection[str]
+    scene: Description, arrays: Mapping[str, Array], extremes: Extremes, channels: Mapping[str, Array]
 ) -> dict[str, tuple[Array, Array]]:
-    """Least and largest values of derived channels, from those of what they rise or fall with."""
-    names = [one for one in MONOTONE if one in wanted and any(part in extremes for part in sources_of(one))]
+    """Least and largest values of derived channels, from those of what they rise or fall with.
+
+    `channels` has their values at the outputs.
+    """
+    names = [one for one in MONOTONE if one in channels and any(part in extremes for part in sources_of(one))]
     if not names:
         return {}
-    known = {name: values for name, values in arrays.items() if name != "time"}
+    known, found = {name: values for name, values in arrays.items() if name != "time"}, {}
+    falls: Falls | None = None if extremes.keys() & set(POSE) else {}
     ends = [
-        named_channels(scene, known | {name: both[i] for name, both in extremes.items()}, names)
+        derived_channels(scene, known | {name: both[i] for name, both in extremes.items()}, names, falls)
         for i in (0, 1)
     ]
-    values = named_channels(scene, known, names)
-    found = {}
     for name in names:
-        every = [one[name] for one in (*ends, values) if name in one]
-        if len(every) == 3:
+        if all(name in one for one in ends):
+            every = [*(one[name] for one in ends), channels[name]]
             found[name] = (np.min(every, axis=0), np.max(every, axis=0))
     return found
 

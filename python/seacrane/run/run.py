@@ -19,7 +19,7 @@ from seacrane.arrays import Array
 from seacrane.description.channels import CHANNELS, DERIVED, OWN
 from seacrane.description.compilation import compiled, compiled_in_sea
 from seacrane.description.holding import with_holds
-from seacrane.description.once import forgetting
+from seacrane.description.once import forgetting, unchanged
 from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
@@ -41,7 +41,7 @@ from seacrane.run.channel_names import (
     wanted_extremes,
     with_sources,
 )
-from seacrane.run.derived import derived_extremes, followed_extremes, named_channels, own_values
+from seacrane.run.derived import CHEAP, derived_extremes, followed_extremes, named_channels, own_values
 from seacrane.run.line_rungs import COMPILED, all_elastic, line_rungs, struck, warn_of_quasi_static
 from seacrane.run.method import (
     REST,
@@ -139,6 +139,11 @@ class Run:
             self.rungs = all_elastic(automatic(given), COMPILED)
         scene = with_rungs(given, {name: rung.name for name, rung in self.rungs.items()})
         self.scene, self.model = scene, scene.compile() if model is None else model
+        with unchanged(self.scene):
+            self._begin(outputs_from, begins=begins)
+
+    def _begin(self, outputs_from: float | None, *, begins: bool) -> None:
+        """Check and hold all that the scene and the method say, and start."""
         self.formulation = formulation_of(self.model, self.method)
         self.start = self._started()
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
@@ -153,7 +158,7 @@ class Run:
         self._hold()
         self._prepare()
         try:  # what a result could not hold is refused now, not when the run is over
-            plain_stats(self.stats())
+            plain_stats(self._told())
             self.about.to_attributes()
         except ValueError as error:
             raise SceneError(f"scene {self.scene.name!r}: {error}") from error
@@ -287,12 +292,12 @@ class Run:
             return None
 
     def measure(self) -> dict[str, Array]:
-        """All channels at the present instant, by the names of a result."""
-        named = self.named(self.core.snapshot(), set(self.outputs.channels or ()))
+        """Channels at the present instant, by the names of a result: those asked for, and the cheap ones."""
+        named = self.named(self.core.snapshot(), CHEAP.union(self.outputs.channels or ()))
         return {name: values[0] for name, values in named.items()}
 
     def named(self, arrays: Mapping[str, Array], asked: Collection[str] | None = None) -> dict[str, Array]:
-        """Channels of the core by the names of a result; of those that cost much the ones asked for."""
+        """Channels of the core by the names of a result; of those made of them the ones asked for, or all."""
         scene, known = self.scene, {name: values for name, values in arrays.items() if name != "time"}
         out = named_channels(scene, known, None if asked is None else with_sources(scene, asked))
         if scene.channels and (asked is None or OWN in asked):
@@ -339,10 +344,13 @@ class Run:
 
     def stats(self) -> dict[str, Any]:
         """Version, method, counters so far, and warnings of the description: `Result.stats`."""
+        return self._told(simulated_s=self.core.time - self.start.time, **self.core.statistics())
+
+    def _told(self, **counted: Any) -> dict[str, Any]:
+        """The same with these counters."""
         rungs = "\n".join(f"{name}: {rung.name}: {rung.reason}" for name, rung in self.rungs.items())
         warned = {"described": "\n".join(self._warned)} if self._warned else {}
         sea = {} if self.scene.waves is None else self.scene.waves.provenance.stats()
-        counted = {"simulated_s": self.core.time - self.start.time, **self.core.statistics()}
         return {"line_rungs": rungs or None, **self._lasting, **counted, **sea, **warned, **self.lanes}
 
     @property
@@ -362,7 +370,7 @@ class Run:
         most : int, optional
             No more than the first outputs, and no state.
         """
-        with self.core:
+        with self.core, unchanged(self.scene):
             every = () if most is None else (most,)
             arrays, extremes = self.core.channels(*every), self.core.extremes(*every)
             scene, met, stats = self.scene, self.events(), self.stats()
