@@ -152,7 +152,9 @@ class _Made:
     def slew_angles(self) -> Array | None:
         """Counted on over whole turns."""
         angles = self.coordinates("coordinate", slews(self.scene))
-        return None if angles is None else np.unwrap(angles, axis=0)
+        if angles is None or (np.abs(np.diff(angles, axis=0)) < np.pi).all():
+            return angles
+        return np.unwrap(angles, axis=0)
 
     def link_tensions(self) -> Array:
         """Of a line in the place of a link its hook load."""
