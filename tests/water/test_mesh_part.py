@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
 from pathlib import Path
+from threading import Timer
 from typing import Any
 from unittest.mock import Mock
 
@@ -17,7 +20,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection
 
 from seacrane import Scene, SceneError, simulate
 from seacrane.hydro import BoxPart, MeshPart, part_from_mesh
-from seacrane.hydro.parts import panel_added_mass
+from seacrane.hydro.parts import panel_added_mass, panel_workers
 from seacrane.hydro.parts.panel_added_mass import MeshShape, volumes_below
 from seacrane.warnings import MeshConvergenceWarning
 
@@ -136,8 +139,8 @@ def test_a_ladder_is_found_on_disk_again_to_the_bit(tmp_path: Path, monkeypatch:
     monkeypatch.setenv("SEACRANE_CACHE", str(tmp_path))
     first = part_from_mesh(BOX, **ROUGH)
     (file,) = (tmp_path / "added_mass").iterdir()
-    real = panel_added_mass._Panels.solved
-    monkeypatch.setattr(panel_added_mass._Panels, "solved", Mock(side_effect=AssertionError("solved again")))
+    real = panel_added_mass._solved
+    monkeypatch.setattr(panel_added_mass, "_solved", Mock(side_effect=AssertionError("solved again")))
     with monkeypatch.context() as without:
         without.setitem(sys.modules, "capytaine", None)
         assert part_from_mesh(BOX, wetting=1.2, perforation=0.1, **ROUGH).volumes[-1] == first.volumes[-1]
@@ -149,8 +152,27 @@ def test_a_ladder_is_found_on_disk_again_to_the_bit(tmp_path: Path, monkeypatch:
         with pytest.raises(AssertionError, match="solved again"):
             part_from_mesh(BOX, **(ROUGH | other))
     file.write_bytes(file.read_bytes()[:300])
-    monkeypatch.setattr(panel_added_mass._Panels, "solved", real)
+    monkeypatch.setattr(panel_added_mass, "_solved", real)
     assert np.array_equal(part_from_mesh(BOX, **ROUGH).added_masses, first.added_masses)
+
+
+@pytest.mark.slow("processes begin, each with Capytaine")
+def test_processes_solve_the_same_and_end_at_ctrl_c(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SEACRANE_CACHE", "off")
+    here, begun, begin = part_from_mesh(BOX, **ROUGH), [], panel_workers._begun
+    monkeypatch.setattr(panel_workers, "FEW", 0)
+    apart = part_from_mesh(BOX, **ROUGH)
+    assert apart.added_masses == pytest.approx(here.added_masses, rel=1e-9)
+    assert apart.low_frequency_added_masses == pytest.approx(here.low_frequency_added_masses, rel=1e-9)
+    monkeypatch.setattr(panel_workers, "_begun", lambda: begun.append(begin()) or begun[-1])
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # which jobs in the background lack
+    Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            part_from_mesh(BOX, panels=2000)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert begun and all(process.poll() is not None for process in begun)
 
 
 def test_a_file_is_read_with_its_scale_and_density_and_holes_are_factors(tmp_path: Path) -> None:

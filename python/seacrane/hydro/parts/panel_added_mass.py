@@ -26,6 +26,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro.data.packed import NOT_PACKED, packed, unpacked
 from seacrane.hydro.hull.panels import area_vectors, closed_below, cut_panels, triangles_of
 from seacrane.hydro.hull.solution import import_capytaine
+from seacrane.hydro.parts.panel_workers import INSTEAD, PanelWorkers
 from seacrane.inputs.checked import numbers_of, positive_of
 from seacrane.inputs.mesh_files import MOST_TRIANGLES, READERS
 from seacrane.inputs.shown import shown
@@ -33,7 +34,6 @@ from seacrane.inputs.user_cache import keep_file, read_kept, user_cache
 
 VERSION = 4  # raised with every change of what is solved
 KIND, SUFFIX = "added_mass", ".ladder"
-AXES = ("Surge", "Sway", "Heave")
 MOST_PANELS = 3000  # 16 bytes for each pair of them, two matrices: 0.3 GB
 ON_SURFACE = 1e-7  # of the size
 NO_AREA = 1e-14  # of the square of the size
@@ -196,20 +196,27 @@ def _digest(triangles: Array, draughts: Array | None, panels: int) -> str:
 
 
 def _solved(surface: _Panels, draughts: Array | None) -> PanelLadder:
-    unbounded = surface.solved(None, np.inf)
-    deep = np.diag(unbounded)
-    coarse = np.diag(surface.solved(None, np.inf, share=0.5))
+    """Both limits of a draught and of those after it are asked for before the first is waited for."""
     rungs, height = _rungs(surface.shape, draughts), surface.shape.size[2]
+    whole, half = surface.panels_at(None), surface.panels_at(None, 0.5)
+    wet = [surface.panels_at(float(draught)) for draught in rungs]
     added: list[Array] = []
-    for draught in rungs:
-        added.append(np.diag(surface.solved(float(draught), np.inf)))
-        if draughts is None and draught > height and np.all(deep - added[-1] <= SETTLED * deep):
-            break
-    used = rungs[: len(added)]
-    low = [np.diag(surface.solved(float(draught), 0.0)) for draught in used]
+    with PanelWorkers(surface.what, max(map(len, [whole, *wet]))) as workers:
+        unbounded, coarse = workers.ask(whole, np.inf, np.inf), workers.ask(half, np.inf, np.inf)
+        asked = [(workers.ask(one, 0.0, np.inf), workers.ask(one, 0.0, 0.0)) for one in wet]
+        deep = unbounded()
+        least = np.diag(deep)
+        for draught, (fast, _) in zip(rungs, asked, strict=True):
+            added.append(np.diag(fast()))
+            if draughts is None and draught > height and np.all(least - added[-1] <= SETTLED * least):
+                break
+        low = [np.diag(slow()) for _, slow in asked[: len(added)]]
+        rough = np.diag(coarse())
+    used = [whole, half, *wet[: len(added)]]
     return PanelLadder(
-        draughts=used, added=np.array(added), low=np.array(low), unbounded=unbounded,
-        error=float(np.max(np.abs(coarse - deep)) / deep.max()), panels=surface.most, code=surface.code,
+        draughts=rungs[: len(added)], added=np.array(added), low=np.array(low), unbounded=deep,
+        error=float(np.max(np.abs(rough - least)) / least.max()), panels=max(map(len, used)),
+        code=surface.code,
     )  # fmt: skip
 
 
@@ -230,7 +237,7 @@ def _rungs(shape: MeshShape, given: Array | None) -> Array:
 
 
 class _Panels:
-    """A closed mesh, and what Capytaine makes of it at a draught."""
+    """A closed mesh, and the panels of it that are solved for at a draught."""
 
     def __init__(self, what: str, shape: MeshShape, panels: int) -> None:
         count = len(shape.triangles)
@@ -239,31 +246,14 @@ class _Panels:
                 f"{what}: has {count} triangles, above the {MOST_PANELS} panels that are solved "
                 "for; decimate it in the program that made it"
             )
-        instead = "give a TablePart with added masses from elsewhere"
-        self.capytaine = import_capytaine(f"{what}: its added mass", instead)
+        capytaine = import_capytaine(f"{what}: its added mass", INSTEAD)
         self.what, self.shape, self.panels = what, shape, panels
-        self.code, self.most = f"Capytaine {self.capytaine.__version__}", 0
-        self.solver = self.capytaine.BEMSolver()
+        self.code = f"Capytaine {capytaine.__version__}"
 
-    def solved(self, draught: float | None, omega: float, share: float = 1.0) -> Array:
-        """Added mass (3, 3) over density; without a draught, in a fluid without a surface."""
-        surface = np.inf if draught is None else 0.0
-        depth = 2.0 * self.shape.size[2] if draught is None else draught
-        wet = self._wet(depth)
-        panels = refined(wet, share * self.panels)
-        self.most = max(self.most, len(panels))
-        faces = np.arange(3 * len(panels)).reshape(-1, 3)[:, [0, 1, 2, 2]]
-        mesh = self.capytaine.Mesh(vertices=panels.reshape(-1, 3), faces=faces)
-        dofs = self.capytaine.rigid_body_dofs(only=AXES, rotation_center=(0.0, 0.0, 0.0))
-        body = self.capytaine.FloatingBody(mesh=mesh, dofs=dofs)
-        rows = []
-        for axis in AXES:
-            problem = self.capytaine.RadiationProblem(
-                body=body, omega=omega, free_surface=surface, water_depth=np.inf, radiating_dof=axis, rho=1.0
-            )
-            masses = self.solver.solve(problem, method="direct", keep_details=False).added_masses
-            rows.append([float(masses[one]) for one in AXES])
-        return np.array(rows)
+    def panels_at(self, draught: float | None, share: float = 1.0) -> Array:
+        """Panels (n, 3, 3) of what is wet at a draught, m; of all of it, deep below, without one."""
+        wet = self._wet(2.0 * self.shape.size[2] if draught is None else draught)
+        return refined(wet, share * self.panels)
 
     def _wet(self, draught: float) -> Array:
         """Triangles of what is below the surface z = 0 at a draught."""
