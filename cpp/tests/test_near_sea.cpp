@@ -71,6 +71,8 @@ TEST_CASE("from region to region the sea has two derivatives, and nothing is all
   }
   CHECK(test::allocation_count() == before);
   CHECK(jump < 0.1 * most);
+  const double astray = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isnan(view.at_point<double>(0, 40.0, Vec3d(astray, 0.0, 0.0)).elevation));
   CHECK_FALSE(NearSea::of(std::make_shared<const SeaField>(random.waves(200, 60.0)), row));  // short-crested
   CHECK_FALSE(near->serves({.name = "long", .reach = 6.1}));
   CHECK_FALSE(near->serves({.name = "wide", .reach = 6.0, .width = 10.0}));

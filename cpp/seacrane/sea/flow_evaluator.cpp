@@ -26,6 +26,12 @@ std::size_t felt(const std::vector<double>& amplitude, std::size_t count) {
   return (count + SeaField::lanes - 1) / SeaField::lanes * SeaField::lanes;
 }
 
+/// Whether knots and regions have numbers there: a step that goes astray may ask for anything.
+bool is_numbered(const NearSea& sea, double t, const Vec3d& place) {
+  constexpr double most = 0x1p50;  // neighbours are whole numbers apart
+  return std::fabs(t) < most * sea.step() && place.head<2>().cwiseAbs().sum() < most * sea.spacing();
+}
+
 /// A line from its highest point downwards, so that decays only become smaller.
 struct Descent {
   std::size_t last;
@@ -189,7 +195,8 @@ void FlowEvaluator::write_row(double t, const FlowPoint& first, const Vec3d& ste
   const bool calm = z + 0.5 * first.height < calm_;
   const std::size_t most =
       calm ? field_->reach(std::min(z + 0.5 * first.height, 0.0), stencil_.cut) : field_->padded();
-  if (near_ && most > near_->sea().few().padded()) return write_near(t, first, step);
+  if (near_ && most > near_->sea().few().padded() && is_numbered(near_->sea(), t, first.position + step))
+    return write_near(t, first, step);
   if (calm) return write_calm(t, first, most, flow_.front());
   const std::size_t count = feel(first, most);
   sea::set_phasors(*field_, count, t, first.position.x(), first.position.y(), *scratch_);

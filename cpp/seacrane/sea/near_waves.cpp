@@ -6,16 +6,9 @@
 #include <utility>
 
 #include "seacrane/sea/knot_table.hpp"
-#include "seacrane/sea/require.hpp"
 
 namespace seacrane {
 namespace {
-
-void require_finite(double number, const char* name, double value) {
-  if (std::fabs(number) < 0x1p52) [[likely]]
-    return;
-  sea::require(false, "sea near a load", name, value, "give a finite one");
-}
 
 constexpr std::size_t numbers = 4;  // of knots that are held of each region
 
@@ -44,7 +37,6 @@ NearWaves::NearWaves(std::shared_ptr<const NearSea> sea, std::size_t stencils)
 
 NearWaves::Met NearWaves::at(double t, double s, sea::FlowScratch& scratch) {
   const double spacing = sea_->spacing(), place = std::floor(s / spacing);
-  require_finite(place, "place along the waves", s);
   const double from = 0.5 * (1.0 - NearSea::overlap);
   const double part = std::clamp((s / spacing - place - from) / NearSea::overlap, 0.0, 1.0);
   const double share = part * part * part * (10.0 + part * (6.0 * part - 15.0));
@@ -67,7 +59,6 @@ const std::vector<double>& NearWaves::amplitudes(std::int64_t region, double t, 
   Held& out = held_[slot(region, regions_)];
   if (out.time == t && out.region == region) return out.amplitudes;
   const double place = std::floor(t / sea_->step());
-  require_finite(place, "time", t);
   const HermiteWeights w(t / sea_->step() - place);
   out.time = std::numeric_limits<double>::quiet_NaN();
   std::ranges::fill(out.amplitudes, 0.0);
