@@ -403,4 +403,4 @@ def test_strips_in_a_row_feel_what_each_feels_by_itself() -> None:
             apart.replace(name, row="", place=0, count=1, step=(0.0, 0.0, 0.0))
     assert any(one.count > 1 for one in together.loads.values() if isinstance(one, _core.ImmersedPart))
     one, other = (simulate(scene, t_end=2.0, dt_out=0.5, **EXACT)["position"] for scene in (together, apart))
-    assert one == pytest.approx(other, abs=1e-9)  # that of the steps
+    assert one == pytest.approx(other, abs=1e-8)  # that of the steps, and of few components for all

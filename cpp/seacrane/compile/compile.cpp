@@ -34,13 +34,16 @@ class Compiler final : private LoadContext {
     model_.closed = closed;
   }
 
-  Model run() {
+  /// Where a model `like` it is in the same sea, they share how they see it.
+  Model run(const Model* like = nullptr) {
     bodies();
     joints();
     drivers();
     shapes();
     limits();
     loads();
+    const bool alike = like != nullptr && like->sea == model_.sea && like->stencils == model_.stencils;
+    model_.near = alike ? like->near : NearSea::of(model_.sea, model_.stencils);
     vessels();
     add_groups(model_);
     layout();
@@ -424,8 +427,9 @@ class Compiler final : private LoadContext {
 
 /// A scene with every body by itself and, of its limits, the rows of a set.
 std::shared_ptr<Model> described_model(const SceneDescription& scene, const std::vector<Limit>& limits,
-                                       ClosedSet closed, const SceneDescription& with_rows) {
-  auto model = std::make_shared<Model>(Compiler(with_rows, no_merge(with_rows), limits, closed).run());
+                                       ClosedSet closed, const SceneDescription& with_rows,
+                                       const Model* like = nullptr) {
+  auto model = std::make_shared<Model>(Compiler(with_rows, no_merge(with_rows), limits, closed).run(like));
   if (!limits.empty()) model->description = scene;
   return model;
 }
@@ -435,7 +439,8 @@ std::shared_ptr<Model> described_model(const SceneDescription& scene, const std:
 std::shared_ptr<Model> when_open(const std::shared_ptr<Model>& model, ClosedSet closed) {
   if (closed == 0) return model;
   const SceneDescription scene = scene_of(model->description, model->limits, 0);
-  const std::shared_ptr<Model> open = described_model(model->description, model->limits, 0, scene);
+  const std::shared_ptr<Model> open =
+      described_model(model->description, model->limits, 0, scene, model.get());
   open->initial_state = model->initial_state;
   return open;
 }
@@ -459,7 +464,7 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
   if (merge) model->locked_loops = locked_loops(*model);
   MergePlan plan = merge ? plan_merge(start, model->locked_loops) : no_merge(start);
   if (plan.merges()) {
-    auto merged = std::make_shared<Model>(Compiler(start, std::move(plan)).run());
+    auto merged = std::make_shared<Model>(Compiler(start, std::move(plan)).run(model.get()));
     std::vector<double> state(merged->initial_state);
     MergedBodies(*model, *merged).merge(model->initial_state.data(), state.data());
     merged->initial_state = std::move(state);
@@ -473,7 +478,7 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
 
 std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed) {
   const SceneDescription scene = scene_of(model.description, model.limits, closed);
-  const std::shared_ptr<Model> out = described_model(model.description, model.limits, closed, scene);
+  const std::shared_ptr<Model> out = described_model(model.description, model.limits, closed, scene, &model);
   out->merges = model.merges;
   out->initial_state = model.initial_state;
   out->kinks = model.kinks;
@@ -481,7 +486,7 @@ std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed) {
   hang_on_lines(*out, model.line_bounces);
   MergePlan plan = model.merges ? plan_merge(scene, model.locked_loops) : no_merge(scene);
   if (plan.merges()) {
-    auto merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
+    auto merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run(out.get()));
     hang_on_lines(*merged, model.line_bounces);
     out->merged = std::move(merged);
   }

@@ -49,10 +49,12 @@ std::shared_ptr<const Model> in_sea(const Model& model, const std::vector<WaveLo
   }
   auto out = std::make_shared<Model>(model);
   put(*out, loads, sea);
+  out->near = NearSea::of(sea, out->stencils);
   start_fast_motions(*out);
   if (model.merged) {
     auto merged = std::make_shared<Model>(*model.merged);
     put(*merged, loads, sea);
+    merged->near = merged->stencils == out->stencils ? out->near : NearSea::of(sea, merged->stencils);
     copy_fast_motions(*out, *merged);
     out->merged = std::move(merged);
   }

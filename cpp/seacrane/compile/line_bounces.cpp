@@ -160,6 +160,7 @@ std::vector<LineBounce> find_line_bounces(const Model& model) {
   if (!model.sea) return BounceFinder(model).run();
   Model still = model;
   still.sea = std::make_shared<const SeaField>(model.sea->without_waves());
+  still.near = nullptr;
   return BounceFinder(still).run();
 }
 

@@ -24,7 +24,7 @@ Terms::Terms(std::shared_ptr<const Model> model)
       slots_(idx(model_->slot_count), 0.0),
       inertial_(VecXd::Zero(model_->inertial_tensions)),
       histories_(*model_),
-      sea_(model_->sea, model_->stencils) {
+      sea_(model_->sea, model_->stencils, model_->near) {
   const Model& m = *model_;
   const auto bodies = idx(m.body_count());
   bodies_.assign(bodies + 1, BodyKinematics<double>::ground());

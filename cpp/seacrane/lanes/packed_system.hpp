@@ -176,7 +176,10 @@ class PackedSystem final : public LaneSystem {
   }
   static std::vector<SeaView> seas_of(const LaneModels& models) {
     std::vector<SeaView> out;
-    for (const auto& model : models) out.emplace_back(model->stepped().sea, model->stepped().stencils);
+    for (const auto& model : models) {
+      const Model& one = model->stepped();
+      out.emplace_back(one.sea, one.stencils, one.near);
+    }
     return out;
   }
   /// Lists with loads along coordinates of the tree whose forces differ.

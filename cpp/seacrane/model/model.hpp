@@ -14,6 +14,7 @@
 #include "seacrane/model/limit.hpp"
 #include "seacrane/model/merge.hpp"
 #include "seacrane/sea/flow_stencil.hpp"
+#include "seacrane/sea/near_sea.hpp"
 
 namespace seacrane {
 
@@ -150,6 +151,7 @@ struct Model {
   std::vector<WaveLoad> wave_loads;
   std::shared_ptr<const SeaField> sea;  // null: still water
   std::vector<FlowStencil> stencils;    // at which loads look at it
+  std::shared_ptr<const NearSea> near;  // the sea as short loads see it; null: as all do
   std::vector<CoordinateData> coordinates;
   std::vector<Attachment> points;
   std::vector<InputModel> inputs;      // in the order of their slots

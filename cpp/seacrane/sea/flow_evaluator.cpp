@@ -12,6 +12,7 @@ namespace seacrane {
 namespace {
 
 constexpr double rounding = 0x1p-53;
+constexpr double few_cut = 1e-9;  // of the few, whose amplitudes may be above those of the sea
 
 std::string shown(double number) {
   std::ostringstream text;
@@ -23,6 +24,12 @@ std::string shown(double number) {
 std::size_t felt(const std::vector<double>& amplitude, std::size_t count) {
   while (count > 0 && amplitude[count - 1] == 0.0) --count;
   return (count + SeaField::lanes - 1) / SeaField::lanes * SeaField::lanes;
+}
+
+/// Whether knots and regions have numbers there: a step that goes astray may ask for anything.
+bool is_numbered(const NearSea& sea, double t, const Vec3d& place) {
+  constexpr double most = 0x1p50;  // neighbours are whole numbers apart
+  return std::fabs(t) < most * sea.step() && place.head<2>().cwiseAbs().sum() < most * sea.spacing();
 }
 
 /// A line from its highest point downwards, so that decays only become smaller.
@@ -61,11 +68,13 @@ void descend(const SeaField& field, std::size_t reached, std::size_t n, const De
 }  // namespace
 
 FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil,
-                             std::shared_ptr<sea::FlowScratch> scratch)
+                             std::shared_ptr<sea::FlowScratch> scratch, std::shared_ptr<NearWaves> near)
     : field_(std::move(field)),
       stencil_(std::move(stencil)),
       scratch_(scratch ? std::move(scratch)
                        : std::make_shared<sea::FlowScratch>(field_ ? field_->padded() : 0)),
+      near_(std::move(near)),
+      summed_(field_.get()),
       flow_(stencil_.count) {
   sea::require(stencil_.count > 0, stencil_.name, "number of points", stencil_.count, "give at least one");
   sea::require(stencil_.waves >= 0.0 && stencil_.waves <= 100.0, stencil_.name, "waves", stencil_.waves,
@@ -85,18 +94,18 @@ void FlowEvaluator::require_above_floor(double z) const {
 }
 
 void FlowEvaluator::meet_waves(std::size_t count) {
-  const double* const from = field_->arrays().amplitude.data();
+  const double* const from = summed_->arrays().amplitude.data();
   for (std::size_t i = 0; i < count; ++i) scratch_->amplitude[i] = stencil_.waves * from[i];
   std::fill_n(scratch_->gain.begin(), count, 0.0);
 }
 
 void FlowEvaluator::add_surface(std::size_t n, std::size_t count, LocalFlow<double>& out) {
   const auto add = n > 0 ? sea::add_next_surface : sea::add_surface;
-  add(*field_, count, *scratch_, out);
+  add(*summed_, count, *scratch_, out);
 }
 
 void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>& out) {
-  sea::add_interior(*field_, count, *scratch_, out);
+  sea::add_interior(*summed_, count, *scratch_, out);
   const auto current = field_->current().at<double>(level);
   out.velocity += Vec3d(current.x, current.y, 0.0);
 }
@@ -105,9 +114,10 @@ void FlowEvaluator::take(std::size_t count, double z, double height, LocalFlow<d
   const WetHeight<double> wet = wet_height(z, height, out.elevation);
   const double level = field_->level(wet.middle, out.elevation);
   const double top = std::min(level + 0.5 * wet.height, 0.0);
-  const std::size_t reached = std::min(count, field_->reach(top, stencil_.cut));
-  scratch_->images = field_->images(level - 0.5 * wet.height, stencil_.cut);
-  sea::set_decays(*field_, reached, level, wet.height, *scratch_);
+  const double cut = scratch_->split ? few_cut : stencil_.cut;
+  const std::size_t reached = std::min(count, summed_->reach(top, cut));
+  scratch_->images = summed_->images(level - 0.5 * wet.height, cut);
+  sea::set_decays(*summed_, reached, level, wet.height, *scratch_);
   interior(reached, level, out);
 }
 
@@ -118,9 +128,9 @@ std::size_t FlowEvaluator::feel(const FlowPoint& at, std::size_t most) {
   for (int j = 0; j < 3; ++j) {
     const double x = at.extents(0, j), y = at.extents(1, j);
     if (turns) {
-      sea::filter_turning(*field_, most, x, y, rate(0, j), rate(1, j), *scratch_);
+      sea::filter_turning(*summed_, most, x, y, rate(0, j), rate(1, j), *scratch_);
     } else if (x != 0.0 || y != 0.0) {
-      sea::filter_amplitudes(*field_, most, x, y, *scratch_);
+      sea::filter_amplitudes(*summed_, most, x, y, *scratch_);
     }
   }
   const std::size_t count = felt(scratch_->amplitude, most);
@@ -128,9 +138,9 @@ std::size_t FlowEvaluator::feel(const FlowPoint& at, std::size_t most) {
   return count;
 }
 
-void FlowEvaluator::write_calm(double t, const FlowPoint& at, LocalFlow<double>& out) {
+void FlowEvaluator::write_calm(double t, const FlowPoint& at, std::size_t most, LocalFlow<double>& out) {
   const double z = at.position.z();
-  const std::size_t count = feel(at, field_->reach(std::min(z + 0.5 * at.height, 0.0), stencil_.cut));
+  const std::size_t count = feel(at, most);
   sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), *scratch_);
   scratch_->images = field_->images(z - 0.5 * at.height, stencil_.cut);
   sea::forget_decays(*scratch_);
@@ -154,18 +164,43 @@ std::span<const LocalFlow<double>> FlowEvaluator::cloud(double t, std::span<cons
   return flow_;
 }
 
-void FlowEvaluator::write_row(double t, const FlowPoint& first, const Vec3d& step) {
-  const auto z = [&](std::size_t n) { return first.position.z() + static_cast<double>(n) * step.z(); };
-  require_above_floor(std::min(z(0), z(flow_.size() - 1)));
-  if (z(0) + 0.5 * first.height < calm_) return write_calm(t, first, flow_.front());
-  const std::size_t count = feel(first, field_->padded());
-  sea::set_phasors(*field_, count, t, first.position.x(), first.position.y(), *scratch_);
-  if (flow_.size() > 1) sea::set_turns(*field_, count, step.x(), step.y(), *scratch_);
+void FlowEvaluator::add_row(std::size_t count, const FlowPoint& first, const Vec3d& step) {
+  if (flow_.size() > 1) sea::set_turns(*summed_, count, step.x(), step.y(), *scratch_);
   sea::forget_decays(*scratch_);
   for (std::size_t n = 0; n < flow_.size(); ++n) {
     add_surface(n, count, flow_[n]);
-    take(count, z(n), first.height, flow_[n]);
+    take(count, first.position.z() + static_cast<double>(n) * step.z(), first.height, flow_[n]);
   }
+}
+
+void FlowEvaluator::write_near(double t, const FlowPoint& first, const Vec3d& step) {
+  const SeaField& few = near_->sea().few();
+  const double x = few.arrays().x[0], y = few.arrays().y[0];
+  const Vec3d middle = first.position + 0.5 * static_cast<double>(flow_.size() - 1) * step;
+  const NearWaves::Met met = near_->at(t, x * middle.x() + y * middle.y(), *scratch_);
+  summed_ = &few;
+  scratch_->split = true;
+  const std::size_t count = feel(first, few.padded());
+  sea::set_phasors(few, count, 0.0, first.position.x() - met.s * x, first.position.y() - met.s * y,
+                   *scratch_);
+  sea::take_amplitudes(met.amplitudes, few.padded(), count, *scratch_);
+  add_row(count, first, step);
+  summed_ = field_.get();
+  scratch_->split = false;
+}
+
+void FlowEvaluator::write_row(double t, const FlowPoint& first, const Vec3d& step) {
+  const double z = first.position.z();
+  require_above_floor(std::min(z, z + static_cast<double>(flow_.size() - 1) * step.z()));
+  const bool calm = z + 0.5 * first.height < calm_;
+  const std::size_t most =
+      calm ? field_->reach(std::min(z + 0.5 * first.height, 0.0), stencil_.cut) : field_->padded();
+  if (near_ && most > near_->sea().few().padded() && is_numbered(near_->sea(), t, first.position + step))
+    return write_near(t, first, step);
+  if (calm) return write_calm(t, first, most, flow_.front());
+  const std::size_t count = feel(first, most);
+  sea::set_phasors(*field_, count, t, first.position.x(), first.position.y(), *scratch_);
+  add_row(count, first, step);
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::row(double t, const FlowPoint& first, const Vec3d& step) {
@@ -213,6 +248,8 @@ LocalFlow<double> FlowEvaluator::error_bound(double t, double x, double y) const
   const double share = rounding * (8.0 * points + terms + 16.0 + 4.0 * field_->largest_angle(t, x, y));
   const LocalFlow<double> size = field_->magnitude();
   LocalFlow<double>::each(size, out, [&](double from, double& to) { to = stencil_.waves * share * from; });
+  const double missed = near_ ? stencil_.waves * (NearSea::relative_bound + NearSea::knot_bound) : 0.0;
+  LocalFlow<double>::each(size, out, [&](double from, double& to) { to += missed * from; });
   const double lost = stencil_.waves * stencil_.cut;
   for (int i = 0; i < 3; ++i) {
     out.velocity[i] += lost * size.velocity[i];

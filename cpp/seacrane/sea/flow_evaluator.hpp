@@ -8,6 +8,7 @@
 
 #include "seacrane/sea/flow_kernel.hpp"
 #include "seacrane/sea/flow_stencil.hpp"
+#include "seacrane/sea/near_waves.hpp"
 #include "seacrane/sea/sea_field.hpp"
 
 namespace seacrane {
@@ -31,9 +32,11 @@ using FlowPoint = FlowPlace<double>;
 /// at rest. Results depend on the arguments alone, whatever was evaluated before.
 class FlowEvaluator {
  public:
-  /// `scratch`, for those of one thread that take turns, has room for the components of the field.
+  /// `scratch`, for those of one thread that take turns, has room for the components of the field. Rows are
+  /// sums over the few components of `near`, where there is one.
   FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil,
-                std::shared_ptr<sea::FlowScratch> scratch = nullptr);
+                std::shared_ptr<sea::FlowScratch> scratch = nullptr,
+                std::shared_ptr<NearWaves> near = nullptr);
 
   /// At first + i step, i = 0 .. count - 1. With `whole`, each point is the middle of an element that is as
   /// long as the step, and feels the mean over it, see SeaField::filter. By recurrence from point to point:
@@ -46,7 +49,7 @@ class FlowEvaluator {
   std::span<const LocalFlow<double>> row(double t, const FlowPoint& first, const Vec3d& step);
 
   const FlowStencil& stencil() const { return stencil_; }
-  /// Of each number of a flow against SeaField::at: what `cut` leaves out, and rounding.
+  /// Of each number of a flow against SeaField::at: what `cut` leaves out, rounding, and what the few miss.
   LocalFlow<double> error_bound(double t, double x, double y) const;
 
  private:
@@ -55,9 +58,12 @@ class FlowEvaluator {
   void meet_waves(std::size_t count);
   /// Amplitudes that an element feels of the first waves, and how many components are felt at all.
   std::size_t feel(const FlowPoint& at, std::size_t most);
+  /// The row from the phasors of its first element, `count` of them felt.
+  void add_row(std::size_t count, const FlowPoint& first, const Vec3d& step);
+  void write_near(double t, const FlowPoint& first, const Vec3d& step);
   void write_row(double t, const FlowPoint& first, const Vec3d& step);
-  /// The flow at a point that hardly feels waves, without its surface.
-  void write_calm(double t, const FlowPoint& at, LocalFlow<double>& out);
+  /// The flow at a point that feels `most` waves, without its surface.
+  void write_calm(double t, const FlowPoint& at, std::size_t most, LocalFlow<double>& out);
   /// The surface at point n, from the phasors of the first, or else of the point before.
   void add_surface(std::size_t n, std::size_t count, LocalFlow<double>& out);
   /// From the phasors of a point to its flow; `count` components are felt at all.
@@ -67,6 +73,8 @@ class FlowEvaluator {
   std::shared_ptr<const SeaField> field_;
   FlowStencil stencil_;
   std::shared_ptr<sea::FlowScratch> scratch_;
+  std::shared_ptr<NearWaves> near_;
+  const SeaField* summed_;  // the field, or the few of it
   std::vector<LocalFlow<double>> flow_;
   double time_ = std::numeric_limits<double>::quiet_NaN();  // of the last row; none
   FlowPoint first_;

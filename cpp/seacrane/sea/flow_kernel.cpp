@@ -245,54 +245,68 @@ struct SurfaceSums {
   }
 };
 
+/// Phasors (c, q), turned on to the next point first.
 template <bool turns>
-inline SurfaceSums sum_surface(Read omega, Read kx, Read ky, Read gain, Read turn_cosine, Read turn_sine,
-                               std::size_t count, Write cosine, Write sine) {
+inline void next(const FlowPack& turn_c, const FlowPack& turn_q, std::size_t i, Write cosine, Write sine,
+                 FlowPack& c, FlowPack& q) {
+  get(cosine, i, c);
+  get(sine, i, q);
+  if constexpr (turns) {
+    const FlowPack before = c;
+    c = before * turn_c - q * turn_q;
+    q = q * turn_c + before * turn_q;
+    put(c, i, cosine);
+    put(q, i, sine);
+  }
+}
+
+template <bool turns, bool split>
+inline void add_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowScratch& s,
+                             LocalFlow<double>& out) {
   SurfaceSums sum;
   for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack c, q, w, g, x, y;
-    get(cosine, i, c);
-    get(sine, i, q);
+    FlowPack turn_c{}, turn_q{}, c, q, rise, w, g, x, y;
     if constexpr (turns) {
-      FlowPack turn_c, turn_q;
-      get(turn_cosine, i, turn_c);
-      get(turn_sine, i, turn_q);
-      const FlowPack before = c;
-      c = before * turn_c - q * turn_q;
-      q = q * turn_c + before * turn_q;
-      put(c, i, cosine);
-      put(q, i, sine);
+      get(s.turn_cosine.data(), i, turn_c);
+      get(s.turn_sine.data(), i, turn_q);
     }
-    get(omega, i, w);
-    get(gain, i, g);
-    get(kx, i, x);
-    get(ky, i, y);
+    next<turns>(turn_c, turn_q, i, s.cosine.data(), s.sine.data(), c, q);
+    rise = q;
+    if constexpr (split) {
+      FlowPack other;
+      next<turns>(turn_c, turn_q, i, s.rise.cosine.data(), s.rise.sine.data(), other, rise);
+      next<turns>(turn_c, turn_q, i, s.flow.cosine.data(), s.flow.sine.data(), other, w);
+    }
+    get(f.omega.data(), i, w);
+    get(s.gain.data(), i, g);
+    get(f.kx.data(), i, x);
+    get(f.ky.data(), i, y);
     sum.elevation += c;
-    sum.rate += g * c - w * q;
+    sum.rate += g * c - w * rise;
     sum.slope_x += x * q;
     sum.slope_y += y * q;
   }
-  return sum;
-}
-
-template <bool turns>
-inline void add_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowScratch& s,
-                             LocalFlow<double>& out) {
-  sum_surface<turns>(f.omega.data(), f.kx.data(), f.ky.data(), s.gain.data(), s.turn_cosine.data(),
-                     s.turn_sine.data(), count, s.cosine.data(), s.sine.data())
-      .add_to(out);
+  sum.add_to(out);
 }
 
 }  // namespace
 
 SEACRANE_FLOW_LOOP void add_surface(const SeaField& field, std::size_t count, FlowScratch& s,
                                     LocalFlow<double>& out) {
-  add_surface_sums<false>(field.arrays(), count, s, out);
+  if (s.split) {
+    add_surface_sums<false, true>(field.arrays(), count, s, out);
+  } else {
+    add_surface_sums<false, false>(field.arrays(), count, s, out);
+  }
 }
 
 SEACRANE_FLOW_LOOP void add_next_surface(const SeaField& field, std::size_t count, FlowScratch& s,
                                          LocalFlow<double>& out) {
-  add_surface_sums<true>(field.arrays(), count, s, out);
+  if (s.split) {
+    add_surface_sums<true, true>(field.arrays(), count, s, out);
+  } else {
+    add_surface_sums<true, false>(field.arrays(), count, s, out);
+  }
 }
 
 namespace {
@@ -301,7 +315,7 @@ struct InteriorSums {
   FlowPack u{}, v{}, w{}, ax{}, ay{}, az{}, p{};
 };
 
-template <bool floor>
+template <bool floor, bool split>
 inline void sum_interior(const SeaField::Arrays& f, std::size_t from, std::size_t to, const FlowScratch& s,
                          const double* decay, const double* image, InteriorSums& sum) {
   for (std::size_t i = from; i < to; i += wide) {
@@ -315,15 +329,19 @@ inline void sum_interior(const SeaField::Arrays& f, std::size_t from, std::size_
     get(f.x.data(), i, x);
     get(f.y.data(), i, y);
     const FlowPack level = floor ? down + other : down, upright = floor ? down - other : down;
-    const FlowPack along = level * c, turned = sigma * (level * q);
-    const FlowPack up = upright * q, lifted = sigma * (upright * c);
+    const FlowPack pressed = level * c, turned = sigma * (level * q), lifted = sigma * (upright * c);
+    if constexpr (split) {
+      get(s.flow.cosine.data(), i, c);
+      get(s.flow.sine.data(), i, q);
+    }
+    const FlowPack along = split ? level * c : pressed, up = upright * q;
     sum.u += x * along;
     sum.v += y * along;
     sum.w -= up;
     sum.ax -= x * turned;
     sum.ay -= y * turned;
     sum.az -= lifted;
-    sum.p += pressure * along;
+    sum.p += pressure * pressed;
   }
 }
 
@@ -336,12 +354,52 @@ SEACRANE_FLOW_LOOP void add_interior(const SeaField& field, std::size_t count, c
   const bool mean = s.height > 0.0;
   const double* const decay = mean ? s.decay.sum.data() : s.decay.low.data();
   const double* const image = mean ? s.image.sum.data() : s.image.low.data();
-  sum_interior<true>(field.arrays(), 0, floor, s, decay, image, sum);
-  sum_interior<false>(field.arrays(), floor, count, s, decay, image, sum);
+  if (s.split) {
+    sum_interior<true, true>(field.arrays(), 0, floor, s, decay, image, sum);
+    sum_interior<false, true>(field.arrays(), floor, count, s, decay, image, sum);
+  } else {
+    sum_interior<true, false>(field.arrays(), 0, floor, s, decay, image, sum);
+    sum_interior<false, false>(field.arrays(), floor, count, s, decay, image, sum);
+  }
   const double share = mean ? 1.0 / s.height : 1.0;
   out.velocity += share * Vec3d(total(sum.u), total(sum.v), total(sum.w));
   out.acceleration += share * Vec3d(total(sum.ax), total(sum.ay), total(sum.az));
   out.pressure += share * total(sum.p);
+}
+
+SEACRANE_FLOW_LOOP void take_amplitudes(const double* amplitudes, std::size_t few, std::size_t count,
+                                        FlowScratch& s) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double c = s.cosine[i], q = s.sine[i];
+    const auto times = [&](std::size_t sum, double& cosine, double& sine) {
+      const double a = amplitudes[2 * sum * few + i], b = amplitudes[(2 * sum + 1) * few + i];
+      cosine = a * c - b * q;
+      sine = a * q + b * c;
+    };
+    times(0, s.cosine[i], s.sine[i]);
+    times(1, s.flow.cosine[i], s.flow.sine[i]);
+    times(2, s.rise.cosine[i], s.rise.sine[i]);
+  }
+}
+
+SEACRANE_FLOW_LOOP void add_weighed(Read value, Read rate, Read acceleration, std::size_t count, double a,
+                                    double b, double c, Write out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] += a * value[i] + b * rate[i] + c * acceleration[i];
+}
+
+SEACRANE_FLOW_LOOP void sum_shares(Read shares, Read harmonics, std::size_t count, std::size_t few,
+                                   Write value, Write rate, Write acceleration) {
+  constexpr std::size_t rows = 6;
+  double* const out[rows] = {value, value + few, rate, rate + few, acceleration, acceleration + few};
+  for (std::size_t j = 0; j < few; j += wide) {
+    FlowPack sum[rows] = {};
+    for (std::size_t i = 0; i < count; ++i) {
+      FlowPack share;
+      get(shares, i * few + j, share);
+      for (std::size_t n = 0; n < rows; ++n) sum[n] += share * harmonics[n * count + i];
+    }
+    for (std::size_t n = 0; n < rows; ++n) put(sum[n], j, out[n]);
+  }
 }
 
 }  // namespace seacrane::sea

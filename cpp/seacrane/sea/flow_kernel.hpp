@@ -17,6 +17,10 @@ struct Decays {
   std::size_t held = 0;      // how many of the first components are there
 };
 
+struct Phasors {
+  std::vector<double> cosine, sine;
+};
+
 /// What one stencil keeps for each component, at the point that it is at.
 struct FlowScratch {
   std::vector<double> amplitude, angle;        // what the element feels of it; of its phase
@@ -25,12 +29,16 @@ struct FlowScratch {
   std::vector<double> turn_cosine, turn_sine;  // of the phase from point to point
   Decays decay, image;
   double bottom = 0.0, height = 0.0;  // where the decays are
+  /// Of a NearSea the phasors of the velocity and of the elevation's rate are others than those of the rest.
+  bool split = false;
+  Phasors flow, rise;
 
   std::size_t images = 0;  // how many of the first have an image, whole packs
 
   explicit FlowScratch(std::size_t padded) {
     for (auto* array : {&amplitude, &angle, &gain, &cosine, &sine, &turn_cosine, &turn_sine, &decay.low,
-                        &decay.sum, &decay.step, &image.low, &image.sum, &image.step}) {
+                        &decay.sum, &decay.step, &image.low, &image.sum, &image.step, &flow.cosine,
+                        &flow.sine, &rise.cosine, &rise.sine}) {
       array->assign(padded, 0.0);
     }
   }
@@ -45,6 +53,8 @@ void filter_turning(const SeaField& field, std::size_t count, double x, double y
 void take_quotients(std::size_t count, FlowScratch& s);
 void set_phasors(const SeaField& field, std::size_t count, double t, double x, double y, FlowScratch& s);
 void set_turns(const SeaField& field, std::size_t count, double dx, double dy, FlowScratch& s);
+/// From the phasors of waves of unit height to those of all sums of a NearSea, of `few` amplitudes each.
+void take_amplitudes(const double* amplitudes, std::size_t few, std::size_t count, FlowScratch& s);
 /// Elevation, its rate, and its slopes, with what the quotients add to the rate.
 void add_surface(const SeaField& field, std::size_t count, FlowScratch& s, LocalFlow<double>& out);
 /// The same at the next point.
@@ -57,5 +67,13 @@ void set_decay_steps(const SeaField& field, std::size_t count, double dz, FlowSc
 void step_decays(std::size_t count, FlowScratch& s);
 /// Velocity, acceleration and pressure of the waves: their means over the height of the decays.
 void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
+
+/// out += value a + rate b + acceleration c.
+void add_weighed(const double* value, const double* rate, const double* acceleration, std::size_t count,
+                 double a, double b, double c, double* out);
+/// Sums over `count` harmonics, six rows of them, of shares times each, `few` of them side by side: rows 0
+/// and 1 to `value`, and so on.
+void sum_shares(const double* shares, const double* harmonics, std::size_t count, std::size_t few,
+                double* value, double* rate, double* acceleration);
 
 }  // namespace seacrane::sea

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 
 namespace seacrane {
@@ -15,6 +16,9 @@ struct FlowStencil {
   /// Whether the element asks for the surface over it also where waves hardly reach; of one point alone.
   bool surface = true;
   double waves = 1.0;  // times those of the sea: what a hull beside makes of them
+  /// No part of an element is farther from the middle of the points, m; infinity: not known.
+  double reach = std::numeric_limits<double>::infinity();
+  double width = 0.0;  // longest extent of an element, m
 
   bool operator==(const FlowStencil&) const = default;
 };

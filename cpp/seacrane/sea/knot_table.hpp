@@ -43,6 +43,8 @@ struct HermiteWeights {
   }
 };
 
+inline constexpr double hermite_remainder = 0.177978515625 / 479001600.0;  // 0.5625^3 / 12!
+
 template <class Source>
 class KnotTable;
 
@@ -141,7 +143,6 @@ class KnotTable {
  private:
   static constexpr std::size_t slots = 64;          // a power of two
   static constexpr double largest_number = 0x1p52;  // step x number stays apart from its neighbours
-  static constexpr double remainder = 0.177978515625 / 479001600.0;  // 0.5625^3 / 12!
 
   static double largest_step(const Source* source, double relative_bound) {
     if (!source) {
@@ -153,7 +154,8 @@ class KnotTable {
     double step = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < channels; ++j) {
       if (twelfth[j] > 0.0)
-        step = std::min(step, std::pow(relative_bound * size[j] / (remainder * twelfth[j]), 1.0 / 12.0));
+        step =
+            std::min(step, std::pow(relative_bound * size[j] / (hermite_remainder * twelfth[j]), 1.0 / 12.0));
     }
     return std::isfinite(step) ? step : 1.0;  // constant or no load at all: any grid is exact
   }
@@ -162,7 +164,8 @@ class KnotTable {
     step_ = step;
     inverse_step_ = 1.0 / step;
     const Channels twelfth = source_->magnitude(12);
-    for (std::size_t j = 0; j < channels; ++j) error_bound_[j] = remainder * std::pow(step_, 12) * twelfth[j];
+    for (std::size_t j = 0; j < channels; ++j)
+      error_bound_[j] = hermite_remainder * std::pow(step_, 12) * twelfth[j];
   }
 
   TableKnot computed(std::int64_t number, KnotBlock<Source>& block) const {

@@ -74,6 +74,33 @@ SeaField SeaField::without_waves() const {
   return out;
 }
 
+SeaField SeaField::of_unit_height(const std::vector<std::size_t>& kept) const {
+  SeaField out = *this;
+  Arrays& f = out.arrays_ = {};
+  out.size_ = kept.size();
+  out.with_floor_ = 0;
+  for (const std::size_t i : kept) {
+    const double k = arrays_.k[i];
+    const bool floor = i < with_floor_;
+    f.k.push_back(k);
+    f.kx.push_back(arrays_.kx[i]);
+    f.ky.push_back(arrays_.ky[i]);
+    f.x.push_back(arrays_.x[i]);
+    f.y.push_back(arrays_.y[i]);
+    f.speed.push_back(floor ? k / (1.0 + std::exp(-2.0 * k * depth_)) : k);
+    f.pressure.push_back(gravity_ / k);
+    if (floor) ++out.with_floor_;
+  }
+  out.with_floor_ = whole_packs(out.with_floor_);
+  f.k.resize(whole_packs(out.size_), f.k.back());
+  for (auto* array : {&f.kx, &f.ky, &f.x, &f.y, &f.speed, &f.pressure}) array->resize(f.k.size(), 0.0);
+  f.amplitude.assign(f.k.size(), 1.0);
+  f.phase.assign(f.k.size(), 0.0);
+  f.omega.assign(f.k.size(), 1.0);
+  f.sigma.assign(f.k.size(), gravity_);
+  return out;
+}
+
 double SeaField::calm_below(double cut) const {
   constexpr int halvings = 40;
   if (!(crest_ < depth_)) return -depth_;

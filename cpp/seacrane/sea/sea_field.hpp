@@ -83,6 +83,10 @@ class SeaField {
   explicit SeaField(const WaveComponents& waves, Stretching stretching = Stretching::wheeler);
   /// The same water with its current, and waves of no height.
   SeaField without_waves() const;
+  /// The same water with some of its wavenumbers, waves of unit height that stand still at t = 0, for sums in
+  /// which accelerations and the pressure take g times the elevation's phasors, the velocity those of a
+  /// potential: omega = 1, sigma = g.
+  SeaField of_unit_height(const std::vector<std::size_t>& kept) const;
 
   /// One number for each component, padded.
   struct Arrays {

@@ -15,10 +15,14 @@ namespace seacrane {
 class SeaView {
  public:
   /// Without a field: deep water, still and at rest.
-  SeaView(std::shared_ptr<const SeaField> field, const std::vector<FlowStencil>& stencils)
+  /// Without `near` all components are summed everywhere.
+  SeaView(std::shared_ptr<const SeaField> field, const std::vector<FlowStencil>& stencils,
+          std::shared_ptr<const NearSea> near = nullptr)
       : field_(std::move(field)) {
     const auto scratch = std::make_shared<sea::FlowScratch>(field_ ? field_->padded() : 0);
-    for (const FlowStencil& one : stencils) evaluators_.emplace_back(field_, one, scratch);
+    const auto waves = near ? std::make_shared<NearWaves>(near, stencils.size()) : nullptr;
+    for (const FlowStencil& one : stencils)
+      evaluators_.emplace_back(field_, one, scratch, near && near->serves(one) ? waves : nullptr);
   }
   SeaView(SeaView&&) = default;  // and no copy, which would share the scratch
 

@@ -50,3 +50,16 @@ def entrapped_water() -> Scene:
     inside = Compartment(name="inside", area=np.pi, height=3.0, point=(0, 0, -1.5), openings=holes)
     scene.add_immersed("load", parts=[BoxPart(size=(2, 2, 3))], inside=inside)
     return scene
+
+
+@case(by("dopri5"), by("rk4", "redundant", dt=0.01))
+def seen_by_few() -> Scene:
+    """Strips that go through the surface of a sea of 200 components, drawn along it from region to region."""
+    scene = with_load((0, 0, 0.8), mass=60e3, velocity=(4.0, 0, -0.5))
+    scene.add_sea(vessel=None, hs=1.5, tp=6.0, seed=5, direction_deg=20.0)
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=[(0, 0, 30.0), (0, 0, 1.0)], EA=4e6,
+        tension_at_start=50e3 * G,
+    )  # fmt: skip
+    scene.add_immersed("load", parts=[BoxPart(size=(8, 3, 2), strips=(6, 1), fill=0.2, slam=5.0)])
+    return scene

@@ -90,7 +90,8 @@ struct EntrappedWater {
     for (std::size_t i = 0; i < d.opening_points.size(); ++i) {
       const std::string name = "opening " + std::to_string(i + 1) + " of entrapped water '" + d.name + "'";
       out.openings.push_back({context.attach(d.body, d.opening_points[i]).point, d.opening_areas[i],
-                              context.stencil({.name = name, .waves = d.wave_factor}), d.end_of(i)});
+                              context.stencil({.name = name, .waves = d.wave_factor, .reach = 0.0}),
+                              d.end_of(i)});
     }
     out.set_shares();
     out.gravity = context.gravity();

@@ -88,10 +88,13 @@ struct ImmersedPart {
     }
     const double largest = d.added_masses.back().maxCoeff();
     const double scale = (largest > 0.0 ? largest : 1.0) * context.length_scale();  // at 1 m/s
-    out.widths = d.widths().asDiagonal();
+    const Vec3d size = d.widths();
+    out.widths = size.asDiagonal();
     out.stencil = context.stencil({.name = "immersed part '" + (d.row.empty() ? d.name : d.row) + "'",
                                    .count = static_cast<std::size_t>(d.count),
-                                   .waves = d.wave_factor});
+                                   .waves = d.wave_factor,
+                                   .reach = 0.5 * ((d.count - 1.0) * d.step.norm() + size.norm()),
+                                   .width = size.maxCoeff()});
     out.states = {context.state({d.name + ".slam_loss", "J", 0.0, scale}), 1};
     return out;
   }

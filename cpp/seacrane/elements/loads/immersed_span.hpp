@@ -201,7 +201,7 @@ struct ImmersedSpan {
   static FlowStencil at_end(const std::string& body, const Vec3d& point) {
     std::string name = "immersed span at point (";
     for (int i = 0; i < 3; ++i) name += to_text(point[i]) + (i < 2 ? ", " : ")");
-    return {.name = name + " of '" + body + "'", .surface = false};
+    return {.name = name + " of '" + body + "'", .surface = false, .reach = 0.0};
   }
 
   template <class T>
