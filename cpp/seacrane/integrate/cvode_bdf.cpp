@@ -43,7 +43,7 @@ class CvodeBdf final : public SundialsIntegrator {
   }
 
   std::vector<double> projected_;
-  std::optional<sundials::DenseAlgebra> algebra_;
+  std::optional<sundials::SparseAlgebra> algebra_;
 };
 
 void* CvodeBdf::make() {

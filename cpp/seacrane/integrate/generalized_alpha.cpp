@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "seacrane/integrate/dense_lu.hpp"
 #include "seacrane/integrate/difference_jacobian.hpp"
 #include "seacrane/integrate/fixed_step.hpp"
 #include "seacrane/integrate/registration.hpp"
+#include "seacrane/integrate/sparse_lu.hpp"
 
 namespace seacrane {
 namespace {
@@ -86,7 +86,7 @@ class GeneralizedAlpha final : public FixedStep {
   std::vector<double> y_, ydot_, full_residual_, velocity_change_;
   std::vector<double> jacobian_;  // by columns
   std::vector<double> full_jacobian_, move_slopes_;
-  DenseLu lu_;
+  SparseLu lu_;
   double factored_step_ = 0.0;
 };
 

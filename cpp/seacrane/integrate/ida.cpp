@@ -136,7 +136,7 @@ class Ida final : public SundialsIntegrator {
   long low_steps_ = 0, failures_before_low_ = 0;
   std::vector<double> derivative_, trial_, trial_derivative_, trial_residual_, differential_;
   sundials::Vector derivative_vector_, differential_vector_;
-  std::optional<sundials::DenseAlgebra> algebra_;
+  std::optional<sundials::SparseAlgebra> algebra_;
 };
 
 void* Ida::make() {

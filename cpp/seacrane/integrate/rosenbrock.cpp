@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "seacrane/integrate/adaptive_step.hpp"
-#include "seacrane/integrate/dense_lu.hpp"
 #include "seacrane/integrate/difference_jacobian.hpp"
 #include "seacrane/integrate/registration.hpp"
+#include "seacrane/integrate/sparse_lu.hpp"
 #include "seacrane/integrate/tableaus/rang_angermann34.hpp"
 
 namespace seacrane {
@@ -84,7 +84,7 @@ class RosenbrockW final : public AdaptiveStep {
   std::vector<double> stage_state_, sum_, slope_;
   std::array<std::vector<double>, Scheme::stages> k_;
   std::vector<double> jacobian_;  // by columns
-  DenseLu lu_;
+  SparseLu lu_;
   int age_ = steps_per_jacobian;
   double factored_step_ = 0.0;
   /// Start of the last try: a second one from the same state has been rejected.

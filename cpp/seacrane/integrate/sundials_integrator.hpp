@@ -10,6 +10,7 @@
 
 #include "seacrane/integrate/integrator.hpp"
 #include "seacrane/integrate/problem.hpp"
+#include "seacrane/integrate/sparse_lu.hpp"
 #include "seacrane/integrate/sundials_compat.hpp"
 
 namespace seacrane {
@@ -47,15 +48,40 @@ inline Vector view(std::vector<double>& values, const Context& context) {
 
 inline double* data(N_Vector vector) { return N_VGetArrayPointer(vector); }
 
-/// A dense matrix and the solver for it, of the size of `like`.
-struct DenseAlgebra {
-  DenseAlgebra(N_Vector like, const Context& context)
+/// A matrix kept densely and a solver for it that skips its zeros, of the size of `like`.
+class SparseAlgebra {
+ public:
+  SparseAlgebra(N_Vector like, const Context& context)
       : matrix(SUNDenseMatrix(N_VGetLength(like), N_VGetLength(like), context.get())),
-        solver(SUNLinSol_Dense(like, matrix.get(), context.get())) {
-    if (!matrix || !solver) throw std::runtime_error("SUNDIALS could not set up its dense linear solver");
+        solver(SUNLinSolNewEmpty(context.get())),
+        lu_(static_cast<std::size_t>(N_VGetLength(like))) {
+    if (!matrix || !solver) throw std::runtime_error("SUNDIALS could not set up its linear solver");
+    solver->content = &lu_;
+    solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+    solver->ops->setup = [](SUNLinearSolver self, SUNMatrix a) {
+      std::copy_n(SUNDenseMatrix_Data(a), SUNDenseMatrix_LData(a), lu(self).column(0));
+      return lu(self).factor() ? 0 : 1;
+    };
+    solver->ops->solve = [](SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
+      std::copy_n(data(b), N_VGetLength(b), data(x));
+      lu(self).solve(data(x));
+      return 0;
+    };
+    solver->ops->free = [](SUNLinearSolver self) {
+      SUNLinSolFreeEmpty(self);
+      return 0;
+    };
   }
+  SparseAlgebra(const SparseAlgebra&) = delete;
+  SparseAlgebra& operator=(const SparseAlgebra&) = delete;
+
   Matrix matrix;
   LinearSolver solver;
+
+ private:
+  static SparseLu& lu(SUNLinearSolver self) { return *static_cast<SparseLu*>(self->content); }
+
+  SparseLu lu_;
 };
 
 }  // namespace sundials
