@@ -12,6 +12,10 @@ from seacrane.answers.report import report as report
 from seacrane.answers.report import Report as Report
 from seacrane.answers.contact_hits import contact_hits as contact_hits
 from seacrane.answers.contact_hits import ContactHit as ContactHit
+from seacrane.answers.fatigue import fatigue as fatigue
+from seacrane.answers.fatigue import Fatigue as Fatigue
+from seacrane.answers.fatigue import FatigueCurve as FatigueCurve
+from seacrane.answers.fatigue import rainflow as rainflow
 from seacrane.answers.required import required as required
 from seacrane.answers.requirements import Requirements as Requirements
 from seacrane.answers.requirements import Loss as Loss
