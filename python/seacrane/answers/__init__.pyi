@@ -16,6 +16,9 @@ from seacrane.answers.fatigue import fatigue as fatigue
 from seacrane.answers.fatigue import Fatigue as Fatigue
 from seacrane.answers.fatigue import FatigueCurve as FatigueCurve
 from seacrane.answers.fatigue import rainflow as rainflow
+from seacrane.answers.re_hits import ReHit as ReHit
+from seacrane.answers.re_hits import re_hit_probability as re_hit_probability
+from seacrane.answers.re_hits import ReHitProbability as ReHitProbability
 from seacrane.answers.required import required as required
 from seacrane.answers.requirements import Requirements as Requirements
 from seacrane.answers.requirements import Loss as Loss
