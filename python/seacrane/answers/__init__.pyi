@@ -19,6 +19,11 @@ from seacrane.answers.fatigue import rainflow as rainflow
 from seacrane.answers.re_hits import ReHit as ReHit
 from seacrane.answers.re_hits import re_hit_probability as re_hit_probability
 from seacrane.answers.re_hits import ReHitProbability as ReHitProbability
+from seacrane.answers.code_factors import code_factors as code_factors
+from seacrane.answers.code_factors import CodeFactors as CodeFactors
+from seacrane.answers.simplified_method import simplified_method as simplified_method
+from seacrane.answers.simplified_method import SimplifiedMethod as SimplifiedMethod
+from seacrane.answers.simplified_method import Draught as Draught
 from seacrane.answers.required import required as required
 from seacrane.answers.requirements import Requirements as Requirements
 from seacrane.answers.requirements import Loss as Loss
