@@ -24,6 +24,9 @@ from seacrane.answers.code_factors import CodeFactors as CodeFactors
 from seacrane.answers.simplified_method import simplified_method as simplified_method
 from seacrane.answers.simplified_method import SimplifiedMethod as SimplifiedMethod
 from seacrane.answers.simplified_method import Draught as Draught
+from seacrane.answers.deck_cargo import deck_cargo as deck_cargo
+from seacrane.answers.deck_cargo import DeckCargo as DeckCargo
+from seacrane.answers.deck_cargo import Cargo as Cargo
 from seacrane.answers.required import required as required
 from seacrane.answers.requirements import Requirements as Requirements
 from seacrane.answers.requirements import Loss as Loss
