@@ -17,7 +17,7 @@ from seacrane.operability import phase_sheet
 EXAMPLE = Path(__file__).parents[2] / "examples" / "lifts" / "sheet_by_phases.toml"
 SMALL = (
     ("tp_s = [6, 8, 11]", "tp_s = [8, 11]"), ("direction_deg = [135, 180]", "direction_deg = [180]"),
-    ("hs_m = [1, 2, 4]\nseeds = 5", "hs_m = [2, 4]\nseeds = 3"),
+    ("hs_m = [1, 2, 3]\nseeds = 5", "hs_m = [2, 4]\nseeds = 3"),
 )  # fmt: skip
 
 
