@@ -13,9 +13,10 @@ from seacrane.errors import SceneError
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
-from seacrane.operability.hindcast import HOUR, Flags, Times, WaveHindcast
+from seacrane.operability.hindcast import HOUR, Flags, WaveHindcast
 from seacrane.operability.phase import Span
 from seacrane.operability.phase_table import PhaseSheet
+from seacrane.operability.sea_states import Times
 from seacrane.operability.windows import ROUNDING, leg_startable, limit_of, steps_of
 from seacrane.plotting.table import Answer, Column, Table, Verdict
 
