@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Result, Scene, Stage, Until, shipped_database, simulate
+from seacrane.answers import Draught, simplified_method
 from seacrane.hydro import BoxPart, PlatePart
 from seacrane.warnings import ScatteredWavesWarning
 
@@ -57,26 +58,20 @@ def lowered(hs: float, seed: int = 1) -> Result:
     return simulate(template(hs, seed), stages, dt_out=0.05)
 
 
-def simplified(draught: float, tip: tuple[float, float, float]) -> tuple[float, float]:
-    """Static hook load and what the water adds to it or takes from it, N, with the frame wet so deep (m)."""
+def at_draught(name: str, draught: float) -> Draught:
+    """What the water meets with the frame wet so deep, m."""
     wet = np.clip(draught / SIZE[2], 0.0, 1.0)
-    middle = draught - 0.5 * wet * SIZE[2]  # depth of the centre of what is wet
-    omega = 2.0 * np.pi / TZ
-    wave = 0.9 * HS
-    v_w = wave * omega * np.exp(-(omega**2) / G * middle)
-    a_w = omega * v_w
-    heave, v_ct, a_ct = tip
-    volume = wet * FILL * np.prod(SIZE)
     water = [piece for part in parts() for piece in part.pieces(RHO)]
-    added = sum(np.interp(draught, piece.depths, piece.added_masses[:, 2]) for piece in water)
-    speed = RATE + np.hypot(v_ct, v_w)
     touches = draught < 0.1 * SIZE[2]
-    slam = 0.5 * RHO * C_S * (SIZE[0] * SIZE[1] + 4.0 * np.prod(MAT)) * speed**2 if touches else 0.0
-    drag = (0.0 if touches else sum(piece.drag[2] for piece in water)) * speed**2
-    inertia = np.hypot((MASS + added) * a_ct, (RHO * volume + added) * a_w)
-    pierced = FILL * SIZE[0] * SIZE[1] if draught <= SIZE[2] else 0.0
-    buoyancy = RHO * G * pierced * np.hypot(wave, heave)
-    return (MASS + BLOCK - RHO * volume) * G, float(np.hypot(drag + slam, inertia - buoyancy))
+    return Draught(
+        name=name,
+        depth=draught - 0.5 * wet * SIZE[2],  # of the centre of what is wet
+        volume=wet * FILL * np.prod(SIZE),
+        added_mass=sum(np.interp(draught, piece.depths, piece.added_masses[:, 2]) for piece in water),
+        drag_area=0.0 if touches else sum(2.0 * piece.drag[2] / RHO for piece in water),
+        slam_area=C_S * (SIZE[0] * SIZE[1] + 4.0 * np.prod(MAT)) if touches else 0.0,
+        water_plane=FILL * SIZE[0] * SIZE[1] if draught <= SIZE[2] else 0.0,
+    )
 
 
 calm, waves = lowered(0.0), [lowered(HS, seed) for seed in SEEDS]
@@ -96,10 +91,13 @@ for run in waves:
     heave = max(heave, np.ptp(run.place_of("tip")[:, 2]) / 2.0)
     speed, rise = max(speed, np.abs(rate).max()), max(rise, np.abs(np.gradient(rate, run.time)).max())
 hand = {"bottom touches": 0.0, "half under": 0.5, "top touches": 1.0, "under": 1.0 + BELOW / SIZE[2]}
-for place, share in hand.items():
-    static, more = simplified(share * SIZE[2], (heave, speed, rise))
-    print(f"simplified, {place:14} static {static / 1e3:6.1f} kN, water {more / 1e3:6.1f} kN: "
-          f"{1.0 - more / static:5.2f}")  # fmt: skip
+by_hand = simplified_method(
+    mass=MASS + BLOCK, draughts=[at_draught(name, share * SIZE[2]) for name, share in hand.items()],
+    hs=HS, tz=TZ, lowering_speed=RATE, tip_heave=heave, tip_speed=speed, tip_acceleration=rise, density=RHO,
+)  # fmt: skip
+for row in by_hand:
+    forces = f"static {row.static / 1e3:6.1f} kN, water {row.hydrodynamic / 1e3:6.1f} kN"
+    print(f"simplified, {row.name:14} {forces}: {row.margin:5.2f}")
 
 if len(sys.argv) > 1:
     import matplotlib.pyplot as plt

@@ -100,6 +100,11 @@ class Study:
     findings: Sequence[Finding] = ()
 
 
+def answers_report(title: str, answers: Mapping[str, Answer]) -> Report:
+    """The page of answers, each below its title."""
+    return Report(title=title, html=page_of("answers.html", title=title, answers=answers))
+
+
 def study_report(study: Study) -> Report:
     """The page about several runs. Raises OSError if the image of a picture cannot be read."""
     return Report(title=study.title, html=page_of("study.html", title=study.title, study=study))

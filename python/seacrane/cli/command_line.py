@@ -78,6 +78,14 @@ COMMANDS: dict[str, tuple[str, str, Sequence[Row]]] = {
         ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),
         ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
     )),
+    "sheet": ("study_command", "make the sheet of a lift: the seas that each phase allows, go or no go, "
+              "windows; a call that was stopped goes on", (
+        ("sheet", "LIFT.toml", str, "a lift with a [sheet]; data only"),
+        ("--out", "DIR", str, "folder of sheet.csv, sheet.html and the runs; made if absent", REQUIRED),
+        ("--workers", "N", int, "processes to run in; default: this one"),
+        ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),
+        ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
+    )),
     "view": ("result_commands", "write a result, or a scene at its start, as a page in three dimensions: one "
              "HTML file that needs no network", (
         ("source", "RESULT.nc|SCENE", str, f"{RESULT}; or {SCENE}"),

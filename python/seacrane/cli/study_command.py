@@ -1,4 +1,4 @@
-"""``seacrane study``: run a study file into a folder, or go on with it."""
+"""``seacrane study`` and ``seacrane sheet``: run a lift many times into a folder, or go on with it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,15 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
+from functools import partial
 from importlib import import_module
+from typing import TypeVar
 
 from seacrane.cli.command_line import INTERRUPTED
 from seacrane.errors import SceneError, WorkerVersionError
 from seacrane.version import __version__
+
+Done = TypeVar("Done")
 
 
 def study(arguments: argparse.Namespace) -> int:
@@ -20,22 +24,40 @@ def study(arguments: argparse.Namespace) -> int:
     from seacrane.cli.result_commands import show_study
     from seacrane.lift.study_run import run_study
 
-    progress = arguments.progress or sys.stderr.isatty()
-    with _executor(arguments) as executor:
-        try:
-            done = run_study(arguments.study, arguments.out, executor=executor, progress=progress)
-        except KeyboardInterrupt:
-            _end_workers(executor)
-            print(
-                f"seacrane study: interrupted; {arguments.out} keeps the members that came back, and the "
-                "same command goes on",
-                file=sys.stderr,
-            )
-            return INTERRUPTED
+    done = _done(arguments, partial(run_study, arguments.study))
+    if done is None:
+        return INTERRUPTED
     if done.accuracy is not None:
         print(done.accuracy)
     show_study(arguments.out, None)
     return 0
+
+
+def sheet(arguments: argparse.Namespace) -> int:
+    """Print the sheet and what is held against it; 130 after Ctrl-C."""
+    from seacrane.lift.sheet_run import run_sheet
+
+    done = _done(arguments, partial(run_sheet, arguments.sheet))
+    if done is None:
+        return INTERRUPTED
+    print("\n\n".join(map(str, done.answers.values())))
+    return 0
+
+
+def _done(arguments: argparse.Namespace, run: Callable[..., Done]) -> Done | None:
+    """What is run into the folder; None after Ctrl-C, which is told."""
+    progress = arguments.progress or sys.stderr.isatty()
+    with _executor(arguments) as executor:
+        try:
+            return run(arguments.out, executor=executor, progress=progress)
+        except KeyboardInterrupt:
+            _end_workers(executor)
+            print(
+                f"seacrane {arguments.command}: interrupted; {arguments.out} keeps the members that came "
+                "back, and the same command goes on",
+                file=sys.stderr,
+            )
+    return None
 
 
 @contextlib.contextmanager

@@ -27,7 +27,7 @@ from seacrane.run.plan import checked_stages
 from seacrane.run.stage import Condition, Stage, Until
 from seacrane.scene.scene import Scene
 
-NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "stage", "study")
+NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "stage", "study", "sheet")
 LATER = ("command", "heave_compensation", "ballast", "notes")  # in this order, after what they act on
 GAINS = ("stiffness", "damping")
 Made = TypeVar("Made")

@@ -31,6 +31,7 @@ from seacrane.lift.check_keys import Entry, entries_of, only, plain, shipped_lif
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
 from seacrane.lift.inner_keys import LIFTS, STUDY
 from seacrane.lift.keys import Key
+from seacrane.lift.sheet import Sheet, sheet_of
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -147,6 +148,8 @@ class Lift:
         In their order; none where one run is the whole lift.
     study : Study or None
         What its [study] says, which `seacrane study` runs.
+    sheet : Sheet or None
+        What its [sheet] says, which `seacrane sheet` makes.
 
     Raises
     ------
@@ -161,6 +164,7 @@ class Lift:
     accuracy: Mapping[str, float] | None
     stages: tuple[Stage, ...]
     study: Study | None
+    sheet: Sheet | None
     _entries: tuple[Entry, ...]
 
     def __init__(self, tables: Mapping[str, Any], *, folder: str | os.PathLike[str] = ".") -> None:
@@ -173,8 +177,9 @@ class Lift:
         checked["outputs"] = made(entries, "outputs", Outputs)
         checked["t_end"], checked["start"], checked["accuracy"] = made(entries, "run", _span)
         checked["stages"] = stages_of(entries)
-        run, method, study = (only(entries, name) for name in ("run", "method", "study"))
+        run, method, study, sheet = (only(entries, name) for name in ("run", "method", "study", "sheet"))
         checked["study"] = None if study is None else study_of(study)
+        checked["sheet"] = None if sheet is None else sheet_of(sheet)
         if method is not None and checked["accuracy"] is not None:
             with refused_at(method):
                 refuse_what_is_chosen(checked["method"], {}, ())

@@ -27,7 +27,7 @@ from seacrane.lift.tables import TABLES
 from seacrane.scene.scene import Scene
 
 FILE, MEMBERS = "study.toml", "members"
-OF_NO_SCENE = ("run", "method", "outputs", "stage", "study", "notes")  # which vary no scene
+OF_NO_SCENE = ("run", "method", "outputs", "stage", "study", "sheet", "notes")  # which vary no scene
 SINGLE = ("number", "whole", "text", "flag", "curve")  # types of keys that hold one value, or may
 MOST_HELD = 32  # scenes of a process
 
@@ -75,7 +75,7 @@ def run_study(
 def _source(lift: Lift, study: Study) -> Source:
     """The scene of the lift, or what makes scenes where keys of the lift vary."""
     scene = lift.scene()
-    tables = {name: table for name, table in lift.tables.items() if name != "study"}
+    tables = {name: table for name, table in lift.tables.items() if name not in ("study", "sheet")}
     axes = study.members.axes
     keys, of_stages = keys_in(tables), stage_paths(lift.stages)
     for name, values in axes.items():

@@ -34,6 +34,7 @@ from seacrane.lift.inner_keys import (
     vessel_keys,
 )
 from seacrane.lift.keys import Key, field_keys, keys_of, parameter_texts
+from seacrane.lift.sheet_keys import SHEET
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.stage import Stage
@@ -317,6 +318,10 @@ _ALL = (
     Table(
         name="study", several=False, keys=STUDY,
         text="Many runs of the lift: what varies, what each leaves, and when it is enough.",
+    ),
+    Table(
+        name="sheet", several=False, keys=SHEET,
+        text="The seas that each phase of the lift allows, held against a forecast and a hindcast.",
     ),
     Table(
         name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",

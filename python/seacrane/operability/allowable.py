@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -23,21 +24,21 @@ from seacrane.ensembles.study import Stages, Start
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.keywords import named
-from seacrane.operability.allowable_table import AllowableHs, breaking_height
+from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
-from seacrane.operability.asked import Asked, Still, asked_of, still_of
+from seacrane.operability.asked import Still, asked_of, still_of
+from seacrane.operability.cells import Cells, Place
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.linear_channels import LinearSeas
-from seacrane.operability.time_domain import ByTime, allowable_in, differences, storms_in
-from seacrane.plotting.table import Column, Table
+from seacrane.operability.time_domain import allowable_of, differences, numbers_in, storms_in
 from seacrane.run.method import Method, Shorthand, settled
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-Place = tuple[int, int]  # number of the peak period, and of the direction
 LINEAR_WITHIN = 0.1  # of the allowance
+BATCH = 10  # seeds that are run together where `until` may end a cell
 PROBES = 2  # seeds of each cell that are compared with the linear model
 DT = 0.5  # s between outputs
 HEIGHTS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0)  # m
@@ -66,6 +67,7 @@ def allowable_hs(
     store: str | os.PathLike[str] | None = None,
     method: Method | None = None,
     accuracy: Mapping[str, float] | None = None,
+    until: float | None = None,
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> AllowableHs:
@@ -116,6 +118,9 @@ def allowable_hs(
     accuracy : mapping of str to float, optional
         As of `ensemble`: integrator and tolerance of the runs of all seeds, and of a lift in calm water, are
         chosen by it.
+    until : float, optional
+        Half width of the 95 % interval of the allowable Hs, as a share of it: seeds are run in batches of ten
+        until a cell is known so well; `seeds` are the most that there may be. Default: all of them.
     progress : bool
         Show progress of what takes more than two seconds.
     **shorthand
@@ -133,15 +138,30 @@ def allowable_hs(
     factor = alpha_of(alpha)
     period = positive_of("hours", hours)
     factor.at(1.0, hours=period)
+    cells, failures = allowable_cells(
+        scene, criteria=criteria, tp=tp, direction_deg=direction_deg, hs=hs, domain=domain,
+        linear_within=linear_within, seeds=seeds, duration=duration, start_up=start_up, time=time,
+        stages=stages, executor=executor, store=store, method=method, accuracy=accuracy, progress=progress,
+        until=until, shorthand=shorthand,
+    )  # fmt: skip
+    return cells.table(scene.name, factor, period, failures)
+
+
+def allowable_cells(
+    scene: Scene, *, domain: str, time: float, executor: Executor | None, store: Any, method: Method | None,
+    accuracy: Mapping[str, float] | None, progress: bool, until: float | None, shorthand: Mapping[str, Any],
+    groups: Sequence[Sequence[int]] = (), **given: Any,
+) -> tuple[Cells, dict[int, str]]:  # fmt: skip
+    """The cells that `allowable_hs` makes a table of, and why members failed, by number.
+
+    Arguments are its own; `groups`: criteria by number, of which a table each is made.
+    """
     if "channels" in shorthand:
         raise SceneError("channels: runs record those of the criteria; leave channels out")
     if accuracy is not None:
         refuse_what_is_chosen(method, shorthand, ())
     how, recorded = settled(method, None, {"dt_out": DT, **shorthand})
-    asked = asked_of(
-        criteria, tp, direction_deg, hs, domain=domain, stages=stages, duration=duration, start_up=start_up,
-        seeds=seeds, linear_within=linear_within, method=how, dt_out=recorded.dt_out, accuracy=accuracy,
-    )  # fmt: skip
+    asked = asked_of(domain=domain, method=how, dt_out=recorded.dt_out, accuracy=accuracy, **given)
     still = still_of(scene, asked, number_of("time", time))
     cells, failures = Cells(asked), dict[int, str]()
     if asked.stages:
@@ -151,8 +171,10 @@ def allowable_hs(
     if domain == "auto" and not asked.stages and cells.linear is not None:
         _test(cells, cells.linear, still, executor, progress)
     if cells.wanted:
-        failures = _by_time(cells, still, executor, store, progress)
-    return cells.table(scene.name, factor, period, failures)
+        share = None if until is None else positive_of("until", until)
+        every = groups or [range(len(asked.criteria))]
+        failures = _by_time(cells, still, executor, store, progress, share, every)
+    return cells, failures
 
 
 def _by_frequency(cells: Cells, still: Still, *, strict: bool, progress: bool) -> None:
@@ -195,19 +217,42 @@ def _test(cells: Cells, linear: LinearSeas, still: Still, executor: Executor | N
 
 
 def _by_time(
-    cells: Cells, still: Still, executor: Executor | None, store: Any, progress: bool
-) -> dict[int, str]:
-    """Fill the cells that are wanted by runs; why members failed, by number."""
-    places = cells.wanted
-    seas = [cells.words(place) for place in places]
+    cells: Cells, still: Still, executor: Executor | None, store: Any, progress: bool, until: float | None,
+    groups: Sequence[Sequence[int]],
+) -> dict[int, str]:  # fmt: skip
+    """Fill the cells that are wanted by runs; why members failed, by number.
+
+    With `until` seeds are run in batches, and cells that are certain leave.
+    """
+    asked, left = cells.asked, cells.wanted
     if given_drivers(still.scene):  # on given ships and in stages from rest
         start: Start = partial(equilibrium, time=still.state.time)
     else:
-        start = still.state if cells.asked.stages else steady_start(still.scene, still.state)
-    storms = storms_in(cells.asked, still, seas, start, executor=executor, store=store, progress=progress)
-    for place, by_time in zip(places, allowable_in(cells.asked, still, storms, len(places)), strict=True):
-        cells.take_time(place, by_time)
-    return dict(storms.failures)
+        start = still.state if asked.stages else steady_start(still.scene, still.state)
+    seen: dict[Place, list[Array]] = {place: [] for place in left}
+    failures: dict[int, str] = {}
+    before = 0
+    size = len(asked.seeds) if until is None else BATCH
+    for first in range(0, len(asked.seeds), size):
+        seeds = asked.seeds[first : first + size]
+        folder = store
+        if store is not None and until is not None:
+            Path(store).mkdir(exist_ok=True)
+            folder = Path(store) / f"seeds_{seeds[0]}_to_{seeds[-1]}"
+        storms = storms_in(
+            replace(asked, seeds=seeds), still, [cells.words(place) for place in left], start,
+            executor=executor, store=folder, progress=progress,
+        )  # fmt: skip
+        failures |= {before + number: why for number, why in storms.failures.items()}
+        before += len(storms.members)
+        for place, numbers in zip(left, numbers_in(storms, len(left), asked, len(seeds)), strict=True):
+            seen[place].append(numbers)
+            so_far = np.concatenate(seen[place], axis=2)
+            cells.take_time(place, allowable_of(asked, still, so_far), so_far.shape[2])
+        left = [place for place in left if until is None or not cells.certain(place, until, groups)]
+        if not left:
+            break
+    return failures
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -234,130 +279,3 @@ def steady_start(scene: Scene, rest: _core.State) -> Start:
     except SceneError:
         return rest
     return rest if model.memories else SteadyStart(model=model)
-
-
-class Cells:
-    """Cells by peak period and direction, filled step by step; runs are wanted where nothing is known.
-
-    Attributes
-    ----------
-    by_criterion, low, high : ndarray, shape (criteria, periods, directions)
-        Allowable Hs, m, and its 95 % interval; NaN where a cell needed no runs.
-    difference : ndarray, shape (criteria, periods, directions)
-        Between run and linear model, over the allowance; NaN where it was not tested.
-    domain, reason : (periods, directions)
-    energy_share : (periods,) Of the waves, within the database.
-    """
-
-    def __init__(self, asked: Asked) -> None:
-        shape = (len(asked.tp), len(asked.direction_deg))
-        all_of = (len(asked.criteria), *shape)
-        self.asked = asked
-        self.linear: LinearSeas | None = None
-        self.by_criterion: Array = np.full(all_of, np.inf)
-        self.low, self.high, self.difference = (np.full(all_of, np.nan) for _ in range(3))
-        self.domain = np.full(shape, "time", dtype="U9")
-        self.reason = np.full(shape, "asked for", dtype=object)
-        self.energy_share: Array = np.full(shape[0], np.nan)
-
-    @property
-    def places(self) -> list[Place]:
-        """All cells, directions fastest."""
-        return [(i, j) for i in range(len(self.asked.tp)) for j in range(len(self.asked.direction_deg))]
-
-    @property
-    def wanted(self) -> list[Place]:
-        """Cells of the time domain."""
-        return [place for place in self.places if self.domain[place] == "time"]
-
-    def words(self, place: Place) -> dict[str, Any]:
-        """The words of the sea of a cell, without its height and seed."""
-        return {"tp": self.asked.tp[place[0]], "direction_deg": self.asked.direction_deg[place[1]]}
-
-    @property
-    def allowable(self) -> Array:
-        """Over all criteria, up to the largest Hs that was examined."""
-        return np.asarray(np.minimum(self.by_criterion.min(axis=0), self.asked.hs[-1]))
-
-    def refuse(self, reason: str) -> None:
-        """Leave all cells to the time domain."""
-        self.reason[:] = reason
-
-    def take_difference(self, place: Place, found: Array | str) -> None:
-        """What a probe of a cell brought: the largest of several counts."""
-        if isinstance(found, str):
-            self.domain[place], self.reason[place] = "time", f"a run failed: {found}"
-            return
-        here = self.difference[(slice(None), *place)]
-        self.difference[(slice(None), *place)] = np.fmax(here, found)
-        if self.reason[place].startswith("a run failed"):
-            return
-        worst = int(np.argmax(self.difference[(slice(None), *place)]))
-        share = 100.0 * self.difference[worst, place[0], place[1]]
-        name = self.asked.criteria[worst].name
-        if share > 100.0 * self.asked.linear_within:
-            self.domain[place] = "time"
-            self.reason[place] = f"{name}: run and linear model differ by {share:.0f} % of the allowance"
-        else:
-            self.reason[place] = f"within {share:.1f} % of the allowance ({name})"
-
-    def take_time(self, place: Place, found: Sequence[ByTime]) -> None:
-        """Fill a cell by its runs."""
-        for i, one in enumerate(found):
-            at = (i, *place)
-            self.by_criterion[at], self.low[at], self.high[at] = one.allowable, one.low, one.high
-        failed = max((one.failed for one in found), default=0)
-        unknown = [one.unknown for one in found if not np.isnan(one.unknown)]
-        if unknown and (np.isnan(self.allowable[place]) or self.allowable[place] <= min(unknown)):
-            self.reason[place] = f"{failed} runs failed: not known from Hs {min(unknown):g} m on"
-        elif failed:
-            self.reason[place] = f"{failed} runs failed, and the others count"
-
-    def table(self, scene: str, alpha: AlphaFactor, hours: float, failures: Mapping[int, str]) -> AllowableHs:
-        """The table of these cells, filled; without a duration it is of lifts in stages."""
-        asked = self.asked
-        names = [one.name for one in asked.criteria]
-        found, capped = self.allowable, self.by_criterion.min(axis=0) > asked.hs[-1]
-        governing = np.where(capped, "", np.array(names)[self.by_criterion.argmin(axis=0)])
-        low, high = (np.minimum(values.min(axis=0), asked.hs[-1]) for values in (self.low, self.high))
-        forecast = alpha.at(found, hours=hours) * found
-        cell, period, told = ("tp", "direction_deg"), ("tp",), alpha.told(hours=hours)
-
-        def column(name: str, values: Any, unit: str = "", long_name: str = "", over: Any = cell) -> Column:
-            return Column(name=name, values=values, unit=unit, long_name=long_name, over=over)
-
-        axes = [
-            Column(name="criterion", values=names),
-            Column(name="tp", values=asked.tp, unit="s", long_name="peak period"),
-            Column(name="direction_deg", values=asked.direction_deg, unit="degrees",
-                   long_name="direction of travel of the waves"),
-        ]  # fmt: skip
-        columns = [
-            column("allowable_hs", found, "m", "allowable significant wave height"),
-            column("low", low, "m", "lower end of its 95 % interval"),
-            column("high", high, "m", "upper end of its 95 % interval"),
-            column("forecast_hs", forecast, "m", f"allowable in a forecast: {told}"),
-            column("capped", capped, "", "no criterion is reached at the largest Hs examined"),
-            column("governing", governing.astype(str)),
-            column("domain", self.domain),
-            column("reason", self.reason.astype(str)),
-            column("by_criterion", self.by_criterion, "m", over=None),
-            column("difference", self.difference, "1", "run against linear model, over the allowance", None),
-            column("breaking_hs", [breaking_height(tp) for tp in asked.tp], "m",
-                   "Hs above which waves of that period break (DNV-RP-C205)", period),
-            column("wave_energy_share", self.energy_share, "1", over=period),
-        ]  # fmt: skip
-        attributes = {
-            "scene": scene,
-            "criteria": "; ".join(one.told(one_lift=asked.duration is None) for one in asked.criteria),
-            "alpha_factor": told,
-            "operation_hours": hours,
-            "hs_of_runs": list(asked.hs),
-            "seeds": list(asked.seeds),
-            **({} if asked.duration is None else {"duration": asked.duration}),
-            "linear_within": asked.linear_within,
-        }
-        return AllowableHs(
-            scene=scene, criteria=asked.criteria, alpha=alpha, hours=hours, failures=dict(failures),
-            dataset=Table(axes=axes, columns=columns, attributes=attributes).to_xarray(),
-        )  # fmt: skip

@@ -49,9 +49,11 @@ class AllowableHs(Answer):
         first; `domain`, "frequency" or "time", and `reason`. `by_criterion` and `difference` (of run and
         linear model, over the allowance) have the dimension `criterion` too. `breaking_hs` is the
         height above which waves of a period break, and `wave_energy_share` what of them lies within the
-        database.
+        database. `again_hs` (m) is the lowest Hs of runs above `allowable_hs` at which what governs is kept
+        again, or NaN: such a limit is not monotone in Hs. `runs` counts the seeds at each Hs.
     failures : mapping of int to str
-        Why runs failed, by their number: periods, directions, Hs, seeds fastest, of the cells by runs.
+        Why runs failed, by their number: periods, directions, Hs, seeds fastest, of the cells by runs;
+        with `until` batch after batch.
     """
 
     scene: str
@@ -122,6 +124,11 @@ class AllowableHs(Answer):
             ">: reached by no criterion"
         )
         lines.append(f"{self.alpha.told(hours=self.hours)}: not in the table, in forecast_hs")
+        again = int(np.isfinite(self.dataset["again_hs"].to_numpy()).sum())
+        if again:
+            lines.append(
+                f"{again} cells are not monotone in Hs: kept again at again_hs; the first limit counts"
+            )
         if self.failures:
             lines.append(f"{len(self.failures)} runs failed, see failures and reason; failed: not known")
         return lines

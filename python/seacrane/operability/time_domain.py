@@ -33,7 +33,8 @@ class ByTime:
 
     `allowable` is infinite where no Hs of the grid reaches the criterion, and NaN where it is not known,
     because runs failed at the lowest Hs. `unknown` is the Hs, m, at which runs failed before it was reached,
-    or NaN; `failed` counts the runs that failed up to the Hs that was reached.
+    or NaN; `failed` counts the runs that failed up to the Hs that was reached; `again` is the lowest Hs, m,
+    above the allowable one at which the criterion is kept again, or NaN.
     """
 
     allowable: float
@@ -41,6 +42,7 @@ class ByTime:
     high: float
     unknown: float = float("nan")
     failed: int = 0
+    again: float = float("nan")
 
 
 def storms_in(
@@ -62,17 +64,23 @@ def storms_in(
     )  # fmt: skip
 
 
-def allowable_in(asked: Asked, still: Still, storms: Ensemble, cells: int) -> list[list[ByTime]]:
-    """By cell and criterion."""
-    shape = (cells, len(asked.hs), len(asked.seeds))
-    found: list[list[ByTime]] = [[] for _ in range(cells)]
-    for i, (criterion, rest) in enumerate(zip(asked.criteria, still.rest.tolist(), strict=True)):
-        name = f"criterion_{i}"
-        numbers = storms.dataset[name].to_numpy() if name in storms.dataset else np.full((1, 4), np.nan)
-        numbers = np.broadcast_to(numbers, (int(np.prod(shape)), 4)).reshape(*shape, 4)
-        for by_cell, values in zip(found, reached(criterion, numbers, rest), strict=True):
-            by_cell.append(_crossing(asked, criterion, values, criterion.allowance(rest)))
-    return found
+def numbers_in(storms: Ensemble, cells: int, asked: Asked, seeds: int) -> Array:
+    """`record_numbers` of all runs, (cells, criteria, Hs, seeds, 4); NaN where nothing is kept."""
+    every = (cells, len(asked.hs), seeds, 4)
+    kept = [f"criterion_{i}" for i in range(len(asked.criteria))]
+    found = [storms.dataset[name].to_numpy() if name in storms.dataset else np.nan for name in kept]
+    return np.stack(
+        [np.broadcast_to(one, (int(np.prod(every[:3])), 4)).reshape(every) for one in found], axis=1
+    )
+
+
+def allowable_of(asked: Asked, still: Still, numbers: Array) -> list[ByTime]:
+    """By criterion, of a cell's (criteria, Hs, seeds, 4)."""
+    each = zip(asked.criteria, numbers, still.rest.tolist(), strict=True)
+    return [
+        _crossing(asked, criterion, reached(criterion, kept, rest), criterion.allowance(rest))
+        for criterion, kept, rest in each
+    ]
 
 
 def _crossing(asked: Asked, criterion: Criterion, values: Array, allowance: float) -> ByTime:
@@ -82,9 +90,11 @@ def _crossing(asked: Asked, criterion: Criterion, values: Array, allowance: floa
         for name, of in (("allowable", "value"), ("low", "high"), ("high", "low"))
     }
     until = int(np.searchsorted(asked.hs, by["allowable"])) + 1
+    each = [(height, level.value) for height, level in zip(asked.hs, levels, strict=True)]
+    kept = (height for height, value in each if height > by["allowable"] and value < allowance)
     return ByTime(
-        **by, unknown=first_unknown(asked.hs, [level.value for level in levels], allowance),
-        failed=int(np.isnan(values[:until]).sum()),
+        **by, unknown=first_unknown(asked.hs, [value for _, value in each], allowance),
+        failed=int(np.isnan(values[:until]).sum()), again=next(kept, float("nan")),
     )  # fmt: skip
 
 

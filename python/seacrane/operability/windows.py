@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,8 @@ from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.hindcast import Flags, WaveHindcast
+from seacrane.operability.phase import Span
+from seacrane.operability.phase_table import PhaseSheet
 from seacrane.plotting.panel import COLOURS, new_figure
 from seacrane.plotting.table import Answer, Column, Table
 
@@ -49,7 +52,8 @@ class WeatherWindows(Answer):
         for the hours to come) and `waiting` (h until it may start; NaN where the series ends before). Over
         `month` (1 to 12) the same as shares in % and waiting times: `workable_percent`, `may_start_percent`,
         `waiting_mean`, `waiting_p50`, `waiting_p90`. Over `window`: `start` and `length` (h) of every stretch
-        of workable time of at least `hours`.
+        of workable time of at least `hours`. Of phases in series: `hs_limit` and `workable` are those of the
+        least phase, and a window ends with the first point of safe return.
     workable_percent, may_start_percent : float
         Of all the time.
     waiting_mean, waiting_p50, waiting_p90 : float
@@ -95,9 +99,10 @@ class WeatherWindows(Answer):
 @named
 def weather_windows(
     hindcast: WaveHindcast,
-    allowable: AllowableHs | float,
+    allowable: AllowableHs | PhaseSheet | float,
     *,
     hours: float | None = None,
+    case: str | None = None,
     heading_deg: float | None = None,
     alpha: AlphaFactor | float | None = None,
 ) -> WeatherWindows:
@@ -106,12 +111,18 @@ def weather_windows(
     Each sea state stands for the step that begins at its time. An operation may start at a time if that step
     and all others until its end are workable; a started one is not interrupted.
 
+    With a sheet phases are in series: each step is held to the phases that are then under way, contingency
+    included, and the operation may start if it then comes to the first point of safe return. There it waits
+    for the next phases; `waiting` is that of all of them together.
+
     Parameters
     ----------
-    allowable : AllowableHs or float
-        A table, or one Hs (m) for all seas.
+    allowable : AllowableHs, PhaseSheet or float
+        A table, a sheet, or one Hs (m) for all seas.
     hours : float, optional
-        Of the operation, contingency included, h; default: those of the table.
+        Of the operation, contingency included, h; default: those of the table. A sheet tells its own.
+    case : str, optional
+        Load case of a sheet that has several.
     heading_deg : float, optional
         Compass heading of the vessel's bow, with a table and directions. Default: the worst direction of the
         table counts.
@@ -125,6 +136,12 @@ def weather_windows(
     """
     if not isinstance(hindcast, WaveHindcast):
         raise SceneError(f"hindcast is {shown(hindcast)}; give a WaveHindcast")
+    if isinstance(allowable, PhaseSheet):
+        if hours is not None or alpha is not None:
+            raise SceneError("hours and alpha are those of the phases of a sheet; leave them out")
+        return _in_series(hindcast, allowable, allowable.case_of(case), heading_deg)
+    if case is not None:
+        raise SceneError(f"case is {shown(case)}, and the table has none; leave it out")
     table = allowable if isinstance(allowable, AllowableHs) else None
     period = number_of("hours", (table.hours if table else None) if hours is None else hours)
     if not 0.0 < period <= LONGEST:
@@ -132,8 +149,63 @@ def weather_windows(
     factor = (table.alpha if table else AlphaFactor()) if alpha is None else alpha_of(alpha)
     bare = _limit(hindcast, allowable, heading_deg)
     limit = bare * factor.at(bare, hours=period)
-    outside = hindcast.known & np.isnan(limit)
-    return _windows(hindcast, limit, period, outside, factor.told(hours=period))
+    steps = steps_of(period, hindcast.step_hours)
+    may_start = startable(workable_in(hindcast, limit), steps)
+    return _windows(
+        hindcast, limit, may_start, waiting_steps(may_start), steps, period, factor.told(hours=period)
+    )
+
+
+def _in_series(
+    hindcast: WaveHindcast, sheet: PhaseSheet, case: str, heading_deg: float | None
+) -> WeatherWindows:
+    """Leg after leg, of which each waits until it may start."""
+    step = hindcast.step_hours
+    limits, legs = [], []
+    for leg in sheet.legs:
+        of_leg = [limit_of(hindcast, sheet, case, span, sheet.lead_hours, heading_deg) for span in leg]
+        limits += of_leg
+        legs.append((leg_startable(hindcast, leg, of_leg), steps_of(leg[-1].end, step)))
+    total, place = np.zeros(hindcast.time.size), np.arange(hindcast.time.size, dtype=float)
+    for may_start, steps in legs:
+        waits = np.append(waiting_steps(may_start), np.nan)
+        here = np.nan_to_num(place, nan=may_start.size).clip(0, may_start.size).astype(int)
+        total, place = total + waits[here], place + waits[here] + steps
+    hours = sum(leg[-1].end for leg in sheet.legs)
+    told = f"{sheet.alpha.told(hours=hours) if not sheet.alpha.hours else 'alpha factor by phase'}"
+    told += f" (source: {sheet.alpha.source})" if sheet.alpha.hours else ""
+    least = np.min(limits, axis=0)
+    return _windows(hindcast, least, legs[0][0], total, legs[0][1], hours, told)
+
+
+def limit_of(
+    hindcast: WaveHindcast, sheet: PhaseSheet, case: str, span: Span, lead: float, heading_deg: float | None
+) -> Array:
+    """Largest Hs of a phase in a forecast that was issued `lead` hours before its leg, m, by sea state."""
+    bare = _limit(hindcast, sheet.table(span.phase.name, case=case), heading_deg)
+    return np.asarray(bare * sheet.alpha.at(bare, hours=lead + span.end))
+
+
+def leg_startable(hindcast: WaveHindcast, leg: Sequence[Span], limits: Sequence[Array]) -> Flags:
+    """Where all phases of a leg are workable, each in the steps in which it is under way."""
+    step, size = hindcast.step_hours, hindcast.time.size
+    found = np.ones(size, dtype=bool)
+    for span, limit in zip(leg, limits, strict=True):
+        first = int(np.floor(span.begin / step + ROUNDING))
+        inside = startable(workable_in(hindcast, limit), steps_of(span.end, step) - first)
+        found &= np.concatenate([inside[first:], np.zeros(min(first, size), dtype=bool)])
+    return found
+
+
+def steps_of(hours: float, step: float) -> int:
+    """Steps that so many hours take, at least one."""
+    return max(1, int(np.ceil(hours / step - ROUNDING)))
+
+
+def workable_in(hindcast: WaveHindcast, limit: Array) -> Flags:
+    """Whether each sea state is known and at most its limit."""
+    below = np.nan_to_num(hindcast.hs, nan=np.inf) <= np.nan_to_num(limit, nan=-np.inf)
+    return np.asarray(below & hindcast.known)
 
 
 def _limit(hindcast: WaveHindcast, allowable: Any, heading_deg: float | None) -> Array:
@@ -152,16 +224,13 @@ def _limit(hindcast: WaveHindcast, allowable: Any, heading_deg: float | None) ->
 
 
 def _windows(
-    hindcast: WaveHindcast, limit: Array, hours: float, outside: Flags, alpha_factor: str
-) -> WeatherWindows:
-    step = hindcast.step_hours
-    workable = np.nan_to_num(hindcast.hs, nan=np.inf) <= np.nan_to_num(limit, nan=-np.inf)
-    workable &= hindcast.known
-    steps = max(1, int(np.ceil(hours / step - ROUNDING)))
-    may_start = startable(workable, steps)
-    waiting = waiting_steps(may_start) * step
-    first, lengths = stretches(workable)
-    long = lengths >= steps
+    hindcast: WaveHindcast, limit: Array, may_start: Flags, waits: Array, steps: int, hours: float,
+    alpha_factor: str,
+) -> WeatherWindows:  # fmt: skip
+    """By waits in steps; a stretch of times at which one may start ends with the operation's own steps."""
+    step, workable = hindcast.step_hours, workable_in(hindcast, limit)
+    waiting = waits * step
+    first, starts = stretches(may_start)
     month = hindcast.time.astype("datetime64[M]").astype(int) % 12
     by_month = np.array([_numbers(workable, may_start, waiting, month == i) for i in range(12)]).T
     all_of = _numbers(workable, may_start, waiting, np.ones(workable.size, dtype=bool))
@@ -171,8 +240,8 @@ def _windows(
         Column(name="workable", values=workable, over=over),
         Column(name="may_start", values=may_start, over=over),
         Column(name="waiting", values=waiting, unit="h", over=over),
-        Column(name="start", values=hindcast.time[first[long]], over=("window",)),
-        Column(name="length", values=lengths[long] * step, unit="h", over=("window",)),
+        Column(name="start", values=hindcast.time[first], over=("window",)),
+        Column(name="length", values=(starts + steps - 1) * step, unit="h", over=("window",)),
         *(
             Column(name=name, values=values, unit=unit, over=("month",))
             for (name, (_, unit)), values in zip(HEADS.items(), by_month, strict=True)
@@ -184,7 +253,7 @@ def _windows(
         hours=hours, dataset=Table(axes=axes, columns=columns, attributes=about).to_xarray(),
         **dict(zip(HEADS, all_of, strict=True)),
         unknown_percent=float(100.0 * np.mean(~hindcast.known)),
-        outside_percent=float(100.0 * np.mean(outside)),
+        outside_percent=float(100.0 * np.mean(hindcast.known & np.isnan(limit))),
         censored_percent=float(100.0 * np.mean(np.isnan(waiting))),
         alpha_factor=alpha_factor, source=hindcast.source,
     )  # fmt: skip

@@ -1,0 +1,180 @@
+"""Deck cargo: accelerations in deck axes with gravity's tilt, and what each fastening carries."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seacrane.arrays import Array
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import name_of, positive_of, rows_of
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.keywords import named
+from seacrane.inputs.shown import shown
+from seacrane.one_thread import one_thread
+from seacrane.plotting.table import Answer, Column, Table
+from seacrane.result import Result
+
+AXES = ("x", "y", "z")
+
+
+@named
+@dataclass(frozen=True, kw_only=True)
+class Cargo:
+    """What stands on a deck.
+
+    Attributes
+    ----------
+    point : str
+        A named point of the scene, fixed to the deck: its centre of gravity.
+    mass : float
+        kg.
+    fastenings : array_like, shape (n, 3)
+        Where it is held, supports included, from its centre of gravity, in deck axes, m.
+    stiffness : array_like, shape (n, 3), optional
+        Of each along the deck's axes, in any unit: what share it takes, 0 for none. Default: all alike.
+
+    Raises
+    ------
+    SceneError
+        For values that make no sense, or fastenings that do not hold it.
+    """
+
+    point: str
+    mass: float
+    fastenings: Any = ()
+    stiffness: Any = None
+
+    def __post_init__(self) -> None:
+        title = f"cargo {name_of('cargo', self.point)!r}"
+        positive_of(f"{title}: mass", self.mass, "kg")
+        places = np.reshape(rows_of(f"{title}: fastenings", self.fastenings, 3), (-1, 3))
+        shares = np.ones_like(places)
+        if self.stiffness is not None:
+            shares = np.reshape(rows_of(f"{title}: stiffness", self.stiffness, 3), (-1, 3))
+        if shares.shape != places.shape or np.any(shares < 0.0):
+            raise SceneError(
+                f"{title}: stiffness is {shown(self.stiffness)}; give three of zero or more for each"
+            )
+        object.__setattr__(self, "fastenings", places)
+        object.__setattr__(self, "stiffness", shares)
+        if len(places) and np.linalg.matrix_rank(self._arms * np.sqrt(shares.ravel())) < 6:
+            raise SceneError(f"{title}: its fastenings let it move; give three or more that hold it")
+
+    @property
+    def _arms(self) -> Array:
+        """From the forces of all fastenings to force and moment about the centre of gravity, (6, 3 n)."""
+        found = np.zeros((6, len(self.fastenings), 3))
+        found[:3] = np.eye(3)[:, None, :]
+        for axis in range(3):
+            found[3:, :, axis] = np.cross(self.fastenings, np.eye(3)[axis]).T
+        return found.reshape(6, -1)
+
+    @one_thread
+    def forces(self, accelerations: Array) -> Array:
+        """Of each fastening on the cargo, N, (k, n, 3), for accelerations (k, 3) in deck axes with gravity.
+
+        Those of springs between a rigid cargo and a rigid deck.
+        """
+        arms, k = self._arms, self.stiffness.ravel()
+        if not k.size:
+            return np.zeros((len(accelerations), 0, 3))
+        moved = np.linalg.solve((arms * k) @ arms.T, np.pad(self.mass * accelerations, ((0, 0), (0, 3))).T)
+        return np.asarray((k[:, None] * (arms.T @ moved)).T.reshape(len(accelerations), -1, 3))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class DeckCargo(Answer):
+    """Accelerations and forces of deck cargo. Made by `deck_cargo`; prints as a table.
+
+    Attributes
+    ----------
+    time : ndarray, shape (k,)
+    accelerations : dict of str to ndarray, shape (k, 3)
+        By cargo, in deck axes, m/s2: what the deck and the fastenings give it for each kg. At rest on an even
+        keel it is (0, 0, g).
+    forces : dict of str to ndarray, shape (k, n, 3)
+        Of its fastenings on it, N.
+    """
+
+    time: Array
+    accelerations: dict[str, Array]
+    forces: dict[str, Array]
+
+    def __repr__(self) -> str:
+        return f"<DeckCargo: {', '.join(self.accelerations)}>"
+
+    def together(self, cargo: str) -> Array:
+        """Largest and least of x, y and z with what occurs beside each: (6, 4), time and components."""
+        values = self.accelerations[cargo]
+        at = [find(values[:, axis]) for axis in range(3) for find in (np.argmax, np.argmin)]
+        return np.column_stack([self.time[at], values[at]])
+
+    def _shown(self) -> Table:
+        names = [f"{end} {axis}" for axis in AXES for end in ("largest", "least")]
+        every = np.array([self.together(cargo) for cargo in self.accelerations])
+        columns = [
+            Column(name="time", values=every[..., 0], unit="s", form=".2f"),
+            *(Column(name=f"a_{axis}", values=every[..., 1 + i], unit="m/s2", form=".3f")
+              for i, axis in enumerate(AXES)),
+        ]  # fmt: skip
+        axes = [Column(name="cargo", values=list(self.accelerations)), Column(name="extreme", values=names)]
+        held = [self._held(cargo) for cargo in self.forces if self.forces[cargo].shape[1]]
+        remarks = ["Along the deck's axes; gravity is in it, once: at rest on an even keel z is g."]
+        return Table(
+            axes=axes, columns=columns, title="Deck cargo: extremes, and what occurs together",
+            remarks=remarks, below=held,
+        )  # fmt: skip
+
+    def _held(self, cargo: str) -> Table:
+        """Largest and least force of each fastening along each axis."""
+        forces = self.forces[cargo]
+        columns = [
+            Column(name=f"{end}_{axis}", head=f"{end} {axis}", values=find(forces[:, :, i], axis=0), unit="N")
+            for i, axis in enumerate(AXES) for end, find in (("largest", np.max), ("least", np.min))
+        ]  # fmt: skip
+        numbers = Column(name="fastening", values=list(range(1, forces.shape[1] + 1)))
+        return Table(
+            axes=[numbers], columns=columns, title=f"{cargo}: forces of the fastenings on it",
+            remarks=["Supports push upwards; what pulls down is a z below zero."],
+        )  # fmt: skip
+
+
+@named
+def deck_cargo(
+    result: Result, *, cargo: Sequence[Cargo], deck: str = "vessel", after: float = 0.0
+) -> DeckCargo:
+    """Accelerations of deck cargo in deck axes with gravity's tilt, and forces of its fastenings.
+
+    Parameters
+    ----------
+    result : Result
+        With the channels "point_acceleration" and "quaternion".
+    cargo : sequence of Cargo
+    deck : str
+        The body on which it stands.
+    after : float
+        s: earlier outputs are left out.
+
+    Raises
+    ------
+    SceneError
+        For a channel, body or point that is not there.
+    """
+    for channel in ("point_acceleration", "quaternion"):
+        if channel not in result:
+            raise SceneError(f'deck_cargo: the result has no channel "{channel}"; record it')
+    part = result.part(after=after)
+    scene = result.scene
+    up = np.array([0.0, 0.0, 9.80665 if scene is None else scene.gravity])
+    try:
+        turned = rotation_matrix(result.select("quaternion", body=deck)[part])
+        moved = {one.point: result.select("point_acceleration", point=one.point)[part] for one in cargo}
+    except ValueError as error:
+        raise SceneError(f"deck_cargo: {error}") from error
+    felt = {name: np.einsum("kji,kj->ki", turned, values + up) for name, values in moved.items()}
+    forces = {one.point: one.forces(felt[one.point]) for one in cargo}
+    return DeckCargo(time=np.asarray(result.time)[part], accelerations=felt, forces=forces)

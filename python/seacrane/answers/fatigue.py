@@ -1,0 +1,241 @@
+"""Fatigue of wires, slings and fastenings: rainflow with Miner's sum, and damage of a spectrum beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from seacrane.arrays import Array
+from seacrane.description.channels import unit_of
+from seacrane.description.pick import pick_of
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import numbers_of, positive_of, text_of
+from seacrane.inputs.keywords import named
+from seacrane.inputs.shown import shown
+from seacrane.plotting.table import Rows, Table
+from seacrane.result import Result
+from seacrane.statistics.record import SpectrumEstimate, spectrum_estimate
+
+UNVERIFIED = "unverified"
+FEW = 10.0  # outputs in a mean cycle, below which ranges are too small
+ROUNDING = 1e-12  # of the largest value, by which two values differ
+
+
+@named
+@dataclass(frozen=True, kw_only=True)
+class FatigueCurve:
+    """Cycles to failure over the range: N = constant (range / scale)^-slope.
+
+    Attributes
+    ----------
+    constant, slope : float
+        K and m of the curve, ranges being counted over `scale`.
+    scale : float
+        In the unit of the channel: the breaking load of a rope, whose curve is over R = range / MBL, or the
+        area of a section, N / (N/m2), whose curve is over stress in Pa. Default 1.
+    source : str
+        The standard, its edition and its curve. Without it the curve is told as unverified.
+
+    Raises
+    ------
+    SceneError
+        For numbers that are not above zero.
+    """
+
+    constant: float
+    slope: float
+    scale: float = 1.0
+    source: str = UNVERIFIED
+
+    def __post_init__(self) -> None:
+        for name in ("constant", "slope", "scale"):
+            positive_of(f"fatigue curve: {name}", getattr(self, name))
+        object.__setattr__(self, "source", text_of("fatigue curve: source", self.source) or UNVERIFIED)
+
+    def damage(self, ranges: Any, counts: Any = 1.0) -> float:
+        """Miner's sum of so many cycles of ranges in the unit of the channel."""
+        over = np.asarray(ranges, dtype=float) / self.scale
+        return float(np.sum(counts * over**self.slope) / self.constant)
+
+
+def rainflow(values: Any) -> Array:
+    """Count cycles by rainflow, as ASTM E1049-85 (5.4.4) does.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        A record, any unit.
+
+    Returns
+    -------
+    ndarray, shape (k, 3)
+        Range, mean and count, 0.5 or 1, of each cycle in the order in which it closes, then the half cycles
+        that stay open.
+
+    Raises
+    ------
+    SceneError
+        For something else than a row of finite numbers.
+    """
+    found: list[tuple[float, float, float]] = []
+    stack: list[float] = []
+    for value in _turns(values).tolist():
+        stack.append(value)
+        while len(stack) > 2 and abs(stack[-1] - stack[-2]) >= abs(stack[-2] - stack[-3]):
+            first, second = stack[-3], stack[-2]
+            whole = len(stack) > 3  # else its range holds the start of the record
+            found.append((abs(second - first), 0.5 * (first + second), 1.0 if whole else 0.5))
+            del stack[-3 : -1 if whole else -2]
+    found += [(abs(b - a), 0.5 * (a + b), 0.5) for a, b in pairwise(stack)]
+    return np.array(found).reshape(-1, 3)
+
+
+def _turns(values: Any) -> Array:
+    """Peaks and valleys of a record, its ends too."""
+    record = numbers_of("rainflow: values", values)
+    if record.ndim != 1 or not np.all(np.isfinite(record)):
+        raise SceneError(f"rainflow: values is {shown(values)}; give one row of finite numbers")
+    least = ROUNDING * np.abs(record).max(initial=0.0)
+    moved = record[np.concatenate([[True], np.abs(np.diff(record)) > least])] if record.size else record
+    rising = np.diff(moved) > 0.0
+    ends = np.full(min(moved.size, 1), True)
+    inside = rising[1:] != rising[:-1]
+    return np.asarray(moved[np.concatenate([ends, inside, ends[: moved.size - 1]])])
+
+
+def narrow_band_rate(spectrum: SpectrumEstimate, curve: FatigueCurve) -> float:
+    """Damage in a second of a Gaussian process whose ranges are Rayleigh's, one for each up-crossing."""
+    from scipy.special import gamma
+
+    mean = (2.0 * np.sqrt(2.0) * spectrum.std / curve.scale) ** curve.slope * gamma(1.0 + 0.5 * curve.slope)
+    return float(spectrum.crossing_rate * mean / curve.constant)
+
+
+def dirlik_rate(spectrum: SpectrumEstimate, curve: FatigueCurve) -> float:
+    """Damage in a second of a Gaussian process of any bandwidth by Dirlik's distribution of rainflow ranges.
+
+    Dirlik (1985), as quoted by others: an exponential and two Rayleigh densities over range / (2 std), their
+    weights and scales by the moments m0, m1, m2 and m4.
+    """
+    from scipy.special import gamma
+
+    m0, m1, m2, m4 = (spectrum.moment(order) for order in (0, 1, 2, 4))
+    peaks, irregular = np.sqrt(m4 / m2) / (2.0 * np.pi), m2 / np.sqrt(m0 * m4)
+    middle = m1 / m0 * np.sqrt(m2 / m4)
+    d1 = 2.0 * (middle - irregular**2) / (1.0 + irregular**2)
+    r = (irregular - middle - d1**2) / (1.0 - irregular - d1 + d1**2)
+    d2 = (1.0 - irregular - d1 + d1**2) / (1.0 - r)
+    d3 = 1.0 - d1 - d2
+    q = 1.25 * (irregular - d3 - d2 * r) / d1
+    m = curve.slope
+    rayleigh = np.sqrt(2.0) ** m * gamma(1.0 + 0.5 * m) * (d2 * abs(r) ** m + d3)
+    moment = (2.0 * np.sqrt(m0) / curve.scale) ** m * (d1 * q**m * gamma(1.0 + m) + rayleigh)
+    return float(peaks * moment / curve.constant)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FatigueRow:
+    """Fatigue of one channel.
+
+    Attributes
+    ----------
+    name : The channel with its names.
+    cycles, largest : Counted in the record, and the largest range, in the unit of the channel.
+    rainflow, narrow_band, dirlik : Damage in an hour; by the spectrum as of a Gaussian process.
+    life : Hours until Miner's sum of the rainflow is 1.
+    source : Of the curve.
+    """
+
+    name: str
+    cycles: float
+    largest: float
+    unit: str
+    rainflow: float
+    narrow_band: float
+    dirlik: float
+    life: float
+    source: str
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Fatigue(Rows[FatigueRow]):
+    """Damage by channel. Made by `fatigue`; prints as a table.
+
+    Attributes
+    ----------
+    rows : tuple of FatigueRow
+    duration : float
+        Of the record, s.
+    coarse : tuple of str
+        Channels with fewer than 10 outputs in a mean cycle: their ranges are too small.
+    """
+
+    duration: float
+    coarse: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        return f"<Fatigue: {len(self)} channels, {self.duration:g} s>"
+
+    def _shown(self) -> Table:
+        remarks = ["No safety factor, and no mean: a range counts alike at any mean tension."]
+        if self.coarse:
+            coarse = ", ".join(self.coarse)
+            remarks.append(f"Fewer than {FEW:g} outputs in a cycle: {coarse}; give a shorter dt_out.")
+        return Table(
+            axes=[self.names("channel")],
+            columns=[
+                self.column("cycles", form=".1f"),
+                self.column("largest", head="largest range"), self.column("unit", head=""),
+                self.column("rainflow", head="damage in 1 h", unit="1/h", form=".3g"),
+                self.column("narrow_band", head="narrow band", unit="1/h", form=".3g"),
+                self.column("dirlik", head="Dirlik", unit="1/h", form=".3g"),
+                self.column("life", unit="h", form=".3g"), self.column("source", head="curve"),
+            ],
+            title=f"Fatigue by {self.duration:g} s", remarks=remarks,
+        )  # fmt: skip
+
+
+@named
+def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float = 0.0) -> Fatigue:
+    """Damage of wires, slings and fastenings in a run: rainflow with Miner's sum, and spectral beside it.
+
+    Parameters
+    ----------
+    curves : mapping of str to FatigueCurve
+        By a channel with its names, such as "line_tension[hoist]".
+    after : float
+        s: earlier outputs are left out.
+
+    Raises
+    ------
+    SceneError
+        For a channel that is not there, or a record that is too short for a spectrum.
+    """
+    if not isinstance(curves, Mapping) or not curves:
+        raise SceneError(
+            f"fatigue: curves is {shown(curves)}; give {{'line_tension[hoist]': FatigueCurve(...)}}"
+        )
+    part = result.part(after=after)
+    time = np.asarray(result.time)[part]
+    rows, coarse = [], []
+    for name, curve in curves.items():
+        if not isinstance(curve, FatigueCurve):
+            raise SceneError(f"fatigue: {name} is {shown(curve)}; give a FatigueCurve")
+        pick = pick_of("fatigue", name)
+        values, duration = np.asarray(result.curve(name))[part], float(time[-1] - time[0])
+        cycles = rainflow(values)
+        spectrum = spectrum_estimate(values, interval=duration / (time.size - 1))
+        rate = 3600.0 * curve.damage(cycles[:, 0], cycles[:, 2]) / duration
+        if time.size < FEW * spectrum.crossing_rate * duration:
+            coarse.append(name)
+        rows.append(FatigueRow(
+            name=name, cycles=float(cycles[:, 2].sum()), largest=float(cycles[:, 0].max()),
+            unit=unit_of(pick.channel, list(pick.names.values())), rainflow=rate,
+            narrow_band=3600.0 * narrow_band_rate(spectrum, curve),
+            dirlik=3600.0 * dirlik_rate(spectrum, curve), life=1.0 / rate, source=curve.source,
+        ))  # fmt: skip
+    return Fatigue(rows=tuple(rows), duration=duration, coarse=tuple(coarse))

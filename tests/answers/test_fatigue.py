@@ -1,0 +1,80 @@
+"""Rainflow by the printed example of ASTM E1049, and damage of Gaussian signals by their spectra."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import Scene, SceneError, simulate
+from seacrane.answers import FatigueCurve, fatigue, rainflow
+from seacrane.answers.fatigue import dirlik_rate, narrow_band_rate
+from seacrane.statistics.record import SpectrumEstimate
+
+G = 9.80665
+
+
+def counted(values: Any) -> dict[float, float]:
+    cycles = rainflow(values)
+    return {size: float(cycles[cycles[:, 0] == size, 2].sum()) for size in np.unique(cycles[:, 0]).tolist()}
+
+
+def test_rainflow_is_the_printed_example_of_astm_e1049() -> None:
+    peaks = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]
+    assert counted(peaks) == {3.0: 0.5, 4.0: 1.5, 6.0: 0.5, 8.0: 1.0, 9.0: 0.5}
+    between = np.interp(np.linspace(0.0, 8.0, 81), np.arange(9.0), peaks)  # points on the way count nothing
+    assert counted(np.repeat(np.round(between, 12), 2)) == counted(peaks)
+    assert rainflow([3.0, 3.0]).shape == rainflow([]).shape == (0, 3)
+
+
+def gaussian(centre: float, width: float, seed: int) -> tuple[SpectrumEstimate, Any, float]:
+    """A sum of cosines with random amplitudes and phases, its spectrum, and its length, s."""
+    omega = np.arange(1, 3001) * 1e-3
+    density = np.exp(-0.5 * ((omega - centre) / width) ** 2)
+    spectrum = SpectrumEstimate(omega=omega, density=density, degrees_of_freedom=2.0, duration=1.0)
+    random, size = np.random.default_rng(seed), 2**17
+    duration = 2.0 * np.pi / 1e-3
+    cosines = np.zeros(size // 2 + 1, dtype=complex)
+    parts = random.normal(size=(2, omega.size)) * np.sqrt(density * 1e-3)
+    cosines[1 : 1 + omega.size] = 0.5 * size * (parts[0] + 1j * parts[1])
+    return spectrum, np.fft.irfft(cosines, size), duration
+
+
+@pytest.mark.parametrize(("width", "within", "by_narrow"), [(0.08, 0.1, True), (0.6, 0.08, False)])
+def test_damage_of_a_gaussian_signal_is_that_of_its_spectrum(
+    width: float, within: float, by_narrow: bool
+) -> None:
+    """Narrow: both formulas; wide: Dirlik's, and the narrow band is too much."""
+    curve = FatigueCurve(constant=1e6, slope=3.0)
+    rates = []
+    for seed in range(12):
+        spectrum, values, duration = gaussian(1.2, width, seed)
+        cycles = rainflow(values)
+        rates.append(curve.damage(cycles[:, 0], cycles[:, 2]) / duration)
+    rate = float(np.mean(rates))
+    assert dirlik_rate(spectrum, curve) == pytest.approx(rate, rel=within)
+    assert (narrow_band_rate(spectrum, curve) == pytest.approx(rate, rel=within)) is by_narrow
+    assert narrow_band_rate(spectrum, curve) > 0.9 * rate
+
+
+def test_a_sine_has_one_cycle_in_each_period() -> None:
+    """Of a result: by range over a breaking load, and a source that nobody told."""
+    scene = Scene(name="bouncing", gravity=G)
+    mass, stiffness, amplitude = 20e3, 5e5, 0.2  # kg, N/m, m
+    low = 10.0 + mass * G / stiffness - amplitude
+    scene.add_body("load", mass=mass, inertia=(1e4,) * 3, position=(0.0, 0.0, -low))
+    scene.add_line(
+        "wire", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=10.0 * stiffness, length=10.0,
+        damping_ratio=0.0, rung="elastic",
+    )  # fmt: skip
+    result = simulate(scene, t_end=40.0, dt_out=0.02, channels=["line_tension"])
+    found = fatigue(result, curves={"line_tension[wire]": FatigueCurve(constant=100.0, slope=2.0, scale=1e6)})
+    row = found["line_tension[wire]"]
+    assert row.largest == pytest.approx(2.0 * amplitude * stiffness, rel=1e-3) and row.unit == "N"
+    period = 2.0 * np.pi * np.sqrt(mass / stiffness)
+    hourly = 3600.0 / period * (row.largest / 1e6) ** 2 / 100.0
+    assert row.rainflow == pytest.approx(hourly, rel=0.05) and row.life == pytest.approx(1.0 / row.rainflow)
+    assert "unverified" in str(found) and not found.coarse
+    with pytest.raises(SceneError, match="FatigueCurve"):
+        fatigue(result, curves={"line_tension[wire]": 3.0})  # type: ignore[dict-item]
