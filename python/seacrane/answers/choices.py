@@ -39,8 +39,7 @@ class Choice:
     Attributes
     ----------
     name : What the scene is after it, such as "no air drag on load".
-    script : str
-        Lines of Python that do the same to a described `scene`; `needs` is `seacrane.answers`.
+    script : str, lines of Python that do the same to a described `scene`, with `answers` of `seacrane`.
     made : callable
         The changed copy of a scene. What it changes may have gone by another choice: it then does nothing.
     of : str
