@@ -180,15 +180,19 @@ def test_errors_fall_with_the_tolerance_past_every_kink() -> None:
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-def test_a_drum_that_hauls_in_to_its_end_is_stopped(formulation: str) -> None:
-    scene = on_drum(length=8.0, damping=0.1, rate=-0.5, minimum_length=7.5)
-    with pytest.warns(WinchLimitWarning, match="has hauled in to minimum_length"):
+@pytest.mark.parametrize(
+    ("way", "end", "told"), [(-1.0, "minimum", "hauled in"), (1.0, "maximum", "paid out")]
+)
+def test_a_drum_that_winds_to_an_end_is_stopped(formulation: str, way: float, end: str, told: str) -> None:
+    last = 8.0 + 0.5 * way
+    scene = on_drum(length=8.0, damping=0.1, rate=0.5 * way, **{f"{end}_length": last})
+    with pytest.warns(WinchLimitWarning, match=f"has {told} to {end}_length"):
         result = simulate(scene, 4.0, dt_out=0.05, rtol=1e-8, formulation=formulation)
     (met,) = result.events
-    hauled = 0.5 * (met.time - 0.2 * (1.0 - np.exp(-met.time / 0.2)))
-    assert met.name == "hoist.minimum_length" and hauled == pytest.approx(0.5, abs=1e-6)
-    assert_allclose(result["line_unstretched_length"][result.time > met.time], 7.5, atol=1e-6)
-    left = -0.5 * np.exp(-(result.time - met.time) / 0.2)
+    wound = 0.5 * (met.time - 0.2 * (1.0 - np.exp(-met.time / 0.2)))
+    assert met.name == f"hoist.{end}_length" and wound == pytest.approx(0.5, abs=1e-6)
+    assert_allclose(result["line_unstretched_length"][result.time > met.time], last, atol=1e-6)
+    left = 0.5 * way * np.exp(-(result.time - met.time) / 0.2)
     assert_allclose(result["load_state"][result.time > met.time, 1], left[result.time > met.time], atol=2e-3)
     assert np.max(np.abs(result["energy_balance"])) < 1e-6 * result["absolute_work"][-1]
 

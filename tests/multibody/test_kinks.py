@@ -182,20 +182,22 @@ STEPPING = {"semi-implicit-euler": 1e-3, "rk4": 0.02, "rk-low-storage": 0.02}
 ACROSS = ("cvode-bdf", "ida", "generalized-alpha")
 
 
-def hoisted(*, rate: Curve | float = -0.5, minimum: float = 9.5, lag: float = 0.0) -> Scene:
-    """A load of 10 t whose winch hauls in to its end."""
+def hoisted(*, rate: Curve | float = -0.5, lag: float = 0.0, **ends: float) -> Scene:
+    """A load of 10 t whose winch winds to an end."""
     scene = on_wire(mass=1e4, EA=1e7, damping_ratio=0.0)
-    scene.add_winch(line="hoist", rate=rate, minimum_length=minimum, lag=lag)
+    scene.add_winch(line="hoist", rate=rate, lag=lag, **(ends or {"minimum_length": 9.5}))
     return scene
 
 
 @pytest.mark.parametrize("name", [name for name in integrator_names() if name not in ACROSS])
 @pytest.mark.filterwarnings("ignore")
-def test_a_winch_stops_at_its_minimum_length_by_every_method(name: str) -> None:
-    for rtol, lag in ((0.1, 0.2), (1e-6, 0.0)):
+def test_a_winch_stops_at_an_end_by_every_method(name: str) -> None:
+    for rtol, lag, end in ((0.1, 0.2, "minimum"), (1e-6, 0.0, "minimum"), (1e-6, 0.2, "maximum")):
         settings = {"dt": STEPPING[name]} if name in STEPPING else {"rtol": rtol}
-        out = simulate(hoisted(lag=lag), 4.0, dt_out=0.1, integrator=name, **settings)
-        assert abs(float(out["line_unstretched_length"][-1, 0]) - 9.5) < 1e-6
+        last, rate = (9.5, -0.5) if end == "minimum" else (10.5, 0.5)
+        scene = hoisted(rate=rate, lag=lag, **{f"{end}_length": last})
+        out = simulate(scene, 4.0, dt_out=0.1, integrator=name, **settings)
+        assert abs(float(out["line_unstretched_length"][-1, 0]) - last) < 1e-6
 
 
 @pytest.mark.parametrize("name", ["dopri5", "dop853", "rosenbrock"])

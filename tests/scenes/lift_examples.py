@@ -89,6 +89,7 @@ winch = { lag_s = 0.2, maximum_rate_m_per_s = 0.5 }
 [[winch]]
 line = "hoist"; rate_m_per_s = {kind = "quintic", start_time_s = 0, end_time_s = 2, start = 0, end = 0.5}
 maximum_rate_m_per_s = 1; maximum_acceleration_m_per_s2 = 0.5; lag_s = 0.1; minimum_length_m = 2
+maximum_length_m = 60
 tension_N = {kind = "quintic", start_time_s = 1, end_time_s = 3, start = 2e3, end = 4e3}
 tension_gain_m_per_s_per_N = 1e-4; dead_band_N = 100; drum_inertia_kg_m2 = 500; drum_radius_m = 0.5
 maximum_tension_N = 3e4; maximum_power_W = 5e4

@@ -148,7 +148,7 @@ SAMPLES: Mapping[str, Sample] = {
     "rubbing line": Sample(_core.Line, {"frictions": [0.0, 0.1, 0.0]}, with_load, {**SHEAVE,
         "radii": [0.0, 0.5, 0.0]}, sheaved),
     "winch": Sample(_core.Line, {"rate": -0.1, "maximum_rate": 0.5, "maximum_acceleration": 0.5, "lag": 0.2,
-        "minimum_length": 2.0}, with_load, WOUND),
+        "minimum_length": 2.0, "maximum_length": 60.0}, with_load, WOUND),
     "tensioned winch": Sample(_core.Line, {"tension": MASS * G, "tension_gain": 2e-6, "dead_band": 1e4},
         with_load, {**WOUND, "lag": 0.2}),
     "drum": Sample(_core.Line, {"drum_inertia": 2e3, "drum_radius": 0.5, "maximum_tension": 4e5,

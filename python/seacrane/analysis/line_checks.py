@@ -166,13 +166,16 @@ def _contradicted(
 
 
 def _met(name: str, line: _core.Line, time: Array, length: Array) -> Iterator[Finding]:
-    ended = np.flatnonzero(length <= line.minimum_length + AT_END)
-    if ended.size:
-        yield (
-            warnings.WinchLimitWarning,
-            f"line {name!r}: its winch has hauled in to minimum_length, {line.minimum_length:.6g} m, at t = "
-            f"{time[ended[0]]:.6g} s, and stops there. Haul in less, or give a smaller minimum_length",
-        )
+    for done, end, at_end in (
+        ("hauled in", "minimum_length", length <= line.minimum_length + AT_END),
+        ("paid out", "maximum_length", length >= line.maximum_length - AT_END),
+    ):
+        if at_end.any():
+            yield (
+                warnings.WinchLimitWarning,
+                f"line {name!r}: its winch has {done} to {end}, {getattr(line, end):.6g} m, at t = "
+                f"{time[np.argmax(at_end)]:.6g} s, and stops there. Wind less, or give another {end}",
+            )
     for rate, at in peak(np.abs(line.rate.evaluate(time)[:, 0]), above=line.maximum_rate):
         yield (
             warnings.WinchLimitWarning,

@@ -15,7 +15,7 @@ from seacrane.scene.heavy_line import on_a_winch
 from seacrane.scene.hydraulics import holding_forces
 from seacrane.scene.lines import add_line
 
-NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
+NO_BOUND = 1e7  # m/s, m/s2 or m: a bound here or beyond is none
 STRONGEST = 1e12  # N or W: likewise
 
 
@@ -23,6 +23,7 @@ STRONGEST = 1e12  # N or W: likewise
 def add_winch(
     scene: Description, line: str, *, rate: _core.Curve | float = 0.0, maximum_rate: float = NO_BOUND,
     maximum_acceleration: float = NO_BOUND, lag: float = 0.0, minimum_length: float = 0.1,
+    maximum_length: float = NO_BOUND,
     tension: _core.Curve | float = 0.0, tension_gain: float = 0.0, dead_band: float = 0.0,
     drum_inertia: float = 0.0, drum_radius: float = 0.0, maximum_tension: float = STRONGEST,
     maximum_power: float = STRONGEST, brake: _core.Curve | float = 0.0, brake_capacity: float = 0.0,
@@ -51,6 +52,8 @@ def add_winch(
         line with mass needs one.
     minimum_length : float
         m, at which hauling in stops; on a line with mass a run ends there.
+    maximum_length : float
+        m, that the drum holds: there paying out stops, likewise.
 
     Returns
     -------

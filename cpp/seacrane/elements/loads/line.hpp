@@ -205,29 +205,30 @@ struct Line {
   }
 
   /// Whether it is quasi-static and, on a side, neither taut nor free to haul in.
-  bool slack(const Side& at) const { return quasi_static() && (at[kPushes] || at[kShort] || at[kAtEnd]); }
+  bool slack(const Side& at) const { return quasi_static() && (at[kPushes] || at[kShort] || ended(at)); }
   /// Why a run cannot go on at a side; empty: it can.
   std::string refused(const Side& at) const {
     const std::string what = "line '" + d.name + "': ";
     for (std::size_t i = 1; has_sheaves && i + 1 < path.points().size(); ++i) {
       if (at[own_margins(winch.has_value()) + i - 1]) return what + SheaveDescriptions::lost(i);
     }
-    if (winch && !d.paid_out_by.empty() && at[kAtEnd]) {
-      return what +
-             "it has hauled in to its minimum_length, which would stop the mass of the line at once; " +
-             "stop its winch before, or give a smaller one";
+    const std::string ends = !ended(at)   ? ""
+                             : at[kAtEnd] ? "has hauled in to its minimum_length"
+                                          : "has paid out to its maximum_length";
+    if (winch && !d.paid_out_by.empty() && ended(at)) {
+      return what + "it " + ends + ", which would stop the mass of the line at once; " +
+             "stop its winch before, or give another one";
     }
     if (!slack(at)) return "";
     const std::string stretch = what + "its stretch is quasi-static, and it ";
-    if (!at[kPushes])
-      return stretch + "has hauled in to its minimum_length; give a smaller one, or rung 'elastic'";
+    if (!at[kPushes]) return stretch + ends + "; give another one, or rung 'elastic'";
     return stretch + "goes slack; give it rung 'elastic', which snatches";
   }
 
-  /// A slack line may snatch; one on a winch comes to its end.
+  /// A slack line may snatch; one on a winch comes to its ends.
   Sight look(const LoadInput<double>& in) const {
     Sight out{.side = margins(in).side()};
-    const bool is_slack = out.side[kPushes] && out.side[kShort], winds = winch && !out.side[kAtEnd];
+    const bool is_slack = out.side[kPushes] && out.side[kShort], winds = winch && !ended(out.side);
     if (!is_slack && !winds) return out;
     const Motion<double> now = motion(in);
     if (is_slack) {
@@ -238,10 +239,11 @@ struct Line {
       out.at[0] = now.stretch();
     }
     if (!winds) return out;
-    out.watched.set(kAtEnd);
+    out.watched |= side_of({kAtEnd, kFull});
     out.pace = std::max(out.pace, std::abs(winch->rate(in, now.elastic)));
     out.at[1] = winch->length(in);
-    out.clear = std::min(out.clear, std::max(0.0, out.at[1] - d.minimum_length));
+    out.clear = std::min(out.clear,
+                         std::max(0.0, std::min(out.at[1] - d.minimum_length, d.maximum_length - out.at[1])));
     return out;
   }
   std::vector<std::string> reached(const Side& from, const Side& to) const {
@@ -341,6 +343,7 @@ struct Line {
     out.add({nullptr, now.stretch()});
     if (winch) {
       out.add({"minimum_length", winch->length(in) - d.minimum_length});
+      out.add({"maximum_length", d.maximum_length - winch->length(in)});
       winch->add_margins(in, now.elastic, now.first(), out);
     }
     if (!has_sheaves) return out;
@@ -352,12 +355,14 @@ struct Line {
 
  private:
   /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), and, with
-  /// a winch, whether hauling in has not reached its end and what the winch meets. Sheaves follow.
-  static constexpr std::size_t kPushes = 0, kShort = 1, kAtEnd = 2;
+  /// a winch, whether it has reached neither end and what the winch meets. Sheaves follow.
+  static constexpr std::size_t kPushes = 0, kShort = 1, kAtEnd = 2, kFull = 3;
+  bool ended(const Side& at) const { return winch && (at[kAtEnd] || at[kFull]); }
   static constexpr auto kMargins = [] {
-    std::array<Margin, 3 + Winch::kKinks> out;
-    out[2].bound = "minimum_length";
-    std::copy(Winch::kMargins.begin(), Winch::kMargins.end(), out.begin() + 3);
+    std::array<Margin, 4 + Winch::kKinks> out;
+    out[kAtEnd].bound = "minimum_length";
+    out[kFull].bound = "maximum_length";
+    std::copy(Winch::kMargins.begin(), Winch::kMargins.end(), out.begin() + 4);
     std::copy(Drum::kMargins.begin(), Drum::kMargins.end(), out.end() - Drum::kMargins.size());
     return out;
   }();

@@ -22,7 +22,7 @@ struct WinchDescription : ConstantTensionDescription, DrumDescription {
   bool winch = false;
   Curve rate;
   double maximum_rate = kFarthest, maximum_acceleration = kFarthest, lag = 0.0;
-  double minimum_length = 0.1;
+  double minimum_length = 0.1, maximum_length = kFarthest;
 
   static constexpr auto fields() {
     using D = WinchDescription;
@@ -40,7 +40,11 @@ struct WinchDescription : ConstantTensionDescription, DrumDescription {
                        .usually(1e-3, 30.0),
                    optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops")
                        .positive()
-                       .usually(0.0, 50.0)),
+                       .usually(0.0, 50.0),
+                   optional("maximum_length", &D::maximum_length, "m",
+                            "that the drum holds: there paying out stops; at 1e7 there is no end")
+                       .positive()
+                       .usually(1.0, 2e4)),
         ConstantTensionDescription::fields(), DrumDescription::fields());
   }
 };
@@ -77,6 +81,10 @@ struct Winch {
     if (!(start > d.minimum_length)) {
       c.fail("starts with a length of " + to_text(start) + " m and a minimum_length of " +
              to_text(d.minimum_length) + " m; start with a longer line");
+    }
+    if (!(start < d.maximum_length)) {
+      c.fail("starts with a length of " + to_text(start) + " m and a maximum_length of " +
+             to_text(d.maximum_length) + " m; start with a shorter line");
     }
     ConstantTension::check(d, c);
     Drum::check(d, d.lag, c);
@@ -122,17 +130,17 @@ struct Winch {
   T turning(const LoadInput<T>& in, const T& pull) const {
     return d.lag > 0.0 ? in.states[states.first + 1] : commanded(in, pull);
   }
-  /// l0': r, but for hauling in beyond the end.
+  /// l0': r, but for going on beyond an end.
   template <class T>
   T rate(const LoadInput<T>& in, const T& pull) const {
     const T r = turning(in, pull);
-    return select(at_end(in) && r < T(0), T(0), r);
+    return select(beyond_end(in, r), T(0), r);
   }
-  /// r' that is asked for, with a lag. A drum is stopped at the end.
+  /// r' that is asked for, with a lag. A drum is stopped at an end.
   template <class T>
   T asked_acceleration(const LoadInput<T>& in, const T& pull) const {
     const T goal = commanded(in, pull);
-    const bool ended = drum.has_value() && at_end(in) && goal < T(0);
+    const bool ended = drum.has_value() && beyond_end(in, goal);
     const T asked = (select(ended, T(0), goal) - in.states[states.first + 1]) / T(d.lag);
     return clamped(asked, T(-d.maximum_acceleration), T(d.maximum_acceleration));
   }
@@ -190,9 +198,11 @@ struct Winch {
   T commanded(const LoadInput<T>& in, const T& pull) const {
     return clamped(goal(in, pull), T(-d.maximum_rate), T(d.maximum_rate));
   }
+  /// Whether a rate leads on from an end: at it, as where it was located.
   template <class T>
-  bool at_end(const LoadInput<T>& in) const {
-    return !(length(in) > T(d.minimum_length));  // at it, as where it was located
+  bool beyond_end(const LoadInput<T>& in, const T& r) const {
+    const T now = length(in);
+    return (!(now > T(d.minimum_length)) && r < T(0)) || (!(now < T(d.maximum_length)) && r > T(0));
   }
 };
 
