@@ -1,4 +1,4 @@
-"""``seacrane study`` and ``seacrane sheet``: run a lift many times into a folder, or go on with it."""
+"""``seacrane study``, ``merge`` and ``sheet``: run a lift many times into a folder, or go on with it."""
 
 from __future__ import annotations
 
@@ -24,11 +24,24 @@ def study(arguments: argparse.Namespace) -> int:
     from seacrane.cli.result_commands import show_study
     from seacrane.lift.study_run import run_study
 
-    done = _done(arguments, partial(run_study, arguments.study))
+    done = _done(arguments, partial(run_study, arguments.study, part=arguments.part))
     if done is None:
         return INTERRUPTED
     if done.accuracy is not None:
         print(done.accuracy)
+    if arguments.part is not None:
+        print(f"part {arguments.part} is done, {len(done.failures)} failed; seacrane merge takes all parts")
+        return 0
+    show_study(arguments.out, None)
+    return 0
+
+
+def merge(arguments: argparse.Namespace) -> int:
+    """Make one study of its parts, and tell what its members say."""
+    from seacrane.cli.result_commands import show_study
+    from seacrane.lift.study_run import merge_study
+
+    merge_study(arguments.parts, arguments.out)
     show_study(arguments.out, None)
     return 0
 

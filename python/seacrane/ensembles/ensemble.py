@@ -12,17 +12,17 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.accuracy.expected import expected_error
-from seacrane.analysis.rest_state import equilibrium
+from seacrane.ensembles.asked import checked_start, end_of, start_times_of
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed
 from seacrane.ensembles.dataset import NOT_RUN, RESERVED, dataset_of
 from seacrane.ensembles.filling import SIDE_BY_SIDE, Progress, lanes_for, remark, run_packs
 from seacrane.ensembles.growing import BATCH, grow, growth_of, members_in
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
-from seacrane.ensembles.members import Members, Over, Value, members_of
+from seacrane.ensembles.members import Members, Over, Value
+from seacrane.ensembles.parts import Part, part_of
 from seacrane.ensembles.store import Folder, Store, order_of, pack_size, packs_of, stored
 from seacrane.ensembles.study import (
     START_TIME,
@@ -39,11 +39,10 @@ from seacrane.ensembles.study_folder import claimed, identity_of, study_in
 from seacrane.ensembles.targets import Certainty, targets_of, with_static_parts
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import not_negative_of, number_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.run.channel_names import require_channels
-from seacrane.run.method import REST, Method, Shorthand, settled
+from seacrane.run.method import Method, Shorthand, settled
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 from seacrane.statistics.distribution import Distribution, distribution
@@ -54,7 +53,6 @@ if TYPE_CHECKING:
     import xarray
     from typing_extensions import Unpack
 
-USUAL_END = 100.0  # s
 POOLED = ("seed", START_TIME)
 
 
@@ -168,6 +166,7 @@ def ensemble(
     on_error: Literal["record", "raise"] = "record",
     pack: int | None = None,
     lanes: int | None = None,
+    part: tuple[int, int] | str | None = None,
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> Ensemble:
@@ -229,6 +228,9 @@ def ensemble(
         (AVX-512), or 1 for each by itself. Default: 4 where a word of the sea varies, the processor has AVX2
         and `pack` is a multiple of it. What cannot be stepped so is run by itself; `kept_apart` of the
         dataset, and of a result's stats, says why.
+    part : (int, int) or str, optional
+        Run one part of so many alone, (3, 40) or "3/40", of a study without `until`. It has whole packs, so
+        that `merge_parts` makes of the stores of all parts what one run writes, to the bit.
     progress : bool
         Show a progress bar with the time left.
     **shorthand
@@ -237,7 +239,8 @@ def ensemble(
     Raises
     ------
     SceneError
-        For a parameter that the scene does not have, too many members, or a store of another study.
+        For a parameter that the scene does not have, too many members, a part that there is not, or a store
+        of another study.
     SimulationError
         With ``on_error="raise"``, or where a worker died; what came back before is in the store.
     WorkerVersionError
@@ -266,18 +269,19 @@ def ensemble(
         raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
     how, recorded = settled(method, outputs, shorthand)
     wanted, in_stages = checked_keep(keep), checked_stages_of("ensemble", stages)
-    starts, members = _start_times(over, in_stages)
+    starts, members = start_times_of(over, in_stages)
     targets = () if until is None else targets_of(until, wanted)
+    own = None if part is None else part_of(part, grows=bool(targets))
     wanted = with_static_parts(wanted, targets)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
-        t_end=math.inf if starts else _end(t_end, in_stages),
+        t_end=math.inf if starts else end_of(t_end, in_stages),
         stages=in_stages,
         start_times=starts,
         method=how,
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
-        start=_checked_start(start),
+        start=checked_start(start),
         lanes=lanes_for(lanes, pack, members, starts=starts),
     )
     for what in wanted.values():
@@ -307,9 +311,10 @@ def ensemble(
         done = _ensemble(members, dataset_of(members, outcomes), study.lanes)
         done = replace(done, certainty=certainty)
     else:
-        with _store(store, study, members, size, grows=False) as kept:
+        with _store(store, study, members, size, part=own) as kept:
             packs = packs_of(order_of(study, members), size)
-            progressed = Progress(len(members), progress, study.lanes)
+            packs = packs if own is None else {number: packs[number] for number in own.numbers(len(packs))}
+            progressed = Progress(sum(map(len, packs.values())), progress, study.lanes)
             with progressed.bar:
                 run_packs(kept, Job(study), members, packs, executor, progressed, raises=raises)
             done = _ensemble(members, stored(kept, members), study.lanes)
@@ -337,16 +342,6 @@ def _warn_of_failures(done: Ensemble) -> None:
     )
 
 
-def _checked_start(start: Any) -> Start:
-    if isinstance(start, str) and start == REST:
-        return equilibrium
-    if start is not None and not isinstance(start, _core.State) and not callable(start):
-        raise SceneError(
-            f"start is {shown(start)}; give a seacrane.State, {REST!r}, or a function that returns a State"
-        )
-    return start  # type: ignore[no-any-return]
-
-
 def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble:
     told = dataset.failure.to_numpy().ravel()
     failures = {index: str(text) for index, text in enumerate(told) if text and text != NOT_RUN}
@@ -355,44 +350,17 @@ def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble
     return Ensemble(members=members, dataset=dataset, failures=failures)
 
 
-def _start_times(over: Over, stages: Stages) -> tuple[tuple[float, ...], Members]:
-    """Times at which lifts begin, s, ascending, and the members, those of one sea next to each other.
-
-    Raises SceneError as `members_of`, for times in a list or design, negative ones, and those of a lift
-    without stages.
-    """
-    if START_TIME not in (over if isinstance(over, Mapping) else members_of(over).axes):
-        return (), members_of(over)
-    if not isinstance(over, Mapping):
-        raise SceneError(f"over: {START_TIME} is of grids; give a mapping of names to values")
-    if not stages:
-        raise SceneError(f"over: {START_TIME} is of lifts in stages; give stages, or start")
-    ordered = {name: values for name, values in over.items() if name != START_TIME}
-    members = members_of(ordered | {START_TIME: over[START_TIME]})
-    times = [not_negative_of(f"over: {START_TIME}", one, "s") for one in members.axes[START_TIME]]
-    return tuple(sorted(times)), members
-
-
-def _end(t_end: float | None, stages: Stages) -> float:
-    """Until when the members run, s; in stages as long as these take at most, where that is known."""
-    if not stages:
-        return USUAL_END if t_end is None else number_of("t_end", t_end)
-    if t_end is not None:
-        raise SceneError(f"ensemble: t_end is {t_end!r}, and stages tell their end; leave t_end out")
-    if callable(stages):
-        return math.inf
-    return float(sum(one.duration or one.maximum_duration or 0.0 for one in stages))
-
-
 @contextlib.contextmanager
 def _store(
-    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int, *, grows: bool
-) -> Iterator[Store]:
+    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int, *, grows: bool = False,
+    part: Part | None = None,
+) -> Iterator[Store]:  # fmt: skip
     """Of an ensemble that grows half widths and the most seeds do not tell it from another."""
     if path is None:
         yield {}
         return
     identity = identity_of(study, members, size) | ({"seeds in a batch": BATCH} if grows else {})
+    identity |= {} if part is None else part.identity()
     data = {"identity": identity, "grid": members.grid, "axes": dict(members.axes)}
     with claimed(path, data | ({"seeds_in_pack": size} if grows else {})) as folder:
         yield Folder(folder)
