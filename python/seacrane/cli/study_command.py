@@ -10,11 +10,14 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from functools import partial
 from importlib import import_module
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from seacrane.cli.command_line import INTERRUPTED
 from seacrane.errors import SceneError, WorkerVersionError
 from seacrane.version import __version__
+
+if TYPE_CHECKING:
+    from seacrane.ensembles import Price
 
 Done = TypeVar("Done")
 
@@ -24,9 +27,17 @@ def study(arguments: argparse.Namespace) -> int:
     from seacrane.cli.result_commands import show_study
     from seacrane.lift.study_run import run_study
 
-    done = _done(arguments, partial(run_study, arguments.study, part=arguments.part))
+    def told(price: Price | None) -> bool:
+        if price is not None or arguments.price:
+            print(price or "price: no member is left to be measured", flush=True)
+        return not arguments.price
+
+    run = partial(run_study, arguments.study, part=arguments.part, priced=told)
+    done = _done(arguments, run)
     if done is None:
         return INTERRUPTED
+    if arguments.price:
+        return 0
     if done.accuracy is not None:
         print(done.accuracy)
     if arguments.part is not None:

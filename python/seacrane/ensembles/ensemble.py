@@ -23,6 +23,7 @@ from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, Value
 from seacrane.ensembles.parts import Part, part_of
+from seacrane.ensembles.price import Priced, goes_on
 from seacrane.ensembles.store import Folder, Store, order_of, pack_size, packs_of, stored
 from seacrane.ensembles.study import (
     START_TIME,
@@ -167,6 +168,7 @@ def ensemble(
     pack: int | None = None,
     lanes: int | None = None,
     part: tuple[int, int] | str | None = None,
+    priced: Priced | None = None,
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> Ensemble:
@@ -231,6 +233,9 @@ def ensemble(
     part : (int, int) or str, optional
         Run one part of so many alone, (3, 40) or "3/40", of a study without `until`. It has whole packs, so
         that `merge_parts` makes of the stores of all parts what one run writes, to the bit.
+    priced : callable, optional
+        Is told the `Price` of all members that are missing, once a few packs of them are run, and says
+        whether to go on. If not, the few are kept. Where none is left to be measured, it is told None.
     progress : bool
         Show a progress bar with the time left.
     **shorthand
@@ -304,7 +309,12 @@ def ensemble(
     if targets:
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)
-        with _store(store, study, growth.members(1), growth.size, grows=True) as kept:
+        first, packs = growth.members(1), growth.first_packs()
+        with _store(store, study, first, growth.size, grows=True) as kept:
+            if not goes_on(
+                priced, kept, Job(study), first, packs, executor, raises=raises, batches=growth.batches
+            ):
+                return _ensemble(first, stored(kept, first), study.lanes)
             members, outcomes, certainty = grow(
                 growth, Job(study), kept, executor, targets, raises=raises, progress=progress
             )
@@ -314,10 +324,14 @@ def ensemble(
         with _store(store, study, members, size, part=own) as kept:
             packs = packs_of(order_of(study, members), size)
             packs = packs if own is None else {number: packs[number] for number in own.numbers(len(packs))}
-            progressed = Progress(sum(map(len, packs.values())), progress, study.lanes)
-            with progressed.bar:
-                run_packs(kept, Job(study), members, packs, executor, progressed, raises=raises)
+            job, progressed = Job(study), Progress(sum(map(len, packs.values())), progress, study.lanes)
+            further = goes_on(priced, kept, job, members, packs, executor, raises=raises)
+            if further:
+                with progressed.bar:
+                    run_packs(kept, job, members, packs, executor, progressed, raises=raises)
             done = _ensemble(members, stored(kept, members), study.lanes)
+            if not further:
+                return done
         _warn_of_failures(done)
     if accuracy is None:
         return done

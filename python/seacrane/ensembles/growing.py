@@ -7,7 +7,7 @@ results of those before it alone: so the ensemble is the same whatever runs it, 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
@@ -63,6 +63,10 @@ class Growth:
             first + chunk: range(start, min(start + self.size * self.cells, end), self.cells)
             for chunk, start in enumerate(starts)
         }
+
+    def first_packs(self) -> dict[int, Sequence[int]]:
+        """Those of the first batch, of all cells."""
+        return {number: own for cell in range(self.cells) for number, own in self.packs(0, cell).items()}
 
     def parameters(self, cell: int) -> dict[str, Value]:
         """What the members of a cell share."""

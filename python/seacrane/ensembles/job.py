@@ -8,7 +8,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache, partial
 from threading import Lock
+from time import thread_time
 from typing import Any, TypeVar
+
+import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.after_run import Finding, require_finite
@@ -143,14 +146,25 @@ class Job:
 
     def _together(self, members: Pack) -> list[Outcome]:
         """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
-        runs = self._begun(members)
+        times = [thread_time()]
+        runs = self._begun(members, times)
         if self.study.lanes > 1:
             runs = self._beside(members, runs)
         runs = [run if isinstance(run, str) else _tried(partial(stepped, run)) for run in runs]
-        return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
+        outcomes = [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
+        share = (thread_time() - times[-1]) / len(members)
+        return [
+            replace(one, begun_s=begun, stepped_s=share)
+            for one, begun in zip(outcomes, np.diff(times).tolist(), strict=True)
+        ]
 
-    def _begun(self, members: Pack) -> list[Run | StagedRun | str]:
-        return [_tried(interrupts_kept()(partial(self._prepared.run, values))) for _, values in members]
+    def _begun(self, members: Pack, times: list[float]) -> list[Run | StagedRun | str]:
+        """The runs at their starts; at what processor time each was there is added to the times, s."""
+        runs = []
+        for _, values in members:
+            runs.append(_tried(interrupts_kept()(partial(self._prepared.run, values))))
+            times.append(thread_time())
+        return runs
 
     def _beside(self, members: Pack, begun: list[Run | StagedRun | str]) -> list[Run | StagedRun | str]:
         """The runs as far as they go side by side; where that fails altogether, begun anew."""
@@ -159,7 +173,7 @@ class Job:
             try:
                 reached = self._advance(runs, interrupts)
             except (MemoryError, SeacraneError, ValueError) as error:
-                reached, runs = True, self._begun(members)
+                reached, runs = True, self._begun(members, [])
                 why = f"stepping it beside others failed: {type(error).__name__}: {error}"
                 note_apart([run for run in runs if isinstance(run, Run)], why)
         interrupts.take()
@@ -194,8 +208,8 @@ class Job:
     @interrupts_kept()
     def _ended(self, index: int, run: Run | StagedRun) -> Outcome:
         result = require_finite(run.result())
-        told = {name: str(result.stats.get(name, "")) for name in ("validity", "kept_apart")}
-        return Outcome(index=index, kept=self.study.kept_of(result), **told)
+        validity, apart = (str(result.stats.get(name, "")) for name in ("validity", "kept_apart"))
+        return Outcome(index=index, kept=self.study.kept_of(result), validity=validity, kept_apart=apart)
 
 
 def _tried(work: Callable[[], Some]) -> Some | str:

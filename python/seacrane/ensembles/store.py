@@ -95,11 +95,22 @@ class Folder:
                 "which makes it anew"
             ) from error
 
+    def size(self, pack: int) -> int:
+        """Bytes of the file of a pack."""
+        return self._file(pack).stat().st_size
+
     def _file(self, pack: int) -> Path:
         return self.path / f"pack_{pack:0{DIGITS}d}.nc"
 
 
 Store = Folder | dict[int, list[Outcome]]  # in memory, for as long as the process lives
+
+
+def bytes_in(store: Store, pack: int) -> int:
+    """What a pack takes: its file, or its arrays in memory."""
+    if isinstance(store, Folder):
+        return store.size(pack)
+    return sum(kept.values.nbytes for one in store[pack] for kept in one.kept.values())
 
 
 def stored(store: Store, members: Members) -> xarray.Dataset:

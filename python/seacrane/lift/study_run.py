@@ -19,6 +19,7 @@ from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.merging import merge_parts
 from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
+from seacrane.ensembles.price import Priced
 from seacrane.ensembles.study import Source, require_paths, stage_paths, with_values
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import is_draft
@@ -41,11 +42,13 @@ def run_study(
     *,
     executor: Executor | None = None,
     part: str | None = None,
+    priced: Priced | None = None,
     progress: bool = False,
 ) -> Ensemble:
     """Run the study of a lift file into a folder; what is there is not run again.
 
     Of a `part`, such as "3/40", its members alone; `merge_study` makes one folder of those of all parts.
+    `priced` is told the price, and says whether to go on, as of `ensemble`.
 
     Raises
     ------
@@ -66,7 +69,7 @@ def run_study(
     done = ensemble(
         source, over=lift.study.over, keep=lift.study.keep, until=lift.study.until, accuracy=lift.accuracy,
         stages=lift.stages, start=lift.start, t_end=None if lift.stages else lift.t_end, method=lift.method,
-        outputs=lift.outputs, executor=executor, store=target / MEMBERS, part=part,
+        outputs=lift.outputs, executor=executor, store=target / MEMBERS, part=part, priced=priced,
         progress=progress,
     )  # fmt: skip
     lift.save(target / FILE)
