@@ -75,6 +75,7 @@ COMMANDS: dict[str, tuple[str, str, Sequence[Row]]] = {
         ("study", "LIFT.toml", str, "a lift with a [study]; data only"),
         ("--out", "DIR", str, "folder of the study; made if absent", REQUIRED),
         ("--part", "I/N", str, "run this part of N alone; seacrane merge makes one study of all"),
+        ("--member-limit", "S", float, "processor time after which a member has failed, s; others go on"),
         ("--price", FLAG, str, "run a few members, which are kept, print what all cost, and stop"),
         ("--workers", "N", int, "processes to run in; default: this one"),
         ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),

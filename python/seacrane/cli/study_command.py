@@ -32,7 +32,8 @@ def study(arguments: argparse.Namespace) -> int:
             print(price or "price: no member is left to be measured", flush=True)
         return not arguments.price
 
-    run = partial(run_study, arguments.study, part=arguments.part, priced=told)
+    limit, part = arguments.member_limit, arguments.part
+    run = partial(run_study, arguments.study, member_limit=limit, part=part, priced=told)
     done = _done(arguments, run)
     if done is None:
         return INTERRUPTED

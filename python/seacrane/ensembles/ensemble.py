@@ -40,6 +40,7 @@ from seacrane.ensembles.study_folder import claimed, identity_of, study_in
 from seacrane.ensembles.targets import Certainty, targets_of, with_static_parts
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.run.channel_names import require_channels
@@ -167,6 +168,7 @@ def ensemble(
     on_error: Literal["record", "raise"] = "record",
     pack: int | None = None,
     lanes: int | None = None,
+    member_limit: float | None = None,
     part: tuple[int, int] | str | None = None,
     priced: Priced | None = None,
     progress: bool = False,
@@ -230,6 +232,9 @@ def ensemble(
         (AVX-512), or 1 for each by itself. Default: 4 where a word of the sea varies, the processor has AVX2
         and `pack` is a multiple of it. What cannot be stepped so is run by itself; `kept_apart` of the
         dataset, and of a result's stats, says why.
+    member_limit : float, optional
+        Processor time that a member may take once it is described, s: one beyond it fails, others go on. What
+        is beyond it side by side is run anew, each by itself. A store belongs to one limit.
     part : (int, int) or str, optional
         Run one part of so many alone, (3, 40) or "3/40", of a study without `until`. It has whole packs, so
         that `merge_parts` makes of the stores of all parts what one run writes, to the bit.
@@ -288,6 +293,7 @@ def ensemble(
         keep=wanted,
         start=checked_start(start),
         lanes=lanes_for(lanes, pack, members, starts=starts),
+        member_limit=math.inf if member_limit is None else positive_of("member_limit", member_limit, "s"),
     )
     for what in wanted.values():
         if isinstance(what, Kept):

@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import inspect
 import json
+import math
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -118,6 +119,7 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
         "members in a pack": pack,
         "lanes": study.lanes,
         **({"stages": stages} if study.stages else {}),
+        **({"member_limit": study.member_limit} if study.member_limit < math.inf else {}),
         "t_end": None if study.stages else study.t_end,
         "method": _text(asdict(study.method)),
         "outputs": _text(asdict(study.outputs)),

@@ -41,6 +41,7 @@ def run_study(
     folder: str | os.PathLike[str],
     *,
     executor: Executor | None = None,
+    member_limit: float | None = None,
     part: str | None = None,
     priced: Priced | None = None,
     progress: bool = False,
@@ -48,7 +49,7 @@ def run_study(
     """Run the study of a lift file into a folder; what is there is not run again.
 
     Of a `part`, such as "3/40", its members alone; `merge_study` makes one folder of those of all parts.
-    `priced` is told the price, and says whether to go on, as of `ensemble`.
+    `member_limit` (s) and `priced`, which is told the price and says whether to go on, are as of `ensemble`.
 
     Raises
     ------
@@ -69,7 +70,8 @@ def run_study(
     done = ensemble(
         source, over=lift.study.over, keep=lift.study.keep, until=lift.study.until, accuracy=lift.accuracy,
         stages=lift.stages, start=lift.start, t_end=None if lift.stages else lift.t_end, method=lift.method,
-        outputs=lift.outputs, executor=executor, store=target / MEMBERS, part=part, priced=priced,
+        outputs=lift.outputs, executor=executor, store=target / MEMBERS, member_limit=member_limit,
+        part=part, priced=priced,
         progress=progress,
     )  # fmt: skip
     lift.save(target / FILE)
