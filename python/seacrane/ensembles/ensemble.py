@@ -9,7 +9,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane.accuracy.choice import refuse_what_is_chosen
@@ -22,9 +21,10 @@ from seacrane.ensembles.growing import BATCH, grow, growth_of, members_in
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, Value
+from seacrane.ensembles.object_store import claimed_store, opened_store
 from seacrane.ensembles.parts import Part, part_of
 from seacrane.ensembles.price import Priced, goes_on
-from seacrane.ensembles.store import Folder, Store, order_of, pack_size, packs_of, stored
+from seacrane.ensembles.store import Store, order_of, pack_size, packs_of, stored
 from seacrane.ensembles.study import (
     START_TIME,
     Asked,
@@ -36,7 +36,7 @@ from seacrane.ensembles.study import (
     checked_stages_of,
     outputs_for,
 )
-from seacrane.ensembles.study_folder import claimed, identity_of, study_in
+from seacrane.ensembles.study_folder import identity_of, study_in
 from seacrane.ensembles.targets import Certainty, targets_of, with_static_parts
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
@@ -144,10 +144,10 @@ class Ensemble:
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> Ensemble:
         """What a store holds so far. Raises FileFormatError for a folder that is none, or damaged."""
-        path = Path(folder)
-        data = study_in(path)
-        members, lanes = members_in(path, data), data.get("identity", {}).get("lanes", 1)
-        return _ensemble(members, stored(Folder(path), members), lanes if isinstance(lanes, int) else 1)
+        store = opened_store(folder)
+        data = study_in(store.path)
+        members, lanes = members_in(store, data), data.get("identity", {}).get("lanes", 1)
+        return _ensemble(members, stored(store, members), lanes if isinstance(lanes, int) else 1)
 
 
 @named
@@ -211,8 +211,8 @@ def ensemble(
         Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
         another, here.
     store : path, optional
-        A folder for results as they come, in NetCDF. A call with the same study goes on where the last one
-        ended.
+        A folder for results as they come, in NetCDF, or a URL of an object store that fsspec knows. A call
+        with the same study goes on where the last one ended.
     until : mapping of str to float, optional
         Half widths of 95 % intervals as shares of the dynamic part, such as ``{"hook_load.mpm": 0.02}``:
         "mpm", "mean" or "p90" of a maximum or minimum that is kept, "mean" of anything else. Seeds are added
@@ -382,5 +382,5 @@ def _store(
     identity = identity_of(study, members, size) | ({"seeds in a batch": BATCH} if grows else {})
     identity |= {} if part is None else part.identity()
     data = {"identity": identity, "grid": members.grid, "axes": dict(members.axes)}
-    with claimed(path, data | ({"seeds_in_pack": size} if grows else {})) as folder:
-        yield Folder(folder)
+    with claimed_store(path, data | ({"seeds_in_pack": size} if grows else {})) as kept:
+        yield kept

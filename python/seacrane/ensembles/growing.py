@@ -168,8 +168,9 @@ def _warn_of_failed(certainty: tuple[Certainty, ...], outcomes: list[list[Outcom
     )
 
 
-def members_in(folder: Path, data: Mapping[str, Any]) -> Members:
+def members_in(store: Folder, data: Mapping[str, Any]) -> Members:
     """The members of a store, of one that grows those that are there. Raises FileFormatError for no study."""
+    folder = store.path
     axes, grid, size = _axes(folder, data), bool(data.get("grid")), data.get("seeds_in_pack")
     if size:
         seeds = axes.get("seed", ())
@@ -181,7 +182,7 @@ def members_in(folder: Path, data: Mapping[str, Any]) -> Members:
             raise FileFormatError(f"{folder}: its study grows by {BATCH} seeds, and tells others")
         others = {name: values for name, values in axes.items() if name != "seed"}
         growth = Growth(first=int(seeds[0]), batches=1, others=others, size=size)
-        batches = max(growth.batches_in(Folder(folder)), 1) if growth.cells * BATCH <= MOST_MEMBERS else 1
+        batches = max(growth.batches_in(store), 1) if growth.cells * BATCH <= MOST_MEMBERS else 1
         members = growth.members(batches)
     else:
         members = Members(axes=axes, grid=grid)

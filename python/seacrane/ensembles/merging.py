@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from seacrane.ensembles.ensemble import Ensemble
 from seacrane.ensembles.growing import members_in
+from seacrane.ensembles.object_store import claimed_store, opened_store
 from seacrane.ensembles.parts import ENGINE, PART, Part, part_of
 from seacrane.ensembles.store import Folder
-from seacrane.ensembles.study_folder import claimed, study_in
+from seacrane.ensembles.study_folder import study_in
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.keywords import named
 
@@ -48,29 +48,29 @@ def merge_parts(parts: Sequence[str | os.PathLike[str]], store: str | os.PathLik
     """
     if isinstance(parts, str | os.PathLike) or not parts:
         raise SceneError("merge: no parts are given; give the folders of all of them")
-    folders = [Path(one) for one in parts]
-    data = [study_in(one) for one in folders]
+    folders = [str(one) for one in parts]
+    stores = [opened_store(one) for one in parts]
+    data = [study_in(one.path) for one in stores]
     numbered = [_part_in(folder, one) for folder, one in zip(folders, data, strict=True)]
     for folder, one in zip(folders, data, strict=True):
         _require_alike(folders[0], data[0]["identity"], folder, one["identity"])
     _require_all(folders, numbered)
-    packs = _packs(folders, numbered, data[0])
+    packs = _packs(folders, stores, numbered, data[0])
     identity = {name: told for name, told in data[0]["identity"].items() if name not in (PART, ENGINE)}
-    with claimed(store, data[0] | {"identity": identity}) as path:
-        whole = Folder(path)
-        for number, folder in sorted(packs.items()):
-            whole[number] = Folder(folder)[number]
+    with claimed_store(store, data[0] | {"identity": identity}) as whole:
+        for number, part in sorted(packs.items()):
+            whole[number] = part[number]
     return Ensemble.load(store)
 
 
-def _part_in(folder: Path, data: Mapping[str, Any]) -> Part:
+def _part_in(folder: str, data: Mapping[str, Any]) -> Part:
     identity = data.get("identity")
     if not isinstance(identity, dict) or PART not in identity:
         raise SceneError(f"merge: {folder} is no part of an ensemble; give folders that were run as parts")
     return part_of(identity[PART])
 
 
-def _require_alike(first: Path, known: Mapping[str, Any], folder: Path, identity: Mapping[str, Any]) -> None:
+def _require_alike(first: str, known: Mapping[str, Any], folder: str, identity: Mapping[str, Any]) -> None:
     other = [name for name in {**known, **identity} if name != PART and known.get(name) != identity.get(name)]
     if not other:
         return
@@ -84,37 +84,41 @@ def _require_alike(first: Path, known: Mapping[str, Any], folder: Path, identity
     )
 
 
-def _require_all(folders: Sequence[Path], numbered: Sequence[Part]) -> None:
+def _require_all(folders: Sequence[str], numbered: Sequence[Part]) -> None:
     """Raise SceneError where a part is there twice, or missing."""
     first = numbered[0]
-    for folder, part in zip(folders, numbered, strict=True):
+    for place, (folder, part) in enumerate(zip(folders, numbered, strict=True)):
         if part.of != first.of:
             raise SceneError(f"merge: {folders[0]} is part {first}, {folder} is part {part}; parts overlap")
-        twice = folders[numbered.index(part)]
-        if twice is not folder:
-            raise SceneError(f"merge: part {part} is there twice, in {twice} and {folder}; leave one out")
+        earlier = numbered.index(part)
+        if earlier < place:
+            raise SceneError(
+                f"merge: part {part} is there twice, in {folders[earlier]} and {folder}; leave one out"
+            )
     missing = sorted({*range(1, first.of + 1)} - {part.number for part in numbered})
     if missing:
         told = ", ".join(f"{number}/{first.of}" for number in missing[:12]) + ", ..." * (len(missing) > 12)
         raise SceneError(f"merge: {len(missing)} of {first.of} parts are missing: {told}; run them first")
 
 
-def _packs(folders: Sequence[Path], numbered: Sequence[Part], data: Mapping[str, Any]) -> dict[int, Path]:
+def _packs(
+    folders: Sequence[str], stores: Sequence[Folder], numbered: Sequence[Part], data: Mapping[str, Any]
+) -> dict[int, Folder]:
     """Where each pack is; raises SceneError where one is missing, or a member is not there once."""
-    members, size = members_in(folders[0], data), data["identity"].get("members in a pack")
+    members, size = members_in(stores[0], data), data["identity"].get("members in a pack")
     if type(size) is not int or size < 1:
         raise FileFormatError(f"{folders[0]}: its study tells no members in a pack")
-    packs: dict[int, Path] = {}
+    packs: dict[int, Folder] = {}
     seen = Counter[int]()
-    for folder, part in zip(folders, numbered, strict=True):
-        own, store = part.numbers(-(-len(members) // size)), Folder(folder)
+    for folder, store, part in zip(folders, stores, numbered, strict=True):
+        own = part.numbers(-(-len(members) // size))
         left = {*own} - {*store}
         if left:
             raise SceneError(
                 f"merge: part {part} in {folder} is not complete, {len(left)} of its {len(own)} packs are "
                 "missing; give the same command again, which goes on with it"
             )
-        packs |= dict.fromkeys(own, folder)
+        packs |= dict.fromkeys(own, store)
         seen.update(one.index for number in own for one in store[number])
     if seen != Counter(range(len(members))):
         raise FileFormatError("merge: the packs do not hold each member once; run the damaged part anew")

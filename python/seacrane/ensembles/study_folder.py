@@ -65,7 +65,7 @@ def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[
                 f"store {str(folder)!r}: another process is writing it; wait, or give another"
             )
         remove_all(folder, OURS)
-        _require_same(folder, study)
+        require_same(folder, study)
         yield folder
     finally:
         os.close(lock)
@@ -83,7 +83,7 @@ def study_in(folder: Path) -> dict[str, Any]:
     return data
 
 
-def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
+def require_same(folder: Path, study: Mapping[str, Any]) -> None:
     """Write what the folder is, or refuse a folder of another study."""
     whole = {"format": FORMAT, "version": FILE_VERSION, **study}
     path = folder / STUDY
