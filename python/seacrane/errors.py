@@ -106,6 +106,10 @@ class LineSlackError(SimulationError):
     """A line on the rung "quasi-static" would go slack, or has hauled in to its end; the message names it."""
 
 
+class MemberLimitError(SimulationError):
+    """A member of an ensemble took more processor time than its `member_limit` allows."""
+
+
 class ChatteringError(SimulationError):
     """Limits make and break contact without end in no time; the message names limit, joint and time."""
 

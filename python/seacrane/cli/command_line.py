@@ -74,6 +74,9 @@ COMMANDS: dict[str, tuple[str, str, Sequence[Row]]] = {
               "run the study of a lift: many runs, and what they tell; a call that was stopped goes on", (
         ("study", "LIFT.toml", str, "a lift with a [study]; data only"),
         ("--out", "DIR", str, "folder of the study; made if absent", REQUIRED),
+        ("--part", "I/N", str, "run this part of N alone; seacrane merge makes one study of all"),
+        ("--member-limit", "S", float, "processor time after which a member has failed, s; others go on"),
+        ("--price", FLAG, str, "run a few members, which are kept, print what all cost, and stop"),
         ("--workers", "N", int, "processes to run in; default: this one"),
         ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),
         ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
@@ -85,6 +88,10 @@ COMMANDS: dict[str, tuple[str, str, Sequence[Row]]] = {
         ("--workers", "N", int, "processes to run in; default: this one"),
         ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),
         ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
+    )),
+    "merge": ("study_command", "make one study of the folders of all its parts, and tell what it says", (
+        ("parts", "PART", str, "folder of a part, of seacrane study --part", {"nargs": "+"}),
+        ("--out", "DIR", str, "folder of the study; made if absent", REQUIRED),
     )),
     "view": ("result_commands", "write a result, or a scene at its start, as a page in three dimensions: one "
              "HTML file that needs no network", (

@@ -1,4 +1,4 @@
-"""``seacrane study`` and ``seacrane sheet``: run a lift many times into a folder, or go on with it."""
+"""``seacrane study``, ``merge`` and ``sheet``: run a lift many times into a folder, or go on with it."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from functools import partial
 from importlib import import_module
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from seacrane.cli.command_line import INTERRUPTED
 from seacrane.errors import SceneError, WorkerVersionError
 from seacrane.version import __version__
+
+if TYPE_CHECKING:
+    from seacrane.ensembles import Price
 
 Done = TypeVar("Done")
 
@@ -24,11 +27,33 @@ def study(arguments: argparse.Namespace) -> int:
     from seacrane.cli.result_commands import show_study
     from seacrane.lift.study_run import run_study
 
-    done = _done(arguments, partial(run_study, arguments.study))
+    def told(price: Price | None) -> bool:
+        if price is not None or arguments.price:
+            print(price or "price: no member is left to be measured", flush=True)
+        return not arguments.price
+
+    limit, part = arguments.member_limit, arguments.part
+    run = partial(run_study, arguments.study, member_limit=limit, part=part, priced=told)
+    done = _done(arguments, run)
     if done is None:
         return INTERRUPTED
+    if arguments.price:
+        return 0
     if done.accuracy is not None:
         print(done.accuracy)
+    if arguments.part is not None:
+        print(f"part {arguments.part} is done, {len(done.failures)} failed; seacrane merge takes all parts")
+        return 0
+    show_study(arguments.out, None)
+    return 0
+
+
+def merge(arguments: argparse.Namespace) -> int:
+    """Make one study of its parts, and tell what its members say."""
+    from seacrane.cli.result_commands import show_study
+    from seacrane.lift.study_run import merge_study
+
+    merge_study(arguments.parts, arguments.out)
     show_study(arguments.out, None)
     return 0
 

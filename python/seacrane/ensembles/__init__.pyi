@@ -2,6 +2,9 @@
 
 from seacrane.ensembles.ensemble import ensemble as ensemble
 from seacrane.ensembles.ensemble import Ensemble as Ensemble
+from seacrane.ensembles.merging import merge_parts as merge_parts
+from seacrane.ensembles.price import Price as Price
+from seacrane.ensembles.priced import ensemble_price as ensemble_price
 from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.members import LatinHypercube as LatinHypercube
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy

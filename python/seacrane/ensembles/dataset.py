@@ -51,6 +51,8 @@ class Outcome:
     failure: str = ""
     validity: str = ""  # what was out of range in its run, as of a result's stats
     kept_apart: str = ""  # why it was stepped by itself where others were to be stepped beside it
+    begun_s: float = 0.0  # processor time until its run had begun, s; no store has it
+    stepped_s: float = 0.0  # and from then on; of members side by side each has its share
 
 
 def dataset_of(members: Members, outcomes: Iterable[Outcome]) -> xarray.Dataset:

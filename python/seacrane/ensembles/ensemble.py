@@ -9,21 +9,22 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.accuracy.expected import expected_error
-from seacrane.analysis.rest_state import equilibrium
+from seacrane.ensembles.asked import checked_start, end_of, start_times_of
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed
 from seacrane.ensembles.dataset import NOT_RUN, RESERVED, dataset_of
 from seacrane.ensembles.filling import SIDE_BY_SIDE, Progress, lanes_for, remark, run_packs
 from seacrane.ensembles.growing import BATCH, grow, growth_of, members_in
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
-from seacrane.ensembles.members import Members, Over, Value, members_of
-from seacrane.ensembles.store import Folder, Store, order_of, pack_size, packs_of, stored
+from seacrane.ensembles.members import Members, Over, Value
+from seacrane.ensembles.object_store import claimed_store, opened_store
+from seacrane.ensembles.parts import Part, part_of
+from seacrane.ensembles.price import Priced, goes_on
+from seacrane.ensembles.store import Store, order_of, pack_size, packs_of, stored
 from seacrane.ensembles.study import (
     START_TIME,
     Asked,
@@ -35,15 +36,15 @@ from seacrane.ensembles.study import (
     checked_stages_of,
     outputs_for,
 )
-from seacrane.ensembles.study_folder import claimed, identity_of, study_in
+from seacrane.ensembles.study_folder import identity_of, study_in
 from seacrane.ensembles.targets import Certainty, targets_of, with_static_parts
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import not_negative_of, number_of
+from seacrane.inputs.checked import positive_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.run.channel_names import require_channels
-from seacrane.run.method import REST, Method, Shorthand, settled
+from seacrane.run.method import Method, Shorthand, settled
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 from seacrane.statistics.distribution import Distribution, distribution
@@ -54,7 +55,6 @@ if TYPE_CHECKING:
     import xarray
     from typing_extensions import Unpack
 
-USUAL_END = 100.0  # s
 POOLED = ("seed", START_TIME)
 
 
@@ -144,10 +144,10 @@ class Ensemble:
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> Ensemble:
         """What a store holds so far. Raises FileFormatError for a folder that is none, or damaged."""
-        path = Path(folder)
-        data = study_in(path)
-        members, lanes = members_in(path, data), data.get("identity", {}).get("lanes", 1)
-        return _ensemble(members, stored(Folder(path), members), lanes if isinstance(lanes, int) else 1)
+        store = opened_store(folder)
+        data = study_in(store.path)
+        members, lanes = members_in(store, data), data.get("identity", {}).get("lanes", 1)
+        return _ensemble(members, stored(store, members), lanes if isinstance(lanes, int) else 1)
 
 
 @named
@@ -168,6 +168,9 @@ def ensemble(
     on_error: Literal["record", "raise"] = "record",
     pack: int | None = None,
     lanes: int | None = None,
+    member_limit: float | None = None,
+    part: tuple[int, int] | str | None = None,
+    priced: Priced | None = None,
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> Ensemble:
@@ -208,8 +211,8 @@ def ensemble(
         Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
         another, here.
     store : path, optional
-        A folder for results as they come, in NetCDF. A call with the same study goes on where the last one
-        ended.
+        A folder for results as they come, in NetCDF, or a URL of an object store that fsspec knows. A call
+        with the same study goes on where the last one ended.
     until : mapping of str to float, optional
         Half widths of 95 % intervals as shares of the dynamic part, such as ``{"hook_load.mpm": 0.02}``:
         "mpm", "mean" or "p90" of a maximum or minimum that is kept, "mean" of anything else. Seeds are added
@@ -229,6 +232,15 @@ def ensemble(
         (AVX-512), or 1 for each by itself. Default: 4 where a word of the sea varies, the processor has AVX2
         and `pack` is a multiple of it. What cannot be stepped so is run by itself; `kept_apart` of the
         dataset, and of a result's stats, says why.
+    member_limit : float, optional
+        Processor time that a member may take once it is described, s: one beyond it fails, others go on. What
+        is beyond it side by side is run anew, each by itself. A store belongs to one limit.
+    part : (int, int) or str, optional
+        Run one part of so many alone, (3, 40) or "3/40", of a study without `until`. It has whole packs, so
+        that `merge_parts` makes of the stores of all parts what one run writes, to the bit.
+    priced : callable, optional
+        Is told the `Price` of all members that are missing, once a few packs of them are run, and says
+        whether to go on. If not, the few are kept. Where none is left to be measured, it is told None.
     progress : bool
         Show a progress bar with the time left.
     **shorthand
@@ -237,7 +249,8 @@ def ensemble(
     Raises
     ------
     SceneError
-        For a parameter that the scene does not have, too many members, or a store of another study.
+        For a parameter that the scene does not have, too many members, a part that there is not, or a store
+        of another study.
     SimulationError
         With ``on_error="raise"``, or where a worker died; what came back before is in the store.
     WorkerVersionError
@@ -266,19 +279,21 @@ def ensemble(
         raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
     how, recorded = settled(method, outputs, shorthand)
     wanted, in_stages = checked_keep(keep), checked_stages_of("ensemble", stages)
-    starts, members = _start_times(over, in_stages)
+    starts, members = start_times_of(over, in_stages)
     targets = () if until is None else targets_of(until, wanted)
+    own = None if part is None else part_of(part, grows=bool(targets))
     wanted = with_static_parts(wanted, targets)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
-        t_end=math.inf if starts else _end(t_end, in_stages),
+        t_end=math.inf if starts else end_of(t_end, in_stages),
         stages=in_stages,
         start_times=starts,
         method=how,
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
-        start=_checked_start(start),
+        start=checked_start(start),
         lanes=lanes_for(lanes, pack, members, starts=starts),
+        member_limit=math.inf if member_limit is None else positive_of("member_limit", member_limit, "s"),
     )
     for what in wanted.values():
         if isinstance(what, Kept):
@@ -300,19 +315,29 @@ def ensemble(
     if targets:
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)
-        with _store(store, study, growth.members(1), growth.size, grows=True) as kept:
+        first, packs = growth.members(1), growth.first_packs()
+        with _store(store, study, first, growth.size, grows=True) as kept:
+            if not goes_on(
+                priced, kept, Job(study), first, packs, executor, raises=raises, batches=growth.batches
+            ):
+                return _ensemble(first, stored(kept, first), study.lanes)
             members, outcomes, certainty = grow(
                 growth, Job(study), kept, executor, targets, raises=raises, progress=progress
             )
         done = _ensemble(members, dataset_of(members, outcomes), study.lanes)
         done = replace(done, certainty=certainty)
     else:
-        with _store(store, study, members, size, grows=False) as kept:
+        with _store(store, study, members, size, part=own) as kept:
             packs = packs_of(order_of(study, members), size)
-            progressed = Progress(len(members), progress, study.lanes)
-            with progressed.bar:
-                run_packs(kept, Job(study), members, packs, executor, progressed, raises=raises)
+            packs = packs if own is None else {number: packs[number] for number in own.numbers(len(packs))}
+            job, progressed = Job(study), Progress(sum(map(len, packs.values())), progress, study.lanes)
+            further = goes_on(priced, kept, job, members, packs, executor, raises=raises)
+            if further:
+                with progressed.bar:
+                    run_packs(kept, job, members, packs, executor, progressed, raises=raises)
             done = _ensemble(members, stored(kept, members), study.lanes)
+            if not further:
+                return done
         _warn_of_failures(done)
     if accuracy is None:
         return done
@@ -337,16 +362,6 @@ def _warn_of_failures(done: Ensemble) -> None:
     )
 
 
-def _checked_start(start: Any) -> Start:
-    if isinstance(start, str) and start == REST:
-        return equilibrium
-    if start is not None and not isinstance(start, _core.State) and not callable(start):
-        raise SceneError(
-            f"start is {shown(start)}; give a seacrane.State, {REST!r}, or a function that returns a State"
-        )
-    return start  # type: ignore[no-any-return]
-
-
 def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble:
     told = dataset.failure.to_numpy().ravel()
     failures = {index: str(text) for index, text in enumerate(told) if text and text != NOT_RUN}
@@ -355,44 +370,17 @@ def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble
     return Ensemble(members=members, dataset=dataset, failures=failures)
 
 
-def _start_times(over: Over, stages: Stages) -> tuple[tuple[float, ...], Members]:
-    """Times at which lifts begin, s, ascending, and the members, those of one sea next to each other.
-
-    Raises SceneError as `members_of`, for times in a list or design, negative ones, and those of a lift
-    without stages.
-    """
-    if START_TIME not in (over if isinstance(over, Mapping) else members_of(over).axes):
-        return (), members_of(over)
-    if not isinstance(over, Mapping):
-        raise SceneError(f"over: {START_TIME} is of grids; give a mapping of names to values")
-    if not stages:
-        raise SceneError(f"over: {START_TIME} is of lifts in stages; give stages, or start")
-    ordered = {name: values for name, values in over.items() if name != START_TIME}
-    members = members_of(ordered | {START_TIME: over[START_TIME]})
-    times = [not_negative_of(f"over: {START_TIME}", one, "s") for one in members.axes[START_TIME]]
-    return tuple(sorted(times)), members
-
-
-def _end(t_end: float | None, stages: Stages) -> float:
-    """Until when the members run, s; in stages as long as these take at most, where that is known."""
-    if not stages:
-        return USUAL_END if t_end is None else number_of("t_end", t_end)
-    if t_end is not None:
-        raise SceneError(f"ensemble: t_end is {t_end!r}, and stages tell their end; leave t_end out")
-    if callable(stages):
-        return math.inf
-    return float(sum(one.duration or one.maximum_duration or 0.0 for one in stages))
-
-
 @contextlib.contextmanager
 def _store(
-    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int, *, grows: bool
-) -> Iterator[Store]:
+    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int, *, grows: bool = False,
+    part: Part | None = None,
+) -> Iterator[Store]:  # fmt: skip
     """Of an ensemble that grows half widths and the most seeds do not tell it from another."""
     if path is None:
         yield {}
         return
     identity = identity_of(study, members, size) | ({"seeds in a batch": BATCH} if grows else {})
+    identity |= {} if part is None else part.identity()
     data = {"identity": identity, "grid": members.grid, "axes": dict(members.axes)}
-    with claimed(path, data | ({"seeds_in_pack": size} if grows else {})) as folder:
-        yield Folder(folder)
+    with claimed_store(path, data | ({"seeds_in_pack": size} if grows else {})) as kept:
+        yield kept

@@ -31,11 +31,12 @@ WAITING = "lifts with start_time go on from one run"
 
 def run_packs(
     store: Store, job: Job, members: Members, packs: Mapping[int, Sequence[int]], executor: Executor | None,
-    bar: Progress, *, raises: bool,
+    bar: Progress, *, raises: bool, measured: list[Outcome] | None = None,
 ) -> None:  # fmt: skip
     """Run and keep those packs, by number and members, that are not in the store.
 
-    Raises SimulationError for the first member that failed, now or before, where it `raises`.
+    Raises SimulationError for the first member that failed, now or before, where it `raises`. Outcomes are
+    added to `measured`, whose processor time no store has.
     """
     there = kept_packs(store, packs)
     bar.skip(sum(len(packs[number]) for number in there))
@@ -48,6 +49,8 @@ def run_packs(
         for number, outcomes in found:
             store[number] = outcomes
             bar.add(outcomes)
+            if measured is not None:
+                measured += outcomes
             if raises:
                 _require_success(outcomes, members)
 

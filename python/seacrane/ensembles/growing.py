@@ -7,7 +7,7 @@ results of those before it alone: so the ensemble is the same whatever runs it, 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
@@ -63,6 +63,10 @@ class Growth:
             first + chunk: range(start, min(start + self.size * self.cells, end), self.cells)
             for chunk, start in enumerate(starts)
         }
+
+    def first_packs(self) -> dict[int, Sequence[int]]:
+        """Those of the first batch, of all cells."""
+        return {number: own for cell in range(self.cells) for number, own in self.packs(0, cell).items()}
 
     def parameters(self, cell: int) -> dict[str, Value]:
         """What the members of a cell share."""
@@ -164,8 +168,9 @@ def _warn_of_failed(certainty: tuple[Certainty, ...], outcomes: list[list[Outcom
     )
 
 
-def members_in(folder: Path, data: Mapping[str, Any]) -> Members:
+def members_in(store: Folder, data: Mapping[str, Any]) -> Members:
     """The members of a store, of one that grows those that are there. Raises FileFormatError for no study."""
+    folder = store.path
     axes, grid, size = _axes(folder, data), bool(data.get("grid")), data.get("seeds_in_pack")
     if size:
         seeds = axes.get("seed", ())
@@ -177,7 +182,7 @@ def members_in(folder: Path, data: Mapping[str, Any]) -> Members:
             raise FileFormatError(f"{folder}: its study grows by {BATCH} seeds, and tells others")
         others = {name: values for name, values in axes.items() if name != "seed"}
         growth = Growth(first=int(seeds[0]), batches=1, others=others, size=size)
-        batches = max(growth.batches_in(Folder(folder)), 1) if growth.cells * BATCH <= MOST_MEMBERS else 1
+        batches = max(growth.batches_in(store), 1) if growth.cells * BATCH <= MOST_MEMBERS else 1
         members = growth.members(batches)
     else:
         members = Members(axes=axes, grid=grid)

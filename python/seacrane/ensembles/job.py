@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 from collections import OrderedDict, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache, partial
 from threading import Lock
+from time import thread_time
 from typing import Any, TypeVar
+
+import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.after_run import Finding, require_finite
@@ -17,7 +21,7 @@ from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.study import START_TIME, Study, Values
-from seacrane.errors import SceneError, SeacraneError, WorkerVersionError
+from seacrane.errors import MemberLimitError, SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.advance import ended
 from seacrane.run.carry import AlikeStages
@@ -38,16 +42,34 @@ Pack = tuple[tuple[int, Mapping[str, Value]], ...]
 MOST_HELD = 32  # of each: scenes that differ in more than their sea, runs that wait for a lift
 
 
-def stepped(run: Run | StagedRun) -> Run | StagedRun:
-    """The run at its end. Raises KeyboardInterrupt where Ctrl-C stopped it."""
-    if isinstance(run, StagedRun):
-        while run.advance():
-            pass
-        if run.interrupted:
-            raise KeyboardInterrupt
-        return run
-    with Interrupts() as interrupts:
-        ended(run, (), interrupts)
+class Clock(Interrupts):
+    """Takes Ctrl-C, and ends by a MemberLimitError what takes more processor time than a limit, s."""
+
+    def __init__(self, limit: float) -> None:
+        super().__init__()
+        self._limit, self._end = limit, thread_time() + limit if limit < math.inf else None
+
+    def __exit__(self, *error: object) -> None:
+        self._end = None
+        super().__exit__(*error)
+
+    def take(self) -> None:
+        """Do what Ctrl-C stands for, or end what takes too long."""
+        super().take()
+        if self._end is not None and thread_time() > self._end:
+            raise MemberLimitError(
+                f"it took more than {self._limit:g} s of processor time; give a larger member_limit"
+            )
+
+
+def stepped(run: Run | StagedRun, limit: float = math.inf) -> Run | StagedRun:
+    """The run at its end; KeyboardInterrupt where Ctrl-C stopped it, MemberLimitError beyond a limit, s."""
+    with Clock(limit) as interrupts:
+        if isinstance(run, StagedRun):
+            for _ in run.runs(interrupts):
+                pass
+        else:
+            ended(run, (), interrupts)
     interrupts.take()  # pressed as the run ended: the members after it are not to be run
     if run.interrupted:
         raise KeyboardInterrupt
@@ -143,23 +165,37 @@ class Job:
 
     def _together(self, members: Pack) -> list[Outcome]:
         """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
-        runs = self._begun(members)
+        times = [thread_time()]
+        runs = self._begun(members, times)
         if self.study.lanes > 1:
             runs = self._beside(members, runs)
-        runs = [run if isinstance(run, str) else _tried(partial(stepped, run)) for run in runs]
-        return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
+        runs = [
+            run if isinstance(run, str) else _tried(partial(stepped, run, self.study.member_limit))
+            for run in runs
+        ]
+        outcomes = [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
+        share = (thread_time() - times[-1]) / len(members)
+        return [
+            replace(one, begun_s=begun, stepped_s=share)
+            for one, begun in zip(outcomes, np.diff(times).tolist(), strict=True)
+        ]
 
-    def _begun(self, members: Pack) -> list[Run | StagedRun | str]:
-        return [_tried(interrupts_kept()(partial(self._prepared.run, values))) for _, values in members]
+    def _begun(self, members: Pack, times: list[float]) -> list[Run | StagedRun | str]:
+        """The runs at their starts; at what processor time each was there is added to the times, s."""
+        runs = []
+        for _, values in members:
+            runs.append(_tried(interrupts_kept()(partial(self._prepared.run, values))))
+            times.append(thread_time())
+        return runs
 
     def _beside(self, members: Pack, begun: list[Run | StagedRun | str]) -> list[Run | StagedRun | str]:
         """The runs as far as they go side by side; where that fails altogether, begun anew."""
         runs = list(begun)
-        with Interrupts() as interrupts:
+        with Clock(self.study.member_limit * len(members)) as interrupts:
             try:
                 reached = self._advance(runs, interrupts)
             except (MemoryError, SeacraneError, ValueError) as error:
-                reached, runs = True, self._begun(members)
+                reached, runs = True, self._begun(members, [])
                 why = f"stepping it beside others failed: {type(error).__name__}: {error}"
                 note_apart([run for run in runs if isinstance(run, Run)], why)
         interrupts.take()
@@ -176,7 +212,7 @@ class Job:
         def stepped_in_lanes(place: int, lift: StagedRun) -> Iterator[Run]:
             try:
                 yield from lift.runs(interrupts)
-            except MemoryError:
+            except (MemoryError, MemberLimitError):
                 raise
             except Exception as error:
                 runs[place] = _told(error)
@@ -194,8 +230,8 @@ class Job:
     @interrupts_kept()
     def _ended(self, index: int, run: Run | StagedRun) -> Outcome:
         result = require_finite(run.result())
-        told = {name: str(result.stats.get(name, "")) for name in ("validity", "kept_apart")}
-        return Outcome(index=index, kept=self.study.kept_of(result), **told)
+        validity, apart = (str(result.stats.get(name, "")) for name in ("validity", "kept_apart"))
+        return Outcome(index=index, kept=self.study.kept_of(result), validity=validity, kept_apart=apart)
 
 
 def _tried(work: Callable[[], Some]) -> Some | str:

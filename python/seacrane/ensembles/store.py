@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import ceil
 from pathlib import Path
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     import xarray
 
 DIGITS = 7  # of a pack's number in the name of its file
+PACK = re.compile(rf"pack_([0-9]{{{DIGITS}}})\.nc")
 LARGEST_FILE = 2**32  # bytes of arrays
 MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
 LARGEST_PACK = 64
@@ -42,13 +44,16 @@ class Folder:
 
     def __iter__(self) -> Iterator[int]:
         """Numbers of the packs that are there."""
-        names = (path.stem.removeprefix("pack_") for path in self.path.glob("pack_*.nc"))
-        found = {int(name) for name in names if name.isdecimal() and len(name) == DIGITS}
+        found = {int(name[1]) for name in map(PACK.fullmatch, self._names()) if name}
         if found and max(found) >= MOST_MEMBERS:
             raise FileFormatError(
                 f"{self.path}: has a pack {max(found)}, more than there may be members; remove it"
             )
         return iter(found)
+
+    def _names(self) -> Iterator[str]:
+        """Of the files that are there; none where the folder is not."""
+        yield from (path.name for path in self.path.glob("pack_*.nc"))
 
     @interrupts_kept()
     def __setitem__(self, pack: int, outcomes: list[Outcome]) -> None:
@@ -95,11 +100,22 @@ class Folder:
                 "which makes it anew"
             ) from error
 
+    def size(self, pack: int) -> int:
+        """Bytes of the file of a pack."""
+        return self._file(pack).stat().st_size
+
     def _file(self, pack: int) -> Path:
         return self.path / f"pack_{pack:0{DIGITS}d}.nc"
 
 
 Store = Folder | dict[int, list[Outcome]]  # in memory, for as long as the process lives
+
+
+def bytes_in(store: Store, pack: int) -> int:
+    """What a pack takes: its file, or its arrays in memory."""
+    if isinstance(store, Folder):
+        return store.size(pack)
+    return sum(kept.values.nbytes for one in store[pack] for kept in one.kept.values())
 
 
 def stored(store: Store, members: Members) -> xarray.Dataset:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -48,6 +49,7 @@ class Study:
     keep : What is kept of each, by name.
     start : Where every run begins, or a function of its scene that tells it; default: its assembled start.
     lanes : Runs that are stepped side by side, by the number of the member; 1: none.
+    member_limit : Processor time of a member, s; of those side by side together.
     stages : Of a lift in stages, or a function of the scene that tells them; none: it is one run to `t_end`.
     start_times : At which lifts in stages begin, where that varies, s, ascending.
     """
@@ -59,6 +61,7 @@ class Study:
     keep: Keep
     start: Start = None
     lanes: int = 1
+    member_limit: float = math.inf
     stages: Stages = ()
     start_times: tuple[float, ...] = ()
 

@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import inspect
 import json
+import math
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -64,7 +65,7 @@ def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[
                 f"store {str(folder)!r}: another process is writing it; wait, or give another"
             )
         remove_all(folder, OURS)
-        _require_same(folder, study)
+        require_same(folder, study)
         yield folder
     finally:
         os.close(lock)
@@ -82,7 +83,7 @@ def study_in(folder: Path) -> dict[str, Any]:
     return data
 
 
-def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
+def require_same(folder: Path, study: Mapping[str, Any]) -> None:
     """Write what the folder is, or refuse a folder of another study."""
     whole = {"format": FORMAT, "version": FILE_VERSION, **study}
     path = folder / STUDY
@@ -118,6 +119,7 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
         "members in a pack": pack,
         "lanes": study.lanes,
         **({"stages": stages} if study.stages else {}),
+        **({"member_limit": study.member_limit} if study.member_limit < math.inf else {}),
         "t_end": None if study.stages else study.t_end,
         "method": _text(asdict(study.method)),
         "outputs": _text(asdict(study.outputs)),

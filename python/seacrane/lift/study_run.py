@@ -8,7 +8,7 @@ from __future__ import annotations
 import copy
 import json
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,7 +17,9 @@ from typing import Any
 
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.members import Value
+from seacrane.ensembles.merging import merge_parts
 from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
+from seacrane.ensembles.price import Priced
 from seacrane.ensembles.study import Source, require_paths, stage_paths, with_values
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import is_draft
@@ -39,9 +41,15 @@ def run_study(
     folder: str | os.PathLike[str],
     *,
     executor: Executor | None = None,
+    member_limit: float | None = None,
+    part: str | None = None,
+    priced: Priced | None = None,
     progress: bool = False,
 ) -> Ensemble:
     """Run the study of a lift file into a folder; what is there is not run again.
+
+    Of a `part`, such as "3/40", its members alone; `merge_study` makes one folder of those of all parts.
+    `member_limit` (s) and `priced`, which is told the price and says whether to go on, are as of `ensemble`.
 
     Raises
     ------
@@ -52,24 +60,51 @@ def run_study(
     SimulationError, WorkerVersionError, OSError
         As of `ensemble`; what came back before is kept.
     """
-    lift, target = Lift.load(path), Path(folder)
+    lift = Lift.load(path)
     if lift.study is None:
         raise SceneError(f"{Path(path).name} has no [study]; `seacrane run` runs it once")
     source = _source(lift, lift.study)
-    if target.exists() and not target.is_dir():
-        raise SceneError(f"{target} is a file; give the name of a folder")
-    target.mkdir(parents=True, exist_ok=True)
-    if not (target / FILE).exists() and any(not is_draft(one) for one in target.iterdir()):
-        raise SceneError(f"{target} holds something else than a study; give another folder")
+    target = _made(folder)
     if not (target / FILE).exists():
         lift.save(target / FILE)
     done = ensemble(
         source, over=lift.study.over, keep=lift.study.keep, until=lift.study.until, accuracy=lift.accuracy,
         stages=lift.stages, start=lift.start, t_end=None if lift.stages else lift.t_end, method=lift.method,
-        outputs=lift.outputs, executor=executor, store=target / MEMBERS, progress=progress,
+        outputs=lift.outputs, executor=executor, store=target / MEMBERS, member_limit=member_limit,
+        part=part, priced=priced,
+        progress=progress,
     )  # fmt: skip
     lift.save(target / FILE)
     return done
+
+
+def merge_study(parts: Sequence[str | os.PathLike[str]], folder: str | os.PathLike[str]) -> Ensemble:
+    """Make one folder of those of all parts of a study: that of one run, to the bit.
+
+    Raises
+    ------
+    SceneError, FileFormatError, OSError
+        As `merge_parts`, and for a folder that is none of a part, or holds something else than a study.
+    """
+    for one in map(Path, parts):
+        if not (one / FILE).is_file():
+            raise SceneError(f"merge: {one} is no folder of a study; give those of seacrane study --part")
+    target = _made(folder)
+    done = merge_parts([Path(one) / MEMBERS for one in parts], target / MEMBERS)
+    Lift.load(Path(parts[0]) / FILE).save(target / FILE)
+    return done
+
+
+def _made(folder: str | os.PathLike[str]) -> Path:
+    """The folder of a study, made if absent; SceneError where it holds something else."""
+    target = Path(folder)
+    if target.exists() and not target.is_dir():
+        raise SceneError(f"{target} is a file; give the name of a folder")
+    target.mkdir(parents=True, exist_ok=True)
+    others = (one for one in target.iterdir() if one.name != MEMBERS and not is_draft(one))
+    if not (target / FILE).exists() and any(others):
+        raise SceneError(f"{target} holds something else than a study; give another folder")
+    return target
 
 
 def _source(lift: Lift, study: Study) -> Source:
