@@ -118,7 +118,7 @@ def test_friction_holds_for_an_hour_without_creep(heading: float, formulation: s
     result = simulate(scene, t_end=3600.0, dt_out=300.0, **how)
     away = np.asarray(result.select("position", body="block"))[1:] @ way
     assert away == pytest.approx(np.full(12, 2.0 / 3.0 * 1e-3), rel=1e-4)
-    assert not np.any(result["load_state"])
+    assert np.abs(result["load_state"]).max() < 1e-15  # m: what solving leaves of nothing
 
 
 def test_a_block_that_slides_comes_to_rest_by_its_friction() -> None:

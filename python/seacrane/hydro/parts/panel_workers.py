@@ -8,20 +8,22 @@ would run a user's script once more.
 from __future__ import annotations
 
 import os
-import pickle
-import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
+from io import BytesIO
 from queue import SimpleQueue
-from typing import Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
 from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.hydro.hull.solution import import_capytaine
+
+if TYPE_CHECKING:
+    from subprocess import Popen
 
 AXES = ("Surge", "Sway", "Heave")
 INSTEAD = "give a TablePart with added masses from elsewhere"
@@ -61,7 +63,7 @@ class PanelWorkers:
 
     def __init__(self, what: str, most: int) -> None:
         self._what = what
-        self._free: SimpleQueue[subprocess.Popen[bytes]] = SimpleQueue()
+        self._free: SimpleQueue[Popen[bytes]] = SimpleQueue()
         self._processes = [_begun() for _ in range(_cores() if most > FEW else 0)]
         for process in self._processes:
             self._free.put(process)
@@ -77,29 +79,28 @@ class PanelWorkers:
         for process in self._processes:
             process.communicate()
 
-    def ask(self, *problem: Any) -> Callable[[], Array]:
+    def ask(self, panels: Array, surface: float, omega: float) -> Callable[[], Array]:
         """What waits for the `added_mass` of a problem, or finds it."""
         if not self._processes:
-            return partial(added_mass, *problem)
-        return self._threads.submit(self._answer, problem).result
+            return partial(added_mass, panels, surface, omega)
+        return self._threads.submit(self._answer, panels=panels, surface=surface, omega=omega).result
 
-    def _answer(self, problem: tuple[Any, ...]) -> Array:
+    def _answer(self, **problem: Any) -> Array:
         process = self._free.get()
         try:
             assert process.stdin is not None and process.stdout is not None
-            pickle.dump(problem, process.stdin)
-            process.stdin.flush()
-            answer = pickle.load(process.stdout)
-        except (OSError, EOFError, pickle.UnpicklingError) as error:
+            _send(process.stdin, **problem)
+            answer = _taken(process.stdout)
+        except (OSError, EOFError) as error:
             raise SceneError(
                 f"{self._what}: the process that solves its panels ended, as where memory runs out; give "
                 "fewer (panels=)"
             ) from error
         finally:
             self._free.put(process)
-        if isinstance(answer, BaseException):
-            raise answer
-        return np.asarray(answer)
+        if "error" in answer:
+            raise SceneError(f"{self._what}: {answer['error']}")
+        return answer["masses"]
 
 
 def _cores() -> int:
@@ -107,8 +108,28 @@ def _cores() -> int:
     return min(len(allowed(0)) if allowed else os.cpu_count() or 1, MOST_WORKERS)
 
 
-def _begun() -> subprocess.Popen[bytes]:
+def _send(stream: IO[bytes], **arrays: Any) -> None:
+    """Write arrays, after the length of their bytes."""
+    held = BytesIO()
+    np.savez(held, **arrays)
+    stream.write(len(held.getvalue()).to_bytes(8, "little") + held.getvalue())
+    stream.flush()
+
+
+def _taken(stream: IO[bytes]) -> dict[str, Array]:
+    """The arrays of one `_send`; EOFError where there is no more."""
+    size = int.from_bytes(stream.read(8), "little")
+    data = stream.read(size)
+    if not size or len(data) < size:
+        raise EOFError("no more problems, or answers")
+    with np.load(BytesIO(data)) as arrays:
+        return dict(arrays)
+
+
+def _begun() -> Popen[bytes]:
     """A process that answers problems, out of reach of the terminal's Ctrl-C."""
+    import subprocess  # with the first mesh of many panels, and where processes can be started
+
     places = os.pathsep.join(one for one in sys.path if one)
     environment = {**os.environ, "PYTHONPATH": places, **dict.fromkeys(THREADS, "1")}
     return subprocess.Popen(
@@ -123,15 +144,16 @@ def _serve() -> None:
     os.dup2(2, 1)  # what libraries print is no answer
     while True:
         try:
-            problem = pickle.load(sys.stdin.buffer)
+            problem = _taken(sys.stdin.buffer)
         except EOFError:
             return
         try:
-            answer: Any = added_mass(*problem)
+            found: dict[str, Any] = {
+                "masses": added_mass(problem["panels"], float(problem["surface"]), float(problem["omega"]))
+            }
         except Exception as error:
-            answer = error
-        pickle.dump(answer, answers)
-        answers.flush()
+            found = {"error": f"{type(error).__name__}: {error}"}
+        _send(answers, **found)
 
 
 if __name__ == "__main__":
