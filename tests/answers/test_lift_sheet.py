@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Result, Scene, SceneError, report, simulate, summary
+from seacrane import Lift, Result, Scene, SceneError, report, simulate, summary
 from seacrane.answers import lift_sheet
 
 G = 9.80665
@@ -117,6 +117,12 @@ def test_files_keep_it(tmp_path: Path) -> None:
     scene.save(tmp_path / "scene.json")
     loaded = Scene.load(tmp_path / "scene.json")
     assert loaded.lift_factors == scene.lift_factors and loaded.ratings == scene.ratings
+    load = {"name": "load", "mass_t": 1, "size_m": [1, 1, 1]}
+    told = [
+        Lift({"body": load, "lift_factors": {"load": "load", "skew_load": one}}).scene().lift_factors
+        for one in (1.25, [1.25])
+    ]
+    assert told[0] == told[1] and told[0]["load"].skew_load == (1.25,)
 
 
 def test_factors_that_fit_no_lift_are_refused_by_name() -> None:
