@@ -21,7 +21,7 @@ def test_cargo_on_a_rolling_deck_feels_gravity_once() -> None:
     scene.add_driver(joint="roll", curve=curve)
     scene.add_point(name="module", body="deck", point=(0.0, 0.0, height))
     result = simulate(scene, t_end=20.0, dt_out=0.1, rtol=1e-8, channels=["point_acceleration", "quaternion"])
-    found = deck_cargo(result, cargo=[Cargo(point="module", mass=1e4)], deck="deck", after=2.0)
+    found = deck_cargo(result, cargo=[Cargo(point="module", mass=1e4)], after=2.0)
     turn = omega * found.time
     angle, rate, second = (
         amplitude * one for one in (np.sin(turn), omega * np.cos(turn), -(omega**2) * np.sin(turn))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Result, Scene, SceneError, report, simulate, summary
+from seacrane import Lift, Result, Scene, SceneError, report, simulate, summary
 from seacrane.answers import lift_sheet
 
 G = 9.80665
@@ -16,10 +16,11 @@ MASS, BLOCK, GAMMA, DAF, SKL = 20e3, 1e3, 1.1, 1.3, 1.25
 SOURCE = {"weight_contingency": "not weighed; the project's table 2"}
 
 
-def rigged(*, on: str | None = None, **slings: Any) -> Scene:
+def rigged(*, on: str | None = None, feet: bool = False, **slings: Any) -> Scene:
     scene = Scene(name="rigged")
     scene.add_crane(base="ground", s1=1.5, s2=1.0)
-    place = {"length": 10.0} if on is None else {"on": on}
+    place: dict[str, Any] = {"length": 10.0} if on is None else {"on": on}
+    place |= {"feet": {"friction": 0.3}} if feet else {}
     scene.add_hoist(
         mass=MASS, size=(4, 4, 3), EA=3e7, falls=2, block_mass=BLOCK, breaking_load=4e5, safety_factor=3.0,
         slings={"angle_deg": 60.0, "EA": 1e9, "breaking_load": 6e5} | slings, **place,
@@ -35,10 +36,10 @@ def with_factors(scene: Scene, **given: Any) -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("on", [None, "ground"])
-def test_every_number_by_hand(on: str | None) -> None:
-    """Whether the load hangs as described or stands on a deck; and where each number is from."""
-    sheet = lift_sheet(with_factors(rigged(on=on)))
+@pytest.mark.parametrize(("on", "feet"), [(None, False), ("ground", False), ("ground", True)])
+def test_every_number_by_hand(on: str | None, feet: bool) -> None:
+    """Whether the load hangs as described or stands on a deck, welded or on feet; and where each is from."""
+    sheet = lift_sheet(with_factors(rigged(on=on, feet=feet)))
     static = (GAMMA * MASS + BLOCK) * G
     force = DAF * SKL * GAMMA * MASS * G / (4.0 * np.sin(np.pi / 3))
     expected = {
@@ -56,7 +57,7 @@ def test_every_number_by_hand(on: str | None) -> None:
     assert shackle.kept is False and sheet["safety factor hoist sling 1"].kept is True and not sheet.kept
     assert sheet["weight contingency"].source == SOURCE["weight_contingency"]
     assert sheet["force hoist sling 1"].source == "SKL: unverified"
-    own = lift_sheet(with_factors(rigged(on=on), skew_load=[1.25, 1.0, 1.25, 1.0]))
+    own = lift_sheet(with_factors(rigged(on=on, feet=feet), skew_load=[1.25, 1.0, 1.25, 1.0]))
     first, second = (own[f"force hoist sling {k}"].value for k in (1, 2))
     assert first / second == pytest.approx(1.25, rel=1e-6)
 
@@ -116,6 +117,12 @@ def test_files_keep_it(tmp_path: Path) -> None:
     scene.save(tmp_path / "scene.json")
     loaded = Scene.load(tmp_path / "scene.json")
     assert loaded.lift_factors == scene.lift_factors and loaded.ratings == scene.ratings
+    load = {"name": "load", "mass_t": 1, "size_m": [1, 1, 1]}
+    told = [
+        Lift({"body": load, "lift_factors": {"load": "load", "skew_load": one}}).scene().lift_factors
+        for one in (1.25, [1.25])
+    ]
+    assert told[0] == told[1] and told[0]["load"].skew_load == (1.25,)
 
 
 def test_factors_that_fit_no_lift_are_refused_by_name() -> None:

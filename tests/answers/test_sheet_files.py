@@ -19,6 +19,7 @@ SMALL = (
     ("tp_s = [6, 8, 11]", "tp_s = [8, 11]"), ("direction_deg = [135, 180]", "direction_deg = [180]"),
     ("hs_m = [1, 2, 3]\nseeds = 5", "hs_m = [2, 4]\nseeds = 3"),
 )  # fmt: skip
+LOAD = 'channel = "hook_load"\nmaximum_N = 530e3\nstage = "hoisting"'
 
 
 def small(folder: Path, *changes: tuple[str, str]) -> Path:
@@ -81,6 +82,9 @@ def test_load_cases_are_values_of_keys(tmp_path: Path) -> None:
     [
         ("passage = true\n", "", r"line \d+.*stages are of a passage"),
         ("maximum_deg = 2", "maximum_m = 2", r"line \d+.*maximum_m.*maximum_rad"),
+        ("maximum_deg = 2", "maximum_t = 2", "maximum in that of its channel.*nearest: maximum_tf"),
+        (LOAD, 'channel = "position"\nmaximum_m = 9\nstage = "hoisting"', "several curves; give body"),
+        ("start = ", "utc_offset = 'two'\nstart = ", r"utc_offset in \[sheet.forecast\].*number"),
         ("[0.80, 0.85, 0.90]", "[0.80, 0.85, 1.90]", "above 0, up to 1"),
         ('name = "hanging"\nhours = 1', 'name = "hanging"\nhours = -1', "hours"),
         ("lead_hours = 3", "lead_h = 3", "nearest: lead_hours"),
@@ -102,4 +106,6 @@ def test_a_lift_without_a_sheet_says_so(tmp_path: Path) -> None:
     path.write_text('format = "seacrane lift"\nversion = 2\n', encoding="utf-8")
     with pytest.raises(SceneError, match=r"no \[sheet\]"):
         run_sheet(path, tmp_path / "out")
+    with pytest.raises(FileNotFoundError, match="there is no lift file"):
+        run_sheet(tmp_path / "none.toml", tmp_path / "out")
     assert "sheet" in json.dumps(Lift.load(EXAMPLE).tables)

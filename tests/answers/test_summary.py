@@ -110,6 +110,19 @@ def test_block_slings_and_taglines_have_their_factors_by_themselves() -> None:
     assert load.static == pytest.approx(summary(rested, static=statics(scene))["hook load"].static)
 
 
+def test_a_load_of_all_falls_is_no_tension_of_one() -> None:
+    """A run that kept hook loads alone has no row of the line; with its tension that is half the load."""
+    scene = Scene(name="two falls")
+    scene.add_crane(base="ground", s1=1.5, s2=1.0)
+    scene.add_hoist(mass=20e3, size=(4, 4, 3), length=10.0, falls=2, EA=3e7)
+    alone = summary(simulate(scene, 1.0, channels=["hook_load"]))
+    both = {
+        row.name: row.mean for row in summary(simulate(scene, 1.0, channels=["hook_load", "line_tension"]))
+    }
+    assert not [row for row in alone if "tension" in row.name]
+    assert both["hoist tension"] == pytest.approx(both["hook load"] / 2, rel=1e-3)
+
+
 def test_no_static_load_is_made_up() -> None:
     """A bar on three rods in a row is statically indeterminate: how they share it is not known."""
     with pytest.warns(UserWarning, match="redundant"):

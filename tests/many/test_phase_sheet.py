@@ -228,6 +228,9 @@ def test_a_limit_that_is_kept_again_at_a_higher_hs_is_told(sheet: PhaseSheet) ->
     assert table.dataset["again_hs"].item() == 3.0 and "1 cells are not monotone in Hs" in str(table)
     told = replace(sheet, tables={("", one.name): table for one in PHASES})
     assert told.not_monotone("hold") == "in Hs at 9 s and 180 deg, kept again at 3 m"
+    lost = table.dataset.assign(forecast_hs=np.nan * table.dataset["forecast_hs"])
+    tables = {("", one.name): replace(table, dataset=lost) for one in PHASES}
+    assert "'transfer' governs, forecast Hs not known" in str(replace(sheet, tables=tables))
 
 
 @pytest.mark.parametrize(

@@ -145,7 +145,7 @@ class DeckCargo(Answer):
 
 @named
 def deck_cargo(
-    result: Result, *, cargo: Sequence[Cargo], deck: str = "vessel", after: float = 0.0
+    result: Result, *, cargo: Sequence[Cargo], deck: str | None = None, after: float = 0.0
 ) -> DeckCargo:
     """Accelerations of deck cargo in deck axes with gravity's tilt, and forces of its fastenings.
 
@@ -154,8 +154,8 @@ def deck_cargo(
     result : Result
         With the channels "point_acceleration" and "quaternion".
     cargo : sequence of Cargo
-    deck : str
-        The body on which it stands.
+    deck : str, optional
+        The body on which it stands; default: that of the points.
     after : float
         s: earlier outputs are left out.
 
@@ -164,11 +164,14 @@ def deck_cargo(
     SceneError
         For a channel, body or point that is not there.
     """
+    scene = result.scene
+    if deck is None:
+        bodies = {scene.points[one.point].body for one in cargo if scene and one.point in scene.points}
+        deck = bodies.pop() if len(bodies) == 1 else "vessel"
     for channel in ("point_acceleration", "quaternion"):
         if channel not in result:
             raise SceneError(f'deck_cargo: the result has no channel "{channel}"; record it')
     part = result.part(after=after)
-    scene = result.scene
     up = np.array([0.0, 0.0, 9.80665 if scene is None else scene.gravity])
     try:
         turned = rotation_matrix(result.select("quaternion", body=deck)[part])

@@ -128,10 +128,11 @@ def _hoist(result: Result, one: Mapping[str, Any], every: Sequence[Mapping[str, 
     label = "" if one["crane"] is not None and len(cranes) == 1 else one["label"]
     lower, upper, hook = one["suspension"], one["top"], one["label"]
     weights = result.about.hanging_weight
+    whole = [("hook_load", upper)] if weights.get(upper, (None, 0))[1] == 1 else []  # all falls together
     load = _first_of(result, ("hook_load", lower), ("link_tension", hook), ("tension", lower))
     pull = _first_of(result, ("end_tension", upper.rpartition(".")[0], "first"),
                      ("line_tension", upper.removesuffix(" line")), ("line_tension", upper),
-                     ("link_tension", hook), ("tension", upper), ("hook_load", upper))  # fmt: skip
+                     ("link_tension", hook), ("tension", upper), *whole)  # fmt: skip
     found = []
     if load is not None:
         per_tonne = TONNES[load.unit] / STANDARD_GRAVITY

@@ -25,6 +25,7 @@ from seacrane.description.crane_parts import (  # fmt: skip
     tip_radius,
 )
 from seacrane.description.description import Description
+from seacrane.description.given import given_vessels
 from seacrane.description.loads import changed, lines_of
 from seacrane.description.roles import LuffingRope, lengthening, pressure
 from seacrane.description.rungs import ELASTIC, RIGID
@@ -96,14 +97,14 @@ def pulls_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
 
 def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     scene, model, found = at_rest.scene, at_rest.model, {}
-    values = np.array(at_rest.state.values)
+    values, given = np.array(at_rest.state.values), given_vessels(scene)
     for vessel in scene.vessels.values():
         which = f" {vessel.name}" if len(scene.vessels) > 1 else ""
         motion = attitude(values, model, vessel.body)
         found[f"heel{which}"] = ("rad", float(motion[3]))
         found[f"trim{which}"] = ("rad", float(motion[4]))
         found[f"draught change{which}"] = ("m", float(-motion[2]))
-        if not vessel.floats:  # it stands as it is given, whatever hangs on it
+        if not vessel.floats or vessel.body in given:  # it stands as it is given, whatever hangs on it
             continue
         stiffness = heeling_stiffness(model, values, at_rest.state.time, vessel.body)
         own = scene.bodies[vessel.body].mass * scene.gravity  # and what the ship displaces, N

@@ -22,6 +22,7 @@ from seacrane.description.description import Description
 from seacrane.description.elements import add_driver
 from seacrane.description.places import ANGLES
 from seacrane.description.roles import CraneRoles
+from seacrane.description.suspension import hung_loads
 from seacrane.description.waves import calm_water
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import silently, warn_caller
@@ -267,8 +268,13 @@ def _judged(scene: Description, poses: Iterable[tuple[AtRest, Pose]]) -> list[Co
 def hanging_rest(scene: Description) -> AtRest:
     """Its state at rest with every load off its deck, calm and held as at the start; SceneError for none."""
     seats = {name: load.joint for name, load in scene.loads.items() if getattr(load, "kind", "") == "seat"}
+    hung = {one.load for one in hung_loads(scene)}
+    touched = {
+        name for name, load in scene.loads.items()
+        if isinstance(load, _core.Contact) and hung & {load.body, load.on}
+    }  # fmt: skip
     out = scene.copy(
-        loads={name: load for name, load in scene.loads.items() if name not in seats},
+        loads={name: load for name, load in scene.loads.items() if name not in seats.keys() | touched},
         joints={name: joint for name, joint in scene.joints.items() if name not in seats.values()},
         waves=calm_water(scene.waves),
     )

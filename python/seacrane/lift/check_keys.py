@@ -24,6 +24,7 @@ from seacrane.lift.keys import EITHER, UNIT_OF_SUFFIX, Key
 from seacrane.lift.tables import TABLES, Table
 
 LEAST, MOST_NEAR = 0.5, 2  # alike, and names that are told
+MOST_TOLD = 12  # spellings of one key
 ENDLESS = ("mooring_period", "depth")  # inf, for which TOML has a word, stands for none, or deep water
 LONGEST_NAME = 60  # characters of a name that is compared with those that are known
 Number = TypeVar("Number", int, float)
@@ -314,8 +315,11 @@ def _unknown(spelling: str, keys: Iterable[Key], title: str) -> str:
     for key in sorted(keys, key=lambda one: -len(one.name)):
         unit = UNIT_OF_SUFFIX.get(spelling.removeprefix(f"{key.name}_"))
         if key.units and unit and spelling.startswith(f"{key.name}_"):
-            fits = " or ".join(key.spellings)
-            return f"{short(spelling)} in {title} is in {unit}, and {key.name} in {key.unit}; give {fits}"
+            is_in, fits = key.unit, " or ".join(key.spellings)
+            if len(key.spellings) > MOST_TOLD:  # of whatever a channel is in
+                like = nearest(spelling, tuple(key.spellings))
+                is_in, fits = "that of its channel", f"{key.name} with it; {like}"
+            return f"{short(spelling)} in {title} is in {unit}, and {key.name} in {is_in}; give {fits}"
     near = nearest(spelling, tuple(one for key in keys for one in key.spellings))
     return f"{short(spelling)} is unknown in {title}; {near}"
 

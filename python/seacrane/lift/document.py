@@ -66,6 +66,8 @@ def read_document(path: Path) -> Document:
     Raises FileFormatError, with the line, for what is no TOML, or no lift; OSError where it cannot be read.
     """
     name = path.name
+    if not path.exists():
+        raise FileNotFoundError(f"there is no lift file {path}; name one by its path")
     content = read_whole(path, LARGEST_FILE, "no lift file is; name tables by a scene in JSON (Scene.save)")
     try:
         text = _decoded(name, content)

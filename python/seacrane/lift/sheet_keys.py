@@ -10,6 +10,7 @@ from seacrane.operability.allowable import allowable_hs
 from seacrane.operability.alpha import AlphaFactor
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.go import go_or_no_go
+from seacrane.operability.hindcast import WaveHindcast
 from seacrane.operability.phase import Phase
 from seacrane.operability.phase_sheet import phase_sheet
 
@@ -31,14 +32,19 @@ ALPHA = keys_of(
 )  # fmt: skip
 SERIES: dict[str, Any] = {"type": "file", "required": True, "text": "A NetCDF or CSV file of sea states."}
 HEADING = Key("heading_deg", "number", text="Compass heading of the bow; default: the worst direction.")
+READ = keys_of(
+    WaveHindcast.load, more={"names": {"type": "names"}, "units": {"type": "names"}},
+    only=("names", "units", "utc_offset"),
+)  # fmt: skip
 FORECAST = (
     Key("file", **SERIES),
     HEADING,
+    *READ,
     *keys_of(
         go_or_no_go, more={"start": {"type": "text"}, "issued": {"type": "text"}}, only=("start", "issued")
     ),
 )
-HINDCAST = (Key("file", **SERIES), HEADING)
+HINDCAST = (Key("file", **SERIES), HEADING, *READ)
 SEAS = {"tp": ROW | TIME, "direction_deg": ROW | {"unit": "deg"}, "hs": ROW | LENGTH}
 SHEET = (
     Key("phase", "tables", keys=PHASE, required=True, text="In their order."),

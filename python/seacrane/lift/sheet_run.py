@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,6 +18,7 @@ from seacrane.lift.check_keys import nearest, shipped_lift
 from seacrane.lift.inner_keys import LIFTS
 from seacrane.lift.lift import Lift
 from seacrane.lift.sheet import Sheet
+from seacrane.lift.sheet_keys import READ
 from seacrane.lift.study_run import keys_in, with_keys
 from seacrane.operability.go import go_or_no_go
 from seacrane.operability.hindcast import WaveHindcast
@@ -77,21 +78,19 @@ def run_sheet(
         of = f" of {case}" if case else ""
         if asked.forecast:
             with refused_at(asked.entry, "forecast"):
-                answers[f"Forecast{of}"] = _forecast(sheet, case, **asked.forecast)
+                answers[f"Forecast{of}"] = _held(go_or_no_go, sheet, case, **asked.forecast)
         if asked.hindcast:
             with refused_at(asked.entry, "hindcast"):
-                answers[f"Windows{of}"] = _windows(sheet, case, **asked.hindcast)
+                answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
     sheet.to_csv(target / "sheet.csv")
     answers_report(f"{sheet.name}: seas by phase", answers).save(target / "sheet.html")
     return SheetRun(sheet=sheet, answers=answers)
 
 
-def _forecast(sheet: PhaseSheet, case: str, *, file: str, **given: Any) -> Answer:
-    return go_or_no_go(WaveHindcast.load(file), sheet, case=case, **given)
-
-
-def _windows(sheet: PhaseSheet, case: str, *, file: str, heading_deg: float | None = None) -> Answer:
-    return weather_windows(WaveHindcast.load(file), sheet, case=case, heading_deg=heading_deg)
+def _held(call: Callable[..., Answer], sheet: PhaseSheet, case: str, *, file: str, **given: Any) -> Answer:
+    """The answer of a call about the sea states of a file, read as its keys say."""
+    read = {key.name: given.pop(key.name) for key in READ if key.name in given}
+    return call(WaveHindcast.load(file, **read), sheet, case=case, **given)
 
 
 def _with_scene(phase: Phase, asked: Sheet) -> Phase:

@@ -19,6 +19,7 @@ from seacrane.lift.inner_keys import (
     CHOSEN,
     COORDINATE,
     DIRECTION,
+    EACH,
     LENGTH,
     NUMBER,
     PISTON,
@@ -275,7 +276,7 @@ _ALL = (
     ),
     _call(
         "lift_factors", lift_factors.add_lift_factors,
-        center_of_gravity=POINT, skew_load=ROW, shackle_breaking_load={"unit": "N"},
+        center_of_gravity=POINT, skew_load=EACH, shackle_breaking_load={"unit": "N"},
         sources={"type": "names"},
     ),
     _call(

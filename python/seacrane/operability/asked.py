@@ -109,6 +109,7 @@ def still_of(scene: Any, asked: Asked, time: float) -> Still:
         result = simulate(calm, stages, accuracy=asked.accuracy, **how)
         rest = []
         for one in asked.criteria:
+            result.curve(one.channel, **one.names)  # refuses several curves before all seas are run
             part = result.part(stage=one.stage or None)
             least, largest = result.reached(one.channel, part=part, **one.names)
             rest.append(largest.max() if one.minimum is None else least.min())

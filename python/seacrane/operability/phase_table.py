@@ -189,13 +189,10 @@ class PhaseSheet(Answer):
             values = np.nan_to_num(data["operation_hs"].to_numpy(), nan=-np.inf)
             i, j = np.unravel_index(np.argmin(values), values.shape)
             governs = str(data["governing_phase"].to_numpy()[i, j])
+            height = f"{values[i, j]:.2f} m" if np.isfinite(values[i, j]) else "not known"
             lines.append(
                 f"{case + ': ' if case else ''}"
-                + (
-                    f"{governs!r} governs, forecast Hs {values[i, j]:.2f} m"
-                    if governs
-                    else "no phase governs"
-                )
+                + (f"{governs!r} governs, forecast Hs {height}" if governs else "no phase governs")
             )
         lines.append(
             f"alpha factor by hours from the issue of the forecast, {self.lead_hours:g} h before the start, "

@@ -150,7 +150,9 @@ def add_sea(
         return scene.waves
     if vessel is not None and vessel not in scene.bodies:
         known = ", ".join(repr(one.body) for one in scene.vessels.values()) or "none"
-        raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
+        raise SceneError(
+            f"sea: there is no vessel {vessel!r}, the scene has {known}; name one by vessel=, or add it"
+        )
     if scene.waves is None and sea is None:
         _tell_assumed(given)
     database = None if vessel is None else source_of(scene, vessel)

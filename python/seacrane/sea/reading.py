@@ -219,11 +219,12 @@ def _require_increasing(rows: Rows) -> None:
     wrong = np.flatnonzero(steps < SHORTEST)
     if wrong.size:
         at = int(wrong[0])
+        others = f", and {wrong.size - 1} more lines go wrong so" if wrong.size > 1 else ""
         what = "repeats" if steps[at] >= 0.0 else f"is {-steps[at]:.4g} s before"
         raise rows.refused(
-            at + 1, rows.clock, f"{time[at + 1]:.10g} s {what} the time of the line above it, and so do "
-            f"{wrong.size - 1} more lines; a clock that was set back, or stamps that are too coarse: correct "
-            "them, or cut the record there by after= and before=",
+            at + 1, rows.clock, f"{time[at + 1]:.10g} s {what} the time of the line above it{others}; a "
+            "clock that was set back, or stamps that are too coarse: correct them, or cut the record there "
+            "by after= and before=",
         )  # fmt: skip
 
 
