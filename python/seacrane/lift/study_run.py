@@ -121,6 +121,11 @@ def _source(lift: Lift, study: Study) -> Source:
         except (FileFormatError, SceneError) as error:
             study.fail_at(name, str(error))
     varied: dict[str, KeyPlace] = {name: keys[name] for name in axes if name in keys}
+    once: dict[Any, str] = {}
+    for name, one in varied.items():
+        first = once.setdefault((one.place[:-1], frozenset((one.place[-1], *one.others))), name)
+        if first != name:
+            study.fail_at(name, f"over: {name} is {first} in another unit; leave one of them out")
     if not varied:
         return scene
     words = [name for name in axes if name in WORDS]
@@ -159,6 +164,7 @@ def _inside(
             yield from _inside(f"{path}.{one.get('name', number + 1)}", (*place, number), keys, one)
         return
     for key in keys:
+        whole = any(isinstance(given.get(spelling), list | dict) for spelling in key.spellings)
         for spelling in key.spellings:
             here, inside, value = f"{path}.{spelling}", (*place, spelling), given.get(spelling)
             if key.type in ("table", "tables"):
@@ -167,7 +173,7 @@ def _inside(
                 for number, part in enumerate(value):
                     if not isinstance(part, list):
                         yield f"{here}.{number + 1}", KeyPlace((*inside, number))
-            elif key.type in SINGLE and not isinstance(value, list | dict):
+            elif key.type in SINGLE and not whole:
                 yield here, KeyPlace(inside, tuple(one for one in key.spellings if one != spelling))
 
 
