@@ -67,6 +67,8 @@ def test_the_price_of_seeds_until_it_is_enough(tmp_path: Path) -> None:
     price = ensemble_price(seeded, **given)
     assert price is not None and price.at_most and price.members == 120
     assert str(price).startswith("price: at most ")
+    again = ensemble_price(seeded, **given)  # of the others of the first batch, and of all later ones
+    assert again is not None and again.members == 120 - price.measured
     ensemble(seeded, **given)
     assert ensemble_price(seeded, **given) is None
 
