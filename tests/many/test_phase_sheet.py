@@ -253,6 +253,7 @@ def test_a_limit_that_is_kept_again_at_a_higher_hs_is_told(sheet: PhaseSheet) ->
             {"phases": [Phase(name="passages", hours=1.0)], "store": "none"},
             "'passages' is no name of a folder",
         ),
+        ({"store": "memory://bucket/sheet"}, "object stores are of `ensemble` alone"),
         ({"criteria": None}, "criteria has None"),
     ],
 )

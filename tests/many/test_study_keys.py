@@ -65,6 +65,8 @@ def test_what_is_derived_from_a_key_follows_it(study: Path) -> None:
     held.write_text(BALANCED.replace("mass_kg = 20e3, size_m = [4", "mass_kg = 20e3, size_m = [5"))
     with pytest.raises(SceneError, match="is of another study"):
         run_study(study, out)
+    with pytest.raises(SceneError, match="give a folder: object stores"):
+        run_study(study, "memory://bucket/out")
     study.write_text(STUDY.replace("seed = [7, 8]", '"crane.payload.mass_t" = [20, 100]'))
     with pytest.raises(FileFormatError, match=r"mass_t is .*mass_kg in another unit"):
         run_study(study, study.parent / "other")

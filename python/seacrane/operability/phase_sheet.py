@@ -6,9 +6,9 @@ import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from seacrane.ensembles.object_store import folder_of
 from seacrane.ensembles.study import Stages
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of
@@ -111,7 +111,7 @@ def phase_sheet(
     moving = {"domain": "auto", "duration": None, "start_up": None, "stages": stages, "time": 0.0}
     tables: dict[tuple[str, str], AllowableHs] = {}
     for case, described in cases.items():
-        folder = None if store is None else Path(store) / (case or "lift")
+        folder = None if store is None else folder_of("store", store) / (case or "lift")
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
         for span in spans:
