@@ -12,6 +12,7 @@ import pytest
 from seacrane import Scene, ensemble
 from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble, Price, ensemble_price
+from seacrane.warnings import FailedMembersWarning
 
 CLOCK = "seacrane.ensembles.job.thread_time"
 HEIGHT: dict[str, Any] = {"keep": {"low": "position[bob, z].min"}, "t_end": 0.2}
@@ -57,6 +58,16 @@ def test_what_begins_and_what_is_stepped_by_ticks(monkeypatch: pytest.MonkeyPatc
     price = ensemble_price(named.pendulum, over={"mass": [*range(1, 21)]}, pack=2, **HEIGHT)
     assert price is not None and price.core_hours == pytest.approx(20 * 1.5 / 3600.0)
     assert price.bytes == 20 * 8 and not price.at_most
+
+
+def test_a_price_says_where_its_members_failed() -> None:
+    """They took no time: what it tells would be no price of any that succeed."""
+    with pytest.warns(FailedMembersWarning, match=r"4 of 20 members failed"):
+        assert ensemble_price(failing, over={"mass": [*range(1, 21)]}, pack=1, **HEIGHT)
+
+
+def failing(*, mass: float) -> Scene:
+    raise ValueError(f"no load of {mass} kg")
 
 
 def test_the_price_of_seeds_until_it_is_enough(tmp_path: Path) -> None:
