@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import beta
 
-from seacrane import Scene, ensemble, simulate
+from seacrane import Scene, SceneError, ensemble, simulate
 from seacrane.answers import ReHit, re_hit_probability
 from seacrane.answers.re_hits import share_of
 
@@ -27,6 +27,9 @@ def test_a_contact_whose_name_begins_alike_is_another() -> None:
     scene.add_contact("ball", points=[(0, 0, 0.5)], on="ground", stiffness=1e5, damping=0.9, name="feet")
     result = simulate(scene, t_end=1.2, dt_out=0.01, channels=["contact_least_gap", "contact_press"])
     assert ReHit(contact="feet.aft", margin=0.3)(result)[1] == 1.0
+    without = simulate(scene, t_end=1.2, dt_out=0.01, channels=["contact_least_gap"])
+    with pytest.raises(SceneError, match='no channel "contact_press"'):
+        ReHit(contact="feet.aft", margin=0.3)(without)
     assert ReHit(contact="feet", margin=0.3)(result).tolist() == [1.0, 0.0, 0.0, 0.0]
 
 

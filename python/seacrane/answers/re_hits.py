@@ -19,6 +19,7 @@ from seacrane.statistics.estimate import CONFIDENCE, Estimate
 if TYPE_CHECKING:
     import xarray
 
+CHANNELS = ("contact_least_gap", "contact_press")
 NUMBERS = ("free", "hit", "speed", "press")
 
 
@@ -47,6 +48,9 @@ class ReHit:
         The gap is that of the outputs; touches are events of the run. Raises SceneError for a result without
         the channels "contact_least_gap" and "contact_press".
         """
+        for channel in CHANNELS:
+            if channel not in result:
+                raise SceneError(f're-hit: the result has no channel "{channel}"; record it')
         gap = result.curve("contact_least_gap", contact=self.contact)
         free = np.flatnonzero(gap >= self.margin)
         if not free.size:
