@@ -20,6 +20,8 @@ def test_cargo_on_a_rolling_deck_feels_gravity_once() -> None:
     curve = Curve.harmonic(amplitude=amplitude, omega=omega, phase=-0.5 * np.pi)
     scene.add_driver(joint="roll", curve=curve)
     scene.add_point(name="module", body="deck", point=(0.0, 0.0, height))
+    scene.add_body("barge", mass=1e5, inertia=(1e6,) * 3)
+    scene.add_point(name="beside", body="barge", point=(0.0, 0.0, 0.0))
     result = simulate(scene, t_end=20.0, dt_out=0.1, rtol=1e-8, channels=["point_acceleration", "quaternion"])
     found = deck_cargo(result, cargo=[Cargo(point="module", mass=1e4)], after=2.0)
     turn = omega * found.time
@@ -33,6 +35,8 @@ def test_cargo_on_a_rolling_deck_feels_gravity_once() -> None:
     largest = int(np.argmax(felt[:, 1]))
     assert together[2, 1:] == pytest.approx(felt[largest]) and "what occurs together" in str(found)
     cargo = Cargo(point="module", mass=1e4)
+    with pytest.raises(SceneError, match="stands on barge, deck"):
+        deck_cargo(result, cargo=[cargo, Cargo(point="beside", mass=1.0)])
     for listed, after, answer in (
         ([cargo, Cargo(point="module", mass=2e4)], 0.0, "'module' is there twice"),
         ([], 0.0, "give a list of Cargo"), ([cargo], 30.0, "past the last output, 20 s"),

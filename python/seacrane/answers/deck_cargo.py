@@ -176,7 +176,9 @@ def deck_cargo(
     scene = result.scene
     if deck is None:
         bodies = {scene.points[one.point].body for one in listed if scene and one.point in scene.points}
-        deck = bodies.pop() if len(bodies) == 1 else "vessel"
+        if len(bodies) > 1:
+            raise SceneError(f"deck_cargo: cargo stands on {', '.join(sorted(bodies))}; ask for each alone")
+        deck = bodies.pop() if bodies else "vessel"
     for channel in ("point_acceleration", "quaternion"):
         if channel not in result:
             raise SceneError(f'deck_cargo: the result has no channel "{channel}"; record it')
