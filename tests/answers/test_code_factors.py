@@ -68,6 +68,10 @@ def test_the_simplified_method_at_three_draughts_by_hand() -> None:
     assert under.margin == pytest.approx(1.0 - np.hypot(drag, inertia) / (15e3 * G))
     assert under.ratio == pytest.approx(0.9 / (1.0 - under.margin)) and found.exceeded == ("under",)
     assert str(found).startswith("SIMULATED ABOVE THE METHOD: under.") and "unverified" in str(found)
+    (air,) = simplified_method(
+        mass=1e3, draughts=[Draught(name="air")], hs=1.0, tz=6.0, lowering_speed=0.2, simulated={"air": 0.8}
+    )  # the water takes nothing by the method
+    assert air.hydrodynamic == 0.0 and air.ratio == np.inf
     assert still.hydrodynamic == pytest.approx(np.hypot(4e3 * 1.45**2, 12e3)) and np.isnan(still.snap)
     with pytest.raises(SceneError, match="'raft': the load floats"):
         simplified_method(

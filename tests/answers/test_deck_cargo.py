@@ -20,6 +20,8 @@ def test_cargo_on_a_rolling_deck_feels_gravity_once() -> None:
     curve = Curve.harmonic(amplitude=amplitude, omega=omega, phase=-0.5 * np.pi)
     scene.add_driver(joint="roll", curve=curve)
     scene.add_point(name="module", body="deck", point=(0.0, 0.0, height))
+    scene.add_body("barge", mass=1e5, inertia=(1e6,) * 3)
+    scene.add_point(name="beside", body="barge", point=(0.0, 0.0, 0.0))
     result = simulate(scene, t_end=20.0, dt_out=0.1, rtol=1e-8, channels=["point_acceleration", "quaternion"])
     found = deck_cargo(result, cargo=[Cargo(point="module", mass=1e4)], after=2.0)
     turn = omega * found.time
@@ -32,6 +34,16 @@ def test_cargo_on_a_rolling_deck_feels_gravity_once() -> None:
     together = found.together("module")
     largest = int(np.argmax(felt[:, 1]))
     assert together[2, 1:] == pytest.approx(felt[largest]) and "what occurs together" in str(found)
+    cargo = Cargo(point="module", mass=1e4)
+    with pytest.raises(SceneError, match="stands on barge, deck"):
+        deck_cargo(result, cargo=[cargo, Cargo(point="beside", mass=1.0)])
+    for listed, after, answer in (
+        ([cargo, Cargo(point="module", mass=2e4)], 0.0, "'module' is there twice"),
+        ([], 0.0, "give a list of Cargo"), ([cargo], 30.0, "past the last output, 20 s"),
+        ([cargo], np.nan, "after is nan s"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=answer):
+            deck_cargo(result, cargo=listed, deck="deck", after=after)
 
 
 def test_fastenings_share_force_and_overturning() -> None:
@@ -45,5 +57,10 @@ def test_fastenings_share_force_and_overturning() -> None:
     moment = np.cross(corners, found).sum(axis=0)
     assert total == pytest.approx([0.0, 2e4, 1e4 * G]) and moment == pytest.approx([0.0] * 3, abs=1e-6)
     assert np.abs(found[:, 2] - 1e4 * G / 4.0) == pytest.approx(sideways)
+    for nowhere in (np.nan, np.inf):
+        with pytest.raises(SceneError, match="finite numbers"):
+            Cargo(point="module", mass=1.0, fastenings=[*corners, (0.0, 0.0, nowhere)])
+        with pytest.raises(SceneError, match="zero or more, finite"):
+            Cargo(point="module", mass=1.0, fastenings=corners, stiffness=[(1.0, 1.0, nowhere)] * 4)
     with pytest.raises(SceneError, match="let it move"):
         Cargo(point="module", mass=1.0, fastenings=[(0, 0, 0), (1, 0, 0)])

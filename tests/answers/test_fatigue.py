@@ -76,5 +76,8 @@ def test_a_sine_has_one_cycle_in_each_period() -> None:
     hourly = 3600.0 / period * (row.largest / 1e6) ** 2 / 100.0
     assert row.rainflow == pytest.approx(hourly, rel=0.05) and row.life == pytest.approx(1.0 / row.rainflow)
     assert "unverified" in str(found) and not found.coarse
+    for after in (45.0, np.nan):
+        with pytest.raises(SceneError, match="fatigue: 0 outputs after"):
+            fatigue(result, curves={"line_tension[wire]": FatigueCurve(constant=1.0, slope=3.0)}, after=after)
     with pytest.raises(SceneError, match="FatigueCurve"):
         fatigue(result, curves={"line_tension[wire]": 3.0})  # type: ignore[dict-item]

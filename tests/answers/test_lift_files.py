@@ -166,6 +166,8 @@ def test_the_table_of_units() -> None:
     for unit, factor in BY_HAND.items():
         assert in_si(1.0, unit) == pytest.approx(factor, rel=2e-6)
     assert all(in_si(k / 10.0, "mm") == float(f"{k / 10.0}e-3") for k in range(1, 2000))
+    assert all(in_si(6.0 * k, "m/min") == k / 10.0 for k in range(1, 200))
+    assert in_si(60.0, "l/min") == 1e-3 and in_si(1.8, "kn") == 0.926
     assert in_si(-3.3, "tf") == pytest.approx(-32361.945) and in_si(1e308, "kN") == float("inf")
     page = (ROOT / "docs" / "lift-files.md").read_text(encoding="utf-8")
     typed = {one for unit in UNITS for one in others_of(unit) if UNITS[one][0] != 1.0}

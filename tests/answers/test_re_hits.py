@@ -6,19 +6,31 @@ import numpy as np
 import pytest
 from scipy.stats import beta
 
-from seacrane import Scene, ensemble
+from seacrane import Scene, SceneError, ensemble, simulate
 from seacrane.answers import ReHit, re_hit_probability
 from seacrane.answers.re_hits import share_of
 
 G = 9.80665
 
 
-def ball(seed: float) -> Scene:
+def ball(seed: float, name: str = "feet") -> Scene:
     """Leaves the ground with a speed that goes by its seed, 1, 2, 3 ... m/s, and comes back."""
     scene = Scene(name="ball", gravity=G)
     scene.add_body("ball", mass=10.0, inertia=(1.0,) * 3, position=(0, 0, 1e-3), velocity=(0, 0, float(seed)))
-    scene.add_contact("ball", points=[(0, 0, 0)], on="ground", stiffness=1e5, damping=0.9, name="feet")
+    scene.add_contact("ball", points=[(0, 0, 0)], on="ground", stiffness=1e5, damping=0.9, name=name)
     return scene
+
+
+def test_a_contact_whose_name_begins_alike_is_another() -> None:
+    """The ball is stopped by "feet.aft", which stands higher than "feet"."""
+    scene = ball(3, "feet.aft")
+    scene.add_contact("ball", points=[(0, 0, 0.5)], on="ground", stiffness=1e5, damping=0.9, name="feet")
+    result = simulate(scene, t_end=1.2, dt_out=0.01, channels=["contact_least_gap", "contact_press"])
+    assert ReHit(contact="feet.aft", margin=0.3)(result)[1] == 1.0
+    without = simulate(scene, t_end=1.2, dt_out=0.01, channels=["contact_least_gap"])
+    with pytest.raises(SceneError, match='no channel "contact_press"'):
+        ReHit(contact="feet.aft", margin=0.3)(without)
+    assert ReHit(contact="feet", margin=0.3)(result).tolist() == [1.0, 0.0, 0.0, 0.0]
 
 
 def test_re_hits_are_counted_over_seeds() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from seacrane import FileFormatError, Lift, SceneError
 from seacrane.cli.command_line import main
-from seacrane.lift.sheet_run import run_sheet
+from seacrane.lift.sheet_run import load_cases, run_sheet
 from seacrane.operability import phase_sheet
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "lifts" / "sheet_by_phases.toml"
@@ -77,6 +77,13 @@ def test_load_cases_are_values_of_keys(tmp_path: Path) -> None:
     assert np.all(light > heavy)
 
 
+def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
+    cases = "lead_hours = 3\ncases = { hoist.mass_kg = [100000.1, 100000.2], vessel.memory = ['none'] }"
+    lift = Lift.load(small(tmp_path, ("lead_hours = 3", cases)))
+    assert lift.sheet is not None
+    assert [*load_cases(lift, lift.sheet)] == [f"mass_kg 100000.{n}, memory none" for n in (1, 2)]
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
@@ -89,6 +96,7 @@ def test_load_cases_are_values_of_keys(tmp_path: Path) -> None:
         ('name = "hanging"\nhours = 1', 'name = "hanging"\nhours = -1', "hours"),
         ("lead_hours = 3", "lead_h = 3", "nearest: lead_hours"),
         ("lead_hours = 3", "cases = { hoist.mass_kgs = [1.0] }", "nearest: hoist.mass_kg"),
+        ("lead_hours = 3", "cases = { hoist.mass_t = [1], hoist.mass_kg = [2] }", "mass_t in another unit"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_line(old: str, new: str, message: str, tmp_path: Path) -> None:

@@ -73,14 +73,19 @@ def test_every_kind_becomes_every_kind(place: str, shared: Path, tmp_path: Path)
 
 def test_refusals(hull: HydroDatabase, tmp_path: Path) -> None:
     (tmp_path / "there.hst").touch()
+    (tmp_path / "folder").mkdir()
     for database, name, answer in (
         (hull, "hull.yml", r"\.yml is not written"),
         (hull, "there.1", "there.hst is there"),
+        (hull, "folder", "is a folder"),
+        (hull, "folder.1", "another stem"),
         (dataclasses.replace(hull, speed=5.0, memory=None), "a.1", "5 m/s"),
         (two_barges(lid_damping=None), "a.nc", "each hull"),
     ):
         with pytest.raises(SceneError, match=answer):
             write_database(database=database, path=tmp_path / name)  # type: ignore[arg-type]
+    write_database(database=dataclasses.replace(hull, name="two\nlines"), path=tmp_path / "hull.1")
+    assert (tmp_path / "hull.frc").read_text().startswith("two lines: ")
 
 
 def test_the_command_asks_for_masses_writes_and_lists(

@@ -160,6 +160,8 @@ def test_a_forecast_is_go_until_the_alpha_factor_falls(sheet: PhaseSheet) -> Non
     past = go_or_no_go(series(hs), sheet, start=START + 17 * HOUR)
     assert not past.go and np.isnan(past.hs[1])  # the forecast ends before
     assert go_or_no_go(series(hs), sheet, first="connect").phases == ("connect",)
+    with pytest.raises(SceneError, match="issued is no time"):
+        go_or_no_go(series(hs), sheet, issued="NaT")
 
 
 @pytest.mark.slow("three sheets")
@@ -245,6 +247,14 @@ def test_a_limit_that_is_kept_again_at_a_higher_hs_is_told(sheet: PhaseSheet) ->
         ({"criteria": [replace(HEAVE, stage="hold")]}, "'transfer': no criterion"),
         ({"alpha": replace(ALPHA, hours=[1, 2, 4])}, "takes 5 h, the table ends at 4 h"),
         ({"scene": {}}, "scene is empty"),
+        ({"scene": {"": vessel()}}, "scenes by the names of load cases"),
+        ({"scene": {"../case": vessel()}, "store": "none"}, r"'\.\./case' is no name of a folder"),
+        (
+            {"phases": [Phase(name="passages", hours=1.0)], "store": "none"},
+            "'passages' is no name of a folder",
+        ),
+        ({"store": "memory://bucket/sheet"}, "object stores are of `ensemble` alone"),
+        ({"criteria": None}, "criteria has None"),
     ],
 )
 def test_what_makes_no_sense_is_refused(given: dict[str, Any], message: str) -> None:
@@ -254,7 +264,11 @@ def test_what_makes_no_sense_is_refused(given: dict[str, Any], message: str) -> 
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [({"passage": True, "time": 3.0}, "time is of stationary phases"), ({"stages": ["a"]}, "passage=True")],
+    [
+        ({"passage": True, "time": 3.0}, "time is of stationary phases"),
+        ({"stages": ["a"]}, "passage=True"),
+        ({"time": np.nan}, "time is nan s"),
+    ],
 )
 def test_a_phase_that_makes_no_sense_is_refused(given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=message):

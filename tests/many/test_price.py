@@ -12,6 +12,7 @@ import pytest
 from seacrane import Scene, ensemble
 from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble, Price, ensemble_price
+from seacrane.warnings import FailedMembersWarning
 
 CLOCK = "seacrane.ensembles.job.thread_time"
 HEIGHT: dict[str, Any] = {"keep": {"low": "position[bob, z].min"}, "t_end": 0.2}
@@ -59,6 +60,16 @@ def test_what_begins_and_what_is_stepped_by_ticks(monkeypatch: pytest.MonkeyPatc
     assert price.bytes == 20 * 8 and not price.at_most
 
 
+def test_a_price_says_where_its_members_failed() -> None:
+    """They took no time: what it tells would be no price of any that succeed."""
+    with pytest.warns(FailedMembersWarning, match=r"4 of 20 members failed"):
+        assert ensemble_price(failing, over={"mass": [*range(1, 21)]}, pack=1, **HEIGHT)
+
+
+def failing(*, mass: float) -> Scene:
+    raise ValueError(f"no load of {mass} kg")
+
+
 def test_the_price_of_seeds_until_it_is_enough(tmp_path: Path) -> None:
     given: dict[str, Any] = {
         "over": {"seed": range(1, 61), "mass": [1.0, 2.0]}, "until": {"low.mean": 0.9},
@@ -67,6 +78,8 @@ def test_the_price_of_seeds_until_it_is_enough(tmp_path: Path) -> None:
     price = ensemble_price(seeded, **given)
     assert price is not None and price.at_most and price.members == 120
     assert str(price).startswith("price: at most ")
+    again = ensemble_price(seeded, **given)  # of the others of the first batch, and of all later ones
+    assert again is not None and again.members == 120 - price.measured
     ensemble(seeded, **given)
     assert ensemble_price(seeded, **given) is None
 

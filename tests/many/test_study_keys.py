@@ -10,6 +10,7 @@ import pytest
 from lift_examples import ON_DECK
 
 from seacrane import Lift, SceneError, simulate
+from seacrane.errors import FileFormatError
 from seacrane.lift.lift import LIFTS
 from seacrane.lift.study_run import keys_in, run_study, with_keys
 
@@ -64,6 +65,11 @@ def test_what_is_derived_from_a_key_follows_it(study: Path) -> None:
     held.write_text(BALANCED.replace("mass_kg = 20e3, size_m = [4", "mass_kg = 20e3, size_m = [5"))
     with pytest.raises(SceneError, match="is of another study"):
         run_study(study, out)
+    with pytest.raises(SceneError, match="give a folder: object stores"):
+        run_study(study, "memory://bucket/out")
+    study.write_text(STUDY.replace("seed = [7, 8]", '"crane.payload.mass_t" = [20, 100]'))
+    with pytest.raises(FileFormatError, match=r"mass_t is .*mass_kg in another unit"):
+        run_study(study, study.parent / "other")
 
 
 @pytest.mark.parametrize("name", LIFTS)
@@ -98,7 +104,7 @@ def test_paths_go_by_names_numbers_and_units() -> None:
     assert found["crane"] == {"foot_m": [1.0, 9.0, 3.0], "slew_rad": 0.1}
     assert found["actuator"][1]["stiffness_N_per_m"] == 6.0 and found["sea"]["systems"][0]["hs_m"] == 2.0
     assert tables["crane"] == {"foot_m": [1.0, 2.0, 3.0], "slew_deg": 3.0}
-    assert "command.reference_deg" not in places  # a curve
+    assert not {"command.reference_deg", "command.reference_rad"} & {*places}  # a curve, in any unit
     assert not [path for path in places if path.startswith("method")]
 
 

@@ -155,6 +155,8 @@ def test_a_file_of_wavespectra_is_read(tmp_path: Path) -> None:
     packed = {name: {"dtype": "int16", "scale_factor": 0.01, "_FillValue": -32768} for name in ("hs", "tp")}
     dataset.to_netcdf(tmp_path / "site.nc", encoding=packed)
     hindcast = WaveHindcast.load(tmp_path / "site.nc")
+    with pytest.raises(SceneError, match=r"site\.nc are UTC; leave it out"):
+        WaveHindcast.load(tmp_path / "site.nc", utc_offset=2.0)
     assert hindcast.hs == pytest.approx([1.0, 2.0, np.nan, 1.5, 1.0], nan_ok=True)
     assert hindcast.time[1] - hindcast.time[0] == HOUR
     assert hindcast.direction_from_deg == pytest.approx([10.0] * 5)

@@ -138,6 +138,12 @@ def test_what_is_asked_for_may_be_given(tmp_path: Path) -> None:
     path = put(tmp_path, ZONE.replace("hs", "Hm0"))
     found = WaveHindcast.load(path, utc_offset=2, units={"hs": "ft"})
     assert found.time[0] == np.datetime64("2025-12-31T22:00") and found.hs[0] == pytest.approx(0.3048)
+    for ahead in (np.nan, np.inf, 7200.0):
+        with pytest.raises(SceneError, match="give hours, at most 14 from UTC"):
+            WaveHindcast.load(path, utc_offset=ahead, units={"hs": "ft"})
+    for units, words in (({"hs": 3}, "units of hs is 3"), (3, "units is 3")):
+        with pytest.raises(SceneError, match=words):
+            WaveHindcast.load(path, utc_offset=2, units=units)  # type: ignore[arg-type]
     for first, second, given in (
         ("01/02/2026", "02/02/2026", "dd/mm/yyyy"), ("02/01/2026", "02/02/2026", "mm/dd/yyyy"),
         ("31/01/2026", "01/02/2026", None), ("01/31/2026", "02/01/2026", None),

@@ -10,7 +10,7 @@ import numpy as np
 
 from seacrane.arrays import Array
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, positive_of, rows_of
+from seacrane.inputs.checked import is_finite, name_of, positive_of, rows_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
@@ -52,12 +52,14 @@ class Cargo:
         title = f"cargo {name_of('cargo', self.point)!r}"
         positive_of(f"{title}: mass", self.mass, "kg")
         places = np.reshape(rows_of(f"{title}: fastenings", self.fastenings, 3), (-1, 3))
+        if not is_finite(places):
+            raise SceneError(f"{title}: fastenings is {shown(self.fastenings)}; give finite numbers")
         shares = np.ones_like(places)
         if self.stiffness is not None:
             shares = np.reshape(rows_of(f"{title}: stiffness", self.stiffness, 3), (-1, 3))
-        if shares.shape != places.shape or np.any(shares < 0.0):
+        if shares.shape != places.shape or not (is_finite(shares) and np.all(shares >= 0.0)):
             raise SceneError(
-                f"{title}: stiffness is {shown(self.stiffness)}; give three of zero or more for each"
+                f"{title}: stiffness is {shown(self.stiffness)}; give three of zero or more, finite, for each"
             )
         object.__setattr__(self, "fastenings", places)
         object.__setattr__(self, "stiffness", shares)
@@ -162,22 +164,33 @@ def deck_cargo(
     Raises
     ------
     SceneError
-        For a channel, body or point that is not there.
+        For a channel, body or point that is not there, cargo at one point twice, or no output after.
     """
+    listed = [cargo] if isinstance(cargo, Cargo) else list(cargo)
+    if not listed or not all(isinstance(one, Cargo) for one in listed):
+        raise SceneError(f"deck_cargo: cargo is {shown(cargo)}; give a list of Cargo")
+    points = [one.point for one in listed]
+    twice = next((name for name in points if points.count(name) > 1), None)
+    if twice is not None:
+        raise SceneError(f"deck_cargo: cargo {twice!r} is there twice; give each a point of its own")
     scene = result.scene
     if deck is None:
-        bodies = {scene.points[one.point].body for one in cargo if scene and one.point in scene.points}
-        deck = bodies.pop() if len(bodies) == 1 else "vessel"
+        bodies = {scene.points[one.point].body for one in listed if scene and one.point in scene.points}
+        if len(bodies) > 1:
+            raise SceneError(f"deck_cargo: cargo stands on {', '.join(sorted(bodies))}; ask for each alone")
+        deck = bodies.pop() if bodies else "vessel"
     for channel in ("point_acceleration", "quaternion"):
         if channel not in result:
             raise SceneError(f'deck_cargo: the result has no channel "{channel}"; record it')
     part = result.part(after=after)
+    if part.start == part.stop:
+        raise SceneError(f"deck_cargo: after is {after} s, past the last output, {result.time[-1]:g} s")
     up = np.array([0.0, 0.0, 9.80665 if scene is None else scene.gravity])
     try:
         turned = rotation_matrix(result.select("quaternion", body=deck)[part])
-        moved = {one.point: result.select("point_acceleration", point=one.point)[part] for one in cargo}
+        moved = {one.point: result.select("point_acceleration", point=one.point)[part] for one in listed}
     except ValueError as error:
         raise SceneError(f"deck_cargo: {error}") from error
     felt = {name: np.einsum("kji,kj->ki", turned, values + up) for name, values in moved.items()}
-    forces = {one.point: one.forces(felt[one.point]) for one in cargo}
+    forces = {one.point: one.forces(felt[one.point]) for one in listed}
     return DeckCargo(time=np.asarray(result.time)[part], accelerations=felt, forces=forces)

@@ -18,7 +18,7 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.plotting.table import Rows, Table
 from seacrane.result import Result
-from seacrane.statistics.record import SpectrumEstimate, spectrum_estimate
+from seacrane.statistics.record import FEWEST_VALUES, SpectrumEstimate, spectrum_estimate
 
 UNVERIFIED = "unverified"
 FEW = 10.0  # outputs in a mean cycle, below which ranges are too small
@@ -220,6 +220,12 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
             f"fatigue: curves is {shown(curves)}; give {{'line_tension[hoist]': FatigueCurve(...)}}"
         )
     part = result.part(after=after)
+    count = part.stop - part.start
+    if count < FEWEST_VALUES:
+        raise SceneError(
+            f"fatigue: {count} outputs after {after} s, and a spectrum takes {FEWEST_VALUES}; give an "
+            "earlier after, a longer run, or a shorter dt_out"
+        )
     time = np.asarray(result.time)[part]
     rows, coarse = [], []
     for name, curve in curves.items():
@@ -228,7 +234,10 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
         pick = pick_of("fatigue", name)
         values, duration = np.asarray(result.curve(name))[part], float(time[-1] - time[0])
         cycles = rainflow(values)
-        spectrum = spectrum_estimate(values, interval=duration / (time.size - 1))
+        try:
+            spectrum = spectrum_estimate(values, interval=duration / (time.size - 1))
+        except SceneError as error:
+            raise SceneError(f"fatigue: {name}: {error}") from error
         rate = 3600.0 * curve.damage(cycles[:, 0], cycles[:, 2]) / duration
         if time.size < FEW * spectrum.crossing_rate * duration:
             coarse.append(name)

@@ -19,6 +19,7 @@ from seacrane.statistics.estimate import CONFIDENCE, Estimate
 if TYPE_CHECKING:
     import xarray
 
+CHANNELS = ("contact_least_gap", "contact_press")
 NUMBERS = ("free", "hit", "speed", "press")
 
 
@@ -47,19 +48,25 @@ class ReHit:
         The gap is that of the outputs; touches are events of the run. Raises SceneError for a result without
         the channels "contact_least_gap" and "contact_press".
         """
+        for channel in CHANNELS:
+            if channel not in result:
+                raise SceneError(f're-hit: the result has no channel "{channel}"; record it')
         gap = result.curve("contact_least_gap", contact=self.contact)
         free = np.flatnonzero(gap >= self.margin)
         if not free.size:
             return np.zeros(len(NUMBERS))
         since = float(result.time[free[0]])
-        own = f"{self.contact}."
+
+        def own(point: str) -> bool:  # not one of "feet.aft"
+            return point.rpartition(".")[0] == self.contact
+
         hits = [
             one.speed for one in result.events
-            if one.kind == "contact" and one.name.startswith(own) and one.time > since
+            if one.kind == "contact" and own(one.name) and one.time > since
         ]  # fmt: skip
         if not hits:
             return np.array([1.0, 0.0, 0.0, 0.0])
-        points = [name for name in result.coords["contact_point"] if name.startswith(own)]
+        points = [name for name in result.coords["contact_point"] if own(name)]
         part = slice(int(free[0]) + 1, None)
         press = [result.reached("contact_press", part=part, contact_point=name)[1].max() for name in points]
         return np.array([1.0, 1.0, max(hits), max(press)])

@@ -88,7 +88,8 @@ class DraughtRow:
     @property
     def ratio(self) -> float:
         """What the water takes by the simulation, 1 - margin, over that by the method."""
-        return (1.0 - self.simulated) * self.static / self.hydrodynamic
+        taken = (1.0 - self.simulated) * self.static
+        return taken / self.hydrodynamic if self.hydrodynamic else taken * float("inf")
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

@@ -336,9 +336,9 @@ def ensemble(
                 with progressed.bar:
                     run_packs(kept, job, members, packs, executor, progressed, raises=raises)
             done = _ensemble(members, stored(kept, members), study.lanes)
-            if not further:
-                return done
         _warn_of_failures(done)
+        if not further:
+            return done
     if accuracy is None:
         return done
     ran = [int(place) for place in (done.dataset.failure.to_numpy().ravel() == "").nonzero()[0]]

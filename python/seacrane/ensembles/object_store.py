@@ -101,6 +101,15 @@ def claimed_store(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Ite
     yield store
 
 
+def folder_of(what: str, path: str | os.PathLike[str]) -> Path:
+    """A folder here; SceneError for a URL, of which a path would make one of its name."""
+    if is_url(path):
+        raise SceneError(
+            f"{what} is {os.fspath(path)!r}; give a folder: object stores are of `ensemble` alone"
+        )
+    return Path(path)
+
+
 def is_url(path: str | os.PathLike[str]) -> bool:
     """Whether it is a URL, as of an object store."""
     return "://" in os.fspath(path)

@@ -74,12 +74,13 @@ def goes_on(
     # Of lifts alike but in their seas the first one in a process is compiled: the median leaves that out.
     usual = np.mean if job.study.start_times else np.median
     each = usual([one.begun_s for one in measured]) + np.mean([one.stepped_s for one in measured])
-    every = batches * sum(len(packs[number]) for number in left)
+    every = sum(len(packs[number]) for number in left) + (batches - 1) * sum(map(len, packs.values()))
+    kept = len(left) + (batches - 1) * len(packs)
     price = Price(
         members=every,
         measured=len(measured),
         core_hours=float(each) * every / HOUR,
-        bytes=round(np.mean([bytes_in(store, number) for number in few]) * len(left) * batches),
+        bytes=round(np.mean([bytes_in(store, number) for number in few]) * kept),
         at_most=batches > 1,
     )
     return priced(price)

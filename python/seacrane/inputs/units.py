@@ -17,13 +17,14 @@ def _dimension(*exponents: int) -> Dimension:
 
 PURE, ANGLE = _dimension(0, 0, 0, 0), _dimension(0, 0, 0, 1)
 G = 9.80665  # m/s2, standard: of a tonne-force
-_OF_DIMENSION: dict[tuple[int, ...], dict[str, float]] = {  # kg, m, s, rad: units, the SI one first, in SI
+_OF_DIMENSION: dict[tuple[int, ...], dict[str, float | Fraction]] = {  # kg, m, s, rad: in SI, its own first
     (0, 0, 0, 0): {"1": 1.0}, (0, 0, 0, 1): {"rad": 1.0, "deg": pi / 180.0},
     (0, 0, -1, 1): {"rad/s": 1.0, "deg/s": pi / 180.0, "rpm": pi / 30.0},
     (0, 0, -2, 1): {"rad/s2": 1.0, "deg/s2": pi / 180.0},
     (0, 1, 0, 0): {"m": 1.0, "mm": 1e-3}, (0, 2, 0, 0): {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6},
-    (0, 1, -1, 0): {"m/s": 1.0, "m/min": 1.0 / 60.0, "kn": 1852.0 / 3600.0}, (0, 1, -2, 0): {"m/s2": 1.0},
-    (0, 3, 0, 0): {"m3": 1.0, "l": 1e-3}, (0, 3, -1, 0): {"m3/s": 1.0, "l/min": 1e-3 / 60.0},
+    (0, 1, -1, 0): {"m/s": 1.0, "m/min": Fraction(1, 60), "kn": Fraction(1852, 3600)},
+    (0, 1, -2, 0): {"m/s2": 1.0},
+    (0, 3, 0, 0): {"m3": 1.0, "l": 1e-3}, (0, 3, -1, 0): {"m3/s": 1.0, "l/min": Fraction(1, 60_000)},
     (0, 0, 1, 0): {"s": 1.0, "min": 60.0, "h": 3600.0}, (1, 0, 0, 0): {"kg": 1.0, "t": 1e3},
     (1, -1, 0, 0): {"kg/m": 1.0, "t/m": 1e3}, (1, -3, 0, 0): {"kg/m3": 1.0, "t/m3": 1e3},
     (1, 1, 0, 0): {"kg m": 1.0, "t m": 1e3}, (1, 2, 0, 0): {"kg m2": 1.0, "t m2": 1e3},
@@ -34,11 +35,15 @@ _OF_DIMENSION: dict[tuple[int, ...], dict[str, float]] = {  # kg, m, s, rad: uni
     (1, 2, -2, -1): {"N m/rad": 1.0, "kN m/rad": 1e3, "N m/deg": 180.0 / pi, "kN m/deg": 180e3 / pi},
     (1, 2, -1, -1): {"N m s/rad": 1.0, "kN m s/rad": 1e3}, (1, 2, -3, 0): {"W": 1.0, "kW": 1e3},
     (1, -1, -2, 0): {"Pa": 1.0, "N/m2": 1.0, "kPa": 1e3, "bar": 1e5, "MPa": 1e6, "kN/m2": 1e3},
-    (-1, 4, 1, 0): {"m3/s/Pa": 1.0, "l/min/bar": 1e-8 / 60.0},
+    (-1, 4, 1, 0): {"m3/s/Pa": 1.0, "l/min/bar": Fraction(1, 6 * 10**9)},
 }  # fmt: skip
 UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
-    {unit: (si, _dimension(*of)) for of, units in _OF_DIMENSION.items() for unit, si in units.items()}
+    {unit: (float(si), _dimension(*of)) for of, units in _OF_DIMENSION.items() for unit, si in units.items()}
 )
+_EXACT = {  # of a minute and an hour no decimals are exact
+    unit: si if isinstance(si, Fraction) else Fraction(repr(si))
+    for units in _OF_DIMENSION.values() for unit, si in units.items()
+}  # fmt: skip
 
 
 def others_of(unit: str) -> tuple[str, ...]:
@@ -50,12 +55,12 @@ def others_of(unit: str) -> tuple[str, ...]:
 
 
 def in_si(value: float, unit: str) -> float:
-    """A number of a unit in SI, rounded once from its decimals: 35.7 mm are 0.0357 m to the last bit."""
+    """A number of a unit in SI, rounded once from its decimals: 6 m/min are 0.1 m/s to the last bit."""
     factor = UNITS[unit][0]
     if factor == 1.0 or value == 0.0 or not isfinite(value):
         return value
     try:
-        return float(Fraction(repr(float(value))) * Fraction(repr(factor)))
+        return float(Fraction(repr(float(value))) * _EXACT[unit])
     except OverflowError:
         return inf if value > 0.0 else -inf
 

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from seacrane.answers.report import answers_report
-from seacrane.ensembles.members import members_of
+from seacrane.ensembles.members import Value, members_of
+from seacrane.ensembles.object_store import folder_of
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.lift.build import refused_at
@@ -19,7 +20,7 @@ from seacrane.lift.inner_keys import LIFTS
 from seacrane.lift.lift import Lift
 from seacrane.lift.sheet import Sheet
 from seacrane.lift.sheet_keys import READ
-from seacrane.lift.study_run import keys_in, with_keys
+from seacrane.lift.study_run import in_two_units, keys_in, with_keys
 from seacrane.operability.go import go_or_no_go
 from seacrane.operability.hindcast import WaveHindcast
 from seacrane.operability.phase import Phase
@@ -60,12 +61,12 @@ def run_sheet(
     OSError
         If something cannot be written; runs that came back are kept.
     """
-    lift, target = Lift.load(path), Path(folder)
+    lift, target = Lift.load(path), folder_of("out", folder)
     if lift.sheet is None:
         raise SceneError(f"{Path(path).name} has no [sheet]; add it")
     target.mkdir(parents=True, exist_ok=True)
     asked = lift.sheet
-    scenes = _cases(lift, asked)
+    scenes = load_cases(lift, asked)
     with refused_at(asked.entry):
         sheet = phase_sheet(
             scenes if asked.cases else scenes[""], phases=[_with_scene(one, asked) for one in asked.phases],
@@ -101,7 +102,12 @@ def _with_scene(phase: Phase, asked: Sheet) -> Phase:
     return replace(phase, scene=Lift.load(shipped_lift(path) if path in LIFTS else path).scene())
 
 
-def _cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
+def _told(value: Value) -> str:
+    """A value in the name of a load case, so that others have other names."""
+    return f"{value:.15g}" if isinstance(value, int | float) else value
+
+
+def load_cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
     """The scene of the lift, or one for each combination of values of its keys, by what they are."""
     if not asked.cases:
         return {"": lift.scene()}
@@ -112,11 +118,13 @@ def _cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
             asked.entry.fail(
                 f"cases: {shown(name)} is no key of the lift; {nearest(name, tuple(keys))}", "cases"
             )
+    for name, first in in_two_units({name: keys[name] for name in asked.cases}):
+        asked.entry.fail(f"cases: {name} is {first} in another unit; leave one of them out", "cases")
     found = {}
     with refused_at(asked.entry, "cases"):
         members = members_of(asked.cases)
         for number in range(len(members)):
             values = members.values(number)
-            title = ", ".join(f"{name.rpartition('.')[2]} {value:g}" for name, value in values.items())
+            title = ", ".join(f"{name.rpartition('.')[2]} {_told(value)}" for name, value in values.items())
             found[title] = Lift(with_keys(tables, keys, values)).scene()
     return found

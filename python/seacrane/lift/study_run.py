@@ -18,6 +18,7 @@ from typing import Any
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.merging import merge_parts
+from seacrane.ensembles.object_store import folder_of
 from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
 from seacrane.ensembles.price import Priced
 from seacrane.ensembles.study import Source, require_paths, stage_paths, with_values
@@ -97,7 +98,7 @@ def merge_study(parts: Sequence[str | os.PathLike[str]], folder: str | os.PathLi
 
 def _made(folder: str | os.PathLike[str]) -> Path:
     """The folder of a study, made if absent; SceneError where it holds something else."""
-    target = Path(folder)
+    target = folder_of("out", folder)
     if target.exists() and not target.is_dir():
         raise SceneError(f"{target} is a file; give the name of a folder")
     target.mkdir(parents=True, exist_ok=True)
@@ -121,6 +122,8 @@ def _source(lift: Lift, study: Study) -> Source:
         except (FileFormatError, SceneError) as error:
             study.fail_at(name, str(error))
     varied: dict[str, KeyPlace] = {name: keys[name] for name in axes if name in keys}
+    for name, first in in_two_units(varied):
+        study.fail_at(name, f"over: {name} is {first} in another unit; leave one of them out")
     if not varied:
         return scene
     words = [name for name in axes if name in WORDS]
@@ -159,6 +162,7 @@ def _inside(
             yield from _inside(f"{path}.{one.get('name', number + 1)}", (*place, number), keys, one)
         return
     for key in keys:
+        whole = any(isinstance(given.get(spelling), list | dict) for spelling in key.spellings)
         for spelling in key.spellings:
             here, inside, value = f"{path}.{spelling}", (*place, spelling), given.get(spelling)
             if key.type in ("table", "tables"):
@@ -167,8 +171,17 @@ def _inside(
                 for number, part in enumerate(value):
                     if not isinstance(part, list):
                         yield f"{here}.{number + 1}", KeyPlace((*inside, number))
-            elif key.type in SINGLE and not isinstance(value, list | dict):
+            elif key.type in SINGLE and not whole:
                 yield here, KeyPlace(inside, tuple(one for one in key.spellings if one != spelling))
+
+
+def in_two_units(varied: Mapping[str, KeyPlace]) -> Iterator[tuple[str, str]]:
+    """Paths that vary a key which an earlier one varies in another unit, with that one."""
+    once: dict[Any, str] = {}
+    for name, one in varied.items():
+        first = once.setdefault((one.place[:-1], frozenset((one.place[-1], *one.others))), name)
+        if first != name:
+            yield name, first
 
 
 def with_keys(tables: Tables, places: Mapping[str, KeyPlace], values: Mapping[str, Value]) -> Tables:

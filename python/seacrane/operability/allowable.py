@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -20,6 +19,7 @@ from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import equilibrium
 from seacrane.arrays import Array
 from seacrane.description.given import given_drivers
+from seacrane.ensembles.object_store import folder_of
 from seacrane.ensembles.study import Stages, Start
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of
@@ -237,8 +237,9 @@ def _by_time(
         seeds = asked.seeds[first : first + size]
         folder = store
         if store is not None and until is not None:
-            Path(store).mkdir(exist_ok=True)
-            folder = Path(store) / f"seeds_{seeds[0]}_to_{seeds[-1]}"
+            outer = folder_of("store", store)
+            outer.mkdir(exist_ok=True)
+            folder = outer / f"seeds_{seeds[0]}_to_{seeds[-1]}"
         storms = storms_in(
             replace(asked, seeds=seeds), still, [cells.words(place) for place in left], start,
             executor=executor, store=folder, progress=progress,

@@ -166,6 +166,8 @@ def _time(name: str, given: Any, times: Times) -> np.datetime64:
         found: np.datetime64 = times[0] if given is None else np.datetime64(given)
     except ValueError as error:
         raise SceneError(f"{name} is {shown(given)}; give a time such as {times[0]}") from error
+    if np.isnat(found):
+        raise SceneError(f"{name} is no time; give one such as {times[0]}")
     return found
 
 

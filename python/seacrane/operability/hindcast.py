@@ -160,11 +160,16 @@ class WaveHindcast:
         """
         file = Path(path)
         for word, given, known in (("names", names, NAMES), ("units", units, {**UNITS, "date": ""})):
-            for name in given or {}:
+            if not isinstance(given or {}, Mapping):
+                raise SceneError(f"hindcast: {word} is {shown(given)}; give texts by name, as of 'hs'")
+            for name, one in (given or {}).items():
+                text_of(f"hindcast: {word} of {name}", one)
                 if name not in known:
                     raise SceneError(f"hindcast: {word} has {shown(name)}; choose from {', '.join(known)}")
         if not _is_netcdf(file):
             return cls(**read_sea_states(file, names or {}, units or {}, utc_offset))
+        if utc_offset:
+            raise SceneError(f"utc_offset is {shown(utc_offset)}, and times of {path} are UTC; leave it out")
         others = {name: (other,) for name, other in (names or {}).items()}
         asked = {name: others.get(name, usual) for name, usual in NAMES.items()}
         return _of_netcdf(file, asked, units or {})

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import flag_of, name_of, not_negative_of, number_of, positive_of, texts_of
+from seacrane.inputs.checked import finite_of, flag_of, name_of, not_negative_of, positive_of, texts_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.scene.scene import Scene
@@ -60,7 +60,7 @@ class Phase:
         title = f"phase {shown(name_of('phase', self.name))}"
         positive_of(f"{title}: hours", self.hours, "h")
         not_negative_of(f"{title}: contingency_hours", self.contingency_hours, "h")
-        number_of(f"{title}: time", self.time)
+        finite_of(f"{title}: time", self.time, "s")
         flag_of(f"{title}: safe", self.safe)
         listed = tuple(texts_of(f"{title}: stages", self.stages))
         if flag_of(f"{title}: passage", self.passage):

@@ -6,9 +6,9 @@ import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from seacrane.ensembles.object_store import folder_of
 from seacrane.ensembles.study import Stages
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of
@@ -25,6 +25,8 @@ from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
+
+PASSAGES = "passages"  # their folder in that of a load case
 
 
 @named
@@ -94,6 +96,8 @@ def phase_sheet(
     listed, factor = phases_of(phases), alpha_of(alpha)
     cases = _cases(scene)
     before = not_negative_of("lead_hours", lead_hours, "h")
+    if store is not None:
+        _require_folders([*cases, *(phase.name for phase in listed if not phase.passage)])
     spans = [span for leg in legs_of(listed) for span in leg]
     for span in spans:
         factor.at(1.0, hours=before + span.end)
@@ -107,7 +111,7 @@ def phase_sheet(
     moving = {"domain": "auto", "duration": None, "start_up": None, "stages": stages, "time": 0.0}
     tables: dict[tuple[str, str], AllowableHs] = {}
     for case, described in cases.items():
-        folder = None if store is None else Path(store) / (case or "lift")
+        folder = None if store is None else folder_of("store", store) / (case or "lift")
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
         for span in spans:
@@ -118,7 +122,7 @@ def phase_sheet(
                 tables[case, name] = cells.table(one.name, factor, before + span.end, failures)
         passages = [span for span in spans if span.phase.passage]
         if passages:
-            asked = shared | moving | {"store": folder and folder / "passages"}
+            asked = shared | moving | {"store": folder and folder / PASSAGES}
             tables |= _passages(case, described, passages, own, factor, before, asked)
     return PhaseSheet(
         phases=listed, cases=tuple(cases), tables=tables, alpha=factor, lead_hours=before,
@@ -150,11 +154,20 @@ def _passages(
     }
 
 
+def _require_folders(names: Sequence[str]) -> None:
+    """Raise SceneError for a load case or phase that names no folder of its own in the store."""
+    for name in names:
+        if name in (".", "..", PASSAGES) or {*"/\\"} & {*name}:
+            raise SceneError(
+                f"store: {name!r} is no name of a folder of its own; give the load case or phase another name"
+            )
+
+
 def _cases(given: Any) -> dict[str, Scene]:
     """Load cases by name; one scene has none."""
     found = given if isinstance(given, Mapping) else {"": given}
     for name, one in found.items():
-        if not isinstance(name, str) or not isinstance(one, Scene):
+        if not isinstance(name, str) or not isinstance(one, Scene) or (not name and found is given):
             raise SceneError(f"scene is {shown(one)}; give a Scene, or scenes by the names of load cases")
     if not found:
         raise SceneError("scene is empty; give a Scene, or scenes by the names of load cases")
@@ -163,7 +176,7 @@ def _cases(given: Any) -> dict[str, Scene]:
 
 def _criteria_of(phases: Sequence[Phase], criteria: Any) -> dict[str, list[Criterion]]:
     """Criteria of each phase, over its hours, or as quantiles of each of its stages."""
-    listed = [criteria] if isinstance(criteria, Criterion) else list(criteria)
+    listed = list(criteria) if isinstance(criteria, Sequence) else [criteria]
     places = {place for phase in phases for place in (phase.name, *phase.stages)}
     for one in listed:
         if not isinstance(one, Criterion):

@@ -40,6 +40,7 @@ NINES = np.array(
 )
 OFF = 0.1  # of a step, by which a buoy's clock may be off even times
 ZONES = {"utc", "gmt", "z"}
+FARTHEST = 14.0  # h, of a time zone from UTC
 
 
 def read_sea_states(
@@ -128,6 +129,8 @@ def _dates(
     if known and utc_offset:
         raise SceneError(f"utc_offset is {utc_offset:g}, and times of {file.path} are UTC; leave it out")
     ahead = 0.0 if utc_offset is None else number_of("utc_offset", utc_offset)
+    if not abs(ahead) <= FARTHEST:
+        raise SceneError(f"utc_offset is {ahead:g}; give hours, at most {FARTHEST:g} from UTC")
     return np.asarray(dates - np.timedelta64(round(3600.0 * ahead), "s"))
 
 

@@ -19,6 +19,7 @@ from seacrane.hydro.readers.wamit import read_wamit
 from seacrane.hydro.readers.wamit_tables import INFINITE_FREQUENCY_PERIOD, ZERO_FREQUENCY_PERIOD
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.caller import silently
+from seacrane.inputs.checked import flag_of
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.keywords import named
 from seacrane.warnings import SourceWarning
@@ -56,6 +57,9 @@ def write_database(
     target = Path(path)
     if not isinstance(database, HydroData):
         raise SceneError(f"{target}: a {type(database).__name__}; write each hull, as group[name], by itself")
+    if not target.name or target.is_dir():
+        raise SceneError(f"write_database: {target} is a folder; give the name of a file in it")
+    flag_of("write_database: overwrite", overwrite)
     ours = target.suffix.lower() in OURS
     if not ours and target.suffix not in ("", *WAMIT):
         raise SceneError(
@@ -63,6 +67,8 @@ def write_database(
             f"{WAMIT[0]} (WAMIT's {' '.join(WAMIT)})"
         )
     stem = target if ours else target.with_suffix("")
+    if stem.is_dir():  # read back, it would be what is in there
+        raise SceneError(f"write_database: {stem} is a folder; give WAMIT's files another stem")
     files = [target] if ours else [stem.with_name(stem.name + suffix) for suffix in WAMIT]
     there = [] if overwrite else [file.name for file in files if file.exists()]
     if there:
@@ -144,7 +150,7 @@ def _control(database: HydroData) -> Iterator[str]:
     """Form 2: density, centre of gravity, and external mass, damping and stiffness as they are."""
     mass = database.mass_matrix
     x, y, z = mass[1, 5] / mass[0, 0], mass[2, 3] / mass[0, 0], mass[0, 4] / mass[0, 0]
-    yield f"{database.name[:60]}: written by seacrane"
+    yield f"{' '.join(database.name.split())[:60]}: written by seacrane"
     yield OPTIONS
     yield f"{database.rho:.9g}"
     yield _numbers(x, y, z)
