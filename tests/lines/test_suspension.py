@@ -139,7 +139,8 @@ def rigged(design_factor: float) -> Scene:
 
 def test_margins_and_angles_of_a_rigged_load() -> None:
     """The hook carries block and load, a sling its share at rest; they stand at 60 degrees."""
-    run = simulate(rigged(1.0), 1.0, channels=["hook_load", "slack_margin", "sling_angle", "swing"])
+    recorded = ["hook_load", "line_tension", "slack_margin", "sling_angle", "swing"]
+    run = simulate(rigged(1.0), 1.0, channels=recorded)
     told = summary(run)
     assert told["hook load"].static == pytest.approx((MASS + 2e3) * G)
     assert told["hoist tension"].static == pytest.approx(0.5 * (MASS + 2e3) * G, rel=1e-12)
