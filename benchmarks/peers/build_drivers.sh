@@ -19,5 +19,5 @@ g++ "${flags[@]}" -w -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCES
   -o "$out/pinocchio_dynamics.o"
 integrate=$here/../../cpp/seacrane/integrate
 g++ "${flags[@]}" "$here/pinocchio_run.cpp" "$out/pinocchio_dynamics.o" -o "$out/pinocchio_run" \
-    "$integrate"/{integrator,last_step,integration_error,error_norm,one_step,adaptive_step,fixed_step,rk4,embedded_pairs}.cpp \
+    "$integrate"/{integrator,error_norm,one_step,adaptive_step,fixed_step,rk4,embedded_pairs}.cpp \
     "-L$prefix/lib" -pthread -lpinocchio_default "-Wl,-rpath,$prefix/lib"
