@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import re
 from pathlib import Path
 from typing import Any
@@ -16,9 +15,8 @@ pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
 
 
 @pytest.fixture
-def measurements(monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
-    return importlib.import_module("measurements")
+def measurements(modules: Any) -> Any:
+    return modules("measurements")
 
 
 # Those that take more than two seconds.
@@ -49,9 +47,9 @@ def test_the_runner_finds_every_set_and_the_page_shows_it(measurements: Any) -> 
         assert source.repository in PAGE
 
 
-def test_a_difference_beyond_its_bound_ends_the_call(measurements: Any) -> None:
+def test_a_difference_beyond_its_bound_ends_the_call(measurements: Any, modules: Any) -> None:
     """Differences are signed, and over what the row says."""
-    row = importlib.import_module("measured_row").MeasuredRow
+    row = modules("measured_row").MeasuredRow
     (name, compared, by), told = next(iter(measurements.published().items()))
     common: dict[str, Any] = {
         "picture": "p", "panel": "p", "compared": compared, "by": by, "x": "x, s", "y": "y", "at": [1.0, 2.0],

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,10 +12,9 @@ pytestmark = pytest.mark.warns(sometimes=["UnitWarning"])
 
 
 @pytest.fixture(params=["reeving", "hydraulics"])
-def compared(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, repository: Path) -> Any:
+def compared(request: pytest.FixtureRequest, modules: Any) -> Any:
     """The module that compares."""
-    monkeypatch.syspath_prepend(str(repository / "benchmarks"))
-    return importlib.import_module(f"compared.{request.param}")
+    return modules(f"compared.{request.param}")
 
 
 def test_the_engine_agrees_with_the_record(compared: Any) -> None:

@@ -1,4 +1,4 @@
-"""What a rod has, a line has: every row of the table in docs/hoists.md, asked of every lift by a run."""
+"""What a rod has, a line has: all that docs/hoists.md lists, asked of every lift by a run."""
 
 from __future__ import annotations
 
@@ -118,7 +118,8 @@ def rows(by: str) -> dict[str, bool]:
 
 
 def is_documented(row: str) -> bool:
-    return f"| {row} |" + " yes |" * len(LIFTS) in DOCUMENT.read_text(encoding="utf-8")
+    _, _, listed = " ".join(DOCUMENT.read_text(encoding="utf-8").split()).partition("Each has: ")
+    return row in listed.partition(". ")[0].split("; ")
 
 
 @ALL

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from ensemble_studies import HEAVE_STUDY
 
 from seacrane import SceneError, ensemble
 from seacrane.cases import vessel
@@ -20,27 +21,6 @@ from seacrane.ensembles.parts import part_of
 from seacrane.lift.study_run import MEMBERS, run_study
 from seacrane.run.lanes import INSTRUCTIONS, module_of
 
-STUDY = """format = "seacrane lift"
-version = 2
-[vessel]
-database = "hull_115"
-memory = "none"
-[sea]
-seed = 7
-hs_m = 1.5
-tp_s = 8
-count = 20
-[study.over]
-seed = { first = 1, count = 11 }
-hs = [2.0, 1.0]
-bodies.vessel.mass = [1.1e7, 1e7]
-[[study.keep]]
-name = "heave"
-channel = "position"
-names = { body = "vessel", axis = "z" }
-[run]
-t_end_s = 4
-"""
 KILLED = """
 import os, signal, sys
 from seacrane.cli.command_line import main
@@ -66,7 +46,7 @@ def same_bits(one: Ensemble, other: Ensemble) -> bool:
 
 
 def test_parts_in_any_order_one_of_them_killed_are_one_run(tmp_path: Path, capsys: Any) -> None:
-    (file := tmp_path / "heave.toml").write_text(STUDY)
+    (file := tmp_path / "heave.toml").write_text(HEAVE_STUDY)
     run_study(file, tmp_path / "whole")
     given = [["study", str(file), "--part", f"{n}/3", "--out", str(tmp_path / f"p{n}")] for n in (3, 1, 2)]
     folders = [words[-1] for words in given]
@@ -81,7 +61,7 @@ def test_parts_in_any_order_one_of_them_killed_are_one_run(tmp_path: Path, capsy
     assert main(merge) == 0
     whole, merged = (Ensemble.load(tmp_path / name / MEMBERS) for name in ("whole", "merged"))
     assert same_bits(whole, merged) and not merged.failures
-    assert sum((Ensemble.load(Path(one) / MEMBERS).dataset.failure == "").sum() for one in folders) == 44
+    assert sum((Ensemble.load(Path(one) / MEMBERS).dataset.failure == "").sum() for one in folders) == 80
     files = {one: one.stat().st_mtime_ns for one in (tmp_path / "merged" / MEMBERS).glob("pack_*.nc")}
     run_study(file, tmp_path / "merged")  # it goes on, with nothing left
     assert files == {one: one.stat().st_mtime_ns for one in (tmp_path / "merged" / MEMBERS).glob("pack_*.nc")}

@@ -8,6 +8,7 @@ from typing import Any
 
 import named
 import pytest
+from ensemble_studies import HEAVE_STUDY
 
 from seacrane import Scene, ensemble
 from seacrane.cli.command_line import main
@@ -88,36 +89,14 @@ def seeded(*, seed: int, mass: float) -> Scene:
     return named.pendulum(mass=mass, arm=1.0 + 1e-3 * seed)
 
 
-STUDY = """format = "seacrane lift"
-version = 2
-[vessel]
-database = "hull_115"
-memory = "none"
-[sea]
-seed = 7
-hs_m = 1.5
-tp_s = 8
-count = 20
-[study.over]
-seed = { first = 1, count = 40 }
-[[study.keep]]
-name = "heave"
-channel = "position"
-what = "maximum"
-names = { body = "vessel", axis = "z" }
-[run]
-t_end_s = 2
-"""
-
-
 def test_the_command_tells_it_first_and_price_alone_stops(tmp_path: Path, capsys: Any) -> None:
-    (file := tmp_path / "heave.toml").write_text(STUDY)
+    (file := tmp_path / "heave.toml").write_text(HEAVE_STUDY)
     command = ["study", str(file), "--out", str(tmp_path / "out")]
     assert main([*command, "--price"]) == 0
     told = capsys.readouterr().out
-    assert told.startswith("price: ") and told.count("\n") == 1 and "for 40 members" in told
+    assert told.startswith("price: ") and told.count("\n") == 1 and "for 80 members" in told
     few = int((Ensemble.load(tmp_path / "out" / "members").dataset.failure == "").sum())
-    assert f"by the {few} of them that are done" in told and 0 < few < 40
+    assert f"by the {few} of them that are done" in told and 0 < few < 80
     assert main(command) == 0
     assert capsys.readouterr().out.splitlines()[0].endswith("that are done")
     assert main([*command, "--price"]) == 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import re
 import subprocess
 import sys
@@ -29,16 +28,11 @@ def test_no_table_is_older_than_its_file() -> None:
     assert done.returncode == 0, f"{done.stderr}python benchmarks/documents.py fills them"
 
 
-@pytest.fixture
-def documents(monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
-    return importlib.import_module("documents")
-
-
 FILE = "benchmarks/results/wave-loads.csv"
 
 
-def test_a_table_that_differs_from_its_file_is_found(documents: Any) -> None:
+def test_a_table_that_differs_from_its_file_is_found(modules: Any) -> None:
+    documents = modules("documents")
     mark = f"<!-- table {FILE}; columns: components; rows: components = 10 | 300 -->"
     told = f"<p><sub>{documents.words(ROOT / FILE)}</sub></p><!-- end of table -->"
     stale = f"{mark}\n| components |\n| ---: |\n| 10 |\n{told}"

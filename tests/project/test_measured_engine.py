@@ -14,9 +14,8 @@ GLOBS = ("cpp/one",)
 
 
 @pytest.fixture
-def sources(monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
-    return importlib.import_module("measure.sources")
+def sources(modules: Any) -> Any:
+    return modules("measure.sources")
 
 
 def test_a_table_is_stale_by_its_own_sources_alone(

@@ -7,6 +7,7 @@ import random
 import resource
 import signal
 import time
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -35,8 +36,8 @@ def reference(stiffness: float = 0.0, t_end: float = SETTINGS["t_end"]) -> Resul
     return simulate(pendulum(stiffness), **{**SETTINGS, "t_end": t_end})
 
 
-def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settings: Any) -> int:
-    """The number of a process that runs a pendulum to a file."""
+def process(work: Callable[[], object], room: int | None = None) -> int:
+    """The number of a process that does this, with room for so many bytes in a file."""
     if number := os.fork():
         return number
     ends = 1
@@ -44,7 +45,7 @@ def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settin
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
         if room is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
-        simulate(pendulum(stiffness), to=path, **{**SETTINGS, "checkpoint_every": 0.5, **settings})
+        work()
         ends = 0
     except FileExistsError:
         ends = REFUSED
@@ -54,19 +55,10 @@ def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settin
         os._exit(ends)
 
 
-def saver(path: Path, room: int) -> int:
-    """The number of a process that saves a result where no more than `room` bytes are left."""
-    whole = reference()
-    if number := os.fork():
-        return number
-    ends = 1
-    try:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
-        whole.save(path)
-    except OSError as error:
-        ends = FULL if "could not write" in str(error) else ends
-    finally:
-        os._exit(ends)
+def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settings: Any) -> int:
+    """The number of a process that runs a pendulum to a file."""
+    given = {**SETTINGS, "checkpoint_every": 0.5, **settings}
+    return process(lambda: simulate(pendulum(stiffness), to=path, **given), room)
 
 
 def ended(number: int) -> int:
@@ -186,7 +178,8 @@ def full_disk(seed: int, path: Path) -> None:
 def test_a_result_that_finds_no_room_leaves_the_older_file(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
     path.write_text("an older file", encoding="utf-8")
-    assert ended(saver(path, room=20_000)) == FULL
+    whole = reference()
+    assert ended(process(lambda: whole.save(path), room=20_000)) == FULL
     assert path.read_text(encoding="utf-8") == "an older file" and list(tmp_path.iterdir()) == [path]
 
 

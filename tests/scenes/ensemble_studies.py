@@ -23,6 +23,15 @@ def drifting_hull() -> HydroDatabase:
     return replace(hull, drift=drift)
 
 
+HEAVE_STUDY = """format = "seacrane lift"
+version = 2
+vessel = { database = "hull_115", memory = "none" }
+sea = { seed = 7, hs_m = 1.5, tp_s = 8, count = 20 }
+run = { t_end_s = 2 }
+[study]
+over = { seed = { first = 1, count = 20 }, hs = [2.0, 1.0], bodies.vessel.mass = [1.1e7, 1e7] }
+keep = [{ name = "heave", channel = "position", names = { body = "vessel", axis = "z" } }]
+"""
 SWING = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
 
 

@@ -5,8 +5,6 @@ The printed solutions are of an integration of the equation of docs/water.md tha
 
 from __future__ import annotations
 
-import importlib
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,7 +16,6 @@ from seacrane import _core
 from seacrane.hydro import circle_added_mass
 
 Array = NDArray[np.float64]
-ROOT = Path(__file__).resolve().parents[2]
 WEDGE = {  # m/s at the times of the set
     "table with pile-up": [4.70, 3.95, 3.28, 2.77, 2.40, 2.12, 1.73],
     "table of the plate as broad as the level water": [4.87, 4.37, 3.81, 3.33, 2.93, 2.61, 2.15],
@@ -26,15 +23,8 @@ WEDGE = {  # m/s at the times of the set
 
 
 @pytest.fixture
-def wedge(monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
-    return importlib.import_module("measured.yettou_wedge")
-
-
-@pytest.fixture
-def cylinder(monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
-    return importlib.import_module("measured.greenhow_lin_cylinder")
+def wedge(modules: Any) -> Any:
+    return modules("measured.yettou_wedge")
 
 
 @pytest.mark.warns("UnitWarning")
@@ -54,8 +44,9 @@ def test_the_added_mass_of_a_wedge_alone_is_that_of_the_strip_theory(wedge: Any)
 
 
 @pytest.mark.parametrize("words", ["half as heavy as water", "as heavy as water"])
-def test_drag_of_a_cylinder_grows_with_the_volume_that_is_wet(words: str, cylinder: Any) -> None:
+def test_drag_of_a_cylinder_grows_with_the_volume_that_is_wet(words: str, modules: Any) -> None:
     """The same equation by another integrator, with its own table of added mass."""
+    cylinder = modules("measured.greenhow_lin_cylinder")
     share, drag, d = cylinder.SHARES[words], cylinder.DRAG[words], cylinder.DIAMETER
     area = np.pi / 4.0 * d**2
     mass = share * cylinder.RHO * area

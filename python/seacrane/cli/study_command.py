@@ -136,6 +136,8 @@ def _cluster(address: str) -> Iterator[Executor]:
     except (OSError, ValueError) as error:
         raise SceneError(f"--dask {address}: no scheduler answers there ({error})") from error
     with client:
+        with contextlib.suppress(TimeoutError):
+            client.wait_for_workers(1, timeout=10.0)
         versions = client.run(_version_finder())
         if not versions:
             raise SceneError(f"--dask {address}: the cluster has no worker; start at least one")
