@@ -123,7 +123,22 @@ def a_sparse_file(path: Path) -> None:
     os.truncate(path, 100 * 2**30)
 
 
+def linked(link: Callable[[h5py.File], Any]) -> Callable[[Path], Any]:
+    """A group that leads back to one above: netCDF-C would descend for ever."""
+
+    def change(path: Path) -> None:
+        with h5py.File(path, "a") as file:
+            attic = file.create_group("attic")
+            attic["back"] = link(file)
+
+    return change
+
+
 CHANGED: dict[Callable[[Path], Any], str] = {
+    linked(lambda file: file["attic"]): "group attic stands in more than one place",
+    linked(lambda file: file["/"]): "group / stands in more than one place",
+    linked(lambda file: h5py.SoftLink("/")): "group attic has a link back",
+    linked(lambda file: h5py.ExternalLink("run.nc", "/")): "group attic has a link back",
     large_chunks: "with it the file's arrays take .* above",
     a_sparse_file: "has 102400 MiB",
 }

@@ -88,10 +88,22 @@ def _in_hdf5(path: Path) -> Arrays:
     found: list[tuple[str, Any]] = []
     with h5py.File(path, "r") as file:
         file.visititems(lambda name, one: found.append((name, one)))
-        for name, one in found:
+        for name, one in [("/", file), *found]:
+            if isinstance(one, h5py.Group):
+                _require_tree(path, name, one)
             if isinstance(one, h5py.Dataset) and one.shape is not None:
                 count = max(math.prod(one.shape), math.prod(one.chunks or ()))
                 yield name, one.shape, one.dtype.itemsize * count
+
+
+def _require_tree(path: Path, name: str, group: Any) -> None:
+    """netCDF-C follows a link from a group to one above for ever, and ends the process."""
+    import h5py
+
+    linked = [key for key in group if not isinstance(group.get(key, getlink=True), h5py.HardLink)]
+    if linked or h5py.h5o.get_info(group.id).rc > 1:
+        fault = f"has a link {linked[0]}" if linked else "stands in more than one place"
+        raise FileFormatError(f"{path}: group {name} {fault}; write the file again without links")
 
 
 def _in_classic(path: Path) -> Arrays:
