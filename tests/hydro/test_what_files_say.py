@@ -15,22 +15,30 @@ from orcaflex_writer import write as write_model
 from test_hydro_capytaine import OMEGA, in_file, layout
 from test_hydro_nemoh import bemio_values, written
 
-from seacrane.errors import FileFormatError
+from seacrane import Lift, Scene
+from seacrane.cli import main
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import (
     HydroDatabase,
+    fit_memory,
+    load_database,
+    motion_response,
     read_bemio,
     read_capytaine,
     read_nemoh,
     read_orcaflex,
     read_wamit,
     shipped_database,
+    vessel_parameters,
+    write_database,
 )
+from seacrane.hydro.database.figures import hydro_sheets
 from seacrane.hydro.readers.text_records import number_of_word
+from seacrane.scene.file import scene_digest
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import AssumedReferenceWarning, FloatingPositionWarning
 
 pytestmark = pytest.mark.filterwarnings(
-    "ignore::seacrane.warnings.AssumedInertiaWarning",
     "ignore::seacrane.warnings.RoughDataWarning",
     "ignore::seacrane.warnings.PartialSetWarning",
 )
@@ -208,6 +216,44 @@ def test_numbers_of_fortran(tmp_path: Path) -> None:
     plain = read_wamit_set(tmp_path).force
     path.write_text(path.read_text().replace("E-0", "-00").replace("E-1", "-01").replace("E+0", "D+0"))
     assert np.array_equal(read_wamit_set(tmp_path).force, plain)
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.VesselWarning")
+@pytest.mark.parametrize("reader", ["wamit", "nemoh", "bemio"])
+def test_a_set_without_masses_asks_for_them_where_a_vessel_is_made(
+    reader: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In Python, lift file and command alike; it is read, moved, checked and written without."""
+    _, write, read = READERS[reader]
+    found = read(write(BASE, tmp_path), **({"mass_matrix": None} if reader == "wamit" else {}))
+    assert found.mass_matrix is None and found.at(PLACE).mirror().mass_matrix is None
+    assert not {"mass_t", "natural_period_roll_s", "memory_states"} & {row.check for row in found.check()}
+    assert "no mass" in repr(found) and "motion" not in hydro_sheets(found)
+    for name in ("bare.nc", "bare.1"):
+        rows = write_database(database=found, path=tmp_path / name, overwrite=True)
+        assert {row.verdict for row in rows} <= {"pass", "info"}
+    assert not (tmp_path / "bare.frc").exists()
+    asks = rf"'{found.name}': mass_matrix is not known: .*{found.name}.* holds none; .*mass_matrix=.*--mass"
+    for needs in (
+        motion_response,
+        vessel_parameters,
+        lambda one: fit_memory(database=one),
+        lambda one: one.with_roll_damping(fraction=0.05),
+        lambda one: Scene(name="sea").add_vessel(one, memory="none"),
+    ):
+        with pytest.raises(SceneError, match=asks):
+            needs(found)
+    bare, mass = tmp_path / "bare.nc", BASE.mass_matrix
+    lift = f'format = "seacrane lift"\nversion = 2\n[vessel]\nmemory = "none"\ndatabase = "{bare}"\n'
+    (tmp_path / "bare.toml").write_text(lift)
+    with pytest.raises(FileFormatError, match=r"bare.toml line 3: .*mass_matrix in \[vessel\]"):
+        Lift.load(tmp_path / "bare.toml").scene()
+    (tmp_path / "mass.toml").write_text(f"{lift}mass_matrix = {mass.tolist()}\n")
+    scene = Scene()
+    scene.add_vessel(load_database(bare, mass_matrix=mass), memory="none")
+    assert scene_digest(Lift.load(tmp_path / "mass.toml").scene()) == scene_digest(scene)
+    assert main(["hydro", str(bare)]) == 0 and "mass_t" not in capsys.readouterr().out
+    assert main(["hydro", str(bare), "--memory", "by-motion"]) == 1 and "--mass" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("mass", [1e-3, "none"])

@@ -43,8 +43,7 @@ def read_bemio(
     Parameters
     ----------
     path : file.
-    mass_matrix : (6, 6) in SI about the centre of gravity; of several bodies by name. The file holds none; by
-        default the displaced mass with usual radii of gyration.
+    mass_matrix : (6, 6) in SI about the centre of gravity; of several bodies by name. The file holds none.
     motions, leave_out : as `read_capytaine` takes them.
 
     Returns
@@ -53,10 +52,6 @@ def read_bemio(
         Port-starboard symmetric if the added mass is, to 2 %.
     HydroGroup : of several, each about its centre of gravity, named as in the file, in its order.
         Lengths, breadths and draughts are those of the equivalent boxes.
-
-    Warns
-    -----
-    AssumedInertiaWarning : no ``mass_matrix``.
 
     Raises
     ------

@@ -154,7 +154,11 @@ def _convert(asked: Asked, dataset: xarray.Dataset, rotation_centre: Given | Non
         raise FileFormatError(
             f"{path}: omega {shown(omega.tolist())} holds repeated, negative or undefined values"
         )
-    masses = _matrices(asked, dataset, "inertia_matrix", "mass_matrix", names)
+    draughts = _by_body(dataset, "draught", names)
+    weighs = "inertia_matrix" in dataset or asked.mass_matrix is not None or draughts is None
+    masses: Sequence[Array | None] = [None] * len(names)
+    if weighs:  # asked for where it is all that tells the draught
+        masses = _matrices(asked, dataset, "inertia_matrix", "mass_matrix", names)
     stiffness = _matrices(asked, dataset, "hydrostatic_stiffness", "restoring", names)
     if "wave_direction" not in dataset.coords:
         raise FileFormatError(f"{path}: wave_direction is missing; solve diffraction problems too")
@@ -163,7 +167,6 @@ def _convert(asked: Asked, dataset: xarray.Dataset, rotation_centre: Given | Non
         raise FileFormatError(f"{path}: wave_direction reaches {np.abs(raw).max():g}; radians are expected")
     direction, order = rising_directions(raw)
     centres = _rotation_centres(asked, dataset, names, rotation_centre)
-    draughts = _by_body(dataset, "draught", names)
     bodies = []
     for i, (name, centre, mass, restoring) in enumerate(zip(names, centres, masses, stiffness, strict=True)):
         bodies.append(

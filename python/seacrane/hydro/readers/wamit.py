@@ -98,7 +98,7 @@ def read_wamit(
         exports: there ``volume`` is needed. Beside a ``.out`` they are not used.
     rho : kg/m3, of a set that does not tell it.
     mass_matrix : (6, 6) in SI about the origin; it takes the place of mass and inertia of ``.frc``. Of
-        several bodies by name; by default their displaced masses with usual radii of gyration.
+        several bodies by name. Without either there is none.
     motions, leave_out : as `read_capytaine` takes them.
 
     Returns
@@ -112,7 +112,6 @@ def read_wamit(
     Warns
     -----
     AssumedDensityWarning : neither ``.frc`` nor ``.out`` holds a density.
-    AssumedInertiaWarning : no mass, in ``.frc`` or as ``mass_matrix``.
     PartialSetWarning : periods or headings are not the same in all files; or there is no ``.3``.
     RoundedPhaseWarning : the forces are those of the listing.
 
@@ -294,15 +293,14 @@ def _bodies(
     for i, (body, mass) in enumerate(zip(listing.bodies, masses, strict=True)):
         at = slice(6 * i, 6 * i + 6)
         restoring = body.restoring(scale) * rho * g if whole is None else whole[at, at] * rho * g * power
-        centre, damping = body.gravity, None
+        damping = None
         if control is not None:
-            centre = centre if control.center_of_gravity is None else control.center_of_gravity
             mass = _mass_of_control(asked, control, body, rho) if mass is None else mass
             damping = control.damping
         made = floating_body(
             asked, body.name, where=listing.path if several else None, several=several,
             position=body.position, heading=body.heading, restoring=restoring, volume=body.volume,
-            water=(rho, g), mass=mass, centre=centre, linear_damping=damping,
+            water=(rho, g), mass=mass, linear_damping=damping,
         )  # fmt: skip
         if control is not None and control.stiffness is not None:
             made = replace(made, restoring=restoring + control.stiffness)
