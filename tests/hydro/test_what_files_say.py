@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 import test_hydro_nemoh
@@ -14,6 +15,7 @@ from orcaflex_writer import hull_part, model
 from orcaflex_writer import write as write_model
 from test_hydro_capytaine import OMEGA, in_file, layout
 from test_hydro_nemoh import bemio_values, written
+from veres_writer import VeresRun
 
 from seacrane import Lift, Scene
 from seacrane.cli import main
@@ -27,6 +29,7 @@ from seacrane.hydro import (
     read_capytaine,
     read_nemoh,
     read_orcaflex,
+    read_veres,
     read_wamit,
     shipped_database,
     vessel_parameters,
@@ -204,6 +207,28 @@ def test_a_frequency_that_failed_is_named_and_left_out_on_request(tmp_path: Path
     told = read_capytaine(tmp_path / "old.nc", rotation_centre=(55.3, 0.0, 0.0), **given)
     k = wavenumber(told.omega, g=told.g, depth=told.depth)
     assert told.force[0] == pytest.approx(assumed.force[0] * np.exp(55.3j * k)[:, None], rel=1e-9)
+
+
+@pytest.mark.parametrize("reader", ["wamit", "nemoh", "capytaine", "bemio", "veres"])
+def test_what_is_left_out_of_files_is_told(reader: str, tmp_path: Path) -> None:
+    source, write, read = READERS.get(reader, (None, None, read_veres))
+    if reader == "veres":
+        path = VeresRun().write(tmp_path)
+    elif reader == "capytaine":
+        path = write(source(), tmp_path, kochin=("wave_direction", np.zeros(layout().wave_direction.size)))
+    else:
+        path = write(source(), tmp_path)
+    assert reader == "capytaine" or "left out" not in read(path).source
+    more = {"wamit": "ship.5p", "nemoh": "IRF.tec", "capytaine": "kochin", "bemio": "mean_drift/momentum",
+            "veres": "box.re5"}[reader]  # fmt: skip
+    if reader == "bemio":
+        with h5py.File(path, "a") as file:
+            file[f"body1/hydro_coeffs/{more}/val"] = np.zeros(3)
+            file["body1/hydro_coeffs/added_mass/components/1_1"] = np.zeros(3)  # again what is read
+    elif reader != "capytaine":
+        folder = path if path.is_dir() else path.parent
+        (folder / ("results" if reader == "nemoh" else "") / more).touch()
+    assert read(path).source.endswith(f"; left out: {more}")
 
 
 def test_numbers_of_fortran(tmp_path: Path) -> None:

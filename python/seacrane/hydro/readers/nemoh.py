@@ -18,7 +18,7 @@ from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.database.transform import motion_transform
-from seacrane.hydro.readers.as_read import Asked, Given
+from seacrane.hydro.readers.as_read import Asked, Given, left_out
 from seacrane.hydro.readers.format import Format, Loaded
 from seacrane.hydro.readers.nemoh_files import (
     CONTROL,
@@ -114,10 +114,12 @@ def read_nemoh(
         origin = f"rotation centre of the NEMOH body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
         if len(bodies) > 1:
             origin = "origin of the meshes of NEMOH, on the still waterline"
+        beside = sorted(file for file in matrices.parent.iterdir() if file.is_file() and file not in files)
+        unread = left_out([file.name for file in beside])
         return hull_or_group(
             told, bodies, fix="restoring={name: (6, 6)} and mass_matrix", waves_from=water.phase_origin,
-            name=folder.resolve().name, source=f"NEMOH results in folder {folder.resolve().name}",
-            origin=origin, rho=water.rho, g=water.g, depth=water.depth, **solved,
+            name=folder.resolve().name, origin=origin, rho=water.rho, g=water.g, depth=water.depth, **solved,
+            source=f"NEMOH results in folder {folder.resolve().name}{unread}",
         )  # fmt: skip
 
 

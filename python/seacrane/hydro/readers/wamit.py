@@ -28,7 +28,7 @@ from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.motion import force_of_motion
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.readers.as_read import Asked, Given, left_out, mass_of_file, rising_degrees
-from seacrane.hydro.readers.format import Format, Loaded, sibling, stem_of
+from seacrane.hydro.readers.format import Format, Loaded, sibling, stem_of, unread
 from seacrane.hydro.readers.of_bodies import density_of, floating_body, hull_or_group, of_each
 from seacrane.hydro.readers.wamit_listing import (
     ROTATIONS,
@@ -268,17 +268,15 @@ def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) ->
         **{name: limit * mass_scale for name, limit in radiation.limits.items()},
         damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
     )  # fmt: skip
-    found = replace(found, source=found.source + left_out(_unread(stem, files)))
+    found = replace(found, source=found.source + left_out(unread(stem, _read_of(files))))
     return replace(found, force=force_of_motion(found, found.force)) if of_motions else found
 
 
-def _unread(stem: Path, files: Files) -> list[str]:
-    """Files of the stem that nothing is read of."""
+def _read_of(files: Files) -> set[str]:
+    """Suffixes of the files that something is read of."""
     drift = next((one for one in BY_PREFERENCE if files[one] is not None), "")
     haskind = ".2" if files[".3"] is None else ""
-    read = {".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", drift, haskind}
-    every = (file for file in sorted(stem.parent.iterdir()) if file.with_suffix("") == stem)
-    return [file.name for file in every if file.suffix.lower() not in read]
+    return {".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", drift, haskind}
 
 
 def _bodies(
