@@ -21,9 +21,9 @@ from seacrane.errors import SceneError
 from seacrane.hydro import Compartment, HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.inputs.shown import shown
-from seacrane.inputs.units import others_of
+from seacrane.inputs.units import into_si, others_of
 from seacrane.lift.inner_keys import COORDINATE, CURVES, FROM, READING, SHIPPED
-from seacrane.lift.keys import EITHER, Key, into_si
+from seacrane.lift.keys import EITHER, Key
 from seacrane.lift.tables import LEFT, Table
 from seacrane.scene import heave, springs
 from seacrane.scene.mooring import MooringSpring
