@@ -243,6 +243,34 @@ def test_numbers_of_fortran(tmp_path: Path) -> None:
     assert np.array_equal(read_wamit_set(tmp_path).force, plain)
 
 
+FOLDERS = ("aqwa", "fdi", "orcaflex", "qtf_oc4", "rm3", "veres", "wamit", "wamit_fpso")
+ANSWERS = {  # of a file that has one of these in its place: the start of its source, or why it is refused
+    ".AH1": "Aqwa file", ".LIS": "Aqwa file", "testModel.yml": "OrcaFlex model", ".nc": "Capytaine 2",
+    "rm3.out": "WAMIT 7", "supply/input.": "ShipX/VERES", "/tanker.": "WAMIT 6", "/fpso.": "WAMIT 6",
+    "barge_": "a placeholder; give read_orcaflex", "refcase_": "not positive definite: no mass or no inertia",
+    "Nemoh.cal": "check whether they are this body's own", ".tec": "check whether they are this body's own",
+    ".12d": "are of second order", "s175/input.": "re7: no such file", "_U0.re7": "re8: no such file",
+}  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.SeacraneWarning")
+def test_every_shared_file_is_read_or_refused_by_name(shared: Path) -> None:
+    """All that is hydrodynamic data there; a set is read once, by the first of its files."""
+    files = sorted(file for one in FOLDERS for file in (shared / one).rglob("*") if file.is_file())
+    if not files:
+        pytest.skip(f"no {shared / FOLDERS[0]}")
+    sets: set[Path] = set()
+    for file in files:
+        answer = next((said for part, said in ANSWERS.items() if part in str(file)), "not of a known kind")
+        if file.with_suffix("") in sets and answer.startswith(("WAMIT", "ShipX")):
+            continue
+        sets.add(file.with_suffix(""))
+        try:
+            assert load_database(file).source.startswith(answer)
+        except FileFormatError as error:
+            assert answer in str(error) and str(shared / file.relative_to(shared).parts[0]) in str(error)
+
+
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.VesselWarning")
 @pytest.mark.parametrize("reader", ["wamit", "nemoh", "bemio"])
 def test_a_set_without_masses_asks_for_them_where_a_vessel_is_made(
