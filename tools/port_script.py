@@ -133,6 +133,8 @@ FFT = re.compile(r"""\bevaluation=(["'])fft\1""")  # which was the table, made i
 ROOMS = {"needs": "answers", "water": "hydro"}
 ROOM = re.compile(r"\b(seacrane|sc)\.(needs|water)\b(\.from_mesh\b)?")
 PASSIVE = re.compile(r"""\b(memory|kind)=(["'])passive\2""")  # a kind of fluid memory that is gone
+READERS = {"read_bemio", "read_nemoh", "read_wamit", "load_database"}
+ASKS = "a vessel of a file without a mass asks for mass_matrix="
 
 GONE = {
     "KnuckleBoomCrane": "KnuckleBoomCrane.load() is load_crane(), crane.geometry.tip(...) is crane.tip(...); "
@@ -144,6 +146,7 @@ GONE = {
     "JointRecord": "crane.parts(...).joints are JointData",
     "RigidPart": "no part is taken out of a vessel's mass: give vessel_parameters a database without it",
     "JointedCrane": "JointedCrane is Crane, as of load_crane; crane.tip(coordinates=x) is crane.tip(**x)",
+    "AssumedInertiaWarning": ASKS,
     "coefficient_scatter": "it is ensemble of partial(answers.scattered, scene), over={'case': [...]}",
 }
 
@@ -198,6 +201,13 @@ def _changes(tree: ast.AST) -> Iterator[Change]:
             yield node, f"from {node.module} import {', '.join(dict.fromkeys(names))}", ""
         elif isinstance(node, ast.Call) and _called(node.func) in GONE:
             yield node.func, ast.unparse(node.func), GONE[_called(node.func)]
+        elif isinstance(node, ast.Call) and _called(node.func) in READERS:
+            if not {"mass_matrix", None} & {one.arg for one in node.keywords}:
+                yield (
+                    node.func,
+                    ast.unparse(node.func),
+                    ASKS,
+                )
         elif isinstance(node, ast.ImportFrom) and (
             gone := [one.name for one in node.names if one.name in GONE]
         ):

@@ -43,8 +43,8 @@ def lift_of(text: str, folder: Path, name: str = "my_lift.toml") -> Lift:
 def test_a_depth_chooses_among_those_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """And the sea is as deep."""
 
-    def load(file: str, *, speed: float | None, depth: float) -> HydroDatabase:
-        assert (Path(file).name, speed) == ("hull.nc", None)
+    def load(file: str, *, depth: float) -> HydroDatabase:
+        assert Path(file).name == "hull.nc"
         return replace(shipped_database(), depth=depth)
 
     monkeypatch.setattr("seacrane.lift.calls.load_hull", load)

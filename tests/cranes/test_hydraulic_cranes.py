@@ -147,6 +147,7 @@ KNUCKLE_FILE = (SHIPPED / "knuckle_boom_250t.toml").read_text(encoding="utf-8")
 FRAME_FILE = (SHIPPED / "a_frame_40t.toml").read_text(encoding="utf-8")
 PISTON = '\n[[pistons]]\ncylinder = "{}"\n[pistons.hydraulics]\n'
 KEYS = "pump.pressure = 32e6\nvalve.rated_flow = 0.05\nvalve.rated_drop = 1e6\n"
+TYPED = "pump.pressure_bar = 320\nvalve.rated_flow_l_per_min = 3000\nvalve.rated_drop_kPa = 1e3\n"
 
 
 @pytest.mark.parametrize(
@@ -154,7 +155,7 @@ KEYS = "pump.pressure = 32e6\nvalve.rated_flow = 0.05\nvalve.rated_drop = 1e6\n"
     [
         (KNUCKLE_FILE + PISTON.format("main") + KEYS, "main_cylinder",
          {"A.angle", "knuckle_cylinder.displacement"}),
-        (FRAME_FILE + PISTON.format("tilt") + KEYS, "cylinder", set()),
+        (FRAME_FILE + PISTON.format("tilt") + TYPED, "cylinder", set()),
     ],
     ids=["knuckle boom", "A-frame"],
 )  # fmt: skip

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import replace
+from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +18,7 @@ from seacrane.crane import Crane, Payload, load_crane
 from seacrane.crane.load_crane import SHIPPED, parse_crane
 from seacrane.errors import FileFormatError
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.scene.file import scene_digest
 from seacrane.warnings import UrdfWarning
 
 G = 9.80665
@@ -126,9 +129,32 @@ def test_statics_find_radii_by_luffing_and_a_heavier_boom(lattice: Crane) -> Non
 BAD = [
     (LATTICE, "range_deg = [0.0", "range_dge = [0.0", r"unknown key joints\[1\] \(boom hinge\).range_dge"),
     (LATTICE, "total_mass = 171000.0", "total_mass = 171.0", "bodies add up to 171000 kg"),
+    (LATTICE, "total_mass =", "total_mass_t = 171\ntotal_mass =", "total_mass_t and total_mass; write one"),
+    (LATTICE, "total_mass =", "total_mass_kN =", "total_mass is missing, and total_mass_kN is in no"),
+    (LATTICE, "range_deg = [0.0", "range_m = [0, 1]\nrange_deg = [0.0", "range_m and range_deg; write one"),
     (LATTICE, '"house"\nsecond = "boom"', '"boom"\nsecond = "house"', "nothing carries its first"),
     (A_FRAME, "[[closing_joints]]", "[[joints]]", r"'rod head' closes a loop.*\[\[closing"),
 ]  # fmt: skip
+
+
+def in_units(text: str) -> str:
+    """The same file with masses in t, lengths in mm and stiffness in kN."""
+    lengths = "outer_diameter|inner_diameter|width|depth|wall|start|end|point"
+    for keys, unit, size in (("total_mass|mass", "t", "1e3"), (lengths, "mm", "1e-3"), ("EA", "kN", "1e3")):
+
+        def typed(found: re.Match[str], unit: str = unit, size: Decimal = Decimal(size)) -> str:
+            numbers = re.sub(r"-?\d[\d.e+]*", lambda one: str(float(Decimal(one[0]) / size)), found[2])
+            return f"{found[1]}_{unit} = {numbers}"
+
+        text = re.sub(rf"^({keys}) = ([^#\n]*)", typed, text, flags=re.MULTILINE)
+    return text
+
+
+@pytest.mark.parametrize("text", [LATTICE, A_FRAME])
+def test_a_file_in_an_engineers_units_is_the_same_crane(text: str) -> None:
+    other = in_units(text)
+    assert not re.search(r"^(mass|point|end) =", other, re.MULTILINE)
+    assert scene_digest(fixed(parse_crane(other))) == scene_digest(fixed(parse_crane(text)))
 
 
 @pytest.mark.parametrize(("text", "old", "new", "says"), BAD)

@@ -250,10 +250,10 @@ def _set_targets(name: str, files: str, read: Reader, modules: tuple[str, ...]) 
     return [Target(f"{name}-{kinds[file]}", reader, file, read, modules, beside=name) for file in kinds]
 
 
-def _netcdf(name: str, file: str, read: Reader, *modules: str) -> Target:
+def _netcdf(name: str, file: str, read: Reader, *modules: str, **more: Any) -> Target:
     """Files written from mutated specifications: damage of bytes is answered by HDF5's own checks."""
     reader = name.removesuffix("-group")
-    return Target(name, reader, file, read, modules, mutate_json, netcdf=True)
+    return Target(name, reader, file, read, modules, mutate_json, netcdf=True, **more)
 
 
 _VERES_FILES = "box.re7 box.re8 box.re1 box.re2 box.hyd"
@@ -270,7 +270,7 @@ _ALL = [
     *_set_targets("veres", _VERES_FILES, _of(veres.read_veres, _stem), _VERES),
     *_set_targets("wamit", _WAMIT_FILES, _of(wamit.read_wamit, _stem), _WAMIT),
     *_set_targets("nemoh", _NEMOH_FILES, _of_nemoh, _NEMOH),
-    Target("aqwa", "aqwa", "hull.AH1", aqwa.read_aqwa, _AQWA),
+    Target("aqwa", "aqwa", "hull.AH1", _of(aqwa.read_aqwa, _stem, aqwa.is_aqwa), _AQWA),
     Target("aqwa-listing", "aqwa", "hull.LIS", aqwa.read_aqwa, _AQWA),
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
     *_set_targets("wamit-group", "box.out box.1 box.3 box.hst", _wamit_pair, _WAMIT),
@@ -303,6 +303,7 @@ _ALL = [
     _netcdf("bemio", "ship.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
     _netcdf("capytaine-group", "pair.nc", _of_capytaine, f"{_HYDRO}/capytaine.py"),
     _netcdf("bemio-group", "pair.h5", _of_bemio, f"{_HYDRO}/bemio.py"),
+    _netcdf("hindcast", "site.nc", _sea_states, "operability/hindcast.py", refusals=_SEEN),
     _netcdf("result", "run.nc", _result, "result/result_file.py"),
 ]  # fmt: skip
 TARGETS = {target.name: target for target in _ALL}

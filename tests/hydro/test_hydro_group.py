@@ -12,11 +12,13 @@ import pytest
 from group_cases import bemio_file, capytaine_dataset, capytaine_file, nemoh_folder, wamit_files, written_pair
 from scipy.special import j0
 
+from seacrane import Scene
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import (
     GroupBody,
     HydroDatabase,
     HydroGroup,
+    fit_memory,
     load_database,
     load_hull,
     motion_response,
@@ -31,7 +33,7 @@ from seacrane.hydro import (
 from seacrane.hydro.data.packed import packed, unpacked
 from seacrane.hydro.data.relations import damping_from_forces
 from seacrane.hydro.group.gap import irregular_frequencies
-from seacrane.warnings import AssumedInertiaWarning, AssumedReferenceWarning, RoundedPhaseWarning
+from seacrane.warnings import AssumedReferenceWarning, RoundedPhaseWarning
 
 APART = (0.0, 120.0, 0.0)  # m
 
@@ -248,7 +250,6 @@ def assert_same(found: HydroGroup, group: HydroGroup, tolerance: float = 1e-9) -
         assert np.abs(mine.mass_matrix - its.mass_matrix).max() <= 1e-9 * np.abs(its.mass_matrix).max()
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.warnings.AssumedInertiaWarning")
 @pytest.mark.parametrize("name", FORMATS)
 def test_what_was_written_comes_back(name: str, pair: HydroGroup, tmp_path: Path) -> None:
     """Names, order, places, phases and which index is the load: coupling blocks are not symmetric here."""
@@ -304,7 +305,6 @@ def test_hydrostatics_in_another_order_are_named(pair: HydroGroup, tmp_path: Pat
         read_nemoh(folder, mass_matrix=masses(unlike))
 
 
-@pytest.mark.warns("AssumedInertiaWarning")
 def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
     for damage, message in (
         (lambda d: d.isel(influenced_dof=slice(1, None)), "only one of influenced_dof .* holds crane__"),
@@ -321,6 +321,15 @@ def test_damage_is_named(pair: HydroGroup, tmp_path: Path) -> None:
     path = bemio_file(pair, tmp_path)
     with pytest.raises(FileFormatError, match=r"mass_matrix .* crane, barge"):
         read_bemio(path, mass_matrix={"crane": np.eye(6), "barge": np.eye(6)})
-    with pytest.warns(AssumedInertiaWarning, match="no mass matrix of feeder"):
-        found = read_bemio(path)
-    assert found.mass_matrix[6, 6] == pytest.approx(pair.mass_matrix[6, 6])
+    capytaine_dataset(pair).drop_vars("inertia_matrix").to_netcdf(tmp_path / "no_mass.nc")
+    assert read_capytaine(tmp_path / "no_mass.nc").mass_matrix is None  # its draughts are in the file
+    found = load_database(path)
+    assert found.mass_matrix is None and {row.check for row in found.check()}
+    for needs in (
+        lambda: found.motion_rao,
+        found.natural_modes,
+        lambda: Scene().add_vessel(found, memory="none"),
+        lambda: fit_memory(database=found),
+    ):
+        with pytest.raises(SceneError, match=r"'pair': mass_matrix .* of crane, feeder: .* by name"):
+            needs()

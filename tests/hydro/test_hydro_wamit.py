@@ -140,14 +140,6 @@ def test_first_form_of_frc(copy: Path, database: HydroDatabase) -> None:
     assert np.array_equal(found.mass_matrix, first.mass_matrix)
 
 
-@pytest.mark.warns("AssumedInertiaWarning")
-def test_mass_absent(copy: Path) -> None:
-    (copy / "tanker.frc").unlink()
-    found = read_wamit(copy)
-    assert found.mass_matrix[0, 0] == pytest.approx(1025.0 * 92312.4, rel=1e-9)
-    assert found.mass_matrix[0, 4] == pytest.approx(2.5 * found.mass_matrix[0, 0])
-
-
 def test_control_file_as_fortran_reads_it(copy: Path, database: HydroDatabase) -> None:
     """Comments after the numbers, matrices broken anywhere, external stiffness."""
     lines = (copy / "tanker.frc").read_text().split("\n")

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 import test_hydro_nemoh
@@ -14,23 +15,33 @@ from orcaflex_writer import hull_part, model
 from orcaflex_writer import write as write_model
 from test_hydro_capytaine import OMEGA, in_file, layout
 from test_hydro_nemoh import bemio_values, written
+from veres_writer import VeresRun
 
-from seacrane.errors import FileFormatError
+from seacrane import Lift, Scene
+from seacrane.cli import main
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import (
     HydroDatabase,
+    fit_memory,
+    load_database,
+    motion_response,
     read_bemio,
     read_capytaine,
     read_nemoh,
     read_orcaflex,
+    read_veres,
     read_wamit,
     shipped_database,
+    vessel_parameters,
+    write_database,
 )
+from seacrane.hydro.database.figures import hydro_sheets
 from seacrane.hydro.readers.text_records import number_of_word
+from seacrane.scene.file import scene_digest
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import AssumedReferenceWarning, FloatingPositionWarning
 
 pytestmark = pytest.mark.filterwarnings(
-    "ignore::seacrane.warnings.AssumedInertiaWarning",
     "ignore::seacrane.warnings.RoughDataWarning",
     "ignore::seacrane.warnings.PartialSetWarning",
 )
@@ -198,6 +209,28 @@ def test_a_frequency_that_failed_is_named_and_left_out_on_request(tmp_path: Path
     assert told.force[0] == pytest.approx(assumed.force[0] * np.exp(55.3j * k)[:, None], rel=1e-9)
 
 
+@pytest.mark.parametrize("reader", ["wamit", "nemoh", "capytaine", "bemio", "veres"])
+def test_what_is_left_out_of_files_is_told(reader: str, tmp_path: Path) -> None:
+    source, write, read = READERS.get(reader, (None, None, read_veres))
+    if reader == "veres":
+        path = VeresRun().write(tmp_path)
+    elif reader == "capytaine":
+        path = write(source(), tmp_path, kochin=("wave_direction", np.zeros(layout().wave_direction.size)))
+    else:
+        path = write(source(), tmp_path)
+    assert reader == "capytaine" or "left out" not in read(path).source
+    more = {"wamit": "ship.5p", "nemoh": "IRF.tec", "capytaine": "kochin", "bemio": "mean_drift/momentum",
+            "veres": "box.re5"}[reader]  # fmt: skip
+    if reader == "bemio":
+        with h5py.File(path, "a") as file:
+            file[f"body1/hydro_coeffs/{more}/val"] = np.zeros(3)
+            file["body1/hydro_coeffs/added_mass/components/1_1"] = np.zeros(3)  # again what is read
+    elif reader != "capytaine":
+        folder = path if path.is_dir() else path.parent
+        (folder / ("results" if reader == "nemoh" else "") / more).touch()
+    assert read(path).source.endswith(f"; left out: {more}")
+
+
 def test_numbers_of_fortran(tmp_path: Path) -> None:
     for word, value in (("1.2-101", 1.2e-101), ("-1.2+03", -1200.0), ("1.5D-02", 0.015), (".5E1", 5.0)):
         assert number_of_word(word) == pytest.approx(value, rel=1e-12)
@@ -208,6 +241,72 @@ def test_numbers_of_fortran(tmp_path: Path) -> None:
     plain = read_wamit_set(tmp_path).force
     path.write_text(path.read_text().replace("E-0", "-00").replace("E-1", "-01").replace("E+0", "D+0"))
     assert np.array_equal(read_wamit_set(tmp_path).force, plain)
+
+
+FOLDERS = ("aqwa", "fdi", "orcaflex", "qtf_oc4", "rm3", "veres", "wamit", "wamit_fpso")
+ANSWERS = {  # of a file that has one of these in its place: the start of its source, or why it is refused
+    ".AH1": "Aqwa file", ".LIS": "Aqwa file", "testModel.yml": "OrcaFlex model", ".nc": "Capytaine 2",
+    "rm3.out": "WAMIT 7", "supply/input.": "ShipX/VERES", "/tanker.": "WAMIT 6", "/fpso.": "WAMIT 6",
+    "barge_": "a placeholder; give read_orcaflex", "refcase_": "not positive definite: no mass or no inertia",
+    "Nemoh.cal": "check whether they are this body's own", ".tec": "check whether they are this body's own",
+    ".12d": "are of second order", "s175/input.": "re7: no such file", "_U0.re7": "re8: no such file",
+}  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.SeacraneWarning")
+def test_every_shared_file_is_read_or_refused_by_name(shared: Path) -> None:
+    """All that is hydrodynamic data there; a set is read once, by the first of its files."""
+    files = sorted(file for one in FOLDERS for file in (shared / one).rglob("*") if file.is_file())
+    if not files:
+        pytest.skip(f"no {shared / FOLDERS[0]}")
+    sets: set[Path] = set()
+    for file in files:
+        answer = next((said for part, said in ANSWERS.items() if part in str(file)), "not of a known kind")
+        if file.with_suffix("") in sets and answer.startswith(("WAMIT", "ShipX")):
+            continue
+        sets.add(file.with_suffix(""))
+        try:
+            assert load_database(file).source.startswith(answer)
+        except FileFormatError as error:
+            assert answer in str(error) and str(shared / file.relative_to(shared).parts[0]) in str(error)
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.VesselWarning")
+@pytest.mark.parametrize("reader", ["wamit", "nemoh", "bemio"])
+def test_a_set_without_masses_asks_for_them_where_a_vessel_is_made(
+    reader: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In Python, lift file and command alike; it is read, moved, checked and written without."""
+    _, write, read = READERS[reader]
+    found = read(write(BASE, tmp_path), **({"mass_matrix": None} if reader == "wamit" else {}))
+    assert found.mass_matrix is None and found.at(PLACE).mirror().mass_matrix is None
+    assert not {"mass_t", "natural_period_roll_s", "memory_states"} & {row.check for row in found.check()}
+    assert "no mass" in repr(found) and "motion" not in hydro_sheets(found)
+    for name in ("bare.nc", "bare.1"):
+        rows = write_database(database=found, path=tmp_path / name, overwrite=True)
+        assert {row.verdict for row in rows} <= {"pass", "info"}
+    assert not (tmp_path / "bare.frc").exists()
+    asks = rf"'{found.name}': mass_matrix is not known: .*{found.name}.* holds none; .*mass_matrix=.*--mass"
+    for needs in (
+        motion_response,
+        vessel_parameters,
+        lambda one: fit_memory(database=one),
+        lambda one: one.with_roll_damping(fraction=0.05),
+        lambda one: Scene(name="sea").add_vessel(one, memory="none"),
+    ):
+        with pytest.raises(SceneError, match=asks):
+            needs(found)
+    bare, mass = tmp_path / "bare.nc", BASE.mass_matrix
+    lift = f'format = "seacrane lift"\nversion = 2\n[vessel]\nmemory = "none"\ndatabase = "{bare}"\n'
+    (tmp_path / "bare.toml").write_text(lift)
+    with pytest.raises(FileFormatError, match=r"bare.toml line 3: .*mass_matrix in \[vessel\]"):
+        Lift.load(tmp_path / "bare.toml").scene()
+    (tmp_path / "mass.toml").write_text(f"{lift}mass_matrix = {mass.tolist()}\n")
+    scene = Scene()
+    scene.add_vessel(load_database(bare, mass_matrix=mass), memory="none")
+    assert scene_digest(Lift.load(tmp_path / "mass.toml").scene()) == scene_digest(scene)
+    assert main(["hydro", str(bare)]) == 0 and "mass_t" not in capsys.readouterr().out
+    assert main(["hydro", str(bare), "--memory", "by-motion"]) == 1 and "--mass" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("mass", [1e-3, "none"])

@@ -98,7 +98,7 @@ def test_the_command_asks_for_masses_writes_and_lists(
     assert main(["hydro", str(tmp_path / "hull.nc"), "--write", str(tmp_path / "out.1")]) == 0
     out = capsys.readouterr().out
     assert out.startswith(hull.source) and "written_force" in out
-    with pytest.raises(FileFormatError, match="hold their mass; leave mass_matrix out"):
+    with pytest.raises(FileFormatError, match="holds its mass; leave mass_matrix out"):
         load_database(tmp_path / "hull.nc", mass_matrix=np.eye(6))
 
 

@@ -19,13 +19,15 @@ def test_calls_are_replaced_where_they_stand() -> None:
         "s.add_given_vessel(x, ramp=0)",
         "fit_memory(database=d, kind='passive', evaluation='fft')",
         "from seacrane.crane import KnuckleBoomCrane",
+        "read_bemio(f)",
+        "read_bemio(f, mass_matrix=m)",
     )
     new, notes = PORT["ported"]("\n".join(old))
     assert new.splitlines()[:4] == [
         'a = "\u00e9"; s.add_sea(vessel=v, drift=True)  # kept', 'f(s.add_sea(cutoff=w, phase="slow"))',
         "s.add_vessel(motion=x, ramp=0)", "fit_memory(database=d, kind='by-motion', evaluation='table')",
     ]  # fmt: skip
-    assert [note.partition(":")[0] for note in notes] == [f"line {i}" for i in (1, 2, 4, 5, 6)]
+    assert [note.partition(":")[0] for note in notes] == [f"line {i}" for i in (1, 2, 4, 5, 6, 7)]
 
 
 def test_keywords_become_fields_of_values() -> None:

@@ -256,6 +256,8 @@ def test_a_load_welded_on_a_body_brings_its_added_mass_and_water_to_the_carrier(
         ({"kind": "cylinder", "length": 1.0, "diameter": 1.0, "slam": 2.5}, {}, "slam is 2.5"),
         ({"kind": "box", "size": (1, 1, 1), "added_mass": (1.0, 1.0, 1.0)}, {}, "source"),
         ({"kind": "box", "sizes": (1, 1, 1)}, {}, "sizes"),
+        ({"kind": "box", "size": (1, 1, 1), "strips": 10}, {}, "strips is 10; give two whole"),
+        ({"kind": "cylinder", "length": 1.0, "diameter": 1.0, "strips": 0}, {}, "strips is 0; give a whole"),
         ({"kind": "table", "height": 1.0, "depths": (0, 1, 2), "volumes": (0, 1, 1), "source": "t",
           "added_masses": ((0, 0, 0), (10, 10, 10), (5, 10, 10))}, {}, "added_masses fall between 1 and 2 m"),
         ({"kind": "sphere", "diameter": 1.0}, {"density": 1.025}, "t/m3"),

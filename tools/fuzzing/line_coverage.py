@@ -16,10 +16,10 @@ import coverage
 
 ROOT = Path(__file__).resolve().parents[2]
 LEAST = 90.0
-WRITERS = re.compile(  # functions in the readers' files that write, draw or describe, or are a hindcast's
+WRITERS = re.compile(  # functions in the readers' files that write, draw or describe
     r"(save|add_events|_add_|write|_write|_put|to_xarray|described|scene_digest|_elements|_load_entries"
     r"|_plain_array|_plain_field|_plain_entry|_block$|plain_data|plain_notes|kind_of"
-    r"|state_to_bytes|_is_state|shape$|rows$|spectrum|dates_of_numbers|_of_digits|__repr__|curves$"
+    r"|state_to_bytes|_is_state|shape$|rows$|spectrum|__repr__|curves$"
     r"|_refuse_swings|_warn_of|require_parts"
     r"|half_breadth|_end_parameters|section$|panels$|dataset_of|_arrays$|rows_of_|_shape$|interpolated)"
 )

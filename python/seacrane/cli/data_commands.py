@@ -94,10 +94,11 @@ def _show(checked: list[CheckRow], *, as_json: bool) -> None:
 
 
 def _with_memory(database: HydroDatabase, *, kind: str | None, asked: bool) -> HydroDatabase:
-    """The database with its memory, fitted here where it holds none, or where it or its band is asked for."""
+    """With its memory, fitted where it has a mass and none, or where it or its band is asked for."""
     from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 
-    if not asked and kind is None and (database.memory is not None or not enough_frequencies(database)):
+    fitted = database.memory is not None or database.mass_matrix is None
+    if not asked and kind is None and (fitted or not enough_frequencies(database)):
         return database
     model = fit_memory(database=database) if kind is None else fit_memory(database=database, kind=kind)
     return dataclasses.replace(database, memory=model)

@@ -1,4 +1,7 @@
-"""Tables of a crane's data file: every value is asked for once and checked, and what is left is misspelt."""
+"""Tables of a crane's data file: every value is asked for once and checked, and what is left is misspelt.
+
+A key alone is in SI; with a unit at its end, as in a lift file, in that one.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +9,11 @@ import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import fields
 from typing import Any, NoReturn
 
 import numpy as np
 
+from seacrane._core import HydraulicCylinder
 from seacrane.arrays import Array
 from seacrane.crane.data import Placed
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
@@ -18,6 +21,8 @@ from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.description.roles import Areas, Capacity, areas_of, capacity_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.shown import shown
+from seacrane.inputs.units import into_si, spellings
+from seacrane.inputs.values import entries_of
 
 Frames = dict[str, tuple[str, Placed]]  # by name: the body that a frame is fixed to, and where it is at home
 SCHEMA = 1
@@ -63,8 +68,18 @@ class FileTable:
 
     def take(self, key: str) -> Any:
         if key not in self.values:
-            self.refuse(f"{self.label(key)} is missing; add it")
+            near = [one for one in self.values if one.startswith(f"{key}_")]
+            wrong = f", and {near[0][:80]} is in no unit of its kind" if near else ""
+            self.refuse(f"{self.label(key)} is missing{wrong}; add it")
         return self.values.pop(key)
+
+    def spelt(self, key: str, *units: str) -> tuple[str, str] | None:
+        """How a key of one of these units stands here, and in which; None where it does not."""
+        known = spellings(key, *units) | ({key: ""} if len(units) < 2 else {})
+        found = [one for one in known if one in self.values]
+        if len(found) > 1:
+            self.refuse(f"{self.where or 'the crane'} has {' and '.join(found)}; write one of them")
+        return (found[0], known[found[0]]) if found else None
 
     def table(self, key: str) -> FileTable:
         return FileTable(self.source, self.label(key), self.take(key), self.frames)
@@ -87,17 +102,21 @@ class FileTable:
             self.wrong(key, value, f"write a text of 1 to {LONGEST_TEXT} characters")
         return value
 
-    def number(self, key: str, *, positive: bool = True) -> float:
-        value = self._number(key, self.take(key))
+    def number(self, key: str, unit: str, *, positive: bool = True) -> float:
+        """In SI."""
+        name, own = self.spelt(key, unit) or (key, "")
+        value = self._number(name, self.take(name), own)
         if value < 0.0 or (positive and value < SMALLEST):
             need = f"greater than zero, {SMALLEST:g} at least" if positive else "zero or more"
-            self.refuse(f"{self.label(key)} is {value:g}; it must be {need}")
+            self.refuse(f"{self.label(name)} is {value:g}{f' {unit}' * bool(own)}; it must be {need}")
         return value
 
-    def _number(self, key: str, value: object) -> float:
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= LARGEST:
+    def _number(self, key: str, value: object, unit: str) -> float:
+        known = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= LARGEST
+        found = float(into_si(unit)(float(value))) if known else math.inf  # type: ignore[arg-type]
+        if not abs(found) <= LARGEST:
             self.wrong(key, value, f"write a finite number, {LARGEST:g} at most")
-        return float(value)
+        return found
 
     def flag(self, key: str) -> bool:
         """true or false; false where it is left out."""
@@ -121,12 +140,13 @@ class FileTable:
         where = self.label(key)
         return [FileTable(self.source, f"{where}[{i}]", one, self.frames) for i, one in enumerate(value)]
 
-    def numbers(self, key: str, count: int) -> Point:
-        """A list of so many of them."""
-        value = self.take(key)
+    def numbers(self, key: str, count: int, *units: str) -> Point:
+        """A list of so many of them, in SI."""
+        name, own = self.spelt(key, *units) or (key, "")
+        value = self.take(name)
         if not isinstance(value, list) or len(value) != count:
-            self.wrong(key, value, f"write a list of {count} numbers")
-        return tuple(self._number(key, item) for item in value)
+            self.wrong(name, value, f"write a list of {count} numbers")
+        return tuple(self._number(name, item, own) for item in value)
 
     def capacity(self) -> Capacity:
         """An optional table of its own: rows of radius and load."""
@@ -140,27 +160,29 @@ class FileTable:
 
     def areas(self) -> Areas | None:
         """Both areas of a piston, or neither."""
-        if not {"full_area", "rod_side_area"} & set(self.values):
+        if not any(self.spelt(key, "m2") for key in ("full_area", "rod_side_area")):
             return None
-        pair = self.number("full_area"), self.number("rod_side_area")
+        pair = self.number("full_area", "m2"), self.number("rod_side_area", "m2")
         with as_file_error():
             return areas_of(f"{self.source}: {self.where}", pair)
 
     def hydraulics(self) -> Mapping[str, Any] | None:
-        """Keywords of a hydraulic cylinder: each of its values a table, SI units; None for none."""
+        """Keywords of a hydraulic cylinder: each of its values a table; None for none."""
         if "hydraulics" not in self.values:
             return None
         inner = self.table("hydraulics")
-        found = {word: inner.table(word).value(kind) for word, kind in VALUES.items() if word in inner.values}
+        found = {word: inner.table(word).value(word, VALUES[word]) for word in VALUES if word in inner.values}
         inner.finish()
         return found
 
-    def value(self, kind: type[Any]) -> Any:
-        """The whole table as a value, whose fields are numbers and flags."""
+    def value(self, word: str, kind: type[Any]) -> Any:
+        """The whole table as a value of a cylinder's keyword, whose fields are numbers and flags."""
+        units = {field.name: field.unit for field in HydraulicCylinder.FIELDS}
         given: dict[str, Any] = {}
-        for key in [one.name for one in fields(kind) if one.name in self.values]:
-            value = self.take(key)
-            given[key] = value if isinstance(value, bool) else self._number(key, value)
+        for key, entry in entries_of(word, kind).items():
+            if (known := self.spelt(key, units[entry])) is not None:
+                value = self.take(known[0])
+                given[key] = value if isinstance(value, bool) else self._number(known[0], value, known[1])
         self.finish()
         return kind(**given)
 
@@ -174,7 +196,7 @@ class FileTable:
     def point_on(self, name: str) -> tuple[str, Array]:
         """The body that a frame is fixed to, and the table's point, given in the frame, at home, m."""
         body, frame = self._frame(name)
-        return body, frame.point(np.array(self.numbers("point", 3)))
+        return body, frame.point(np.array(self.numbers("point", 3, "m")))
 
     def axis_on(self, name: str, key: str) -> Array | None:
         """A unit vector, given in a frame, at home; None where it is left out."""
@@ -198,8 +220,8 @@ class FileTable:
 
 
 def _member(table: FileTable) -> Member:
-    name, shape, mass = table.named(), table.text("shape"), table.number("mass")
-    start, end = table.numbers("start", 3), table.numbers("end", 3)
+    name, shape, mass = table.named(), table.text("shape"), table.number("mass", "kg")
+    start, end = table.numbers("start", 3, "m"), table.numbers("end", 3, "m")
     if math.dist(start, end) == 0.0:
         table.refuse(f"{table.where} has length 0; move its start or its end")
     match shape:
@@ -211,7 +233,7 @@ def _member(table: FileTable) -> Member:
 
 
 def _tube(table: FileTable, **common: Any) -> Tube:
-    outer, inner = table.number("outer_diameter"), table.number("inner_diameter", positive=False)
+    outer, inner = table.number("outer_diameter", "m"), table.number("inner_diameter", "m", positive=False)
     table.finish()
     if inner >= outer:
         table.refuse(
@@ -222,7 +244,8 @@ def _tube(table: FileTable, **common: Any) -> Tube:
 
 
 def _box(table: FileTable, **common: Any) -> Box:
-    width, depth, wall = table.number("width"), table.number("depth"), table.number("wall", positive=False)
+    width, depth = table.number("width", "m"), table.number("depth", "m")
+    wall = table.number("wall", "m", positive=False)
     table.finish()
     section = f"{table.label('wall')} is {wall:g} m"
     if 0.0 < wall < THINNEST * max(width, depth):

@@ -29,6 +29,7 @@ from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
 from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import listed, shown
+from seacrane.inputs.units import into_si
 from seacrane.inputs.whole_file import read_whole
 
 LARGEST_FILE = 2**20  # bytes
@@ -83,7 +84,7 @@ def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = 
             root.frames |= {body.name: (body.name, body.frame) for body in bodies}
             joints = tuple(_joint(table) for table in root.tables("joints"))
             stands = bodies[0].name if bodies else ""
-            total, mass = root.number("total_mass"), math.fsum(body.properties.mass for body in bodies)
+            total, mass = root.number("total_mass", "kg"), math.fsum(body.properties.mass for body in bodies)
             if abs(mass - total) > TOTAL * total:
                 root.refuse(
                     f"the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct one of them"
@@ -118,23 +119,24 @@ def _body(table: FileTable) -> BodyData:
     frame = HOME
     if "frame" in table.values:
         own = table.table("frame")
-        frame = placed(np.array(own.numbers("xyz", 3)), np.array(own.numbers("rpy", 3)))
+        frame = placed(np.array(own.numbers("xyz", 3, "m")), np.array(own.numbers("rpy", 3, "rad")))
         own.finish()
     table.finish()
     return BodyData(name=name, properties=properties, frame=frame, members=members)
 
 
 def _given_mass(table: FileTable) -> MassProperties:
-    mass = table.number("mass")
-    center = np.array(table.numbers("center_of_mass", 3))
-    rows = table.take("inertia")
+    mass = table.number("mass", "kg")
+    center = np.array(table.numbers("center_of_mass", 3, "m"))
+    name, unit = table.spelt("inertia", "kg m2") or ("inertia", "")
+    rows = table.take(name)
     try:
         inertia = np.array(rows, dtype=float)
     except (TypeError, ValueError, OverflowError):
         inertia = np.zeros(0)
     if inertia.shape != (3, 3) or not np.all(np.isfinite(inertia)):
-        table.wrong("inertia", rows, "write three rows of three numbers, kg m2, about the centre of mass")
-    return MassProperties(mass, center, inertia)
+        table.wrong(name, rows, "write three rows of three numbers, kg m2, about the centre of mass")
+    return MassProperties(mass, center, np.vectorize(into_si(unit))(inertia))
 
 
 def _joint(table: FileTable, *, closes: bool = False) -> JointData:
@@ -151,16 +153,14 @@ def _joint(table: FileTable, *, closes: bool = False) -> JointData:
 
 
 def _range(table: FileTable) -> tuple[float, float] | None:
-    """In rad or m: a hinge may have degrees."""
-    found = [key for key in ("range_m", "range_deg", "range_rad") if key in table.values]
-    if not found:
+    """In rad or m."""
+    found = table.spelt("range", "m", "rad")
+    if found is None:
         return None
-    if len(found) > 1:
-        table.refuse(f"{table.where} has {' and '.join(found)}; write one of them")
-    low, high = table.numbers(found[0], 2)
+    low, high = table.numbers("range", 2, "m", "rad")
     if not low < high:
-        table.refuse(f"{table.label(found[0])} is {low:g} to {high:g}; write the lower end first")
-    return (math.radians(low), math.radians(high)) if found[0] == "range_deg" else (low, high)
+        table.refuse(f"{table.label(found[0])} is {low:g} to {high:g}, in SI; write the lower end first")
+    return low, high
 
 
 def _names(roles: FileTable, key: str) -> dict[str, str]:
@@ -181,10 +181,10 @@ def _place(table: FileTable) -> tuple[str, Array]:
 
 
 def _rope(table: FileTable) -> RopeData:
-    name, falls = table.named(), table.number("falls")
+    name, falls = table.named(), table.number("falls", "1")
     if falls != int(falls) or falls < 1:
         table.refuse(f"{table.label('falls')} is {falls:g}; write a whole number, 1 or more")
-    stiffness = table.number("stiffness" if "stiffness" in table.values else "EA")  # as in 0.2, or since
+    stiffness = table.number("EA", "N")
     luff, ends = table.text("luff"), [_place(table.table(key)) for key in ("first", "second")]
     table.finish()
     return RopeData(name=name, luff=luff, falls=int(falls), EA=stiffness, first=ends[0], second=ends[1])
@@ -203,7 +203,7 @@ def _pistons(
             table.wrong("cylinder", label, f"the cylinders are {known}")
         pair, entries = table.areas(), table.hydraulics()
         if pair is None and entries is None:
-            table.refuse(f"{table.where} has no areas; write full_area and rod_side_area, m2")
+            table.refuse(f"{table.where} has no areas; write full_area and rod_side_area")
         areas |= {} if pair is None else {label: pair}
         oil |= {} if entries is None else {label: entries}
         table.finish()

@@ -1,11 +1,15 @@
-"""Units that a text or a key of a file may have, with what each is in SI and of which dimension."""
+"""Units that a text or a key of a file may have, what each is in SI, of which dimension, and its suffix."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import inf, isfinite, pi
 from types import MappingProxyType
+from typing import Any
+
+import numpy as np
 
 Dimension = tuple[Fraction, Fraction, Fraction, Fraction]
 BASE = ("kg", "m", "s", "rad")
@@ -63,6 +67,28 @@ def in_si(value: float, unit: str) -> float:
         return float(Fraction(repr(float(value))) * _EXACT[unit])
     except OverflowError:
         return inf if value > 0.0 else -inf
+
+
+def suffix(unit: str) -> str:
+    """A unit as the end of a key."""
+    return re.sub(r"^_", "", unit.removeprefix("1").replace("/", "_per_").replace(" ", "_"))
+
+
+def spellings(key: str, *units: str) -> dict[str, str]:
+    """The unit by each way to write a key that is in one of ``units``, or in another of its dimension."""
+    every = (one for unit in units for one in (unit, *others_of(unit)))
+    return {f"{key}_{suffix(one)}".rstrip("_"): one for one in every}
+
+
+def into_si(unit: str) -> Callable[[Any], Any]:
+    """From a file's unit to that of the API, of a number or of numbers in tuples."""
+    if unit.startswith("deg"):
+        return np.radians
+
+    def converted(value: Any) -> Any:
+        return tuple(map(converted, value)) if isinstance(value, tuple) else in_si(value, unit)
+
+    return converted if unit in UNITS and UNITS[unit][0] != 1.0 else lambda value: value
 
 
 def product(dimensions: Sequence[Dimension]) -> Dimension:

@@ -20,9 +20,10 @@ from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.hydro import Compartment, HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.inputs.units import others_of
-from seacrane.lift.inner_keys import COORDINATE, CURVES, FROM, SHIPPED
-from seacrane.lift.keys import EITHER, Key, into_si
+from seacrane.inputs.shown import shown
+from seacrane.inputs.units import into_si, others_of
+from seacrane.lift.inner_keys import COORDINATE, CURVES, FROM, READING, SHIPPED
+from seacrane.lift.keys import EITHER, Key
 from seacrane.lift.tables import LEFT, Table
 from seacrane.scene import heave, springs
 from seacrane.scene.mooring import MooringSpring
@@ -136,7 +137,7 @@ class Caller:
     """Makes the calls of one scene; what is read from other files is read once."""
 
     def __init__(self) -> None:
-        self.read: dict[tuple[str, float | None, float | None], HydroDatabase] = {}
+        self.read: dict[tuple[str, str], HydroDatabase] = {}
 
     def call(self, scene: Scene, table: Table, values: Mapping[str, Any], *, at_rest: bool = False) -> None:
         """Add to a scene what a table describes; at rest, without what only moves it."""
@@ -189,7 +190,7 @@ class Caller:
             )
         source = given.pop(found[0])
         if found == ["database"]:
-            source = self._database(source, given.pop("speed", None), given.pop("depth", None))
+            source = self._database(source, **{name: given.pop(name) for name in READING if name in given})
         given.pop("motion", None)
         if led or found != ["database"]:
             scene.add_vessel(motion="rest" if at_rest else source, **given)
@@ -206,18 +207,15 @@ class Caller:
             given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
         scene.add_vessel(source, **given)
 
-    def _database(self, file: str, speed: float | None = None, depth: float | None = None) -> HydroDatabase:
-        """Read once."""
-        if file in SHIPPED and speed is not None:
-            raise SceneError.of(
-                "vessel: speed", f"is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
-            )
-        if file in SHIPPED and depth is not None and np.isfinite(depth):
-            raise SceneError.of("vessel: depth", f"is {depth:g} m, and {file} is of deep water; leave it out")
-        key = (file, speed, depth)
+    def _database(self, file: str, **given: Any) -> HydroDatabase:
+        """Read once; what is ``given`` beside a file is an argument of `load_hull`."""
+        for name, value in given.items() if file in SHIPPED else ():
+            if name != "depth" or np.isfinite(value):
+                own = "has its own mass, zero speed and deep water"
+                raise SceneError.of(f"vessel: {name}", f"is {shown(value)}, and {file} {own}; leave it out")
+        key = (file, repr(given))
         if key not in self.read:
-            shipped = file in SHIPPED
-            self.read[key] = shipped_database() if shipped else load_hull(file, speed=speed, depth=depth)
+            self.read[key] = shipped_database() if file in SHIPPED else load_hull(file, **given)
         return self.read[key]
 
     def _sea(self, scene: Scene, given: Keywords) -> None:

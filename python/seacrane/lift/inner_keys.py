@@ -187,7 +187,11 @@ HEIGHT_AND_PERIOD = {
     "hs": LENGTH | {"bounds": {"minimum": 0.0}}, "tp": TIME | {"bounds": {"exclusiveMinimum": 0.0}}
 }  # fmt: skip
 OF_MOTION = ("ramp", "duration", "size")
-READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
+READING: dict[str, Any] = {  # of a vessel's database
+    "speed": {"unit": "m/s"},
+    "depth": {"unit": "m"},
+    "mass_matrix": {"type": "array", "unit": "kg, kg m, kg m2", "shapes": ((6, 6),)},
+}
 
 
 def vessel_keys() -> tuple[Key, ...]:

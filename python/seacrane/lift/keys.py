@@ -11,7 +11,7 @@ from __future__ import annotations
 import inspect
 import re
 import sys
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from types import SimpleNamespace, UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
@@ -19,7 +19,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 import numpy as np
 
 from seacrane._core import Curve
-from seacrane.inputs.units import UNITS, in_si, others_of
+from seacrane.inputs.units import UNITS, spellings, suffix
 
 MIXED = ", "  # between the units of an array of several: no suffix says them
 EITHER = " or "  # between the units of a displacement and an angle
@@ -51,14 +51,14 @@ class Key:
     @property
     def units(self) -> tuple[str, ...]:
         """Units that a file may give it in; of several the first is a displacement's, then an angle's."""
-        if not self.unit or MIXED in self.unit or self.name.endswith("_deg"):
-            return ()
-        return tuple(spelling for unit in self.unit.split(EITHER) for spelling in (unit, *others_of(unit)))
+        return tuple(unit for unit in self.spellings.values() if unit)
 
     @property
     def spellings(self) -> dict[str, str]:
         """Its unit by each way to write it in a file."""
-        return {f"{self.name}_{suffix(unit)}".rstrip("_"): unit for unit in self.units} or {self.name: ""}
+        if not self.unit or MIXED in self.unit or self.name.endswith("_deg"):
+            return {self.name: ""}
+        return spellings(self.name, *self.unit.split(EITHER))
 
     def bounds_in(self, unit: str) -> dict[str, float]:
         """What its numbers must be in one of its units."""
@@ -67,23 +67,7 @@ class Key:
         return {word: bound / UNITS.get(unit, (1.0,))[0] for word, bound in self.bounds.items()}
 
 
-def suffix(unit: str) -> str:
-    """A unit as the end of a key."""
-    return re.sub(r"^_", "", unit.removeprefix("1").replace("/", "_per_").replace(" ", "_"))
-
-
 UNIT_OF_SUFFIX = {suffix(unit): unit for unit in UNITS}
-
-
-def into_si(unit: str) -> Callable[[Any], Any]:
-    """From a file's unit to that of the API, of a number or of numbers in tuples."""
-    if unit.startswith("deg"):
-        return np.radians
-
-    def converted(value: Any) -> Any:
-        return tuple(map(converted, value)) if isinstance(value, tuple) else in_si(value, unit)
-
-    return converted if unit in UNITS and UNITS[unit][0] != 1.0 else lambda value: value
 
 
 def keys_of(

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from seacrane.arrays import Array
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, both_sides
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import in_trusted_band
+from seacrane.hydro.data.hydro_group_data import in_trusted_band, mass_scales
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
@@ -46,7 +46,7 @@ def warn_of_matrices(database: HydroData) -> None:
         _warn_of_asymmetry(database, inside)
         tables = {"radiation damping": database.damping[inside]} | tables
     for what, table in tables.items():
-        lowest = smallest_eigenvalues(table, database.mass_matrix)
+        lowest = smallest_eigenvalues(table, mass_scales(database))
         if lowest.min() < DAMPING_LIMIT:
             at = ""
             if what != "linear_damping":
@@ -110,9 +110,9 @@ def warn_of_water(
             )
 
 
-def smallest_eigenvalues(damping: Array, mass_matrix: Array) -> Array:
+def smallest_eigenvalues(damping: Array, mass: Array) -> Array:
     """The smallest eigenvalues of the symmetric part (n,), by the largest diagonals over all frequencies."""
-    scale = _scales(damping, mass_matrix)
+    scale = _scales(damping, mass)
     if not np.any(scale):
         off = np.abs(damping).max(axis=(1, 2))
         return np.asarray(np.where(off > 0.0, -1.0, 0.0))  # coupling alone is indefinite
@@ -120,12 +120,12 @@ def smallest_eigenvalues(damping: Array, mass_matrix: Array) -> Array:
     return np.asarray(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0])
 
 
-def _scales(matrices: Array, mass_matrix: Array) -> Array:
+def _scales(matrices: Array, mass: Array) -> Array:
     """Roots (6,) of the largest diagonals of matrices (n, 6, 6) over the frequencies.
 
-    One that is round-off beside the largest, both over the mass, counts as the bound of that round-off.
+    One that is round-off beside the largest, both over the ``mass`` (6,) of each motion, counts as the bound
+    of that round-off.
     """
-    mass = np.diag(mass_matrix)
     diagonal = np.abs(np.diagonal(matrices, axis1=1, axis2=2)).max(axis=0)
     return np.asarray(np.sqrt(np.maximum(diagonal, ROUND_OFF * mass * (diagonal / mass).max())))
 
@@ -134,7 +134,7 @@ def _warn_of_asymmetry(database: HydroData, inside: NDArray[np.intp]) -> None:
     """At rest both matrices are symmetric: else a half is missing, or an entry misplaced."""
     for name in ("added_mass", "damping"):
         matrices = getattr(database, name)[inside]
-        scale = np.maximum(_scales(matrices, database.mass_matrix), 1e-150)  # no damping at all
+        scale = np.maximum(_scales(matrices, mass_scales(database)), 1e-150)  # no damping at all
         apart = np.abs(matrices - matrices.swapaxes(1, 2)).max(axis=0)
         larger = np.maximum(np.abs(matrices).max(axis=0), np.abs(matrices).max(axis=0).T)
         share = apart / np.outer(scale, scale)
@@ -169,7 +169,7 @@ def _warn_of_box(database: HydroData) -> None:
     """A hull is no larger than the box around it: else mass, density, g or lengths are in other units."""
     area = database.length * database.breadth
     filled = {
-        "mass": database.mass_matrix[0, 0] / (database.rho * area * database.draught),
+        "mass": mass_scales(database)[0] / (database.rho * area * database.draught),
         "C33": database.restoring[2, 2] / (database.rho * database.g * area),
     }
     for name, share in filled.items():

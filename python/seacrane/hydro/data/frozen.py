@@ -72,9 +72,9 @@ def require_band(what: str, band: tuple[float, float] | None) -> None:
         raise SceneError(f"{what}: trusted_band {band} is not (low, high) in rad/s")
 
 
-def require_definite(what: str, mass_matrix: Array) -> None:
-    """Raise unless a mass matrix (6, 6) is positive definite."""
-    if np.any(np.linalg.eigvalsh(0.5 * (mass_matrix + mass_matrix.T)) <= 0.0):
+def require_definite(what: str, mass_matrix: Array | None) -> None:
+    """Raise unless a mass matrix (6, 6) is positive definite, or not known."""
+    if mass_matrix is not None and np.any(np.linalg.eigvalsh(0.5 * (mass_matrix + mass_matrix.T)) <= 0.0):
         raise SceneError(f"{what}: the mass matrix is not positive definite; check mass and inertia")
 
 

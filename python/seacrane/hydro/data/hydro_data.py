@@ -111,7 +111,8 @@ class HydroData:
     heading : (m,) in rad, increasing, within [0, 2 pi).
     added_mass, damping : (n, 6, 6) radiation only.
     infinite_frequency_added_mass, zero_frequency_added_mass : (6, 6), or None when not known.
-    restoring, mass_matrix : (6, 6).
+    restoring : (6, 6).
+    mass_matrix : (6, 6), or None where the source holds none: what needs one asks for it (`mass_of`).
     force : (m, n, 6) complex wave excitation.
     motion_rao : (m, n, 6) complex motions as the source gives them, or None.
     motion_rao_limit : (6,) how far motions solved from A, B, C and the forces may be from `motion_rao`, by
@@ -141,7 +142,7 @@ class HydroData:
     added_mass: Array
     damping: Array
     restoring: Array
-    mass_matrix: Array
+    mass_matrix: Array | None = None
     force: Complex
     length: float
     breadth: float

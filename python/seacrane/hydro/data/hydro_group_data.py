@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.arrays import Array, Complex
+from seacrane.errors import SceneError
 from seacrane.hydro.data.frozen import freeze, require_band, require_definite, require_grid, require_positive
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
 from seacrane.hydro.data.memory_model import MemoryModel
@@ -34,14 +35,14 @@ class GroupBody:
     position : (3,) m, its reference point from the group's origin, which is on the still waterline.
     heading : rad, of its x axis, from the group's x axis towards its y axis.
     mass_matrix, restoring, linear_damping : (6, 6), of this hull alone, about its reference point and in its
-        own axes (x forward, y port, z up).
+        own axes (x forward, y port, z up); no mass matrix where the source holds none.
     quadratic_damping : (6,) coefficients of v |v| beside radiation.
     length, breadth, draught : m.
     """
 
     name: str
     position: Array
-    mass_matrix: Array
+    mass_matrix: Array | None = None
     restoring: Array
     length: float
     breadth: float
@@ -150,7 +151,13 @@ class HydroGroupData:
         """Names of the bodies, in the order of the motions."""
         return tuple(body.name for body in self.bodies)
 
-    mass_matrix = _of_bodies("mass_matrix")
+    @property
+    def mass_matrix(self) -> Array | None:
+        """(6 k, 6 k), or None where that of a body is not known."""
+        known = all(body.mass_matrix is not None for body in self.bodies)
+        return self._mass_matrix if known else None
+
+    _mass_matrix = _of_bodies("mass_matrix")
     restoring = _of_bodies("restoring")
     linear_damping = _of_bodies("linear_damping")
     quadratic_damping = _of_bodies("quadratic_damping")
@@ -169,6 +176,43 @@ class HydroGroupData:
 
 
 Hydrodynamics = HydroData | HydroGroupData  # of one hull, or of several: the same equations, of other size
+
+USUAL_RADII = np.array([0.36, 0.25, 0.25])  # of gyration, of breadth, length, length
+
+
+def mass_of(database: Hydrodynamics) -> Array:
+    """The mass matrix, (6, 6) or (6 k, 6 k), asked for where the source holds none.
+
+    Raises SceneError: names the source and the bodies, and what gives their masses.
+    """
+    if database.mass_matrix is not None:
+        return database.mass_matrix
+    bodies = database.bodies if isinstance(database, HydroGroupData) else ()
+    of = ", ".join(body.name for body in bodies if body.mass_matrix is None)
+    fix = (
+        ", of each body by name"
+        if bodies
+        else ", mass_matrix in [vessel] of a lift file, or a file that holds it, which `seacrane hydro PATH "
+        "--mass T X Y Z RX RY RZ --write ship.nc` writes"
+    )
+    raise SceneError.of(
+        f"database {database.name!r}: mass_matrix",
+        f"is not known{of and f' of {of}'}: {database.source[:200]} holds none; give load_database(path, "
+        f"mass_matrix=...), (6, 6) in SI about the file's reference point{fix}",
+    )
+
+
+def mass_scales(database: Hydrodynamics) -> Array:
+    """Diagonal of the mass matrix; where there is none, that of what the boxes displace, as a scale alone."""
+    bodies = database.bodies if isinstance(database, HydroGroupData) else (database,)
+    return np.concatenate([_mass_scales(body, database.rho) for body in bodies])
+
+
+def _mass_scales(body: HydroData | GroupBody, rho: float) -> Array:
+    if body.mass_matrix is not None:
+        return np.diag(body.mass_matrix)
+    radii = USUAL_RADII * (body.breadth, body.length, body.length)
+    return np.asarray(rho * body.length * body.breadth * body.draught * np.append(np.ones(3), radii**2))
 
 
 def in_trusted_band(database: Hydrodynamics, omega: Array | None = None) -> NDArray[np.bool_]:

@@ -61,7 +61,9 @@ def warn_of_long_waves(database: HydroData) -> None:
 def _slips(database: HydroData) -> list[str]:
     if database.speed != 0.0:
         return []
-    given = {"": database.motion_rao, "by its wave loads, ": motion_response(database)}
+    given = {"": database.motion_rao}
+    if database.mass_matrix is not None:
+        given["by its wave loads, "] = motion_response(database)
     lowest, water = float(database.omega[0]), {"depth": database.depth, "g": database.g}
     slips = {
         source: phase_slip(lowest, database.heading, motions[:, 0], **water)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, mass_of
 from seacrane.hydro.data.interpolation import by_straight_lines, spline_weights
 from seacrane.sea.dispersion import wavenumber
 
@@ -127,7 +127,7 @@ def _dynamic_stiffness(
         restoring = database.restoring + sum(part.restoring for part in database.additional)
     else:
         restoring = database.restoring
-    inertia = database.mass_matrix + added_mass
+    inertia = mass_of(database) + added_mass
     damping = damping + database.linear_damping
     if database.roll_damping is not None:
         damping = damping.copy()
@@ -158,7 +158,7 @@ def natural_frequency(database: HydroData, motion: int) -> float | None:
     stiffness = float(database.restoring[motion, motion])
     if stiffness <= 0.0:
         return None
-    inertia = database.mass_matrix[motion, motion] + database.added_mass[:, motion, motion]
+    inertia = mass_of(database)[motion, motion] + database.added_mass[:, motion, motion]
     balance = stiffness - database.omega**2 * inertia
     falling = np.flatnonzero((balance[:-1] > 0.0) & (balance[1:] <= 0.0))
     if falling.size == 0:

@@ -9,7 +9,7 @@ import numpy as np
 from seacrane.arrays import Array
 from seacrane.hydro.data.data_warnings import smallest_eigenvalues
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import in_trusted_band
+from seacrane.hydro.data.hydro_group_data import in_trusted_band, mass_of, mass_scales
 from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
 from seacrane.hydro.data.motion import (
     encounter_frequency,
@@ -52,13 +52,13 @@ def check_database(database: HydroData) -> list[CheckRow]:
     """All checks that the database's content allows; docs/hydrodynamics.md says what each value means.
 
     A database without a memory model has one fitted here, if its band holds enough frequencies and its speed
-    is zero.
+    is zero. One without a mass has no row that takes it: no motions, natural periods or memory.
     """
-    natural = {name: natural_frequency(database, MOTIONS.index(name)) for name in ("heave", "roll", "pitch")}
+    weighs = database.mass_matrix is not None
+    floating = ("heave", "roll", "pitch") if weighs else ()
+    natural = {name: natural_frequency(database, MOTIONS.index(name)) for name in floating}
     rows = [
-        info("mass_t", database.mass_matrix[0, 0] / 1e3),
-        info("GM_of_C44_and_mass_m", metacentric_height(database)),
-        *_closure_rows(database),
+        *(_mass_rows(database) if weighs else ()),
         *_matrix_rows(database),
         *(info(f"natural_period_{name}_s", 2.0 * np.pi / w) for name, w in natural.items() if w is not None),
         *_relation_rows(database),
@@ -66,14 +66,23 @@ def check_database(database: HydroData) -> list[CheckRow]:
     model = database.memory
     if database.speed != 0.0:
         return rows
-    if model is None and enough_frequencies(database):
+    if model is None and weighs and enough_frequencies(database):
         model = fit_memory(database=database)
     return rows if model is None else rows + memory_rows(database, model)
 
 
+def _mass_rows(database: HydroData) -> list[CheckRow]:
+    """The mass, and what it makes of the restoring and of the wave forces."""
+    return [
+        info("mass_t", mass_of(database)[0, 0] / 1e3),
+        info("GM_of_C44_and_mass_m", metacentric_height(database)),
+        *_closure_rows(database),
+    ]
+
+
 def metacentric_height(database: HydroData) -> float:
     """GM (m) of the database's own C44 and mass; what tanks take from it is apart, in `additional`."""
-    return float(database.restoring[3, 3] / (float(database.mass_matrix[0, 0]) * database.g))
+    return float(database.restoring[3, 3] / (float(mass_of(database)[0, 0]) * database.g))
 
 
 @one_thread
@@ -164,7 +173,7 @@ def _matrix_rows(database: HydroData) -> list[CheckRow]:
     for name, matrix in (("added_mass", added_mass), ("damping", damping)):
         asymmetry = float(skewness(matrix).max())
         rows.append(at_most(f"symmetry_{name}", asymmetry, None if moving else SYMMETRY_LIMIT))
-    smallest = float(smallest_eigenvalues(damping, database.mass_matrix).min())
+    smallest = float(smallest_eigenvalues(damping, mass_scales(database)).min())
     rows.append(at_least("damping_smallest_eigenvalue", smallest, None if moving else DAMPING_LIMIT))
     rows.append(info("surge_terms_missing", float(_surge_is_missing(database))))
     return rows

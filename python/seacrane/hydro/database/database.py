@@ -18,10 +18,11 @@ from seacrane.arrays import Array, Complex
 from seacrane.errors import SceneError
 from seacrane.hydro.data.excitation import force_at, full_circle
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import mass_of
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.data.packed import digest_of
 from seacrane.hydro.database.check import check_database, metacentric_height
-from seacrane.hydro.database.figures import SHEETS, hydro_sheets
+from seacrane.hydro.database.figures import hydro_sheets
 from seacrane.hydro.database.netcdf import dataset_of, load_database_file, save_database
 from seacrane.hydro.database.transform import mirrored_database, moved_database, selected_database
 from seacrane.inputs.checked import not_negative_of
@@ -110,7 +111,8 @@ class HydroDatabase(HydroData):
 
         Parameters
         ----------
-        what : a name or several; None draws all. Fitted curves are those of `memory`, where there is one.
+        what : a name or several; None draws all, of a database without a mass without its motions. Fitted
+            curves are those of `memory`, where there is one.
 
         Returns
         -------
@@ -120,7 +122,7 @@ class HydroDatabase(HydroData):
         ------
         ValueError : a name that is not among the figures.
         """
-        names = list(SHEETS) if what is None else [what] if isinstance(what, str) else list(what)
+        names = [what] if isinstance(what, str) else what
         return {name: draw(sheet) for name, sheet in hydro_sheets(self, names).items()}
 
     @property
@@ -129,9 +131,10 @@ class HydroDatabase(HydroData):
         return digest_of(self)
 
     def __repr__(self) -> str:
-        omega, mass = self.omega, self.mass_matrix[0, 0] / 1e3
+        omega, mass = self.omega, self.mass_matrix
+        weight = "no mass" if mass is None else f"{mass[0, 0] / 1e3:.6g} t"
         return (
-            f"<HydroDatabase {self.name!r}: {mass:.6g} t, {omega.size} frequencies {omega[0]:.4g} to "
+            f"<HydroDatabase {self.name!r}: {weight}, {omega.size} frequencies {omega[0]:.4g} to "
             f"{omega[-1]:.4g} rad/s, {self.heading.size} headings>"
         )
 
@@ -160,18 +163,22 @@ def _roll_damping_of(database: HydroData, fraction: float) -> float:
             f"hull {database.name!r}: the roll natural frequency lies outside {database.omega[0]:.4g} to "
             f"{database.omega[-1]:.4g} rad/s; widen omega, or check centre of gravity and radii of gyration"
         )
-    inertia = database.mass_matrix[3, 3] + np.interp(resonance, database.omega, database.added_mass[:, 3, 3])
+    inertia = mass_of(database)[3, 3] + np.interp(resonance, database.omega, database.added_mass[:, 3, 3])
     return float(fraction * 2.0 * np.sqrt(database.restoring[3, 3] * inertia))
 
 
 def _facts(database: HydroData) -> Table:
     """Main figures, what it holds, and where it comes from."""
     omega, heading = database.omega, np.rad2deg(database.heading)
-    band, memory = database.trusted_band, database.memory
+    band, memory, mass = database.trusted_band, database.memory, database.mass_matrix
+    weight: float | str = "none"
+    height: float | str = "none"
+    if mass is not None:
+        weight, height = float(f"{mass[0, 0] / 1e3:.6g}"), float(f"{metacentric_height(database):.4g}")
     rows: list[tuple[str, Any]] = [
         ("length, breadth, draught [m]", f"{database.length:g}, {database.breadth:g}, {database.draught:g}"),
-        ("mass [t]", float(f"{database.mass_matrix[0, 0] / 1e3:.6g}")),
-        ("GM of its C44 and mass [m]", float(f"{metacentric_height(database):.4g}")),
+        ("mass [t]", weight),
+        ("GM of its C44 and mass [m]", height),
         ("frequencies [rad/s]", f"{omega.size}, {omega[0]:.4g} to {omega[-1]:.4g}"),
         ("headings [deg]", f"{heading.size}, {heading[0]:.4g} to {heading[-1]:.4g}"),
         ("trusted band [rad/s]", "not stated" if band is None else f"{band[0]:.4g} to {band[1]:.4g}"),

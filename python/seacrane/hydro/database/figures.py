@@ -197,15 +197,17 @@ SHEETS: dict[str, Callable[[HydroData], Sheet]] = {
 }
 
 
-def hydro_sheets(database: HydroData, names: Sequence[str] = tuple(SHEETS)) -> dict[str, Sheet]:
+def hydro_sheets(database: HydroData, names: Sequence[str] | None = None) -> dict[str, Sheet]:
     """Sheets by the names in `SHEETS`, with the curves of the database's own memory, where it has one; those
-    without any panel are left out.
+    without any panel are left out, and of all (None) the motions of a database without a mass.
 
     Raises
     ------
     ValueError
         An unknown name.
     """
+    if names is None:
+        names = [name for name in SHEETS if name != "motion" or database.mass_matrix is not None]
     for name in names:
         if name not in SHEETS:
             raise ValueError(

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.arrays import Array
-from seacrane.hydro.data.hydro_group_data import GroupBody, HydroGroupData
+from seacrane.hydro.data.hydro_group_data import GroupBody, HydroGroupData, mass_of, mass_scales
 from seacrane.hydro.data.interpolation import by_straight_lines
 from seacrane.hydro.memory.identification import symmetric
 from seacrane.inputs.brief import brief
@@ -126,7 +126,7 @@ def irregular_frequencies(body: GroupBody, g: float) -> Array:
 def radiating(group: HydroGroupData) -> NDArray[np.bool_]:
     """Motions (6 k,) that radiate anything: yaw of a round body does not, and a file holds noise there."""
     peak = np.diagonal(group.damping, axis1=1, axis2=2).max(axis=0)
-    return np.asarray(peak > FELT * float(np.mean(group.omega)) * np.diag(group.mass_matrix))
+    return np.asarray(peak > FELT * float(np.mean(group.omega)) * mass_scales(group))
 
 
 def spikes(group: HydroGroupData) -> list[Spike]:
@@ -235,7 +235,7 @@ def _mode(group: HydroGroupData, between: list[float], place: int, size: Array) 
     at = np.array([omega])
     vector = np.linalg.eigh(_dynamic(group, at)[0] * np.outer(size, size))[1][:, place]
     shape = vector * size / vector[np.abs(vector).argmax()]
-    inertia = group.mass_matrix + symmetric(by_straight_lines(group.omega, group.added_mass, at)[0])
+    inertia = mass_of(group) + symmetric(by_straight_lines(group.omega, group.added_mass, at)[0])
     damping = group.linear_damping + by_straight_lines(group.omega, group.damping, at)[0]
     ratio = (shape @ damping @ shape) / (2.0 * omega * (shape @ inertia @ shape))
     shape.setflags(write=False)
@@ -243,5 +243,5 @@ def _mode(group: HydroGroupData, between: list[float], place: int, size: Array) 
 
 
 def _dynamic(group: HydroGroupData, omega: Array) -> Array:
-    inertia = group.mass_matrix + symmetric(by_straight_lines(group.omega, group.added_mass, omega))
+    inertia = mass_of(group) + symmetric(by_straight_lines(group.omega, group.added_mass, omega))
     return np.asarray(symmetric(group.restoring) - omega[:, None, None] ** 2 * inertia)

@@ -273,7 +273,8 @@ def _moved_body(body: GroupBody, lever: Array, transform: Array) -> GroupBody:
         body,
         position=body.position + turn @ lever,
         **{
-            name: transform.T @ getattr(body, name) @ transform
+            name: transform.T @ matrix @ transform
             for name in ("mass_matrix", "restoring", "linear_damping")
+            if (matrix := getattr(body, name)) is not None
         },
     )

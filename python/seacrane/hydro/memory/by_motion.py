@@ -9,7 +9,7 @@ import numpy as np
 
 from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.hydro_data import AdditionalMatrices
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, mass_of
 from seacrane.hydro.data.memory_model import (
     RADIATION,
     FitRow,
@@ -230,7 +230,7 @@ def _additional(
             zero_at_origin=False, static_stiffness=True, dissipation_limit=dissipation_limit(fits, j, k),
             weight=np.linalg.norm(lever[inside], axis=(1, 2)),
         )  # fmt: skip
-        most = MOST_INERTIA * float(np.sqrt(database.mass_matrix[j, j] * database.mass_matrix[k, k]))
+        most = MOST_INERTIA * float(np.sqrt(np.prod(np.diag(mass_of(database))[[j, k]])))
 
         def error(fit: RationalFit, j: int = j, k: int = k) -> float:
             model = 1j * w * fit.kernel(w) - w**2 * fit.added_mass_infinite + fit.static_stiffness

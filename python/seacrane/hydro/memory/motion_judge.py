@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from seacrane.arrays import Array, Complex
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, HydroGroupData, mass_of
 from seacrane.hydro.data.memory_model import MemoryModel, MotionError
 from seacrane.hydro.memory.identification import symmetric, within
 from seacrane.hydro.memory.retardation import RetardationModel
@@ -54,12 +54,13 @@ class _Solved:
         self.added_mass, self.damping = table.added_mass(omega), table.damping(omega)
         self.additional, self.force = table.additional(omega), table.force(omega)
         self.memory = -(w**2) * self.added_mass + 1j * w * self.damping + self.additional
-        nothing = np.zeros(database.mass_matrix.shape)
+        mass = mass_of(database)
+        nothing = np.zeros(mass.shape)
         self.static = sum((part.restoring[0] for part in database.additional), nothing)
         held = np.isin(np.arange(len(nothing)) % 6, (0, 1, 5))
-        heavy = np.where(held, np.diag(database.mass_matrix + self.added_mass[-1]), 0.0)
+        heavy = np.where(held, np.diag(mass + self.added_mass[-1]), 0.0)
         spring = 2.0 * np.pi / SPRING_PERIOD
-        still = -(w**2) * database.mass_matrix + 1j * w * database.linear_damping + database.restoring
+        still = -(w**2) * mass + 1j * w * database.linear_damping + database.restoring
         still = still + np.diag(heavy) * (spring**2 + 2j * w * SPRING_DAMPING * spring)
         if table.roll is None:
             self.impedance = still + self.memory

@@ -250,8 +250,9 @@ def check_strips(kind: str, strips: Any, count: int) -> None:
     )
     if not whole or int(np.prod(strips)) > MOST_STRIPS:
         asked = strips[0] if count == 1 else strips
+        wanted = "a whole number" if count == 1 else "two whole numbers, along its x and along its y, each"
         raise SceneError.of(
-            f"{kind}: strips", f"is {asked!r}; give whole numbers from 1, {MOST_STRIPS} in all at most"
+            f"{kind}: strips", f"is {shown(asked)}; give {wanted} from 1, {MOST_STRIPS} in all at most"
         )
 
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.hydro_group_data import Hydrodynamics
+from seacrane.hydro.data.hydro_group_data import Hydrodynamics, mass_scales
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.gap import long_wave_lift
 from seacrane.hydro.group.group import HydroGroup
@@ -115,7 +115,7 @@ def whole_stiffness(restoring: Array) -> Array:
 
 def warn_of_turning_over(where: object, hull: HydroData) -> None:
     """Warn of a hull whose C44 or C55 is not positive: it floats upright with what is not in it yet."""
-    weight = hull.mass_matrix[0, 0] * hull.g
+    weight = mass_scales(hull)[0] * hull.g
     told = [
         f"{name} is {hull.restoring[at, at]:.4g} N m/rad, a metacentric height of "
         f"{hull.restoring[at, at] / weight:.3g} m"
@@ -326,7 +326,7 @@ def first_rough_value(database: HydroData) -> tuple[int, str] | None:
 
 def _by_scale(database: HydroData, start: float) -> Array:
     """Symmetric parts of A and B (n, 72), by what the motions of each pair vary; forbidden pairs are zero."""
-    mass = np.abs(np.diag(database.mass_matrix))
+    mass = np.abs(mass_scales(database))
     kept = np.ones((6, 6))
     if database.port_starboard_symmetric:
         kept = 1.0 - np.add.outer(np.arange(6), np.arange(6)) % 2

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.frozen import reading
-from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
+from seacrane.hydro.readers.as_read import Asked, Given, left_out, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
 from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each
 from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_hdf5
@@ -28,6 +28,10 @@ from seacrane.inputs.netcdf_limits import NETCDF_ERRORS, open_hdf5
 HDF5 = (".h5", ".hdf5")
 PARAMETERS = "simulation_parameters"
 STIFFNESS = "hydro_coeffs/linear_restoring_stiffness"
+READ = re.compile(  # of a body, and what says the same again
+    r"properties/(cg|disp_vol|name|body_number)$|hydro_coeffs/(linear_restoring_stiffness|added_mass/(all|inf_freq)"
+    r"|radiation_damping/all|excitation/(re|im|mag|phase)|[a-z_]+/components)"
+)
 DEEP = (b"infinite", b"inf", b"infinity")
 
 
@@ -43,8 +47,7 @@ def read_bemio(
     Parameters
     ----------
     path : file.
-    mass_matrix : (6, 6) in SI about the centre of gravity; of several bodies by name. The file holds none; by
-        default the displaced mass with usual radii of gyration.
+    mass_matrix : (6, 6) in SI about the centre of gravity; of several bodies by name. The file holds none.
     motions, leave_out : as `read_capytaine` takes them.
 
     Returns
@@ -53,10 +56,6 @@ def read_bemio(
         Port-starboard symmetric if the added mass is, to 2 %.
     HydroGroup : of several, each about its centre of gravity, named as in the file, in its order.
         Lengths, breadths and draughts are those of the equivalent boxes.
-
-    Warns
-    -----
-    AssumedInertiaWarning : no ``mass_matrix``.
 
     Raises
     ------
@@ -113,13 +112,23 @@ def _convert(asked: Asked, file: Any) -> Loaded:
         asked, bodies, fix="a file that was written anew", at=(0.0, 0.0, -z), name=path.stem,
         alone={"origin": f"on the still waterline, {above}"},
         origin="origin of BEMIO's axes, on the still waterline",
-        source=f"BEMIO file {path.name}{'' if len(entries) > 1 else f', {entries[0]}'}",
+        source=f"BEMIO file {path.name}{'' if len(entries) > 1 else f', {entries[0]}'}"
+        + left_out(_unread(file, entries)),
         rho=rho, g=g, depth=depth, omega=omega, heading=direction,
         force=np.asarray(rho * g * waves.transpose(1, 2, 0)[places], dtype=complex),
         added_mass=rho * of_all("added_mass/all", size, n).transpose(2, 0, 1),
         infinite_frequency_added_mass=rho * of_all("added_mass/inf_freq", size),
         damping=rho * (of_all("radiation_damping/all", size, n) * omega).transpose(2, 0, 1),
     )  # fmt: skip
+
+
+def _unread(file: Any, entries: list[str]) -> list[str]:
+    """Kinds of arrays of the bodies that nothing is read of."""
+    found: list[str] = []
+    for entry in entries:
+        file[entry].visititems(lambda name, one: found.append(name) if hasattr(one, "shape") else None)
+    parts = (name.removeprefix("hydro_coeffs/").split("/") for name in found if not READ.match(name))
+    return list(dict.fromkeys("/".join(part[:2]) for part in parts))
 
 
 def _names(file: Any, entries: list[str]) -> list[str]:

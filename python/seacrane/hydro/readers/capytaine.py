@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from seacrane.arrays import Array, Complex
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.frozen import reading
-from seacrane.hydro.readers.as_read import Asked, Given, rising_directions
+from seacrane.hydro.readers.as_read import Asked, Given, left_out, rising_directions
 from seacrane.hydro.readers.format import Format, Loaded, is_file_of, is_kind
 from seacrane.hydro.readers.of_bodies import floating_body, hull_or_group, of_each
 from seacrane.inputs.caller import warn_caller
@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     import xarray
 
 MOTION_NAMES = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
+READ = (
+    "added_mass", "radiation_damping", "inertia_matrix", "hydrostatic_stiffness", "excitation_force",
+    "Froude_Krylov_force", "diffraction_force", "rotation_center", "draught", "rho", "g", "forward_speed",
+)  # fmt: skip
 NETCDF = (".nc", ".nc4")
 SAME_DEPTH = 1e-9  # of it
 NAMED = 8  # depths in a message
@@ -154,7 +158,11 @@ def _convert(asked: Asked, dataset: xarray.Dataset, rotation_centre: Given | Non
         raise FileFormatError(
             f"{path}: omega {shown(omega.tolist())} holds repeated, negative or undefined values"
         )
-    masses = _matrices(asked, dataset, "inertia_matrix", "mass_matrix", names)
+    draughts = _by_body(dataset, "draught", names)
+    weighs = "inertia_matrix" in dataset or asked.mass_matrix is not None or draughts is None
+    masses: Sequence[Array | None] = [None] * len(names)
+    if weighs:  # asked for where it is all that tells the draught
+        masses = _matrices(asked, dataset, "inertia_matrix", "mass_matrix", names)
     stiffness = _matrices(asked, dataset, "hydrostatic_stiffness", "restoring", names)
     if "wave_direction" not in dataset.coords:
         raise FileFormatError(f"{path}: wave_direction is missing; solve diffraction problems too")
@@ -163,7 +171,6 @@ def _convert(asked: Asked, dataset: xarray.Dataset, rotation_centre: Given | Non
         raise FileFormatError(f"{path}: wave_direction reaches {np.abs(raw).max():g}; radians are expected")
     direction, order = rising_directions(raw)
     centres = _rotation_centres(asked, dataset, names, rotation_centre)
-    draughts = _by_body(dataset, "draught", names)
     bodies = []
     for i, (name, centre, mass, restoring) in enumerate(zip(names, centres, masses, stiffness, strict=True)):
         bodies.append(
@@ -179,11 +186,12 @@ def _convert(asked: Asked, dataset: xarray.Dataset, rotation_centre: Given | Non
         origin = f"rotation centre of the Capytaine body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
         named = [dataset[key].values for key in ("body", "body_name") if key in dataset.variables]
         body = f", body {np.ravel(named[0] if named else 'unnamed')[0]}"
+    unread = [str(name) for name in dataset.data_vars if name not in READ]
     return hull_or_group(
         replace(asked, motions=solved if asked.motions is None else asked.motions),
         bodies, fix="restoring={name: (6, 6)}", name=path.stem, origin=origin,
-        source=f"Capytaine {version}, file {path.name}{body}", rho=rho, g=g, depth=depth, omega=omega,
-        heading=direction, force=_wave_force(path, dataset)[order],
+        source=f"Capytaine {version}, file {path.name}{body}" + left_out(unread),
+        rho=rho, g=g, depth=depth, omega=omega, heading=direction, force=_wave_force(path, dataset)[order],
         added_mass=_real(path, dataset, "added_mass", ("omega", *MATRIX)),
         damping=_real(path, dataset, "radiation_damping", ("omega", *MATRIX)),
     )  # fmt: skip

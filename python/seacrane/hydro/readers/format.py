@@ -78,6 +78,12 @@ def sibling(stem: Path, suffix: str) -> Path | None:
     return next((place for place in places if place.is_file()), None)
 
 
+def unread(stem: Path, read: Collection[str]) -> list[str]:
+    """Names of the files of one stem but those of the suffixes that are ``read``."""
+    every = (file for file in sorted(stem.parent.iterdir()) if file.with_suffix("") == stem)
+    return [file.name for file in every if file.suffix.lower() not in read]
+
+
 def stem_of(path: Path, kind: str, leading: tuple[str, ...], suffixes: Collection[str]) -> Path:
     """Common stem (folder and name without suffix) of the set of files that ``path`` points to.
 

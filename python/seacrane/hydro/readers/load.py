@@ -21,12 +21,24 @@ from seacrane.inputs.caller import silently
 from seacrane.inputs.keywords import named
 from seacrane.warnings import RoughDataWarning
 
+
+def _read_ours(path: Path, *, mass_matrix: Given | None = None) -> HydroDatabase:
+    """A file of seacrane; a mass is given where it was written without one."""
+    database = HydroDatabase.load(path)
+    if mass_matrix is None:
+        return database
+    if database.mass_matrix is not None:
+        raise FileFormatError(f"{path}: holds its mass; leave mass_matrix out")
+    return replace(database, mass_matrix=np.asarray(mass_matrix, dtype=float))
+
+
 OURS = Format(  # any NetCDF file but Capytaine's: one of no known kind is refused by what it lacks of ours
     name="seacrane",
     files="a NetCDF file (.nc) of seacrane",
     looks="attribute `format` of seacrane; what `HydroDatabase.save` writes",
     can_open=capytaine.is_netcdf,
-    read=HydroDatabase.load,
+    read=_read_ours,
+    takes=("mass_matrix",),
     speeds=lambda path: (HydroDatabase.load(path).speed,),
 )
 FORMATS = (capytaine.FORMAT, OURS, *(kind.FORMAT for kind in (veres, wamit, orcaflex, aqwa, bemio, nemoh)))
@@ -94,6 +106,7 @@ def load_hull(
     speed: float | None = None,
     depth: float | None = None,
     trusted_band: tuple[float, float] | None = None,
+    mass_matrix: Given | None = None,
 ) -> HydroDatabase:
     """`load_database` of one hull.
 
@@ -101,7 +114,7 @@ def load_hull(
     ------
     FileFormatError : as `load_database`, and of several hulls.
     """
-    found = load_database(path, speed=speed, depth=depth, trusted_band=trusted_band)
+    found = load_database(path, speed=speed, depth=depth, trusted_band=trusted_band, mass_matrix=mass_matrix)
     if isinstance(found, HydroGroup):
         raise FileFormatError(
             f"{path}: holds bodies {', '.join(found.names)[:200]}, and one hull is needed; take "

@@ -18,7 +18,7 @@ from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.database.transform import motion_transform
-from seacrane.hydro.readers.as_read import Asked, Given
+from seacrane.hydro.readers.as_read import Asked, Given, left_out
 from seacrane.hydro.readers.format import Format, Loaded
 from seacrane.hydro.readers.nemoh_files import (
     CONTROL,
@@ -60,8 +60,7 @@ def read_nemoh(
     path : the folder, or a file in it. The files stand in it, or in its ``results`` and ``mesh``.
     rho, g, depth, rotation_centre : kg/m3, m/s2, m and (3,) m from the origin of the mesh, of results of one
         body without ``Nemoh.cal``, such as Capytaine exports; beside it they are not used.
-    mass_matrix : (6, 6) in SI about the rotation centre, of several bodies by name; by default the displaced
-        mass at the centre of gravity with usual radii of gyration.
+    mass_matrix : (6, 6) in SI about the rotation centre, of several bodies by name. The files hold none.
     restoring : (6, 6) in SI about the rotation centre, of several bodies by name, in the place of ``KH.dat``.
     motions, leave_out : as `read_capytaine` takes them.
 
@@ -74,7 +73,6 @@ def read_nemoh(
     Warns
     -----
     AssumedDensityWarning : no ``Nemoh.cal``: density, gravity, depth and rotation centre are the arguments.
-    AssumedInertiaWarning : no ``mass_matrix``.
 
     Raises
     ------
@@ -116,10 +114,12 @@ def read_nemoh(
         origin = f"rotation centre of the NEMOH body, ({x:g}, {y:g}, {z:g}) m from the origin of its mesh"
         if len(bodies) > 1:
             origin = "origin of the meshes of NEMOH, on the still waterline"
+        beside = sorted(file for file in matrices.parent.iterdir() if file.is_file() and file not in files)
+        unread = left_out([file.name for file in beside])
         return hull_or_group(
             told, bodies, fix="restoring={name: (6, 6)} and mass_matrix", waves_from=water.phase_origin,
-            name=folder.resolve().name, source=f"NEMOH results in folder {folder.resolve().name}",
-            origin=origin, rho=water.rho, g=water.g, depth=water.depth, **solved,
+            name=folder.resolve().name, origin=origin, rho=water.rho, g=water.g, depth=water.depth, **solved,
+            source=f"NEMOH results in folder {folder.resolve().name}{unread}",
         )  # fmt: skip
 
 
@@ -142,13 +142,12 @@ def _body(
         if files[1] is not None:
             gravity = read_hydrostatics(files[1])[0]
             restoring = _stiffness_about(centre, restoring, gravity=gravity, lift=lift, usual=usual)
-    if mass is not None and several:  # hydrostatics of several may be those of all together
-        gravity, volume = centre, None
-    else:
-        gravity, volume = read_hydrostatics(needed(files[1], asked.where / f"Hydrostatics{number}.dat"))
+    volume = None  # hydrostatics of several may be those of all together: that of the mass
+    if mass is None or not several:
+        volume = read_hydrostatics(needed(files[1], asked.where / f"Hydrostatics{number}.dat"))[1]
     return floating_body(
         asked, name, where=told, several=several, position=centre, restoring=restoring, volume=volume,
-        water=(water.rho, water.g), mass=mass, centre=gravity - centre,
+        water=(water.rho, water.g), mass=mass,
     )  # fmt: skip
 
 

@@ -14,7 +14,6 @@ from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.heading_circle import keeps_sides_apart, phase_at
 from seacrane.hydro.data.hydro_group_data import GroupBody
-from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.group.group import HydroGroup
 from seacrane.hydro.readers.as_read import (
@@ -31,9 +30,8 @@ from seacrane.hydro.readers.as_read import (
 )
 from seacrane.hydro.readers.format import Loaded
 from seacrane.inputs.caller import warn_caller
-from seacrane.warnings import AssumedDensityWarning, AssumedInertiaWarning
+from seacrane.warnings import AssumedDensityWarning
 
-USUAL_RADII = (0.36, 0.25, 0.25)  # of breadth, length, length
 USUAL_DENSITY = 1025.0
 LIMITS = {"infinite_frequency_added_mass": np.inf, "zero_frequency_added_mass": 0.0}
 SYMMETRIC = ("added_mass", "damping", *LIMITS)
@@ -111,21 +109,20 @@ def floating_body(
     volume: float | None = None,
     displaced: float | None = None,
     where: Path | None = None,
-    centre: Array | None = None,
     **others: Any,
 ) -> GroupBody:
-    """A body with its equivalent box, and with the displaced mass where it has none.
+    """A body with its equivalent box.
 
     Parameters
     ----------
     water : density and gravity, kg/m3 and m/s2.
-    mass : (6, 6), or None: that of ``volume`` (m3) at ``centre`` (3,) with usual radii of gyration.
-    volume : None: that of the mass, which has to be one of a vessel where it is the file's.
+    mass : (6, 6), or None where neither the file nor the caller tells it.
+    volume : m3; None: that of the mass, which has to be one of a vessel where it is the file's.
     displaced : m3, where the file tells it beside such a mass.
     where : the file of its hydrostatics, for messages.
     others : of `GroupBody`; sizes that the file tells take the place of the box's, where they are not None.
 
-    Raises FileFormatError: as `box_of` and `mass_of_file`. Warns with AssumedInertiaWarning without ``mass``.
+    Raises FileFormatError: as `box_of` and `mass_of_file`.
     """
     where, rho, of_mass = where or asked.where, water[0], volume is None
     if not (rho > 0.0 and water[1] > 0.0):
@@ -138,17 +135,6 @@ def floating_body(
         mass = mass_of_file(
             asked, mass, where=Path(f"{where}: {name}") if several else where, displaced=told, box=box
         )
-    if mass is None:
-        radii = np.array(USUAL_RADII) * (box[1], box[0], box[0])
-        warn_caller(
-            f"{asked.where}: holds no mass matrix{f' of {name}' if several else ''}, pass mass_matrix to "
-            f"{asked.reader}, or seacrane hydro --mass; the displaced mass {rho * volume:.6g} kg with radii "
-            f"of gyration of {radii[0]:.3g}, {radii[1]:.3g}, {radii[2]:.3g} m (0.36 B, 0.25 L, 0.25 L) is "
-            "taken, and natural periods in roll and pitch follow from that guess",
-            AssumedInertiaWarning,
-        )
-        inertia = np.diag(rho * volume * radii**2)
-        mass = rigid_mass_matrix(rho * volume, np.zeros(3) if centre is None else centre, inertia)
     sizes: dict[str, Any] = dict(zip(("length", "breadth", "draught"), box, strict=True))
     sizes |= {key: value for key, value in others.items() if value is not None}
     return GroupBody(name=name, mass_matrix=mass, restoring=restoring, **sizes)

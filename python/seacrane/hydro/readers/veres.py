@@ -24,10 +24,11 @@ from seacrane.hydro.data.frozen import reading
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, DriftCoefficients, RollDamping
 from seacrane.hydro.data.motion import force_of_motion, one_function
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers.format import Format, sibling
+from seacrane.hydro.readers.as_read import left_out
+from seacrane.hydro.readers.format import Format, sibling, unread
 from seacrane.hydro.readers.text_records import NUMBER as WORD
 from seacrane.hydro.readers.text_records import TextRecords
-from seacrane.hydro.readers.veres_files import LOST, Case, VeresSet, choose_speed, is_veres, read_set
+from seacrane.hydro.readers.veres_files import LOST, SET, Case, VeresSet, choose_speed, is_veres, read_set
 from seacrane.inputs.caller import warn_caller
 from seacrane.warnings import EncounterFrequencyWarning, HydrostaticsWarning, PartialSetWarning
 
@@ -128,7 +129,8 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
         length=head.length, breadth=head.breadth, draught=head.draught,
         origin=f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
         "baseline",
-        source=f"ShipX/VERES files {found.stem.name} ({names}): {found.matrices.title}{lost}",
+        source=f"ShipX/VERES files {found.stem.name} ({names}): {found.matrices.title}{lost}"
+        + left_out(unread(found.stem, SET[2])),
         trusted_band=_trusted(omega), port_starboard_symmetric=True,
     )  # fmt: skip
     return database if ".re8" in waves else _with_forces(found.stem, database)

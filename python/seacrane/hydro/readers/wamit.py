@@ -28,7 +28,7 @@ from seacrane.hydro.data.hydro_group_data import GroupBody
 from seacrane.hydro.data.motion import force_of_motion
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.readers.as_read import Asked, Given, left_out, mass_of_file, rising_degrees
-from seacrane.hydro.readers.format import Format, Loaded, sibling, stem_of
+from seacrane.hydro.readers.format import Format, Loaded, sibling, stem_of, unread
 from seacrane.hydro.readers.of_bodies import density_of, floating_body, hull_or_group, of_each
 from seacrane.hydro.readers.wamit_listing import (
     ROTATIONS,
@@ -98,7 +98,7 @@ def read_wamit(
         exports: there ``volume`` is needed. Beside a ``.out`` they are not used.
     rho : kg/m3, of a set that does not tell it.
     mass_matrix : (6, 6) in SI about the origin; it takes the place of mass and inertia of ``.frc``. Of
-        several bodies by name; by default their displaced masses with usual radii of gyration.
+        several bodies by name. Without either there is none.
     motions, leave_out : as `read_capytaine` takes them.
 
     Returns
@@ -112,7 +112,6 @@ def read_wamit(
     Warns
     -----
     AssumedDensityWarning : neither ``.frc`` nor ``.out`` holds a density.
-    AssumedInertiaWarning : no mass, in ``.frc`` or as ``mass_matrix``.
     PartialSetWarning : periods or headings are not the same in all files; or there is no ``.3``.
     RoundedPhaseWarning : the forces are those of the listing.
 
@@ -269,17 +268,15 @@ def _convert(asked: Asked, files: Files, listing: Listing, rho: float | None) ->
         **{name: limit * mass_scale for name, limit in radiation.limits.items()},
         damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
     )  # fmt: skip
-    found = replace(found, source=found.source + left_out(_unread(stem, files)))
+    found = replace(found, source=found.source + left_out(unread(stem, _read_of(files))))
     return replace(found, force=force_of_motion(found, found.force)) if of_motions else found
 
 
-def _unread(stem: Path, files: Files) -> list[str]:
-    """Files of the stem that nothing is read of."""
+def _read_of(files: Files) -> set[str]:
+    """Suffixes of the files that something is read of."""
     drift = next((one for one in BY_PREFERENCE if files[one] is not None), "")
     haskind = ".2" if files[".3"] is None else ""
-    read = {".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", drift, haskind}
-    every = (file for file in sorted(stem.parent.iterdir()) if file.with_suffix("") == stem)
-    return [file.name for file in every if file.suffix.lower() not in read]
+    return {".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", drift, haskind}
 
 
 def _bodies(
@@ -294,15 +291,14 @@ def _bodies(
     for i, (body, mass) in enumerate(zip(listing.bodies, masses, strict=True)):
         at = slice(6 * i, 6 * i + 6)
         restoring = body.restoring(scale) * rho * g if whole is None else whole[at, at] * rho * g * power
-        centre, damping = body.gravity, None
+        damping = None
         if control is not None:
-            centre = centre if control.center_of_gravity is None else control.center_of_gravity
             mass = _mass_of_control(asked, control, body, rho) if mass is None else mass
             damping = control.damping
         made = floating_body(
             asked, body.name, where=listing.path if several else None, several=several,
             position=body.position, heading=body.heading, restoring=restoring, volume=body.volume,
-            water=(rho, g), mass=mass, centre=centre, linear_damping=damping,
+            water=(rho, g), mass=mass, linear_damping=damping,
         )  # fmt: skip
         if control is not None and control.stiffness is not None:
             made = replace(made, restoring=restoring + control.stiffness)

@@ -244,7 +244,7 @@ class ForceControl:
     """A ``.frc`` file of either form; what its form does not hold is None.
 
     Form 1 (IALTFRC=1): ``height_of_gravity`` and ``radii`` (3, 3) of gyration, m. Form 2 (IALTFRC=2):
-    ``rho``, ``center_of_gravity`` (3,), ``mass``, ``damping``, ``stiffness`` (6, 6), all dimensional.
+    ``rho``, ``mass``, ``damping``, ``stiffness`` (6, 6), all dimensional.
     ``motions_option`` is 1 for motions from Haskind forces, 2 from diffraction forces, 0 for none.
     """
 
@@ -253,7 +253,6 @@ class ForceControl:
     height_of_gravity: float | None = None
     radii: Array | None = None
     rho: float | None = None
-    center_of_gravity: Array | None = None
     mass: Array | None = None
     damping: Array | None = None
     stiffness: Array | None = None
@@ -278,7 +277,7 @@ def read_force_control(path: Path) -> ForceControl:
     names = ("mass", "damping", "stiffness")
     matrices: dict[str, Any] = {name: reader.matrix(f"external {name}") for name in names}
     reader.take(1, "NBETAH")
-    return ForceControl(path, motions, rho=first, center_of_gravity=np.array(row), **matrices)
+    return ForceControl(path, motions, rho=first, **matrices)
 
 
 def check_period_output(path: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ import numpy as np
 from seacrane.arrays import Array
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import mass_of, mass_scales
 from seacrane.hydro.database.check import CheckRow, at_most, info
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.database.netcdf import save_database
@@ -42,7 +43,8 @@ def write_database(
     ----------
     database : of one hull at zero speed, about its reference point.
     path : ``.nc`` for everything, in NetCDF of seacrane; a name that ends in ``.1``, or in nothing, for
-        WAMIT's ``.1``, ``.3``, ``.hst`` and ``.frc`` (mass and linear damping) of that stem, length scale 1.
+        WAMIT's ``.1``, ``.3``, ``.hst`` and ``.frc`` (mass and linear damping; none of a database without a
+        mass) of that stem, length scale 1.
     overwrite : replace files of these names.
 
     Returns
@@ -78,16 +80,21 @@ def write_database(
         return _compared(database, HydroDatabase.load(target), 0.0)
     if database.speed != 0.0:
         raise SceneError(f"{target}: the database is of {database.speed:g} m/s; WAMIT's files are of none")
-    for file, lines in zip(files, (_radiation, _waves, _stiffness, _control), strict=True):
+    weighs = database.mass_matrix is not None
+    if not weighs:
+        files.pop().unlink(missing_ok=True)  # of a database with one, which would be read back
+    for file, lines in zip(files, (_radiation, _waves, _stiffness, _control), strict=False):
         with atomic_write(file) as draft:
             draft.write_text("".join(line + "\n" for line in lines(database)))
-    volume = float(database.mass_matrix[0, 0]) / database.rho
+    given = {"volume": mass_scales(database)[0] / database.rho, "rho": database.rho, "depth": database.depth}
     with silently(SourceWarning):  # of what was told when the database was read
-        back = read_wamit(stem, volume=volume, depth=database.depth, g=database.g, motions=_solved(database))
+        back = read_wamit(stem, g=database.g, motions=_solved(database), **given)
     if not isinstance(back, HydroDatabase):
         raise FileFormatError(f"{stem}: was read back as several hulls; use another name")
-    unwritten = (name for name in UNWRITTEN if np.any(_told(getattr(database, name))))
-    return [*_compared(database, back, DIGITS), *(info(f"left_out_{name}", 1.0) for name in unwritten)]
+    lacking = UNWRITTEN if weighs else (*UNWRITTEN, "linear_damping")
+    unwritten = [name for name in lacking if np.any(_told(getattr(database, name)))]
+    left_out = [info(f"left_out_{name}", 1.0) for name in unwritten]
+    return _compared(database, back, DIGITS, unwritten) + left_out
 
 
 def _solved(database: HydroData) -> list[str]:
@@ -102,11 +109,13 @@ def _told(value: Any) -> Any:
     return value if isinstance(value, np.ndarray) else bool(value is not None and value != ())
 
 
-def _compared(database: HydroData, back: HydroData, limit: float) -> list[CheckRow]:
+def _compared(
+    database: HydroData, back: HydroData, limit: float, unwritten: Sequence[str] = ()
+) -> list[CheckRow]:
     rows = []
     for name in COMPARED:
         wanted, found = getattr(database, name), getattr(back, name)
-        if wanted is not None:
+        if wanted is not None and name not in unwritten:
             same = found is not None and np.shape(found) == np.shape(wanted)
             size = max(float(np.abs(wanted).max()), np.finfo(float).tiny)
             off = float(np.abs(found - wanted).max()) / size if same else np.inf
@@ -148,7 +157,7 @@ def _stiffness(database: HydroData) -> Iterator[str]:
 
 def _control(database: HydroData) -> Iterator[str]:
     """Form 2: density, centre of gravity, and external mass, damping and stiffness as they are."""
-    mass = database.mass_matrix
+    mass = mass_of(database)
     x, y, z = mass[1, 5] / mass[0, 0], mass[2, 3] / mass[0, 0], mass[0, 4] / mass[0, 0]
     yield f"{' '.join(database.name.split())[:60]}: written by seacrane"
     yield OPTIONS

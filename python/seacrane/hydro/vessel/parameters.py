@@ -10,6 +10,7 @@ import numpy as np
 from seacrane.arrays import Array
 from seacrane.hydro.data.data_warnings import warn_of_matrices, warn_of_resonance_below_band
 from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.hydro_group_data import mass_of
 from seacrane.hydro.data.memory_model import PEAK_ALLOWANCE, MemoryModel
 from seacrane.hydro.data.motion import natural_frequency, require_zero_speed
 from seacrane.hydro.data.rigid_mass import cross_matrix, rigid_mass_matrix
@@ -124,7 +125,7 @@ def time_domain_vessel(
     added_mass = model.added_mass + model.additional_added_mass
     return VesselParameters(
         mass=mass, center_of_mass=centre, inertia=inertia,
-        added_mass=_without_round_off(added_mass, database.mass_matrix) + rest, linear_damping=linear,
+        added_mass=_without_round_off(added_mass, mass_of(database)) + rest, linear_damping=linear,
         quadratic_damping=quadratic, restoring=restoring, memory=model,
     )  # fmt: skip
 
@@ -167,7 +168,7 @@ def _split_mass_matrix(database: HydroData) -> tuple[float, Array, Array, Array]
     rounded matrices break the rules of a mass distribution: the WAMIT tanker has a yaw inertia above the sum
     of roll and pitch, and M35 without its M26.
     """
-    matrix = database.mass_matrix
+    matrix = mass_of(database)
     mass = float(np.trace(matrix[:3, :3]) / 3.0)
     lever = 0.5 * (matrix[3:, :3] - matrix[:3, 3:]) / mass
     centre = np.array([lever[2, 1], lever[0, 2], lever[1, 0]])
