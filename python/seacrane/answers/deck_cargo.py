@@ -14,6 +14,7 @@ from seacrane.inputs.checked import is_finite, name_of, positive_of, rows_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import listed_of
 from seacrane.one_thread import one_thread
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result import Result
@@ -166,13 +167,7 @@ def deck_cargo(
     SceneError
         For a channel, body or point that is not there, cargo at one point twice, or no output after.
     """
-    listed = [cargo] if isinstance(cargo, Cargo) else list(cargo)
-    if not listed or not all(isinstance(one, Cargo) for one in listed):
-        raise SceneError(f"deck_cargo: cargo is {shown(cargo)}; give a list of Cargo")
-    points = [one.point for one in listed]
-    twice = next((name for name in points if points.count(name) > 1), None)
-    if twice is not None:
-        raise SceneError(f"deck_cargo: cargo {twice!r} is there twice; give each a point of its own")
+    listed = listed_of("deck_cargo: cargo", Cargo, cargo, by="point")
     scene = result.scene
     if deck is None:
         bodies = {scene.points[one.point].body for one in listed if scene and one.point in scene.points}
