@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-
-import numpy as np
+from math import exp, hypot, pi, sqrt
 
 from seacrane.answers.code_factors import Beside, ratio_of, simulated_of
 from seacrane.description.description import STANDARD_GRAVITY
@@ -150,7 +149,7 @@ def simplified_method(
         For values that make no sense, or a load that floats.
     """
     m, rho = positive_of("mass", mass, "kg"), positive_of("density", density, "kg/m3")
-    omega = 2.0 * np.pi / positive_of("tz", tz, "s")
+    omega = 2.0 * pi / positive_of("tz", tz, "s")
     wave = AMPLITUDE * not_negative_of("hs", hs, "m")
     rate = not_negative_of("lowering_speed", lowering_speed, "m/s")
     heave, v_t, a_t = (
@@ -166,16 +165,14 @@ def simplified_method(
         static = (m - rho * one.volume) * STANDARD_GRAVITY
         if static <= 0.0:
             raise SceneError(f"draught {one.name!r}: the load floats; its volume is {one.volume:g} m3")
-        v_w = wave * omega * np.exp(-(omega**2) / STANDARD_GRAVITY * one.depth)
-        speed = rate + float(np.hypot(v_t, v_w))
-        slam, drag = (0.5 * rho * area * speed**2 for area in (one.slam_area, one.drag_area))
-        inertia = float(
-            np.hypot((m + one.added_mass) * a_t, (rho * one.volume + one.added_mass) * omega * v_w)
-        )
-        buoyancy = rho * STANDARD_GRAVITY * one.water_plane * float(np.hypot(wave, heave))
-        force = float(np.hypot(drag + slam, inertia - buoyancy))
+        v_w = wave * omega * exp(-omega * omega / STANDARD_GRAVITY * one.depth)
+        speed = rate + hypot(v_t, v_w)
+        slam, drag = (0.5 * rho * area * speed * speed for area in (one.slam_area, one.drag_area))
+        inertia = hypot((m + one.added_mass) * a_t, (rho * one.volume + one.added_mass) * omega * v_w)
+        buoyancy = rho * STANDARD_GRAVITY * one.water_plane * hypot(wave, heave)
+        force = hypot(drag + slam, inertia - buoyancy)
         slack = k is not None and force > (1.0 - LEAST) * static
-        snap = speed * float(np.sqrt((k or 0.0) * (m + one.added_mass))) if slack else float("nan")
+        snap = speed * sqrt((k or 0.0) * (m + one.added_mass)) if slack else float("nan")
         rows.append(DraughtRow(
             name=one.name, static=static, drag=drag, slam=slam, inertia=inertia, buoyancy=buoyancy,
             hydrodynamic=force, snap=snap, simulated=beside[one.name],

@@ -19,6 +19,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 import numpy as np
 
 from seacrane._core import Curve
+from seacrane.errors import SceneError
 from seacrane.inputs.units import UNITS, in_si, others_of
 
 MIXED = ", "  # between the units of an array of several: no suffix says them
@@ -84,6 +85,22 @@ def into_si(unit: str) -> Callable[[Any], Any]:
         return tuple(map(converted, value)) if isinstance(value, tuple) else in_si(value, unit)
 
     return converted if unit in UNITS and UNITS[unit][0] != 1.0 else lambda value: value
+
+
+def require_unit(
+    keys: Iterable[Key], values: Mapping[str, Any], own: str, what: str, otherwise: str = ""
+) -> None:
+    """Refuse values in another unit than its own, or one of several.
+
+    `what` is meant; `otherwise`: the fix where no key is in it.
+    """
+    units = {each for unit in own.split(EITHER) for each in (unit, *others_of(unit))}
+    for key in keys:
+        right = [one for one, unit in key.spellings.items() if unit in units]
+        for spelling, unit in key.spellings.items():
+            if spelling in values and unit and spelling not in right:
+                fix = f"give {' or '.join(right)}" if right else otherwise
+                raise SceneError.of(spelling, f"is given, and {what} is in {own}; {fix}")
 
 
 def keys_of(
