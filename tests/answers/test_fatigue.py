@@ -100,7 +100,8 @@ def test_a_slack_wire_goes_down_to_zero_and_one_that_is_not_known_is_named() -> 
     assert wire.largest == pytest.approx(peak, rel=1e-3) and wire.rainflow > 0.0
     assert (spare.rainflow, spare.life) == (0.0, np.inf) and np.isnan(spare.dirlik)
     told = str(fatigue(result, curves=curves))
-    assert "line_tension[wire] is zero, as of a slack wire, at" in told and "spare] is 0 N throughout" in told
+    assert 0.3 < wire.zero < 0.7 and spare.zero == 1.0
+    assert "as a slack wire is" in told and "spare] is 0 N throughout" in told
     gap = np.array(result["line_tension"])
     gap[40:50, 0] = np.nan
     torn = replace(result, channels={**result.channels, "line_tension": gap})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import isnan
 from typing import ClassVar, Protocol, TypeVar
 
 import numpy as np
@@ -65,7 +66,8 @@ class Beside(Rows[One]):
     def _beside(self, axis: Column, *columns: Column, remarks: Sequence[str] = ()) -> Table:
         """What is exceeded is said first, in print, on a page and in files."""
         above = f"SIMULATED ABOVE THE {self.what}: {', '.join(self.exceeded)}. " if self.exceeded else ""
-        first = Column(name="exceeded", values=[row.ratio > 1.0 for row in self.rows], printed=False)
+        known = [None if isnan(row.ratio) else row.ratio > 1.0 for row in self.rows]
+        first = Column(name="exceeded", values=[format_value(one) for one in known], printed=False)
         return Table(axes=[axis], columns=[first, *columns], title=f"{above}{self.title}", remarks=remarks)
 
     def _ratio(self) -> Column:

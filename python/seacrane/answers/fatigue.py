@@ -148,6 +148,7 @@ class FatigueRow:
     cycles, largest : Counted in the record, and the largest range, in the unit of the channel.
     rainflow, narrow_band, dirlik : Damage in an hour; by the spectrum as of a Gaussian process.
     life : Hours until Miner's sum of the rainflow is 1.
+    zero : Share of the outputs at which it is zero, as a slack wire is.
     source : Of the curve.
 
     Numbers that are not known are NaN.
@@ -161,6 +162,7 @@ class FatigueRow:
     narrow_band: float = NAN
     dirlik: float = NAN
     life: float = NAN
+    zero: float = NAN
     source: str = ""
 
 
@@ -189,6 +191,8 @@ class Fatigue(Rows[FatigueRow]):
 
     def _shown(self) -> Table:
         remarks = [*self.told, "No safety factor, and no mean: a range counts alike at any mean tension."]
+        if any(row.zero > 0.0 for row in self.rows):
+            remarks.append("At zero, as a slack wire is: cycles go down to it, and spectra do not know it.")
         if self.coarse:
             remarks.append(f"Too few outputs for their cycles: {', '.join(self.coarse)}; shorten dt_out.")
         return Table(
@@ -199,7 +203,8 @@ class Fatigue(Rows[FatigueRow]):
                 self.column("rainflow", head="damage in 1 h", unit="1/h", form=".3g"),
                 self.column("narrow_band", head="narrow band", unit="1/h", form=".3g"),
                 self.column("dirlik", head="Dirlik", unit="1/h", form=".3g"),
-                self.column("life", unit="h", form=".3g"), self.column("source", head="curve"),
+                self.column("life", unit="h", form=".3g"), self.column("zero", head="at zero", form=".0%"),
+                self.column("source", head="curve"),
             ],
             title=f"Fatigue by {self.duration:g} s", remarks=remarks,
         )  # fmt: skip
@@ -246,22 +251,19 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
         pick = pick_of("fatigue", name)
         values = np.asarray(result.curve(name))[part]
         unit = unit_of(pick.channel, list(pick.names.values()))
-        gaps, zero = float(np.mean(~np.isfinite(values))), float(np.mean(values == 0.0))
+        gaps = float(np.mean(~np.isfinite(values)))
         if gaps:
             told.append(f"{name} is NOT JUDGED: it is no number at {gaps:.0%} of the outputs; leave them out")
             rows.append(FatigueRow(name=name, unit=unit, source=curve.source))
             continue
         row, rate = _row_of(values, duration, curve)
-        rows.append(replace(row, name=name, unit=unit))
+        rows.append(replace(row, name=name, unit=unit, zero=float(np.mean(values == 0.0))))
         least, largest = result.reached(name, part=part)
         hidden = np.ptp(values) < (1.0 - HIDDEN) * (largest.max() - least.min())
         if hidden or time.size < FEW * rate * duration:
             coarse.append(name)
         elif not rate:
             told.append(f"{name} is {values[0]:g} {unit} throughout: it does not wear")
-        if rate and zero:
-            told.append(f"{name} is zero, as of a slack wire, at {zero:.0%} of the outputs: cycles go down "
-                        "to it, and spectra, as of a Gaussian process, do not know it")  # fmt: skip
     return Fatigue(rows=tuple(rows), duration=duration, coarse=tuple(coarse), told=tuple(told))
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from seacrane.answers.report import answers_report
 from seacrane.ensembles.ensemble import ensemble
 from seacrane.ensembles.object_store import folder_of
+from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.errors import SceneError
 from seacrane.lift.answer_keys import ANSWERS
 from seacrane.lift.asked_answers import Asked
@@ -53,6 +54,8 @@ def run_answers(
     for one in lift.answers:
         with refused_at(one.entry):
             require_curves(scene, one.curves)
+            if one.over:
+                require_same_sea(scene, one.over)
     target.mkdir(parents=True, exist_ok=True)
     result = _run_of(lift, scene, progress=progress)
     found: dict[str, Answer] = {}
