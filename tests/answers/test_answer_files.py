@@ -36,6 +36,8 @@ BOUNCING = (
 
 [[point]]; name = "box"; body = "load"; point_m = [0, 0, 0.5]
 
+[[channel]]; name = "lead"; expression = "box.x - 0 m"
+
 [[line]]; name = "wire"; first = "ground"; second = "load"; first_point_m = [0, 0, 0]
 second_point_m = [0, 0, 0]; EA_kN = 5000; length_m = 10; damping_ratio = 0; rung = "elastic"
 
@@ -49,7 +51,7 @@ curves = [{ channels = ["line_tension[wire]"], constant = 100, slope = 2, scale_
 [[code_factors]]; hs_m = 2; mass_t = 20; stiffness_N_per_m = 5e5
 
 [[code_factors]]; hs_m = 2; mass_t = 20; stiffness_kN_per_m = 500; deck = "fixed"
-simulated = { "dynamic factor" = "slack_margin[wire].max" }
+simulated = { "dynamic factor" = "slack_margin[wire].max", offlead = "own[lead].max" }
 
 [simplified_method]; mass_t = 20; hs_m = 1; tz_s = 6; lowering_speed_m_per_min = 15
 draughts = [{ name = "half under", volume_m3 = 4, drag_area_m2 = 9 }, { name = "under", added_mass_t = 5 }]
@@ -88,7 +90,9 @@ def test_a_file_gives_what_the_calls_give(tmp_path: Path, capsys: pytest.Capture
     ]  # fmt: skip
     beside = {"hs": 2.0, "mass": 2e4, "stiffness": 5e5}
     by_calls = {
-        "Code factors 2": code_factors(**beside, deck="fixed", simulated={"dynamic factor": factor}),
+        "Code factors 2": code_factors(
+            **beside, deck="fixed", simulated={"dynamic factor": factor, "offlead": 0.0}
+        ),
         "Simplified method": simplified_method(
             mass=2e4, draughts=draughts, hs=1.0, tz=6.0, lowering_speed=0.25, simulated={"half under": margin}
         ),
@@ -115,7 +119,7 @@ def test_a_file_gives_what_the_calls_give(tmp_path: Path, capsys: pytest.Capture
     }
     assert {one.stem for one in out.glob("*.csv")} == files
     table = pandas.read_csv(out / "code_factors_2.csv", index_col=0)
-    assert table["exceeded"].dropna().to_dict() == {"dynamic factor": "yes"}
+    assert table["exceeded"].dropna().to_dict() == {"dynamic factor": "yes", "offlead": "no"}
     held = pandas.read_csv(out / "deck_cargo_fastening.csv")
     assert held["fastening"].tolist() == ["box 1", "box 2", "box 3"]
     assert main(["answers", str(path), "--out", str(out)]) == 0
@@ -136,6 +140,7 @@ SIMULATED = '"slack_margin[wire].max"'
         (SIMULATED, '"slack_margin[wire]"', "a curve; give a number of it"),
         (SIMULATED, '"line_tension[wire].max"', "line_tension is in N, and 'dynamic factor' in 1"),
         (SIMULATED, '"slack_margin[rope].max"', "no weighed 'rope'"),
+        (SIMULATED, '"own[lead].max"', "own is in m, and 'dynamic factor' in 1"),
         ('{ "dynamic factor"', '{ "psi"', "no row 'psi'"),
         ('deck = "fixed"', 'deck = "quay"', "nearest|known are"),
         ("stiffness_N_per_m = 5e5", "falls = 2", "give stiffness_N_per_m"),

@@ -100,7 +100,10 @@ class SimplifiedMethod(Beside[DraughtRow]):
     def _shown(self) -> Table:
         forces = ("static", "drag", "slam", "inertia", "buoyancy", "hydrodynamic", "snap")
         columns = [self.column(name, unit="N") for name in forces]
-        columns += [self.column(name, form=".2f") for name in ("margin", "dynamic_factor", "simulated")]
+        columns += [
+            self.column("margin", form=".2f"), self.column("dynamic_factor", head="factor", form=".2f"),
+            self.column("simulated", form=".2f"),
+        ]  # fmt: skip
         remarks = [f"A margin below {LEAST:g} is slack. {SOURCE}."]
         return self._beside(self.names("draught"), *columns, self._ratio(), remarks=remarks)
 

@@ -12,7 +12,6 @@ from pathlib import Path
 from seacrane.answers.report import answers_report
 from seacrane.ensembles.ensemble import ensemble
 from seacrane.ensembles.object_store import folder_of
-from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.errors import SceneError
 from seacrane.lift.answer_keys import ANSWERS
 from seacrane.lift.asked_answers import Asked
@@ -20,7 +19,6 @@ from seacrane.lift.build import refused_at
 from seacrane.lift.lift import Lift
 from seacrane.plotting.table import Answer
 from seacrane.result.result import Result
-from seacrane.run.channel_names import require_curves
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 
@@ -43,7 +41,7 @@ def run_answers(
     FileFormatError
         With the line, for what is wrong in the file.
     SceneError
-        If it asks for none, the run was interrupted, or the runs of the folder are of another lift.
+        If it asks for none, or the runs of the folder are of another lift.
     SimulationError, OSError
         As of `simulate` and `ensemble`.
     """
@@ -52,19 +50,15 @@ def run_answers(
         raise SceneError(f"{Path(path).name} asks for no answer; add one of {', '.join(ANSWERS)} as a table")
     scene = lift.scene()
     for one in lift.answers:
-        with refused_at(one.entry):
-            require_curves(scene, one.curves)
-            if one.over:
-                require_same_sea(scene, one.over)
+        one.require(scene)
     target.mkdir(parents=True, exist_ok=True)
     result = _run_of(lift, scene, progress=progress)
     found: dict[str, Answer] = {}
     for stem, one in _by_stem(lift.answers).items():
-        with refused_at(one.entry):
-            if one.over:
-                found[stem] = _of_seeds(lift, scene, one, target / RUNS / stem, executor, progress=progress)
-            else:
-                found[stem] = one.of(scene, result)
+        if one.over:
+            found[stem] = _of_seeds(lift, scene, one, target / RUNS / stem, executor, progress=progress)
+        else:
+            found[stem] = one.of(scene, result)
     for stem, answer in found.items():
         answer.to_csv(target / f"{stem}.csv")
         for table in answer._shown().below:
@@ -106,10 +100,11 @@ def _of_seeds(
 ) -> Answer:
     """The answer of runs in several seas, which are kept in a store."""
     store.mkdir(parents=True, exist_ok=True)
-    done = ensemble(
-        scene, over=asked.over, keep={"kept": asked.keep()}, stages=lift.stages, start=lift.start,
-        t_end=None if lift.stages else lift.t_end, method=lift.method, accuracy=lift.accuracy,
-        outputs=replace(lift.outputs, channels=asked.channels), executor=executor, store=store,
-        progress=progress,
-    )  # fmt: skip
-    return asked.call.make(done.dataset["kept"])
+    with refused_at(asked.entry):
+        done = ensemble(
+            scene, over=asked.over, keep={"kept": asked.keep()}, stages=lift.stages, start=lift.start,
+            t_end=None if lift.stages else lift.t_end, method=lift.method, accuracy=lift.accuracy,
+            outputs=replace(lift.outputs, channels=asked.channels), executor=executor, store=store,
+            progress=progress,
+        )  # fmt: skip
+        return asked.call.make(done.dataset["kept"])

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from seacrane.answers.code_factors import Beside
+from seacrane.description.channels import unit_of
 from seacrane.description.pick import Pick
 from seacrane.ensembles.kept import Kept
+from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.lift.answer_keys import ANSWERS, AnswerCall
@@ -19,6 +20,7 @@ from seacrane.lift.calls import keywords
 from seacrane.lift.check_keys import Entry
 from seacrane.plotting.table import Answer
 from seacrane.result.result import Result
+from seacrane.run.channel_names import require_curves
 from seacrane.scene.scene import Scene
 
 
@@ -60,17 +62,35 @@ class Asked:
         assert self.call.keep is not None
         return self.call.keep(**self.given)
 
+    def require(self, scene: Scene) -> None:
+        """Refuse before any run what the scene has not, and a number in another unit than that of its row."""
+        with refused_at(self.entry):
+            require_curves(scene, self.curves)
+            if self.over:
+                require_same_sea(scene, self.over)
+            code: Any = self.call.make(**self._given(scene)) if self.simulated else None
+        for name, kept in self.simulated.items():
+            own = scene.channels.get(kept.names.get("expression", ""))
+            unit = unit_of(kept.channel, kept.names.values()) if own is None else own.unit
+            if unit != (code.unit_of(name) or "1"):
+                told = f"{kept.channel} is in {unit}, and {name!r} in {code.unit_of(name) or '1'}"
+                self.entry.fail(f"simulated: {told}; give another", "simulated")
+
     def of(self, scene: Scene, result: Result | None) -> Answer:
         """The answer, of a run where it takes one."""
-        told = {key: of(scene) for key, of in self.call.of_scene.items() if key not in self.given}
-        given = {**told, **self.given, **({"result": result} if self.call.takes_run else {})}
-        if not self.simulated:
+        with refused_at(self.entry):
+            given = self._given(scene)
+            if self.call.takes_run:
+                given["result"] = result
+            if self.simulated:
+                assert result is not None
+                given["simulated"] = {name: _number(kept, result) for name, kept in self.simulated.items()}
             return self.call.make(**given)
-        assert result is not None
-        code: Any = self.call.make(**given)
-        return self.call.make(**given, simulated={
-            name: _number(code, name, kept, result) for name, kept in self.simulated.items()
-        })  # fmt: skip
+
+    def _given(self, scene: Scene) -> dict[str, Any]:
+        """With what the scene tells where the table does not."""
+        told = {key: of(scene) for key, of in self.call.of_scene.items() if key not in self.given}
+        return {**told, **self.given}
 
 
 def asked_of(entry: Entry) -> Asked:
@@ -78,24 +98,15 @@ def asked_of(entry: Entry) -> Asked:
     call = ANSWERS[entry.table.name]
     with refused_at(entry):
         given = keywords(call.keys, entry.values)
-    for word, of_row in call.rows.items():
-        made: dict[str, Any] = {}
-        for place, (table, row) in enumerate(zip(entry.values[word], given[word], strict=True)):
-            with refused_at(entry, word, place):
-                for name, one in of_row(table, row).items():
-                    if name in made:
-                        raise SceneError(f"{shown(name)} is there twice; give it once")
-                    made[name] = one
-        if not made:
-            entry.fail(f"{word} is empty; give at least one", word)
-        given[word] = call.gather(made)
-    simulated = {}
+    for word in call.rows:
+        given[word] = call.gather(_by_name(entry, word, call, given[word]))
+    simulated: dict[str, Kept] = {}
+    over: dict[str, Any] = {}
     for name, text in given.pop("simulated", {}).items():
         with refused_at(entry, "simulated", name):
             simulated[name] = _kept(text)
-    over: dict[str, Any] = {}
     if call.keep is not None:
-        over["seed"] = range(1, 1 + given.pop("seeds"))
+        over = {"seed": range(1, 1 + given.pop("seeds"))}
         over |= {"hs": list(given.pop("hs"))} if "hs" in given else {}
     asked = Asked(call=call, given=given, simulated=simulated, over=over, entry=entry)
     with refused_at(entry):
@@ -107,6 +118,20 @@ def asked_of(entry: Entry) -> Asked:
     return asked
 
 
+def _by_name(entry: Entry, word: str, call: AnswerCall, rows: Sequence[Any]) -> dict[str, Any]:
+    """What the tables within one make, by their names."""
+    found: dict[str, Any] = {}
+    for place, (table, row) in enumerate(zip(entry.values[word], rows, strict=True)):
+        with refused_at(entry, word, place):
+            for name, one in call.rows[word](table, row).items():
+                if name in found:
+                    raise SceneError(f"{shown(name)} is there twice; give it once")
+                found[name] = one
+    if not found:
+        entry.fail(f"{word} is empty; give at least one", word)
+    return found
+
+
 def _kept(text: str) -> Kept:
     kept = Kept.of_text(text)
     if kept.what == "series":
@@ -114,12 +139,8 @@ def _kept(text: str) -> Kept:
     return kept
 
 
-def _number(code: Beside[Any], name: str, kept: Kept, result: Result) -> float:
-    """What is kept of a run, in the unit of a row."""
-    found = kept.of(result)
-    unit, own = found.attributes["units"], code.unit_of(name) or "1"
-    if unit != own:
-        raise SceneError(f"simulated: {kept.channel} is in {unit}, and {name!r} in {own}; give another")
-    if found.values.size != 1:
+def _number(kept: Kept, result: Result) -> float:
+    values = kept.of(result).values
+    if values.size != 1:
         raise SceneError(f"simulated: {kept.channel} has several curves; name one in brackets")
-    return float(found.values.item())
+    return float(values.item())
