@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
+import pandas
 import pytest
 
 from seacrane import SceneError
@@ -32,7 +35,7 @@ def test_speeds_of_the_crane_codes(
     assert api_hoisting_speed(6.0 * 0.3048) == pytest.approx(0.3048 * 0.621)
 
 
-def test_a_simulation_above_the_code_is_said_first() -> None:
+def test_a_simulation_above_the_code_is_said_first(tmp_path: Path) -> None:
     """psi = 1 + (0.25 + 1) / g sqrt(2e6 / 20e3) with v_D 0, v_C 1 and v_L 0.5 m/s."""
     found = code_factors(
         hs=2.0, mass=20e3, stiffness=2e6, deck="fixed", tip_speed=1.0, hoisting_speed=0.5,
@@ -41,7 +44,15 @@ def test_a_simulation_above_the_code_is_said_first() -> None:
     assert found["dynamic factor"].value == pytest.approx(1.0 + 12.5 / G)
     assert found["dynamic factor"].ratio == pytest.approx(3.0 / (1.0 + 12.5 / G))
     assert found.exceeded == ("dynamic factor",)
-    assert str(found).startswith("SIMULATED ABOVE THE CODE: dynamic factor.")
+    first = "SIMULATED ABOVE THE CODE: dynamic factor."
+    assert str(found).startswith(first) and f"<caption>{first}" in found.html()
+    assert found.html().count('class="bad"') == 1
+    table = pandas.read_csv(found.to_csv(tmp_path / "codes.csv"), index_col=0)
+    assert table.columns[0] == "exceeded" and table["exceeded"].dropna().to_dict() == {
+        "hoisting speed": "no", "dynamic factor": "yes",
+    }  # fmt: skip
+    still = code_factors(hs=0.0, mass=1.0, stiffness=1.0, simulated={"deck speed": 0.1})
+    assert still.exceeded == ("deck speed",)  # of which the code has nothing
     with pytest.raises(SceneError, match="no row 'psi'"):
         code_factors(hs=2.0, mass=1.0, stiffness=1.0, simulated={"psi": 1.0})
 
@@ -73,6 +84,8 @@ def test_the_simplified_method_at_three_draughts_by_hand() -> None:
     )  # the water takes nothing by the method
     assert air.hydrodynamic == 0.0 and air.ratio == np.inf
     assert still.hydrodynamic == pytest.approx(np.hypot(4e3 * 1.45**2, 12e3)) and np.isnan(still.snap)
+    with pytest.raises(SceneError, match="'touches' is there twice"):
+        simplified_method(mass=2e4, draughts=[draughts[0]] * 2, hs=1.0, tz=6.0, lowering_speed=0.2)
     with pytest.raises(SceneError, match="'raft': the load floats"):
         simplified_method(
             mass=1e3, draughts=[Draught(name="raft", volume=2.0)], hs=1.0, tz=6.0, lowering_speed=0.2

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -81,3 +82,31 @@ def test_a_sine_has_one_cycle_in_each_period() -> None:
             fatigue(result, curves={"line_tension[wire]": FatigueCurve(constant=1.0, slope=3.0)}, after=after)
     with pytest.raises(SceneError, match="FatigueCurve"):
         fatigue(result, curves={"line_tension[wire]": 3.0})  # type: ignore[dict-item]
+
+
+def test_a_slack_wire_goes_down_to_zero_and_one_that_is_not_known_is_named() -> None:
+    """A weight that hops: the wire is slack for a part of each cycle; another that carries nothing; a gap."""
+    scene = Scene(name="hopping", gravity=G)
+    scene.add_body("load", mass=2e4, inertia=(1e4,) * 3, position=(0.0, 0.0, -9.5))
+    for name, length in (("wire", 10.0), ("spare", 99.0)):
+        scene.add_line(
+            name, bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], EA=5e6, length=length,
+            damping_ratio=0.0, rung="elastic",
+        )  # fmt: skip
+    result = simulate(scene, t_end=60.0, dt_out=0.02, channels=["line_tension"])
+    curves = {f"line_tension[{name}]": FatigueCurve(constant=1.0, slope=2.0) for name in ("wire", "spare")}
+    wire, spare = fatigue(result, curves=curves)
+    peak = 2e4 * G * (1.0 + np.sqrt(1.0 + 2.0 * 0.5 * 5e5 / (2e4 * G)))  # k x^2 / 2 = m g (0.5 m + x)
+    assert wire.largest == pytest.approx(peak, rel=1e-3) and wire.rainflow > 0.0
+    assert (spare.rainflow, spare.life) == (0.0, np.inf) and np.isnan(spare.dirlik)
+    told = str(fatigue(result, curves=curves))
+    assert 0.3 < wire.zero < 0.7 and spare.zero == 1.0
+    assert "as a slack wire is" in told and "spare] is 0 N throughout" in told
+    gap = np.array(result["line_tension"])
+    gap[40:50, 0] = np.nan
+    torn = replace(result, channels={**result.channels, "line_tension": gap})
+    first, second = fatigue(torn, curves=curves)
+    assert np.isnan(first.rainflow) and second.rainflow == 0.0
+    assert "line_tension[wire] is NOT JUDGED" in str(fatigue(torn, curves=curves))
+    few = simulate(scene, t_end=60.0, dt_out=0.7, channels=["line_tension"])
+    assert fatigue(few, curves=curves).coarse == ("line_tension[wire]",)

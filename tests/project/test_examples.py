@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from seacrane.lift.answer_keys import ANSWERS
+
 FOLDER = Path(__file__).resolve().parents[2] / "examples"
 EXAMPLES = sorted(FOLDER.glob("*.py"))
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?"
@@ -109,3 +111,24 @@ def test_example_prints_numbers_and_saves_one_picture(example: Path, tmp_path: P
     if example.stem in BY_HAND:
         rows = [[float(one) for one in re.findall(NUMBER, line)] for line in said.splitlines()]
         BY_HAND[example.stem](said, rows)
+
+
+@BY_NIGHT
+def test_a_lift_file_gives_every_answer(tmp_path: Path) -> None:
+    """By somebody who types one command: all that a lift file may ask for, of one run and of seeds."""
+    command = [sys.executable, "-m", "seacrane", "answers", str(FOLDER / "lifts" / "answers.toml")]
+    done = subprocess.run([*command, "--out", str(tmp_path)], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    names = {path.stem for path in tmp_path.glob("*.csv")}
+    assert names == {*ANSWERS, "code_factors_2", "deck_cargo_fastening"}
+    page = (tmp_path / "answers.html").read_text(encoding="utf-8")
+    for words in (
+        "Fatigue by",
+        "Off-board lift by codes",
+        "Simplified method,",
+        "Deck cargo:",
+        "Re-hits after",
+    ):
+        assert words in done.stdout and words in page
+    again = subprocess.run([*command, "--out", str(tmp_path)], capture_output=True, text=True, check=False)
+    assert (again.returncode, again.stdout) == (0, done.stdout)

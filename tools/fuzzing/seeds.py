@@ -108,6 +108,8 @@ def main() -> None:
     aqwa_seeds()
     put("crane", "shipped", (SHIPPED / "knuckle_boom_250t.toml").read_bytes())
     put("lift", "every-table", EVERY_TABLE)
+    examples = Path(__file__).resolve().parents[2] / "examples" / "lifts"
+    put("lift", "answers", (examples / "answers.toml").read_bytes())
     put("lift", "case3", (SHIPPED.parent / "lifts" / "case3.toml").read_bytes())
 
 

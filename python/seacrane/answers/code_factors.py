@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import isnan
+from typing import ClassVar, Protocol, TypeVar
 
 import numpy as np
 
@@ -12,7 +14,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of, number_of, positive_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
-from seacrane.plotting.table import Rows, Table
+from seacrane.plotting.table import Column, Named, Rows, Table, Verdict, format_value
 
 SECOND_HAND = "second-hand, unverified"
 EN = f"EN 13852-1:2013 ({SECOND_HAND})"
@@ -22,6 +24,57 @@ DECKS: Mapping[str, tuple[float, float]] = {  # v_D = a H / (H + b), m/s
     "fixed": (0.0, 1.0), "barge": (4.0, 7.0), "supply vessel": (6.0, 8.0),
 }  # fmt: skip
 REEVING = {True: 0.50, False: 0.28}  # K_H at rated capacity, by whether there is a single fall
+
+
+class Compared(Named, Protocol):
+    """A number of a code that may stand beside a simulated one."""
+
+    @property
+    def ratio(self) -> float: ...
+
+
+One = TypeVar("One", bound=Compared)
+
+
+def ratio_of(simulated: float, code: float) -> float:
+    """Simulated over the code's, which may be nothing."""
+    return simulated / code if code else simulated * float("inf")
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Beside(Rows[One]):
+    """Numbers of a code beside simulated ones.
+
+    Attributes
+    ----------
+    rows : tuple
+    title : str
+    """
+
+    title: str
+    what: ClassVar[str]
+
+    @property
+    def exceeded(self) -> tuple[str, ...]:
+        """What a simulation is above: a number of a code bounds nothing."""
+        return tuple(row.name for row in self.rows if row.ratio > 1.0)
+
+    def unit_of(self, name: str) -> str:
+        """Of what may be simulated in the row of a name, SI; of a margin none."""
+        return str(getattr(self[name], "unit", ""))
+
+    def _beside(self, axis: Column, *columns: Column, remarks: Sequence[str] = ()) -> Table:
+        """What is exceeded is said first, in print, on a page and in files."""
+        above = f"SIMULATED ABOVE THE {self.what}: {', '.join(self.exceeded)}. " if self.exceeded else ""
+        known = [None if isnan(row.ratio) else row.ratio > 1.0 for row in self.rows]
+        first = Column(name="exceeded", values=[format_value(one) for one in known], printed=False)
+        return Table(axes=[axis], columns=[first, *columns], title=f"{above}{self.title}", remarks=remarks)
+
+    def _ratio(self) -> Column:
+        """Bad where it is exceeded."""
+        values = [row.ratio for row in self.rows]
+        told = [Verdict(format_value(one, ".2f"), False if one > 1.0 else None) for one in values]
+        return Column(name="ratio", values=values, read=("", told))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,39 +99,20 @@ class CodeRow:
     @property
     def ratio(self) -> float:
         """Simulated over the code's."""
-        return self.simulated / self.value if self.value else float("nan")
+        return ratio_of(self.simulated, self.value)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class CodeFactors(Rows[CodeRow]):
-    """Numbers of codes beside simulated ones. Made by `code_factors` and `simplified_method`.
+class CodeFactors(Beside[CodeRow]):
+    """Factors and speeds of crane codes beside simulated ones. Made by `code_factors`; prints as a table."""
 
-    Attributes
-    ----------
-    rows : tuple of CodeRow
-    title : str
-    """
-
-    title: str
-
-    @property
-    def exceeded(self) -> tuple[str, ...]:
-        """What a simulation is above: a factor of a code bounds nothing."""
-        return tuple(row.name for row in self.rows if row.ratio > 1.0)
-
-    def __repr__(self) -> str:
-        return f"<CodeFactors: {len(self)} rows>"
+    what = "CODE"
 
     def _shown(self) -> Table:
-        above = f"SIMULATED ABOVE THE CODE: {', '.join(self.exceeded)}. " if self.exceeded else ""
-        return Table(
-            axes=[self.names("row", head="")],
-            columns=[
-                self.column("value", head="code"), self.column("simulated"), self.column("ratio", form=".2f"),
-                self.column("unit", head="unit"), self.column("formula"), self.column("inputs", head="with"),
-                self.column("source"),
-            ],
-            title=f"{above}{self.title}",
+        return self._beside(
+            self.names("row", head=""), self.column("value", head="code"), self.column("simulated"),
+            self._ratio(), self.column("unit", head="unit"), self.column("formula"),
+            self.column("inputs", head="with"), self.column("source"),
         )  # fmt: skip
 
 
@@ -110,7 +144,8 @@ def code_factors(
 ) -> CodeFactors:
     """Dynamic factor, hoisting speed, off-lead and side-lead of an off-board lift by crane codes.
 
-    The texts of the codes could not be read: formulas are as others quote them, and each row says so.
+    The texts of the codes could not be read: formulas are as others quote them, and each row says so. Of API
+    Spec 2C that is the least hoisting speed alone: nobody who may be cited quotes its v_D, v_C and off-lead.
 
     Parameters
     ----------
@@ -160,16 +195,14 @@ def code_factors(
         CodeRow(name="offlead", value=2.5 + 1.5 * height, unit="m", formula="2.5 + 1.5 H", source=EN),
         CodeRow(name="sidelead", value=0.5 * (2.5 + 1.5 * height), unit="m", formula="half of it", source=EN),
     ]  # fmt: skip
-    return _beside(rows, simulated, f"Off-board lift by codes, Hs {height:g} m")
+    beside = simulated_of("row", simulated, [row.name for row in rows])
+    made = (replace(row, simulated=beside[row.name]) for row in rows)
+    return CodeFactors(rows=tuple(made), title=f"Off-board lift by codes, Hs {height:g} m")
 
 
-def _beside(rows: list[CodeRow], simulated: Mapping[str, float] | None, title: str) -> CodeFactors:
-    """The rows with what was simulated."""
-    given = dict(simulated or {})
-    known = [row.name for row in rows]
-    for name in given:
-        if name not in known:
-            raise SceneError(f"simulated: there is no row {shown(name)}; rows are {', '.join(known)}")
-        given[name] = number_of(f"simulated: {name}", given[name])
-    made = (replace(row, simulated=given.get(row.name, float("nan"))) for row in rows)
-    return CodeFactors(rows=tuple(made), title=title)
+def simulated_of(what: str, given: Mapping[str, float] | None, names: Sequence[str]) -> dict[str, float]:
+    """Numbers of a simulation by all names, NaN where there is none; SceneError for another name."""
+    for name in given or {}:
+        if name not in names:
+            raise SceneError(f"simulated: there is no {what} {shown(name)}; give {', '.join(names)}")
+    return {name: number_of(f"simulated: {name}", (given or {}).get(name, float("nan"))) for name in names}

@@ -14,6 +14,7 @@ from seacrane.inputs.checked import is_finite, name_of, positive_of, rows_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import listed_of
 from seacrane.one_thread import one_thread
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result import Result
@@ -124,25 +125,30 @@ class DeckCargo(Answer):
               for i, axis in enumerate(AXES)),
         ]  # fmt: skip
         axes = [Column(name="cargo", values=list(self.accelerations)), Column(name="extreme", values=names)]
-        held = [self._held(cargo) for cargo in self.forces if self.forces[cargo].shape[1]]
         remarks = ["Along the deck's axes; gravity is in it, once: at rest on an even keel z is g."]
         return Table(
             axes=axes, columns=columns, title="Deck cargo: extremes, and what occurs together",
-            remarks=remarks, below=held,
+            remarks=remarks, below=self._held(),
         )  # fmt: skip
 
-    def _held(self, cargo: str) -> Table:
+    def _held(self) -> list[Table]:
         """Largest and least force of each fastening along each axis."""
-        forces = self.forces[cargo]
+        names = [f"{cargo} {i + 1}" for cargo, forces in self.forces.items() for i in range(forces.shape[1])]
+        if not names:
+            return []
+        ends = np.array([
+            find(forces[:, i], axis=0)
+            for forces in self.forces.values() for i in range(forces.shape[1]) for find in (np.max, np.min)
+        ]).reshape(-1, 2, 3)  # fmt: skip
         columns = [
-            Column(name=f"{end}_{axis}", head=f"{end} {axis}", values=find(forces[:, :, i], axis=0), unit="N")
-            for i, axis in enumerate(AXES) for end, find in (("largest", np.max), ("least", np.min))
+            Column(name=f"{end}_{axis}", head=f"{end} {axis}", values=ends[:, j, i], unit="N")
+            for i, axis in enumerate(AXES) for j, end in enumerate(("largest", "least"))
         ]  # fmt: skip
-        numbers = Column(name="fastening", values=list(range(1, forces.shape[1] + 1)))
-        return Table(
-            axes=[numbers], columns=columns, title=f"{cargo}: forces of the fastenings on it",
+        return [Table(
+            axes=[Column(name="fastening", values=names)], columns=columns,
+            title="Forces of the fastenings on the cargo",
             remarks=["Supports push upwards; what pulls down is a z below zero."],
-        )  # fmt: skip
+        )]  # fmt: skip
 
 
 @named
@@ -166,13 +172,7 @@ def deck_cargo(
     SceneError
         For a channel, body or point that is not there, cargo at one point twice, or no output after.
     """
-    listed = [cargo] if isinstance(cargo, Cargo) else list(cargo)
-    if not listed or not all(isinstance(one, Cargo) for one in listed):
-        raise SceneError(f"deck_cargo: cargo is {shown(cargo)}; give a list of Cargo")
-    points = [one.point for one in listed]
-    twice = next((name for name in points if points.count(name) > 1), None)
-    if twice is not None:
-        raise SceneError(f"deck_cargo: cargo {twice!r} is there twice; give each a point of its own")
+    listed = listed_of("deck_cargo: cargo", Cargo, cargo, by="point")
     scene = result.scene
     if deck is None:
         bodies = {scene.points[one.point].body for one in listed if scene and one.point in scene.points}

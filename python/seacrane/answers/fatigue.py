@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -18,11 +18,12 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.plotting.table import Rows, Table
 from seacrane.result import Result
-from seacrane.statistics.record import FEWEST_VALUES, SpectrumEstimate, spectrum_estimate
+from seacrane.statistics.record import FEWEST_VALUES, ROUNDING, SpectrumEstimate, spectrum_estimate
 
 UNVERIFIED = "unverified"
 FEW = 10.0  # outputs in a mean cycle, below which ranges are too small
-ROUNDING = 1e-12  # of the largest value, by which two values differ
+HIDDEN = 0.05  # of the range of the steps, which the outputs may leave out
+NAN = float("nan")
 
 
 @named
@@ -147,18 +148,22 @@ class FatigueRow:
     cycles, largest : Counted in the record, and the largest range, in the unit of the channel.
     rainflow, narrow_band, dirlik : Damage in an hour; by the spectrum as of a Gaussian process.
     life : Hours until Miner's sum of the rainflow is 1.
+    zero : Share of the outputs at which it is zero, as a slack wire is.
     source : Of the curve.
+
+    Numbers that are not known are NaN.
     """
 
-    name: str
-    cycles: float
-    largest: float
-    unit: str
-    rainflow: float
-    narrow_band: float
-    dirlik: float
-    life: float
-    source: str
+    name: str = ""
+    cycles: float = NAN
+    largest: float = NAN
+    unit: str = ""
+    rainflow: float = NAN
+    narrow_band: float = NAN
+    dirlik: float = NAN
+    life: float = NAN
+    zero: float = NAN
+    source: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -171,20 +176,25 @@ class Fatigue(Rows[FatigueRow]):
     duration : float
         Of the record, s.
     coarse : tuple of str
-        Channels with fewer than 10 outputs in a mean cycle: their ranges are too small.
+        Channels with fewer than 10 outputs in a mean cycle, or with peaks between outputs: their ranges are
+        too small.
+    told : tuple of str
+        What cannot be judged, is slack, or does not vary.
     """
 
     duration: float
     coarse: tuple[str, ...]
+    told: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Fatigue: {len(self)} channels, {self.duration:g} s>"
 
     def _shown(self) -> Table:
-        remarks = ["No safety factor, and no mean: a range counts alike at any mean tension."]
+        remarks = [*self.told, "No safety factor, and no mean: a range counts alike at any mean tension."]
+        if any(row.zero > 0.0 for row in self.rows):
+            remarks.append("At zero, as a slack wire is: cycles go down to it, and spectra do not know it.")
         if self.coarse:
-            coarse = ", ".join(self.coarse)
-            remarks.append(f"Fewer than {FEW:g} outputs in a cycle: {coarse}; give a shorter dt_out.")
+            remarks.append(f"Too few outputs for their cycles: {', '.join(self.coarse)}; shorten dt_out.")
         return Table(
             axes=[self.names("channel")],
             columns=[
@@ -193,7 +203,8 @@ class Fatigue(Rows[FatigueRow]):
                 self.column("rainflow", head="damage in 1 h", unit="1/h", form=".3g"),
                 self.column("narrow_band", head="narrow band", unit="1/h", form=".3g"),
                 self.column("dirlik", head="Dirlik", unit="1/h", form=".3g"),
-                self.column("life", unit="h", form=".3g"), self.column("source", head="curve"),
+                self.column("life", unit="h", form=".3g"), self.column("zero", head="at zero", form=".0%"),
+                self.column("source", head="curve"),
             ],
             title=f"Fatigue by {self.duration:g} s", remarks=remarks,
         )  # fmt: skip
@@ -202,6 +213,9 @@ class Fatigue(Rows[FatigueRow]):
 @named
 def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float = 0.0) -> Fatigue:
     """Damage of wires, slings and fastenings in a run: rainflow with Miner's sum, and spectral beside it.
+
+    A slack wire has the tension zero, to which cycles go down. A channel that is no number at some output, as
+    in stages without what it is of, is not judged, and is told; the others are.
 
     Parameters
     ----------
@@ -227,24 +241,43 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
             "earlier after, a longer run, or a shorter dt_out"
         )
     time = np.asarray(result.time)[part]
-    rows, coarse = [], []
+    duration = float(time[-1] - time[0])
+    rows: list[FatigueRow] = []
+    coarse: list[str] = []
+    told: list[str] = []
     for name, curve in curves.items():
         if not isinstance(curve, FatigueCurve):
             raise SceneError(f"fatigue: {name} is {shown(curve)}; give a FatigueCurve")
         pick = pick_of("fatigue", name)
-        values, duration = np.asarray(result.curve(name))[part], float(time[-1] - time[0])
-        cycles = rainflow(values)
-        try:
-            spectrum = spectrum_estimate(values, interval=duration / (time.size - 1))
-        except SceneError as error:
-            raise SceneError(f"fatigue: {name}: {error}") from error
-        rate = 3600.0 * curve.damage(cycles[:, 0], cycles[:, 2]) / duration
-        if time.size < FEW * spectrum.crossing_rate * duration:
+        values = np.asarray(result.curve(name))[part]
+        unit = unit_of(pick.channel, list(pick.names.values()))
+        gaps = float(np.mean(~np.isfinite(values)))
+        if gaps:
+            told.append(f"{name} is NOT JUDGED: it is no number at {gaps:.0%} of the outputs; leave them out")
+            rows.append(FatigueRow(name=name, unit=unit, source=curve.source))
+            continue
+        row, rate = _row_of(values, duration, curve)
+        rows.append(replace(row, name=name, unit=unit, zero=float(np.mean(values == 0.0))))
+        least, largest = result.reached(name, part=part)
+        hidden = np.ptp(values) < (1.0 - HIDDEN) * (largest.max() - least.min())
+        if hidden or time.size < FEW * rate * duration:
             coarse.append(name)
-        rows.append(FatigueRow(
-            name=name, cycles=float(cycles[:, 2].sum()), largest=float(cycles[:, 0].max()),
-            unit=unit_of(pick.channel, list(pick.names.values())), rainflow=rate,
-            narrow_band=3600.0 * narrow_band_rate(spectrum, curve),
-            dirlik=3600.0 * dirlik_rate(spectrum, curve), life=1.0 / rate, source=curve.source,
-        ))  # fmt: skip
-    return Fatigue(rows=tuple(rows), duration=duration, coarse=tuple(coarse))
+        elif not rate:
+            told.append(f"{name} is {values[0]:g} {unit} throughout: it does not wear")
+    return Fatigue(rows=tuple(rows), duration=duration, coarse=tuple(coarse), told=tuple(told))
+
+
+def _row_of(values: Array, duration: float, curve: FatigueCurve) -> tuple[FatigueRow, float]:
+    """The numbers of a record, and how often its spectrum crosses the mean, 1/s; 0 where it does not vary."""
+    if np.ptp(values) <= ROUNDING * np.abs(values).max():
+        still = FatigueRow(cycles=0.0, largest=0.0, rainflow=0.0, life=float("inf"), source=curve.source)
+        return still, 0.0
+    cycles = rainflow(values)
+    spectrum = spectrum_estimate(values, interval=duration / (values.size - 1))
+    hourly = 3600.0 * curve.damage(cycles[:, 0], cycles[:, 2]) / duration
+    row = FatigueRow(
+        cycles=float(cycles[:, 2].sum()), largest=float(cycles[:, 0].max()), rainflow=hourly,
+        narrow_band=3600.0 * narrow_band_rate(spectrum, curve), dirlik=3600.0 * dirlik_rate(spectrum, curve),
+        life=1.0 / hourly, source=curve.source,
+    )  # fmt: skip
+    return row, spectrum.crossing_rate

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import exp, hypot, pi, sqrt
 
-import numpy as np
-
+from seacrane.answers.code_factors import Beside, ratio_of, simulated_of
 from seacrane.description.description import STANDARD_GRAVITY
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, not_negative_of, number_of, positive_of
+from seacrane.inputs.checked import name_of, not_negative_of, positive_of
 from seacrane.inputs.keywords import named
-from seacrane.inputs.shown import shown
-from seacrane.plotting.table import Rows, Table
+from seacrane.inputs.values import listed_of
+from seacrane.plotting.table import Table
 
 SEA_WATER = 1025.0  # kg/m3
 SOURCE = "DNV-RP-N103 ch. 4, as others quote it: unverified"
@@ -88,42 +88,24 @@ class DraughtRow:
     @property
     def ratio(self) -> float:
         """What the water takes by the simulation, 1 - margin, over that by the method."""
-        taken = (1.0 - self.simulated) * self.static
-        return taken / self.hydrodynamic if self.hydrodynamic else taken * float("inf")
+        return ratio_of((1.0 - self.simulated) * self.static, self.hydrodynamic)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class SimplifiedMethod(Rows[DraughtRow]):
-    """Forces by draught. Made by `simplified_method`; prints as a table.
+class SimplifiedMethod(Beside[DraughtRow]):
+    """Forces by draught. Made by `simplified_method`; prints as a table."""
 
-    Attributes
-    ----------
-    rows : tuple of DraughtRow
-    title : str
-    """
-
-    title: str
-
-    @property
-    def exceeded(self) -> tuple[str, ...]:
-        """Draughts at which the water takes more by the simulation than by the method."""
-        return tuple(row.name for row in self.rows if row.ratio > 1.0)
-
-    def __repr__(self) -> str:
-        return f"<SimplifiedMethod: {len(self)} draughts>"
+    what = "METHOD"
 
     def _shown(self) -> Table:
-        above = f"SIMULATED ABOVE THE METHOD: {', '.join(self.exceeded)}. " if self.exceeded else ""
         forces = ("static", "drag", "slam", "inertia", "buoyancy", "hydrodynamic", "snap")
-        margins = ("margin", "dynamic_factor", "simulated", "ratio")
-        return Table(
-            axes=[self.names("draught")],
-            columns=[
-                *(self.column(name, unit="N") for name in forces),
-                *(self.column(name, form=".2f") for name in margins),
-            ],
-            title=f"{above}{self.title}", remarks=[f"A margin below {LEAST:g} is slack. {SOURCE}."],
-        )  # fmt: skip
+        columns = [self.column(name, unit="N") for name in forces]
+        columns += [
+            self.column("margin", form=".2f"), self.column("dynamic_factor", head="factor", form=".2f"),
+            self.column("simulated", form=".2f"),
+        ]  # fmt: skip
+        remarks = [f"A margin below {LEAST:g} is slack. {SOURCE}."]
+        return self._beside(self.names("draught"), *columns, self._ratio(), remarks=remarks)
 
 
 @named
@@ -170,7 +152,7 @@ def simplified_method(
         For values that make no sense, or a load that floats.
     """
     m, rho = positive_of("mass", mass, "kg"), positive_of("density", density, "kg/m3")
-    omega = 2.0 * np.pi / positive_of("tz", tz, "s")
+    omega = 2.0 * pi / positive_of("tz", tz, "s")
     wave = AMPLITUDE * not_negative_of("hs", hs, "m")
     rate = not_negative_of("lowering_speed", lowering_speed, "m/s")
     heave, v_t, a_t = (
@@ -180,28 +162,22 @@ def simplified_method(
         )
     )  # fmt: skip
     k = None if stiffness is None else positive_of("stiffness", stiffness, "N/m")
-    given = dict(simulated or {})
-    unknown = [name for name in given if name not in [one.name for one in draughts]]
-    if unknown:
-        raise SceneError(f"simulated: there is no draught {shown(unknown[0])}; give names of draughts")
-    rows = []
-    for one in draughts:
+    listed = listed_of("simplified_method: draughts", Draught, draughts)
+    beside, rows = simulated_of("draught", simulated, [one.name for one in listed]), []
+    for one in listed:
         static = (m - rho * one.volume) * STANDARD_GRAVITY
         if static <= 0.0:
             raise SceneError(f"draught {one.name!r}: the load floats; its volume is {one.volume:g} m3")
-        v_w = wave * omega * np.exp(-(omega**2) / STANDARD_GRAVITY * one.depth)
-        speed = rate + float(np.hypot(v_t, v_w))
-        slam, drag = (0.5 * rho * area * speed**2 for area in (one.slam_area, one.drag_area))
-        inertia = float(
-            np.hypot((m + one.added_mass) * a_t, (rho * one.volume + one.added_mass) * omega * v_w)
-        )
-        buoyancy = rho * STANDARD_GRAVITY * one.water_plane * float(np.hypot(wave, heave))
-        force = float(np.hypot(drag + slam, inertia - buoyancy))
+        v_w = wave * omega * exp(-omega * omega / STANDARD_GRAVITY * one.depth)
+        speed = rate + hypot(v_t, v_w)
+        slam, drag = (0.5 * rho * area * speed * speed for area in (one.slam_area, one.drag_area))
+        inertia = hypot((m + one.added_mass) * a_t, (rho * one.volume + one.added_mass) * omega * v_w)
+        buoyancy = rho * STANDARD_GRAVITY * one.water_plane * hypot(wave, heave)
+        force = hypot(drag + slam, inertia - buoyancy)
         slack = k is not None and force > (1.0 - LEAST) * static
-        snap = speed * float(np.sqrt((k or 0.0) * (m + one.added_mass))) if slack else float("nan")
+        snap = speed * sqrt((k or 0.0) * (m + one.added_mass)) if slack else float("nan")
         rows.append(DraughtRow(
             name=one.name, static=static, drag=drag, slam=slam, inertia=inertia, buoyancy=buoyancy,
-            hydrodynamic=force, snap=snap,
-            simulated=number_of(f"simulated: {one.name}", given.get(one.name, float("nan"))),
+            hydrodynamic=force, snap=snap, simulated=beside[one.name],
         ))  # fmt: skip
     return SimplifiedMethod(rows=tuple(rows), title=f"Simplified method, Hs {hs:g} m, Tz {tz:.3g} s")

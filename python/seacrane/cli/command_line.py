@@ -89,6 +89,14 @@ COMMANDS: dict[str, tuple[str, str, Sequence[Row]]] = {
         ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),
         ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
     )),
+    "answers": ("study_command", "give the answers that a lift asks for: fatigue, codes beside the run, "
+                "re-hits, deck cargo; a call that was stopped goes on", (
+        ("lift", "LIFT.toml", str, "a lift with tables of answers, such as [fatigue]; data only"),
+        ("--out", "DIR", str, "folder of answers.html, tables and runs; made if absent", REQUIRED),
+        ("--workers", "N", int, "processes to run seeds in; default: this one"),
+        ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run them on"),
+        ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
+    )),
     "merge": ("study_command", "make one study of the folders of all its parts, and tell what it says", (
         ("parts", "PART", str, "folder of a part, of seacrane study --part", {"nargs": "+"}),
         ("--out", "DIR", str, "folder of the study; made if absent", REQUIRED),

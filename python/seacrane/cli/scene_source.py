@@ -76,6 +76,8 @@ def _lift(path: Path) -> Source:
     lift = Lift.load(path)
     if lift.study is not None:
         tell(f"{path.name} has a [study], whose runs `seacrane study` makes; this is of the lift itself")
+    if lift.answers:
+        tell(f"{path.name} asks for answers, which `seacrane answers` gives; this is of the lift itself")
     return Source(
         name=path.stem, scene=lift.scene(), t_end=None if lift.stages else lift.t_end, method=lift.method,
         outputs=lift.outputs, stages=lift.stages, start=lift.start, accuracy=lift.accuracy,

@@ -1,4 +1,4 @@
-"""``seacrane study``, ``merge`` and ``sheet``: run a lift many times into a folder, or go on with it."""
+"""``seacrane study``, ``merge``, ``sheet`` and ``answers``: run a lift into a folder, or go on with it."""
 
 from __future__ import annotations
 
@@ -66,6 +66,17 @@ def sheet(arguments: argparse.Namespace) -> int:
     if done is None:
         return INTERRUPTED
     print("\n\n".join(map(str, done.answers.values())))
+    return 0
+
+
+def answers(arguments: argparse.Namespace) -> int:
+    """Print the answers that a lift asks for; 130 after Ctrl-C."""
+    from seacrane.lift.answers_run import run_answers
+
+    done = _done(arguments, partial(run_answers, arguments.lift))
+    if done is None:
+        return INTERRUPTED
+    print("\n\n".join(map(str, done.values())))
     return 0
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from inspect import cleandoc, signature
 from typing import Any, TypeVar, dataclass_transform
@@ -71,6 +71,18 @@ def made_of(what: str, word: str, kind: type[T], given: T | Mapping[str, Any]) -
     return kind(**given)
 
 
+def listed_of(what: str, kind: type[T], given: Any, *, by: str = "name") -> tuple[T, ...]:
+    """At least one value of a kind, no two of one name, or a SceneError."""
+    listed = [given] if isinstance(given, kind) else list(given) if isinstance(given, Sequence) else []
+    if not listed or not all(isinstance(one, kind) for one in listed):
+        raise SceneError(f"{what} is {shown(given)}; give a list of {kind.__name__}")
+    names = [getattr(one, by) for one in listed]
+    for name in names:
+        if names.count(name) > 1:
+            raise SceneError(f"{what}: {name!r} is there twice; give each a {by} of its own")
+    return tuple(listed)
+
+
 def entries_of(word: str, kind: type) -> dict[str, str]:
     """Entries of the element by the fields of a value, for a keyword; those of a rod side end so."""
     end = "_rod" if word.startswith("rod_") else ""
@@ -79,13 +91,11 @@ def entries_of(word: str, kind: type) -> dict[str, str]:
 
 def flat(what: str, given: Mapping[str, Any], kinds: Mapping[str, type]) -> dict[str, Any]:
     """Keywords as entries, without those that are None. SceneError for what is no value of its kind."""
-    found = {}
+    found: dict[str, Any] = {}
     for word, one in given.items():
-        kind = kinds.get(word)
-        if kind is None or one is None:
-            found[word] = one
-        elif isinstance(one, kind):
-            found |= {entry: getattr(one, key) for key, entry in entries_of(word, kind).items()}
+        if word in kinds and one is not None:
+            made, entries = made_of(what, word, kinds[word], one), entries_of(word, kinds[word])
+            found |= {entry: getattr(made, key) for key, entry in entries.items()}
         else:
-            raise SceneError(f"{what}: {word} is {shown(one)}; give {word}={kind.__name__}(...)")
+            found[word] = one
     return {entry: one for entry, one in found.items() if one is not None}

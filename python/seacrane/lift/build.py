@@ -17,17 +17,18 @@ from seacrane.description.holding import with_holds
 from seacrane.description.places import ANGLES
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.caller import untold
-from seacrane.lift.calls import Caller, Keywords, by_name, keywords, require_unit, require_unit_of_channel
+from seacrane.lift.calls import Caller, Keywords, by_name, keywords, require_unit_of_channel
 from seacrane.lift.check_keys import Entry, only, plain, titled
 from seacrane.lift.document import Place
 from seacrane.lift.inner_keys import COMMANDS, STAGE, UNTIL, WAITS
-from seacrane.lift.keys import Key
+from seacrane.lift.keys import Key, require_unit
+from seacrane.lift.tables import ASIDE
 from seacrane.run.commands import HOLE, Command, Move, targets
 from seacrane.run.plan import checked_stages
 from seacrane.run.stage import Condition, Stage, Until
 from seacrane.scene.scene import Scene
 
-NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "stage", "study", "sheet")
+NO_CALLS = ("scene", "balance", "control", *ASIDE)
 LATER = ("command", "heave_compensation", "ballast", "notes")  # in this order, after what they act on
 GAINS = ("stiffness", "damping")
 Made = TypeVar("Made")

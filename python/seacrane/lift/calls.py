@@ -21,9 +21,9 @@ from seacrane.errors import SceneError
 from seacrane.hydro import Compartment, HydroDatabase, load_hull, shipped_database
 from seacrane.hydro.data.motion_raos import MotionRaos
 from seacrane.inputs.shown import shown
-from seacrane.inputs.units import into_si, others_of
+from seacrane.inputs.units import into_si
 from seacrane.lift.inner_keys import COORDINATE, CURVES, FROM, READING, SHIPPED
-from seacrane.lift.keys import EITHER, Key
+from seacrane.lift.keys import EITHER, Key, require_unit
 from seacrane.lift.tables import LEFT, Table
 from seacrane.scene import heave, springs
 from seacrane.scene.mooring import MooringSpring
@@ -98,22 +98,6 @@ def _require_unit_of_joint(scene: Scene, key: Key, values: Mapping[str, Any]) ->
         coordinate = coordinate_of(scene, key.name, joint, values.get("coordinate"))
         own = key.unit.split(EITHER)[coordinate in ANGLES]
         require_unit([key], values, own, f"{key.name} along {coordinate!r} of joint {joint!r}")
-
-
-def require_unit(
-    keys: Iterable[Key], values: Mapping[str, Any], own: str, what: str, otherwise: str = ""
-) -> None:
-    """Refuse values in another unit than its own, or one of several.
-
-    `what` is meant; `otherwise`: the fix where no key is in it.
-    """
-    units = {each for unit in own.split(EITHER) for each in (unit, *others_of(unit))}
-    for key in keys:
-        right = [one for one, unit in key.spellings.items() if unit in units]
-        for spelling, unit in key.spellings.items():
-            if spelling in values and unit and spelling not in right:
-                fix = f"give {' or '.join(right)}" if right else otherwise
-                raise SceneError.of(spelling, f"is given, and {what} is in {own}; {fix}")
 
 
 def require_unit_of_channel(

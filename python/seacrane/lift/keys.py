@@ -19,7 +19,8 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 import numpy as np
 
 from seacrane._core import Curve
-from seacrane.inputs.units import UNITS, spellings, suffix
+from seacrane.errors import SceneError
+from seacrane.inputs.units import UNITS, others_of, spellings, suffix
 
 MIXED = ", "  # between the units of an array of several: no suffix says them
 EITHER = " or "  # between the units of a displacement and an angle
@@ -68,6 +69,22 @@ class Key:
 
 
 UNIT_OF_SUFFIX = {suffix(unit): unit for unit in UNITS}
+
+
+def require_unit(
+    keys: Iterable[Key], values: Mapping[str, Any], own: str, what: str, otherwise: str = ""
+) -> None:
+    """Refuse values in another unit than its own, or one of several.
+
+    `what` is meant; `otherwise`: the fix where no key is in it.
+    """
+    units = {each for unit in own.split(EITHER) for each in (unit, *others_of(unit))}
+    for key in keys:
+        right = [one for one, unit in key.spellings.items() if unit in units]
+        for spelling, unit in key.spellings.items():
+            if spelling in values and unit and spelling not in right:
+                fix = f"give {' or '.join(right)}" if right else otherwise
+                raise SceneError.of(spelling, f"is given, and {what} is in {own}; {fix}")
 
 
 def keys_of(

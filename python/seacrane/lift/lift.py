@@ -25,6 +25,8 @@ from seacrane.ensembles.targets import targets_of
 from seacrane.errors import SceneError
 from seacrane.inputs.atomic import atomic_write
 from seacrane.inputs.keywords import named
+from seacrane.lift.answer_keys import ANSWERS
+from seacrane.lift.asked_answers import Asked, asked_of
 from seacrane.lift.build import SceneBuild, check_stages, made, refused_at, stages_of
 from seacrane.lift.calls import Keywords, keywords
 from seacrane.lift.check_keys import Entry, entries_of, only, plain, shipped_lift
@@ -150,6 +152,8 @@ class Lift:
         What its [study] says, which `seacrane study` runs.
     sheet : Sheet or None
         What its [sheet] says, which `seacrane sheet` makes.
+    answers : tuple of Asked
+        What its tables of answers ask for, such as [fatigue], which `seacrane answers` gives.
 
     Raises
     ------
@@ -165,6 +169,7 @@ class Lift:
     stages: tuple[Stage, ...]
     study: Study | None
     sheet: Sheet | None
+    answers: tuple[Asked, ...]
     _entries: tuple[Entry, ...]
 
     def __init__(self, tables: Mapping[str, Any], *, folder: str | os.PathLike[str] = ".") -> None:
@@ -180,6 +185,7 @@ class Lift:
         run, method, study, sheet = (only(entries, name) for name in ("run", "method", "study", "sheet"))
         checked["study"] = None if study is None else study_of(study)
         checked["sheet"] = None if sheet is None else sheet_of(sheet)
+        checked["answers"] = tuple(asked_of(entry) for entry in entries if entry.table.name in ANSWERS)
         if method is not None and checked["accuracy"] is not None:
             with refused_at(method):
                 refuse_what_is_chosen(checked["method"], {}, ())

@@ -24,13 +24,13 @@ from seacrane.ensembles.price import Priced
 from seacrane.ensembles.study import Source, require_paths, stage_paths, with_values
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.atomic import is_draft
+from seacrane.lift.answer_keys import ANSWERS
 from seacrane.lift.keys import Key
 from seacrane.lift.lift import Lift, Study
-from seacrane.lift.tables import TABLES
+from seacrane.lift.tables import ASIDE, TABLES
 from seacrane.scene.scene import Scene
 
 FILE, MEMBERS = "study.toml", "members"
-OF_NO_SCENE = ("run", "method", "outputs", "stage", "study", "sheet", "notes")  # which vary no scene
 SINGLE = ("number", "whole", "text", "flag", "curve")  # types of keys that hold one value, or may
 MOST_HELD = 32  # scenes of a process
 
@@ -111,7 +111,7 @@ def _made(folder: str | os.PathLike[str]) -> Path:
 def _source(lift: Lift, study: Study) -> Source:
     """The scene of the lift, or what makes scenes where keys of the lift vary."""
     scene = lift.scene()
-    tables = {name: table for name, table in lift.tables.items() if name not in ("study", "sheet")}
+    tables = {name: table for name, table in lift.tables.items() if name not in ("study", "sheet", *ANSWERS)}
     axes = study.members.axes
     keys, of_stages = keys_in(tables), stage_paths(lift.stages)
     for name, values in axes.items():
@@ -149,7 +149,7 @@ def keys_in(tables: Tables) -> dict[str, KeyPlace]:
     Tables of which there are several are told apart by their names, or else by their number from 1 on; so
     are the parts of arrays, as in "crane.foot_m.2".
     """
-    named = [(name, given) for name, given in tables.items() if name not in OF_NO_SCENE]
+    named = [(name, given) for name, given in tables.items() if name not in (*ASIDE, "notes")]
     inside = (_inside(name, (name,), TABLES[name].keys, given) for name, given in named)
     return {path: place for places in inside for path, place in places}
 

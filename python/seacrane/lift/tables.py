@@ -14,6 +14,7 @@ from seacrane.description import elements
 from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.hydro import Compartment, Opening
 from seacrane.inputs.values import entries_of
+from seacrane.lift.answer_keys import ANSWERS
 from seacrane.lift.inner_keys import (
     CHANNEL_UNITS,
     CHOSEN,
@@ -324,9 +325,11 @@ _ALL = (
         name="sheet", several=False, keys=SHEET,
         text="The seas that each phase of the lift allows, held against a forecast and a hindcast.",
     ),
+    *(Table(name=name, text=_summary(one.make), keys=one.keys) for name, one in ANSWERS.items()),
     Table(
         name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",
         keys=(Key("*", "notes"),),
     ),
 )  # fmt: skip
+ASIDE = ("run", "method", "outputs", "stage", "study", "sheet", *ANSWERS)  # of no scene, beside notes
 TABLES: Mapping[str, Table] = MappingProxyType({table.name: table for table in _ALL})

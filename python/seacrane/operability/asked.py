@@ -17,6 +17,7 @@ from seacrane.ensembles.study import Stages, checked_stages_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of, positive_of
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import listed_of
 from seacrane.operability.alpha import ascending
 from seacrane.operability.criterion import FEWEST_SEEDS, Criterion
 from seacrane.run.advance import finished
@@ -56,7 +57,7 @@ def asked_of(
     """It, or a SceneError for what makes no sense or does not go together."""
     if domain not in ("auto", "frequency", "time"):
         raise SceneError(f"domain is {shown(domain)}; choose 'auto', 'frequency' or 'time'")
-    in_stages, listed = checked_stages_of("allowable_hs", stages), _criteria(criteria)
+    in_stages, listed = checked_stages_of("allowable_hs", stages), listed_of("criteria", Criterion, criteria)
     _require_fit(listed, in_stages, {"duration": duration, "start_up": start_up}, domain)
     usual = 0.0 if in_stages else START_UP
     begin = not_negative_of("start_up", usual if start_up is None else start_up, "s")
@@ -162,17 +163,6 @@ def _require_fit(criteria: Sequence[Criterion], stages: Stages, spans: dict[str,
                 "motion=True is a distance from rest" if one.motion else "'significant' is of a long record"
             )
             raise SceneError(f"criterion {one.name!r}: {what}, which a lift in stages does not have")
-
-
-def _criteria(given: Any) -> tuple[Criterion, ...]:
-    listed = [given] if isinstance(given, Criterion) else list(given) if isinstance(given, Sequence) else []
-    if not listed or not all(isinstance(one, Criterion) for one in listed):
-        raise SceneError(f"criteria is {shown(given)}; give a list of Criterion")
-    names = [one.name for one in listed]
-    for name in names:
-        if names.count(name) > 1:
-            raise SceneError(f"criteria: {name!r} is there twice; give each a name of its own")
-    return tuple(listed)
 
 
 def _seeds(given: Any) -> tuple[int, ...]:

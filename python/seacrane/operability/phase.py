@@ -83,18 +83,6 @@ class Phase:
         return case if made is None else made
 
 
-def phases_of(given: Any) -> tuple[Phase, ...]:
-    """At least one, of different names, or a SceneError."""
-    listed = [given] if isinstance(given, Phase) else list(given) if isinstance(given, Sequence) else []
-    if not listed or not all(isinstance(one, Phase) for one in listed):
-        raise SceneError(f"phases is {shown(given)}; give a list of Phase, in their order")
-    names = [one.name for one in listed]
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice is not None:
-        raise SceneError(f"phases: {twice!r} is there twice; give each a name of its own")
-    return tuple(listed)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Span:
     """When a phase is under way: hours from the start of its leg, which begins where it is safe to wait."""

@@ -14,11 +14,12 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
+from seacrane.inputs.values import listed_of
 from seacrane.operability.allowable import HEIGHTS, LINEAR_WITHIN, allowable_cells
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.criterion import Criterion
-from seacrane.operability.phase import Phase, Span, legs_of, phases_of
+from seacrane.operability.phase import Phase, Span, legs_of
 from seacrane.operability.phase_table import PhaseSheet
 from seacrane.run.method import Method, Shorthand
 from seacrane.scene.scene import Scene
@@ -93,7 +94,7 @@ def phase_sheet(
     SceneError
         As `allowable_hs`, for a criterion of no phase, a phase without criteria, or a passage without stages.
     """
-    listed, factor = phases_of(phases), alpha_of(alpha)
+    listed, factor = listed_of("phases", Phase, phases), alpha_of(alpha)
     cases = _cases(scene)
     before = not_negative_of("lead_hours", lead_hours, "h")
     if store is not None:

@@ -16,6 +16,7 @@ from seacrane.description.crane_parts import cylinders, hooks, piston_areas, sle
 from seacrane.description.description import Description
 from seacrane.description.loads import lines_of, whole_of, winches_of
 from seacrane.description.once import once, once_in_any_sea
+from seacrane.description.pick import Pick
 from seacrane.description.places import POSE
 from seacrane.description.roles import CraneRoles
 from seacrane.description.suspension import Hung, hung_loads, names_of_suspensions
@@ -216,8 +217,7 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
     known, axes = model.channel_names(defaults_only=False), all_names(scene, model)
     for channel, curves in picks(scene).items():
         for pick in curves:
-            for dim in CHANNELS[pick.channel].dims_of_several[1:]:
-                _require_name(f"channel {channel!r}: {pick}", dim, pick.names.get(dim), axes.get(dim, ()))
+            _require_one(f"channel {channel!r}: {pick}", pick, axes)
     require_names(scene, [OWN] if scene.channels else [])
     for name, state in scene.limit_states.items():
         try:
@@ -227,6 +227,22 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
             raise SceneError(f"limit state {name!r}: {error}") from error
         for dim, chosen in state.names.items():
             _require_name(f"limit state {name!r}", dim, chosen, axes.get(dim, ()))
+
+
+def require_curves(scene: Description, asked: Iterable[Pick]) -> None:
+    """SceneError for channels that a scene has at no time, or names of which it has none, or several."""
+    wanted, axes = list(asked), dict[str, Sequence[str]]()
+    require_channels(scene, [pick.channel for pick in wanted])
+    with suppress(SceneError), silently():  # what is described may be no scene before its stages
+        axes = dict(all_names(scene, compile_scene(scene)))
+    for pick in wanted if axes else ():
+        _require_one(str(pick), pick, axes)
+
+
+def _require_one(what: str, pick: Pick, axes: Mapping[str, Sequence[str]]) -> None:
+    """That a scene has what a pick names, and that it names one along each dimension."""
+    for dim in CHANNELS[pick.channel].dims_of_several[1:]:
+        _require_name(what, dim, pick.names.get(dim), axes.get(dim, ()))
 
 
 def _require_name(what: str, dim: str, name: str | None, known: Sequence[str]) -> None:
