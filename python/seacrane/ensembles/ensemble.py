@@ -281,8 +281,10 @@ def ensemble(
     how, recorded = settled(method, outputs, shorthand)
     wanted, in_stages = checked_keep(keep), checked_stages_of("ensemble", stages)
     starts, members = start_times_of(over, in_stages)
-    judge = until if isinstance(until, Judge) else None
-    if until is not None and judge is None:
+    judge: Judge | None = None
+    if isinstance(until, Judge):
+        judge = until
+    elif until is not None:
         targets = targets_of(until, wanted)
         judge, wanted = Certain(targets=targets, asked=dict(until)), with_static_parts(wanted, targets)
     own = None if part is None else part_of(part)
@@ -319,8 +321,8 @@ def ensemble(
     if judge is not None:
         beside = study.lanes if study.lanes > 1 else None
         growth = judge.growth(members, beside if pack is None else size, size)
-        cells = range(growth.cells) if own is None else own.numbers(growth.cells, "cells")
-        cells = [cell for cell in cells if judge.cells is None or cell in judge.cells]
+        every = range(growth.cells) if own is None else own.numbers(growth.cells, "cells")
+        cells = [cell for cell in every if judge.cells is None or cell in judge.cells]
         first, packs = growth.members(1), growth.packs_of_cells(0, cells)
         with _store(store, study, first, growth.size, growth=growth, part=own) as kept:
             further = goes_on(

@@ -127,7 +127,7 @@ def _grown(
     data: Sequence[Mapping[str, Any]],
 ) -> dict[int, Folder]:  # fmt: skip
     """As `_packs`, of an ensemble that grows: of each cell whole batches, until it is known."""
-    known = [one.get(KNOWN) for one in data]
+    known: list[Any] = [one.get(KNOWN) for one in data]
     packs: dict[int, Folder] = {}
     for folder, store, part, one, told in zip(folders, stores, numbered, data, known, strict=True):
         if told is None:

@@ -64,7 +64,7 @@ def storms_in(
         still.scene, over=over, keep=keep, stages=asked.stages,
         t_end=None if asked.duration is None else after + asked.duration, method=asked.method,
         outputs=asked.outputs, start=start, executor=executor, store=store, progress=progress,
-        accuracy=asked.accuracy, until=judge, part=part and str(part), priced=priced,
+        accuracy=asked.accuracy, until=judge, part=None if part is None else str(part), priced=priced,
     )  # fmt: skip
 
 
