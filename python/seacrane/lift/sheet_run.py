@@ -24,6 +24,7 @@ from seacrane.lift.lift import Lift
 from seacrane.lift.sheet import Sheet
 from seacrane.lift.sheet_keys import READ
 from seacrane.lift.study_run import in_two_units, keys_in, made_folder, with_keys
+from seacrane.operability.availability import ScatterDiagram, availability
 from seacrane.operability.go import go_or_no_go
 from seacrane.operability.hindcast import WaveHindcast
 from seacrane.operability.phase import Phase
@@ -34,6 +35,7 @@ from seacrane.plotting.table import Answer
 from seacrane.scene.scene import Scene
 
 FILE, RUNS = "sheet.toml", "runs"
+BESIDE_IT = ("forecast", "hindcast", "scatter")  # what it is held against
 CSV, PAGE = WRITTEN = ("sheet.csv", "sheet.html")
 
 
@@ -139,7 +141,7 @@ def _asked_in(folder: str | os.PathLike[str]) -> Mapping[str, Any]:
     if not path.is_file():
         raise SceneError(f"merge: {folder} is no folder of a sheet; give those of seacrane sheet --part")
     asked: Mapping[str, Any] = Lift.load(path).tables.get("sheet", {})
-    return {name: told for name, told in asked.items() if name not in ("forecast", "hindcast")}
+    return {name: told for name, told in asked.items() if name not in BESIDE_IT}
 
 
 def stores_in(folder: Path) -> list[str]:
@@ -158,9 +160,19 @@ def _answered(sheet: PhaseSheet, asked: Sheet, target: Path) -> SheetRun:
         if asked.hindcast:
             with refused_at(asked.entry, "hindcast"):
                 answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
+        if asked.scatter:
+            with refused_at(asked.entry, "scatter"):
+                answers |= _available(sheet, case, of, **asked.scatter)
     sheet.to_csv(target / CSV)
     answers_report(f"{sheet.name}: seas by phase", answers).save(target / PAGE)
     return SheetRun(sheet=sheet, answers=answers)
+
+
+def _available(sheet: PhaseSheet, case: str, of: str, *, file: str, **read: Any) -> dict[str, Answer]:
+    """The availability of each phase by a scatter table."""
+    scatter = ScatterDiagram.load(file, **read)
+    names = [phase.name for phase in sheet.phases]
+    return {f"Availability: {one}{of}": availability(sheet.table(one, case=case), scatter) for one in names}
 
 
 def _held(call: Callable[..., Answer], sheet: PhaseSheet, case: str, *, file: str, **given: Any) -> Answer:
