@@ -12,7 +12,7 @@ import pytest
 from seacrane import FileFormatError, Lift, SceneError
 from seacrane.cli.command_line import main
 from seacrane.lift.sheet_run import load_cases, run_sheet
-from seacrane.operability import phase_sheet
+from seacrane.operability import ScatterDiagram, availability, phase_sheet
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "lifts" / "sheet_by_phases.toml"
 SMALL = (
@@ -57,6 +57,22 @@ def test_a_file_gives_what_the_call_gives(tmp_path: Path, capsys: pytest.Capture
     assert main(["sheet", str(path), "--out", str(tmp_path / "out")]) == 0  # runs are not run again
     told = capsys.readouterr().out
     assert "passage, P90 of 3 seeds" in told and "GO at 2026-06-01T06:00" in told
+
+
+def test_a_scatter_table_gives_the_availability_of_each_phase(tmp_path: Path) -> None:
+    text = EXAMPLE.read_text()
+    begin, end = text.index("[[sheet.phase]]                  # happens"), text.index("[[sheet.criterion]]")
+    last = text.rindex("[[sheet.criterion]]")
+    text = text[:begin] + text[end:last] + text[text.index("[sheet.alpha]") : text.index("[sheet.forecast]")]
+    (tmp_path / "site.csv").write_text("Hs [m] \\ Tp [s],6-9,9-12\n0-1,30,10\n1-4,20,40\n")
+    (tmp_path / "lift.toml").write_text(f"{text}[sheet.scatter]\nfile = 'site.csv'\n[run]\nstart = 'rest'\n")
+    done = run_sheet(tmp_path / "lift.toml", tmp_path / "out")
+    assert done is not None
+    scatter = ScatterDiagram(hs=[0, 1, 4], tp=[6, 9, 12], counts=[[30, 10], [20, 40]], source="site.csv")
+    for phase in ("positioning", "hanging"):
+        found = done.answers[f"Availability: {phase}"]
+        assert str(found) == str(availability(done.sheet.table(phase), scatter))
+        assert 0.0 < found.percent < 100.0
 
 
 @pytest.mark.slow("sheets of two load cases")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 import signal
 import subprocess
@@ -18,9 +19,55 @@ from seacrane.cases import vessel
 from seacrane.cli.command_line import main
 from seacrane.ensembles import Ensemble, merge_parts
 from seacrane.ensembles.parts import part_of
-from seacrane.lift.study_run import MEMBERS, run_study
+from seacrane.lift.study_run import MEMBERS
 from seacrane.run.lanes import INSTRUCTIONS, module_of
+from seacrane.warnings import FewSeedsWarning
 
+SHEET = """format = "seacrane lift"
+version = 2
+[vessel]
+database = "hull_115"
+memory = "none"
+[crane]
+slew_deg = -90
+s1_m = 1
+s2_m = 2
+[hoist]
+mass_kg = 50e3
+size_m = [6, 4, 4]
+length_m = 20
+EA_N = 2e8
+winch = { maximum_rate_m_per_s = 1 }
+[sea]
+hs_m = 1
+tp_s = 8
+direction_deg = 180
+count = 20
+[[stage]]
+name = "hang"
+duration_s = 4
+[[stage]]
+name = "up"
+duration_s = 4
+commands = [{ name = "hoist.rate", value_m_per_s = -0.3 }]
+[sheet]
+tp_s = [8, 11]
+direction_deg = [90, 180]
+hs_m = [1, 3]
+seeds = 25
+until = 0.25
+[[sheet.phase]]
+name = "up"
+hours = 0.5
+passage = true
+[[sheet.criterion]]
+channel = "hook_load"
+maximum_N = 570e3
+[run]
+start = "rest"
+[method]
+rtol = 1e-2
+"""
 KILLED = """
 import os, signal, sys
 from seacrane.cli.command_line import main
@@ -45,10 +92,26 @@ def same_bits(one: Ensemble, other: Ensemble) -> bool:
     return bool(arrays) and all(arrays) and one.dataset.identical(other.dataset)
 
 
-def test_parts_in_any_order_one_of_them_killed_are_one_run(tmp_path: Path, capsys: Any) -> None:
-    (file := tmp_path / "heave.toml").write_text(HEAVE_STUDY)
-    run_study(file, tmp_path / "whole")
-    given = [["study", str(file), "--part", f"{n}/3", "--out", str(tmp_path / f"p{n}")] for n in (3, 1, 2)]
+GROWING = HEAVE_STUDY.replace("first = 1, count = 20", "first = 1, count = 100").replace(
+    '"z" } }]', '"z" }, what = "maximum" }]\nuntil = { heave.mpm = 0.9 }'
+)
+
+
+@pytest.mark.parametrize(
+    ("command", "text"),
+    [
+        ("study", HEAVE_STUDY),
+        pytest.param("study", GROWING, marks=pytest.mark.slow("many packs")),
+        ("sheet", SHEET),
+    ],
+    ids=["study", "until", "sheet"],
+)
+def test_parts_in_any_order_one_of_them_killed_are_one_run(
+    command: str, text: str, tmp_path: Path, capsys: Any
+) -> None:
+    (file := tmp_path / "lift.toml").write_text(text)
+    assert main([command, str(file), "--out", str(tmp_path / "whole")]) == 0
+    given = [[command, str(file), "--part", f"{n}/3", "--out", str(tmp_path / f"p{n}")] for n in (3, 1, 2)]
     folders = [words[-1] for words in given]
     for words in given[:2]:
         assert main(words) == 0
@@ -59,12 +122,21 @@ def test_parts_in_any_order_one_of_them_killed_are_one_run(tmp_path: Path, capsy
     assert "part 2/3" in (told := capsys.readouterr().err) and "is not complete" in told
     assert main(given[2]) == 0
     assert main(merge) == 0
-    whole, merged = (Ensemble.load(tmp_path / name / MEMBERS) for name in ("whole", "merged"))
+    inside = MEMBERS if command == "study" else "runs/lift/passages"
+    whole, merged = (Ensemble.load(tmp_path / name / inside) for name in ("whole", "merged"))
     assert same_bits(whole, merged) and not merged.failures
-    assert sum((Ensemble.load(Path(one) / MEMBERS).dataset.failure == "").sum() for one in folders) == 80
-    files = {one: one.stat().st_mtime_ns for one in (tmp_path / "merged" / MEMBERS).glob("pack_*.nc")}
-    run_study(file, tmp_path / "merged")  # it goes on, with nothing left
-    assert files == {one: one.stat().st_mtime_ns for one in (tmp_path / "merged" / MEMBERS).glob("pack_*.nc")}
+    run = [
+        one.dataset.failure.to_numpy() == ""
+        for one in (merged, *(Ensemble.load(Path(one) / inside) for one in folders))
+    ]
+    assert sum(map(np.sum, run[1:])) == run[0].sum() and all(map(np.any, run))
+    if command == "sheet":
+        assert 0 < run[0].sum() < run[0].size, "cells stopped at different seeds"
+        for name in ("sheet.csv", "sheet.html"):
+            assert (tmp_path / "whole" / name).read_bytes() == (tmp_path / "merged" / name).read_bytes()
+    files = {one: one.stat().st_mtime_ns for one in (tmp_path / "merged" / inside).glob("pack_*.nc")}
+    assert main([command, str(file), "--out", str(tmp_path / "merged")]) == 0  # with nothing left
+    assert files == {one: one.stat().st_mtime_ns for one in (tmp_path / "merged" / inside).glob("pack_*.nc")}
 
 
 @pytest.fixture(scope="module")
@@ -136,6 +208,34 @@ def test_a_part_that_there_is_not(given: Any) -> None:
 def test_a_study_that_cannot_be_parted(study: dict[str, Any]) -> None:
     with pytest.raises(SceneError, match=r"9 packs of members.* at most 9 parts"):
         ensemble(**study, lanes=1, pack=2, part=(1, 10))
-    growing = study | {"over": {"seed": range(1, 41)}}
-    with pytest.raises(SceneError, match="until asks all members"):
-        ensemble(**growing, until={"heave.mpm": 0.1}, part=(1, 2))
+    growing = study | {"over": {"seed": range(1, 41)}, "until": {"heave.mpm": 0.1}}
+    with pytest.raises(SceneError, match=r"1 cells.* at most 1 parts"):
+        ensemble(**growing, part=(1, 2))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"known": {', '"gone": {', "part 2/2 .* is not complete, not all of its cells"),
+        ('"heave.mpm": 0.99', '"heave.mpm": 0.5', "grown until .*0.5.* and .*0.99"),
+        ('"packs": 1', '"packs": 2', "holds other members than part 2/2"),
+    ],
+)
+def test_a_merge_of_what_grew_refuses(old: str, new: str, message: str, grown: Path, tmp_path: Path) -> None:
+    other = shutil.copytree(grown / "2", tmp_path / "2") / "study.json"
+    text = other.read_text()
+    assert old in text
+    other.write_text(text.replace(old, new))
+    with pytest.raises(Exception, match=message):
+        merge_parts([grown / "1", other.parent], tmp_path / "merged")
+    assert not (tmp_path / "merged").exists()
+
+
+@pytest.fixture(scope="module")
+def grown(study: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("grown")
+    growing = study | {"over": {"seed": range(1, 21), "hs": [1.0, 2.0]}, "until": {"heave.mpm": 0.99}}
+    for number in (1, 2):
+        with contextlib.suppress(FewSeedsWarning):
+            ensemble(**growing, pack=20, part=(number, 2), store=folder / f"{number}")
+    return folder

@@ -22,6 +22,7 @@ from seacrane.operability import (
     phase_sheet,
 )
 from seacrane.operability.phase import legs_of
+from seacrane.operability.phase_table import _turns
 from seacrane.operability.time_domain import ByTime
 
 HOUR = np.timedelta64(1, "h")
@@ -78,15 +79,19 @@ def test_each_phase_is_allowable_hs_of_it_alone(sheet: PhaseSheet) -> None:
     assert "safe to wait for another forecast: after 'hold', the last phase" in text
 
 
-def test_a_limit_that_dips_within_the_periods_is_told(sheet: PhaseSheet) -> None:
+def test_a_limit_that_turns_round_within_the_periods_is_told(sheet: PhaseSheet) -> None:
     table = sheet.table("hold")
     data = table.dataset.copy(deep=True)
     data["allowable_hs"][:, 2] = [1.5, 1.2, 1.3]
     told = replace(sheet, tables=dict(sheet.tables) | {("", "hold"): replace(table, dataset=data)})
     assert "in Tp at 180 deg, least at 9 s" in told.not_monotone("hold")
     assert "hold: not monotone in Tp" in str(told) or "; in Tp at 180 deg" in str(told)
+    data["allowable_hs"][:, 2] = [1.0, 1.4, 1.3]  # forbidden, allowed, forbidden
+    assert "in Tp at 180 deg, largest at 9 s" in told.not_monotone("hold")
     data["allowable_hs"][:, 2] = [1.5, 1.3, 1.3]
     assert "180 deg" not in told.not_monotone("hold")
+    heights = np.array([1.0, 2.0, np.nan, 2.0, 1.5, 3.0])
+    assert _turns(np.arange(6.0), heights) == ["largest at 1 s", "least at 4 s"]
 
 
 def by_loop(sheet: PhaseSheet, hindcast: WaveHindcast) -> tuple[list[bool], list[float]]:

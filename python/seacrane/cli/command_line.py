@@ -33,6 +33,16 @@ def _gamma(text: str) -> float | str:
     return text if text == "dnv" else float(text)
 
 
+WORKERS: Sequence[Row] = (
+    ("--workers", "N", int, "processes to run in; default: this one"),
+    ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),
+    ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
+)
+MANY: Sequence[Row] = (  # of what is run many times
+    ("--part", "I/N", str, "run this part of N alone; seacrane merge makes one of all"),
+    ("--price", FLAG, str, "run a few members, which are kept, print what all cost, and stop"),
+    *WORKERS,
+)
 COMMANDS: dict[str, tuple[str, str, Sequence[Row]]] = {
     "run": ("run_command", "simulate a scene and write DIR/<scene>.nc", (
         ("scene", "SCENE", str, f"{SCENE}, or a .py script defining scene(), which is executed"),
@@ -74,32 +84,25 @@ COMMANDS: dict[str, tuple[str, str, Sequence[Row]]] = {
               "run the study of a lift: many runs, and what they tell; a call that was stopped goes on", (
         ("study", "LIFT.toml", str, "a lift with a [study]; data only"),
         ("--out", "DIR", str, "folder of the study; made if absent", REQUIRED),
-        ("--part", "I/N", str, "run this part of N alone; seacrane merge makes one study of all"),
         ("--member-limit", "S", float, "processor time after which a member has failed, s; others go on"),
-        ("--price", FLAG, str, "run a few members, which are kept, print what all cost, and stop"),
-        ("--workers", "N", int, "processes to run in; default: this one"),
-        ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),
-        ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
+        *MANY,
     )),
     "sheet": ("study_command", "make the sheet of a lift: the seas that each phase allows, go or no go, "
               "windows; a call that was stopped goes on", (
         ("sheet", "LIFT.toml", str, "a lift with a [sheet]; data only"),
         ("--out", "DIR", str, "folder of sheet.csv, sheet.html and the runs; made if absent", REQUIRED),
-        ("--workers", "N", int, "processes to run in; default: this one"),
-        ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run on"),
-        ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
+        *MANY,
     )),
     "answers": ("study_command", "give the answers that a lift asks for: fatigue, codes beside the run, "
                 "re-hits, deck cargo; a call that was stopped goes on", (
         ("lift", "LIFT.toml", str, "a lift with tables of answers, such as [fatigue]; data only"),
         ("--out", "DIR", str, "folder of answers.html, tables and runs; made if absent", REQUIRED),
-        ("--workers", "N", int, "processes to run seeds in; default: this one"),
-        ("--dask", "ADDRESS", str, "scheduler of a Dask cluster to run them on"),
-        ("--progress", FLAG, str, "a bar with the time left, without a terminal"),
+        *WORKERS,
     )),
-    "merge": ("study_command", "make one study of the folders of all its parts, and tell what it says", (
-        ("parts", "PART", str, "folder of a part, of seacrane study --part", {"nargs": "+"}),
-        ("--out", "DIR", str, "folder of the study; made if absent", REQUIRED),
+    "merge": ("study_command", "make one study or sheet of the folders of all its parts, and tell what it "
+              "says", (
+        ("parts", "PART", str, "folder of a part, of seacrane study or sheet --part", {"nargs": "+"}),
+        ("--out", "DIR", str, "folder of the whole; made if absent", REQUIRED),
     )),
     "view": ("result_commands", "write a result, or a scene at its start, as a page in three dimensions: one "
              "HTML file that needs no network", (

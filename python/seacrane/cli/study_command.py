@@ -6,10 +6,11 @@ import argparse
 import contextlib
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from functools import partial
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from seacrane.cli.command_line import INTERRUPTED
@@ -17,9 +18,12 @@ from seacrane.errors import SceneError, WorkerVersionError
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
-    from seacrane.ensembles import Price
+    from seacrane.ensembles import Ensemble, Price
+    from seacrane.plotting.table import Answer
 
 Done = TypeVar("Done")
+NOTHING_LEFT = "price: no member is left to be measured"
+MERGE = "seacrane merge takes all parts"
 
 
 def study(arguments: argparse.Namespace) -> int:
@@ -29,30 +33,33 @@ def study(arguments: argparse.Namespace) -> int:
 
     def told(price: Price | None) -> bool:
         if price is not None or arguments.price:
-            print(price or "price: no member is left to be measured", flush=True)
+            print(price or NOTHING_LEFT, flush=True)
         return not arguments.price
+
+    def tell(done: Ensemble) -> None:
+        if arguments.price:
+            return
+        if done.accuracy is not None:
+            print(done.accuracy)
+        if arguments.part is None:
+            show_study(arguments.out, None)
+        else:
+            print(f"part {arguments.part} is done, {len(done.failures)} failed; {MERGE}")
 
     limit, part = arguments.member_limit, arguments.part
     run = partial(run_study, arguments.study, member_limit=limit, part=part, priced=told)
-    done = _done(arguments, run)
-    if done is None:
-        return INTERRUPTED
-    if arguments.price:
-        return 0
-    if done.accuracy is not None:
-        print(done.accuracy)
-    if arguments.part is not None:
-        print(f"part {arguments.part} is done, {len(done.failures)} failed; seacrane merge takes all parts")
-        return 0
-    show_study(arguments.out, None)
-    return 0
+    return _done(arguments, run, tell)
 
 
 def merge(arguments: argparse.Namespace) -> int:
-    """Make one study of its parts, and tell what its members say."""
+    """Make one study or sheet of its parts, and tell what it says."""
     from seacrane.cli.result_commands import show_study
+    from seacrane.lift.sheet_run import FILE, merge_sheet
     from seacrane.lift.study_run import merge_study
 
+    if (Path(arguments.parts[0]) / FILE).is_file():
+        print(merge_sheet(arguments.parts, arguments.out))
+        return 0
     merge_study(arguments.parts, arguments.out)
     show_study(arguments.out, None)
     return 0
@@ -60,32 +67,36 @@ def merge(arguments: argparse.Namespace) -> int:
 
 def sheet(arguments: argparse.Namespace) -> int:
     """Print the sheet and what is held against it; 130 after Ctrl-C."""
-    from seacrane.lift.sheet_run import run_sheet
+    from seacrane.lift.sheet_run import SheetRun, run_sheet
 
-    done = _done(arguments, partial(run_sheet, arguments.sheet))
-    if done is None:
-        return INTERRUPTED
-    print("\n\n".join(map(str, done.answers.values())))
-    return 0
+    def told(price: Price | None) -> bool:
+        print(price or NOTHING_LEFT)
+        return False
+
+    def tell(done: SheetRun | None) -> None:
+        if not arguments.price:
+            print(done or f"part {arguments.part} is done; {MERGE}")
+
+    priced = told if arguments.price else None
+    return _done(arguments, partial(run_sheet, arguments.sheet, part=arguments.part, priced=priced), tell)
 
 
 def answers(arguments: argparse.Namespace) -> int:
     """Print the answers that a lift asks for; 130 after Ctrl-C."""
     from seacrane.lift.answers_run import run_answers
 
-    done = _done(arguments, partial(run_answers, arguments.lift))
-    if done is None:
-        return INTERRUPTED
-    print("\n\n".join(map(str, done.values())))
-    return 0
+    def tell(done: Mapping[str, Answer]) -> None:
+        print("\n\n".join(map(str, done.values())))
+
+    return _done(arguments, partial(run_answers, arguments.lift), tell)
 
 
-def _done(arguments: argparse.Namespace, run: Callable[..., Done]) -> Done | None:
-    """What is run into the folder; None after Ctrl-C, which is told."""
+def _done(arguments: argparse.Namespace, run: Callable[..., Done], tell: Callable[[Done], None]) -> int:
+    """Run it into the folder, and tell what was found; 130 after Ctrl-C, which is told."""
     progress = arguments.progress or sys.stderr.isatty()
     with _executor(arguments) as executor:
         try:
-            return run(arguments.out, executor=executor, progress=progress)
+            done = run(arguments.out, executor=executor, progress=progress)
         except KeyboardInterrupt:
             _end_workers(executor)
             print(
@@ -93,7 +104,9 @@ def _done(arguments: argparse.Namespace, run: Callable[..., Done]) -> Done | Non
                 "back, and the same command goes on",
                 file=sys.stderr,
             )
-    return None
+            return INTERRUPTED
+    tell(done)
+    return 0
 
 
 @contextlib.contextmanager

@@ -17,12 +17,12 @@ from seacrane.ensembles.asked import checked_start, end_of, start_times_of
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed
 from seacrane.ensembles.dataset import NOT_RUN, RESERVED, dataset_of
 from seacrane.ensembles.filling import SIDE_BY_SIDE, Progress, lanes_for, remark, run_packs
-from seacrane.ensembles.growing import BATCH, grow, growth_of, members_in
+from seacrane.ensembles.growing import GROWTH, Certain, Growth, Judge, grow, members_in
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, Value
-from seacrane.ensembles.object_store import claimed_store, opened_store
-from seacrane.ensembles.parts import Part, part_of
+from seacrane.ensembles.object_store import claimed_store, note, opened_store
+from seacrane.ensembles.parts import KNOWN, Part, part_of
 from seacrane.ensembles.price import Priced, goes_on
 from seacrane.ensembles.store import Store, order_of, pack_size, packs_of, stored
 from seacrane.ensembles.study import (
@@ -163,7 +163,7 @@ def ensemble(
     start: Start | Literal["rest"] = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
-    until: Mapping[str, float] | None = None,
+    until: Mapping[str, float] | Judge | None = None,
     accuracy: Mapping[str, float] | None = None,
     on_error: Literal["record", "raise"] = "record",
     pack: int | None = None,
@@ -236,8 +236,9 @@ def ensemble(
         Processor time that a member may take once it is described, s: one beyond it fails, others go on. What
         is beyond it side by side is run anew, each by itself. A store belongs to one limit.
     part : (int, int) or str, optional
-        Run one part of so many alone, (3, 40) or "3/40", of a study without `until`. It has whole packs, so
-        that `merge_parts` makes of the stores of all parts what one run writes, to the bit.
+        Run one part of so many alone, (3, 40) or "3/40". It has whole packs, or with `until` all seeds of
+        whole combinations, so that `merge_parts` makes of the stores of all parts what one run writes, to
+        the bit.
     priced : callable, optional
         Is told the `Price` of all members that are missing, once a few packs of them are run, and says
         whether to go on. If not, the few are kept. Where none is left to be measured, it is told None.
@@ -280,9 +281,13 @@ def ensemble(
     how, recorded = settled(method, outputs, shorthand)
     wanted, in_stages = checked_keep(keep), checked_stages_of("ensemble", stages)
     starts, members = start_times_of(over, in_stages)
-    targets = () if until is None else targets_of(until, wanted)
-    own = None if part is None else part_of(part, grows=bool(targets))
-    wanted = with_static_parts(wanted, targets)
+    judge: Judge | None = None
+    if isinstance(until, Judge):
+        judge = until
+    elif until is not None:
+        targets = targets_of(until, wanted)
+        judge, wanted = Certain(targets=targets, asked=dict(until)), with_static_parts(wanted, targets)
+    own = None if part is None else part_of(part)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
         t_end=math.inf if starts else end_of(t_end, in_stages),
@@ -312,25 +317,38 @@ def ensemble(
         probes = probed(study, members, accuracy, executor)
         tightest = min((probe.method for probe in probes.values()), key=expected_error)
         study = replace(study, method=tightest)
-    if targets:
+    job = Job(study)
+    if judge is not None:
         beside = study.lanes if study.lanes > 1 else None
-        growth = growth_of(members, beside if pack is None else size)
-        first, packs = growth.members(1), growth.first_packs()
-        with _store(store, study, first, growth.size, grows=True) as kept:
-            if not goes_on(
-                priced, kept, Job(study), first, packs, executor, raises=raises, batches=growth.batches
-            ):
-                return _ensemble(first, stored(kept, first), study.lanes)
-            members, outcomes, certainty = grow(
-                growth, Job(study), kept, executor, targets, raises=raises, progress=progress
+        growth = judge.growth(members, beside if pack is None else size, size)
+        every = range(growth.cells) if own is None else own.numbers(growth.cells, "cells")
+        cells = [cell for cell in every if judge.cells is None or cell in judge.cells]
+        first, packs = growth.members(1), growth.packs_of_cells(0, cells)
+        with _store(store, study, first, growth.size, growth=growth, part=own) as kept:
+            further = goes_on(
+                priced, kept, job, first, packs, executor, raises=raises, batches=growth.batches
             )
+            if not further:
+                there = growth.members(max(growth.batches_in(kept), 1))
+                return _ensemble(there, stored(kept, there), study.lanes)
+            if own is not None:
+                note(kept, KNOWN, None)
+            members, outcomes = grow(
+                growth, job, kept, executor, judge, cells, raises=raises, progress=progress
+            )
+            if own is not None:
+                told = {"until": judge.asked, "seeds": len(growth.seeds), "packs": len([*kept])}
+                note(kept, KNOWN, told)
         done = _ensemble(members, dataset_of(members, outcomes), study.lanes)
-        done = replace(done, certainty=certainty)
+        if isinstance(judge, Certain):
+            done = replace(done, certainty=judge.told(growth))
+        else:
+            _warn_of_failures(done)
     else:
         with _store(store, study, members, size, part=own) as kept:
             packs = packs_of(order_of(study, members), size)
             packs = packs if own is None else {number: packs[number] for number in own.numbers(len(packs))}
-            job, progressed = Job(study), Progress(sum(map(len, packs.values())), progress, study.lanes)
+            progressed = Progress(sum(map(len, packs.values())), progress, study.lanes)
             further = goes_on(priced, kept, job, members, packs, executor, raises=raises)
             if further:
                 with progressed.bar:
@@ -372,15 +390,15 @@ def _ensemble(members: Members, dataset: xarray.Dataset, lanes: int) -> Ensemble
 
 @contextlib.contextmanager
 def _store(
-    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int, *, grows: bool = False,
-    part: Part | None = None,
+    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int, *,
+    growth: Growth | None = None, part: Part | None = None,
 ) -> Iterator[Store]:  # fmt: skip
     """Of an ensemble that grows half widths and the most seeds do not tell it from another."""
     if path is None:
         yield {}
         return
-    identity = identity_of(study, members, size) | ({"seeds in a batch": BATCH} if grows else {})
-    identity |= {} if part is None else part.identity()
+    grows = {} if growth is None else {"growth": {name: getattr(growth, name) for name in GROWTH}}
+    identity = identity_of(study, members, size) | grows | ({} if part is None else part.identity())
     data = {"identity": identity, "grid": members.grid, "axes": dict(members.axes)}
-    with claimed_store(path, data | ({"seeds_in_pack": size} if grows else {})) as kept:
+    with claimed_store(path, data | grows) as kept:
         yield kept

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from seacrane.ensembles.ensemble import Ensemble
-from seacrane.ensembles.growing import members_in
+from seacrane.ensembles.growing import growth_in, members_in
 from seacrane.ensembles.object_store import claimed_store, opened_store
-from seacrane.ensembles.parts import ENGINE, PART, Part, part_of
+from seacrane.ensembles.parts import ENGINE, KNOWN, PART, Part, part_of
 from seacrane.ensembles.store import Folder
 from seacrane.ensembles.study_folder import study_in
 from seacrane.errors import FileFormatError, SceneError
@@ -55,9 +55,10 @@ def merge_parts(parts: Sequence[str | os.PathLike[str]], store: str | os.PathLik
     for folder, one in zip(folders, data, strict=True):
         _require_alike(folders[0], data[0]["identity"], folder, one["identity"])
     _require_all(folders, numbered)
-    packs = _packs(folders, stores, numbered, data[0])
+    packs = (_grown if "growth" in data[0] else _packs)(folders, stores, numbered, data)
     identity = {name: told for name, told in data[0]["identity"].items() if name not in (PART, ENGINE)}
-    with claimed_store(store, data[0] | {"identity": identity}) as whole:
+    of_all = {name: told for name, told in data[0].items() if name != KNOWN} | {"identity": identity}
+    with claimed_store(store, of_all) as whole:
         for number, part in sorted(packs.items()):
             whole[number] = part[number]
     return Ensemble.load(store)
@@ -102,24 +103,64 @@ def _require_all(folders: Sequence[str], numbered: Sequence[Part]) -> None:
 
 
 def _packs(
-    folders: Sequence[str], stores: Sequence[Folder], numbered: Sequence[Part], data: Mapping[str, Any]
-) -> dict[int, Folder]:
+    folders: Sequence[str], stores: Sequence[Folder], numbered: Sequence[Part],
+    data: Sequence[Mapping[str, Any]],
+) -> dict[int, Folder]:  # fmt: skip
     """Where each pack is; raises SceneError where one is missing, or a member is not there once."""
-    members, size = members_in(stores[0], data), data["identity"].get("members in a pack")
+    members, size = members_in(stores[0], data[0]), data[0]["identity"].get("members in a pack")
     if type(size) is not int or size < 1:
         raise FileFormatError(f"{folders[0]}: its study tells no members in a pack")
     packs: dict[int, Folder] = {}
     seen = Counter[int]()
     for folder, store, part in zip(folders, stores, numbered, strict=True):
         own = part.numbers(-(-len(members) // size))
-        left = {*own} - {*store}
-        if left:
-            raise SceneError(
-                f"merge: part {part} in {folder} is not complete, {len(left)} of its {len(own)} packs are "
-                "missing; give the same command again, which goes on with it"
-            )
+        _require_there(folder, store, part, own)
         packs |= dict.fromkeys(own, store)
         seen.update(one.index for number in own for one in store[number])
     if seen != Counter(range(len(members))):
         raise FileFormatError("merge: the packs do not hold each member once; run the damaged part anew")
     return packs
+
+
+def _grown(
+    folders: Sequence[str], stores: Sequence[Folder], numbered: Sequence[Part],
+    data: Sequence[Mapping[str, Any]],
+) -> dict[int, Folder]:  # fmt: skip
+    """As `_packs`, of an ensemble that grows: of each cell whole batches, until it is known."""
+    known: list[Any] = [one.get(KNOWN) for one in data]
+    packs: dict[int, Folder] = {}
+    for folder, store, part, one, told in zip(folders, stores, numbered, data, known, strict=True):
+        if told is None:
+            raise SceneError(
+                f"merge: part {part} in {folder} is not complete, not all of its cells are known; give the "
+                "same command again, which goes on with it"
+            )
+        if any(told[name] != known[0][name] for name in ("until", "seeds")):
+            raise SceneError(
+                f"merge: {folder} has grown until {told['until']} of {told['seeds']} seeds, and "
+                f"{folders[0]} until {known[0]['until']} of {known[0]['seeds']}; run both with the same"
+            )
+        growth = growth_in(store, one, told["seeds"])
+        assert growth is not None
+        there, expected = {*store}, dict[int, Sequence[int]]()
+        for cell in part.numbers(growth.cells, "cells"):
+            batch = 0
+            while batch < growth.batches and there & (own := growth.packs(batch, cell)).keys():
+                expected |= own
+                batch += 1
+        _require_there(folder, store, part, expected)
+        held = {number: [one.index for one in store[number]] for number in store}
+        if held != {number: [*own] for number, own in expected.items()} or len(held) != told["packs"]:
+            raise FileFormatError(f"merge: {folder} holds other members than part {part}; run it anew")
+        packs |= dict.fromkeys(expected, store)
+    return packs
+
+
+def _require_there(folder: str, store: Folder, part: Part, own: Collection[int]) -> None:
+    """Raise SceneError where a pack of a part is missing."""
+    left = {*own} - {*store}
+    if left:
+        raise SceneError(
+            f"merge: part {part} in {folder} is not complete, {len(left)} of its {len(own)} packs are "
+            "missing; give the same command again, which goes on with it"
+        )

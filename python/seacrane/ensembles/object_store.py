@@ -15,8 +15,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from seacrane.ensembles.dataset import Outcome
-from seacrane.ensembles.store import Folder
-from seacrane.ensembles.study_folder import STUDY, claimed, require_same
+from seacrane.ensembles.store import Folder, Store
+from seacrane.ensembles.study_folder import STUDY, claimed, require_same, study_in, write_study
 from seacrane.errors import FileFormatError, SceneError
 
 
@@ -99,6 +99,20 @@ def claimed_store(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Ite
     if not there:
         store.put(store.path / STUDY)
     yield store
+
+
+def note(store: Store, name: str, told: Any) -> None:
+    """Tell something in the study of a store, if it has one; None: take it out."""
+    if not isinstance(store, Folder):
+        return
+    distant = store if isinstance(store, Objects) else None
+    if distant is not None:
+        distant.get(store.path / STUDY)
+    data = study_in(store.path)
+    if data.get(name) != told:
+        write_study(store.path, {one: value for one, value in data.items() if one != name} | {name: told})
+    if distant is not None:
+        distant.put(store.path / STUDY)
 
 
 def folder_of(what: str, path: str | os.PathLike[str]) -> Path:

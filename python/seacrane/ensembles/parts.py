@@ -1,7 +1,8 @@
 """Parts of an ensemble, run by themselves: whole packs, so that each member has the same beside it.
 
 Packs are numbered by the study alone. Part i of n has each n-th pack from the i-th on: packs lie by what they
-cost, and so the parts cost about the same.
+cost, and so the parts cost about the same. Of a study that grows it has all packs of each n-th cell: whether
+one takes more is known by that cell alone.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from seacrane.run.lanes import INSTRUCTIONS
 from seacrane.version import __version__
 
 PART, ENGINE = "part", "engine"  # of an identity
+KNOWN = "known"  # in which sense all cells of a part that grows are, once they are
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,22 +37,22 @@ class Part:
     def __str__(self) -> str:
         return f"{self.number}/{self.of}"
 
-    def numbers(self, packs: int) -> range:
-        """The numbers of its packs. Raises SceneError where there are fewer packs than parts."""
-        if self.of > packs:
+    def numbers(self, count: int, what: str = "packs of members") -> range:
+        """The numbers of its packs, or of its cells. Raises SceneError where there are fewer than parts."""
+        if self.of > count:
             raise SceneError(
-                f"part {self}: the study has {packs} packs of members, and a part has one at least; take at "
-                f"most {packs} parts, or a smaller pack"
+                f"part {self}: the study has {count} {what}, and a part has one at least; take at most "
+                f"{count} parts, or a smaller pack"
             )
-        return range(self.number - 1, packs, self.of)
+        return range(self.number - 1, count, self.of)
 
     def identity(self) -> dict[str, str]:
         """What tells its store from that of another part, or one that is run by another engine."""
         return {PART: str(self), ENGINE: engine()}
 
 
-def part_of(given: Any, *, grows: bool = False) -> Part:
-    """The part of (3, 40) or "3/40"; raises SceneError for another one, and for one of a study that grows."""
+def part_of(given: Any) -> Part:
+    """The part of (3, 40) or "3/40"; raises SceneError for another one."""
     found = re.fullmatch(r"(\d{1,7})/(\d{1,7})", given) if isinstance(given, str) else None
     pair = given if found is None else tuple(map(int, found.groups()))
     if not (isinstance(pair, tuple) and len(pair) == 2 and all(type(one) is int for one in pair)):
@@ -60,11 +62,6 @@ def part_of(given: Any, *, grows: bool = False) -> Part:
     part = Part(number=pair[0], of=pair[1])
     if not 1 <= part.number <= part.of:
         raise SceneError(f"part is {part}; give one from 1/{part.of} to {part.of}/{part.of}")
-    if grows:
-        raise SceneError(
-            f"part {part}: until asks all members so far whether more are needed, which no part knows; leave "
-            "until out, or run the study as one"
-        )
     return part
 
 

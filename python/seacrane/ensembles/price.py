@@ -16,6 +16,7 @@ from seacrane.ensembles.store import Store, bytes_in
 
 FEWEST, MOST, SHARE = 2, 8, 5  # packs that are run first: at most the fifth of all
 HOUR = 3600.0  # s
+SUMMED = ("members", "measured", "core_hours", "bytes")  # of prices together
 Priced = Callable[["Price | None"], bool]
 
 
@@ -49,6 +50,14 @@ class Price:
             f"price: {most}{self.core_hours:.2g} core hours and {self.bytes / 1e6:.2g} MB for {self.members} "
             f"members, by the {self.measured} of them that are done"
         )
+
+
+def sum_of(prices: Sequence[Price]) -> Price | None:
+    """Of several together; None of none."""
+    if not prices:
+        return None
+    total = {name: sum(getattr(one, name) for one in prices) for name in SUMMED}
+    return Price(**total, at_most=any(one.at_most for one in prices))
 
 
 def goes_on(

@@ -85,11 +85,8 @@ def study_in(folder: Path) -> dict[str, Any]:
 
 def require_same(folder: Path, study: Mapping[str, Any]) -> None:
     """Write what the folder is, or refuse a folder of another study."""
-    whole = {"format": FORMAT, "version": FILE_VERSION, **study}
-    path = folder / STUDY
-    if not path.exists():
-        with atomic_write(path, tidy=False) as draft:
-            draft.write_text(json.dumps(whole), encoding="utf-8")
+    if not (folder / STUDY).exists():
+        write_study(folder, {"format": FORMAT, "version": FILE_VERSION, **study})
         return
     there = study_in(folder).get("identity", {})
     here = study["identity"]
@@ -128,6 +125,12 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
             for name, what in study.keep.items()
         },
     }
+
+
+def write_study(folder: Path, data: Mapping[str, Any]) -> None:
+    """Write what a folder is."""
+    with atomic_write(folder / STUDY, tidy=False) as draft:
+        draft.write_text(json.dumps(data), encoding="utf-8")
 
 
 def _stage(stage: Stage) -> list[Any]:

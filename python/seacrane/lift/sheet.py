@@ -10,12 +10,12 @@ from seacrane.errors import SceneError
 from seacrane.lift.build import refused_at
 from seacrane.lift.calls import keywords, require_unit_of_channel
 from seacrane.lift.check_keys import Entry, plain
-from seacrane.lift.sheet_keys import ALPHA, CRITERION, FORECAST, HINDCAST, PHASE, SHEET
+from seacrane.lift.sheet_keys import ALPHA, CRITERION, FORECAST, HINDCAST, PHASE, SCATTER, SHEET
 from seacrane.operability.alpha import AlphaFactor
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.phase import Phase
 
-BESIDE = ("phase", "criterion", "alpha", "cases", "forecast", "hindcast", "seeds")
+BESIDE = ("phase", "criterion", "alpha", "cases", "forecast", "hindcast", "scatter", "seeds")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +27,7 @@ class Sheet:
     phases, criteria, given : As `phase_sheet` takes them, but the scenes of phases.
     lifts : Of phases that have a lift of their own, its path by their name.
     cases : Values of load cases by key of the lift.
-    forecast, hindcast : A file of sea states, and how it is looked at; empty: none.
+    forecast, hindcast, scatter : A file of sea states, and how it is looked at; empty: none.
     """
 
     phases: tuple[Phase, ...]
@@ -37,6 +37,7 @@ class Sheet:
     cases: Mapping[str, Any] = field(default_factory=dict)
     forecast: Mapping[str, Any] = field(default_factory=dict)
     hindcast: Mapping[str, Any] = field(default_factory=dict)
+    scatter: Mapping[str, Any] = field(default_factory=dict)
     entry: Entry = field(repr=False, compare=False)
 
 
@@ -69,4 +70,5 @@ def sheet_of(entry: Entry) -> Sheet:
         cases=values.get("cases", {}), entry=entry,
         forecast=keywords(FORECAST, values.get("forecast", {})),
         hindcast=keywords(HINDCAST, values.get("hindcast", {})),
+        scatter=keywords(SCATTER, values.get("scatter", {})),
     )  # fmt: skip

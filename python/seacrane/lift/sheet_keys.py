@@ -8,6 +8,7 @@ from seacrane.lift.inner_keys import CHANNEL_UNITS, LENGTH, LIFTS, NUMBER, ROW, 
 from seacrane.lift.keys import Key, keys_of
 from seacrane.operability.allowable import allowable_hs
 from seacrane.operability.alpha import AlphaFactor
+from seacrane.operability.availability import ScatterDiagram
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.go import go_or_no_go
 from seacrane.operability.hindcast import WaveHindcast
@@ -45,6 +46,10 @@ FORECAST = (
     ),
 )
 HINDCAST = (Key("file", **SERIES), HEADING, *READ)
+SCATTER = (
+    Key("file", "file", required=True, text="A scatter table, of classes of Hs and of Tp."),
+    *keys_of(ScatterDiagram.load, more={"units": {"type": "names"}}, only=("rows", "units", "classes")),
+)  # fmt: skip
 SEAS = {"tp": ROW | TIME, "direction_deg": ROW | {"unit": "deg"}, "hs": ROW | LENGTH}
 SHEET = (
     Key("phase", "tables", keys=PHASE, required=True, text="In their order."),
@@ -59,4 +64,5 @@ SHEET = (
     Key("cases", "values", text="Load cases: values by key of the lift, all combinations."),
     Key("forecast", "table", keys=FORECAST, text="Judged by the sheet: go or no go."),
     Key("hindcast", "table", keys=HINDCAST, text="Its weather windows, phases in series."),
+    Key("scatter", "table", keys=SCATTER, text="Availability of each phase by it."),
 )  # fmt: skip

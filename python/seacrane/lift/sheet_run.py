@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from seacrane.answers.report import answers_report
 from seacrane.ensembles.members import Value, members_of
-from seacrane.ensembles.object_store import folder_of
+from seacrane.ensembles.merging import merge_parts
+from seacrane.ensembles.price import Price, Priced, sum_of
+from seacrane.ensembles.study_folder import STUDY
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.lift.build import refused_at
@@ -20,7 +23,8 @@ from seacrane.lift.inner_keys import LIFTS
 from seacrane.lift.lift import Lift
 from seacrane.lift.sheet import Sheet
 from seacrane.lift.sheet_keys import READ
-from seacrane.lift.study_run import in_two_units, keys_in, with_keys
+from seacrane.lift.study_run import in_two_units, keys_in, made_folder, with_keys
+from seacrane.operability.availability import ScatterDiagram, availability
 from seacrane.operability.go import go_or_no_go
 from seacrane.operability.hindcast import WaveHindcast
 from seacrane.operability.phase import Phase
@@ -30,7 +34,9 @@ from seacrane.operability.windows import weather_windows
 from seacrane.plotting.table import Answer
 from seacrane.scene.scene import Scene
 
-RUNS = "runs"
+FILE, RUNS = "sheet.toml", "runs"
+BESIDE_IT = ("forecast", "hindcast", "scatter")  # what it is held against
+CSV, PAGE = WRITTEN = ("sheet.csv", "sheet.html")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,40 +46,111 @@ class SheetRun:
     sheet: PhaseSheet
     answers: Mapping[str, Answer]
 
+    def __str__(self) -> str:
+        return "\n\n".join(map(str, self.answers.values()))
+
 
 def run_sheet(
     path: str | os.PathLike[str],
     folder: str | os.PathLike[str],
     *,
     executor: Executor | None = None,
+    part: str | None = None,
+    priced: Priced | None = None,
     progress: bool = False,
-) -> SheetRun:
+) -> SheetRun | None:
     """Make the sheet of a lift file in a folder; runs that are there are not run again.
 
-    Writes `sheet.csv`, `sheet.html`, and the runs.
+    Writes `sheet.toml`, which is the lift, `sheet.csv`, `sheet.html`, and the runs. Of a `part`, such as
+    "3/40", the runs of its seas alone, and returns None; `merge_sheet` makes the sheet of those of all parts.
+    `priced` is told the price of all runs, once a few are there, and says whether to go on; else None.
 
     Raises
     ------
     FileFormatError
         With the line, for what is wrong in the file.
     SceneError
-        If there is no [sheet], or the runs of the folder are of another one.
+        If there is no [sheet], the runs of the folder are of another one, or a part has none.
     OSError
         If something cannot be written; runs that came back are kept.
     """
-    lift, target = Lift.load(path), folder_of("out", folder)
+    lift = Lift.load(path)
     if lift.sheet is None:
         raise SceneError(f"{Path(path).name} has no [sheet]; add it")
-    target.mkdir(parents=True, exist_ok=True)
+    target = made_folder(folder, FILE, (RUNS, *WRITTEN))
+    lift.save(target / FILE)
     asked = lift.sheet
     scenes = load_cases(lift, asked)
+    made = partial(
+        phase_sheet, scenes if asked.cases else scenes[""],
+        phases=[_with_scene(one, asked) for one in asked.phases], criteria=asked.criteria,
+        stages=lift.stages, store=target / RUNS, executor=executor, progress=progress,
+        accuracy=lift.accuracy, method=lift.method, dt_out=lift.outputs.dt_out, part=part, **asked.given,
+    )  # fmt: skip
     with refused_at(asked.entry):
-        sheet = phase_sheet(
-            scenes if asked.cases else scenes[""], phases=[_with_scene(one, asked) for one in asked.phases],
-            criteria=asked.criteria, stages=lift.stages, store=target / RUNS, executor=executor,
-            progress=progress, accuracy=lift.accuracy, method=lift.method, dt_out=lift.outputs.dt_out,
-            **asked.given,
-        )  # fmt: skip
+        if priced is not None and not priced(_price(made)):
+            return None
+        sheet = made()
+    if part is not None:
+        if not stores_in(target):
+            raise SceneError(f"part {part}: the sheet is known without runs; run it as one")
+        return None
+    return _answered(sheet, asked, target)
+
+
+def _price(made: Callable[..., PhaseSheet]) -> Price | None:
+    """Of all runs of a sheet that are missing."""
+    prices: list[Price] = []
+
+    def told(price: Price | None) -> bool:
+        prices.extend([] if price is None else [price])
+        return False
+
+    made(priced=told)
+    return sum_of(prices)
+
+
+def merge_sheet(parts: Sequence[str | os.PathLike[str]], folder: str | os.PathLike[str]) -> SheetRun | None:
+    """Make the sheet of the folders of all its parts: that of one run, to the bit.
+
+    Raises
+    ------
+    SceneError, FileFormatError, OSError
+        As `merge_parts` and `run_sheet`, and where a part has runs of a phase or load case that others lack.
+    """
+    target = made_folder(folder, FILE, (RUNS, *WRITTEN))
+    first, stores = _asked_in(parts[0]), stores_in(Path(parts[0]))
+    for one in parts:
+        if _asked_in(one) != first:
+            raise SceneError(f"merge: {one} is of another sheet than {parts[0]}; give parts of one lift file")
+        lacks = sorted({*stores} ^ {*stores_in(Path(one))})
+        if lacks:
+            raise SceneError(
+                f"merge: {one} and {parts[0]} do not both have {', '.join(lacks)}; give the command of the "
+                "part that was stopped again, which goes on with it"
+            )
+    for place in stores:
+        (target / place).parent.mkdir(parents=True, exist_ok=True)
+        merge_parts([Path(one) / place for one in parts], target / place)
+    return run_sheet(Path(parts[0]) / FILE, target)
+
+
+def _asked_in(folder: str | os.PathLike[str]) -> Mapping[str, Any]:
+    """The [sheet] in the folder of a part, but for the files that it is held against."""
+    path = Path(folder) / FILE
+    if not path.is_file():
+        raise SceneError(f"merge: {folder} is no folder of a sheet; give those of seacrane sheet --part")
+    asked: Mapping[str, Any] = Lift.load(path).tables.get("sheet", {})
+    return {name: told for name, told in asked.items() if name not in BESIDE_IT}
+
+
+def stores_in(folder: Path) -> list[str]:
+    """Stores of the runs in the folder of a sheet, as paths from it."""
+    return sorted(str(one.parent.relative_to(folder)) for one in (folder / RUNS).rglob(STUDY))
+
+
+def _answered(sheet: PhaseSheet, asked: Sheet, target: Path) -> SheetRun:
+    """The sheet with what is held against it, written."""
     answers: dict[str, Answer] = {"Seas by phase": sheet}
     for case in sheet.cases:
         of = f" of {case}" if case else ""
@@ -83,9 +160,19 @@ def run_sheet(
         if asked.hindcast:
             with refused_at(asked.entry, "hindcast"):
                 answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
-    sheet.to_csv(target / "sheet.csv")
-    answers_report(f"{sheet.name}: seas by phase", answers).save(target / "sheet.html")
+        if asked.scatter:
+            with refused_at(asked.entry, "scatter"):
+                answers |= _available(sheet, case, of, **asked.scatter)
+    sheet.to_csv(target / CSV)
+    answers_report(f"{sheet.name}: seas by phase", answers).save(target / PAGE)
     return SheetRun(sheet=sheet, answers=answers)
+
+
+def _available(sheet: PhaseSheet, case: str, of: str, *, file: str, **read: Any) -> dict[str, Answer]:
+    """The availability of each phase by a scatter table."""
+    scatter = ScatterDiagram.load(file, **read)
+    names = [phase.name for phase in sheet.phases]
+    return {f"Availability: {one}{of}": availability(sheet.table(one, case=case), scatter) for one in names}
 
 
 def _held(call: Callable[..., Answer], sheet: PhaseSheet, case: str, *, file: str, **given: Any) -> Answer:

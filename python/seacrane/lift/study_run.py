@@ -65,7 +65,7 @@ def run_study(
     if lift.study is None:
         raise SceneError(f"{Path(path).name} has no [study]; `seacrane run` runs it once")
     source = _source(lift, lift.study)
-    target = _made(folder)
+    target = made_folder(folder, FILE, [MEMBERS])
     if not (target / FILE).exists():
         lift.save(target / FILE)
     done = ensemble(
@@ -90,21 +90,21 @@ def merge_study(parts: Sequence[str | os.PathLike[str]], folder: str | os.PathLi
     for one in map(Path, parts):
         if not (one / FILE).is_file():
             raise SceneError(f"merge: {one} is no folder of a study; give those of seacrane study --part")
-    target = _made(folder)
+    target = made_folder(folder, FILE, [MEMBERS])
     done = merge_parts([Path(one) / MEMBERS for one in parts], target / MEMBERS)
     Lift.load(Path(parts[0]) / FILE).save(target / FILE)
     return done
 
 
-def _made(folder: str | os.PathLike[str]) -> Path:
-    """The folder of a study, made if absent; SceneError where it holds something else."""
+def made_folder(folder: str | os.PathLike[str], file: str, others: Sequence[str]) -> Path:
+    """The folder of a study or sheet, by the file in it, made if absent; SceneError where it is none."""
     target = folder_of("out", folder)
     if target.exists() and not target.is_dir():
         raise SceneError(f"{target} is a file; give the name of a folder")
     target.mkdir(parents=True, exist_ok=True)
-    others = (one for one in target.iterdir() if one.name != MEMBERS and not is_draft(one))
-    if not (target / FILE).exists() and any(others):
-        raise SceneError(f"{target} holds something else than a study; give another folder")
+    there = (one for one in target.iterdir() if one.name not in others and not is_draft(one))
+    if not (target / file).exists() and any(there):
+        raise SceneError(f"{target} holds something else than a {Path(file).stem}; give another folder")
     return target
 
 

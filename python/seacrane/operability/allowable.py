@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,20 +17,24 @@ from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.analysis.rest_state import equilibrium
-from seacrane.arrays import Array
 from seacrane.description.given import given_drivers
-from seacrane.ensembles.object_store import folder_of
+from seacrane.ensembles.dataset import Outcome
+from seacrane.ensembles.growing import Growth, Judge
+from seacrane.ensembles.members import Members
+from seacrane.ensembles.parts import Part
+from seacrane.ensembles.price import Priced
 from seacrane.ensembles.study import Stages, Start
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.keywords import named
+from seacrane.inputs.shown import shown
 from seacrane.operability.allowable_table import AllowableHs
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.asked import Still, asked_of, still_of
-from seacrane.operability.cells import Cells, Place
+from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.linear_channels import LinearSeas
-from seacrane.operability.time_domain import allowable_of, differences, numbers_in, storms_in
+from seacrane.operability.time_domain import allowable_of, differences, numbers_of, storms_in
 from seacrane.run.method import Method, Shorthand, settled
 from seacrane.scene.scene import Scene
 
@@ -119,8 +123,9 @@ def allowable_hs(
         As of `ensemble`: integrator and tolerance of the runs of all seeds, and of a lift in calm water, are
         chosen by it.
     until : float, optional
-        Half width of the 95 % interval of the allowable Hs, as a share of it: seeds are run in batches of ten
-        until a cell is known so well; `seeds` are the most that there may be. Default: all of them.
+        Half width of the 95 % interval of the allowable Hs, as a share of it: seeds, which then have no gaps,
+        are run in batches of ten until a cell is known so well; `seeds` are the most that there may be.
+        Default: all of them.
     progress : bool
         Show progress of what takes more than two seconds.
     **shorthand
@@ -150,11 +155,13 @@ def allowable_hs(
 def allowable_cells(
     scene: Scene, *, domain: str, time: float, executor: Executor | None, store: Any, method: Method | None,
     accuracy: Mapping[str, float] | None, progress: bool, until: float | None, shorthand: Mapping[str, Any],
-    groups: Sequence[Sequence[int]] = (), **given: Any,
+    groups: Sequence[Sequence[int]] = (), part: Part | None = None, priced: Priced | None = None,
+    **given: Any,
 ) -> tuple[Cells, dict[int, str]]:  # fmt: skip
     """The cells that `allowable_hs` makes a table of, and why members failed, by number.
 
-    Arguments are its own; `groups`: criteria by number, of which a table each is made.
+    Arguments are its own, and as of `phase_sheet`; `groups`: criteria by number, of which a table each is
+    made.
     """
     if "channels" in shorthand:
         raise SceneError("channels: runs record those of the criteria; leave channels out")
@@ -169,11 +176,16 @@ def allowable_cells(
     elif domain != "time":
         _by_frequency(cells, still, strict=domain == "frequency", progress=progress)
     if domain == "auto" and not asked.stages and cells.linear is not None:
+        if part is not None or priced is not None:
+            raise SceneError(
+                "domain is 'auto': what tests the linear model is in no part, and has no price; choose "
+                "'frequency' or 'time'"
+            )
         _test(cells, cells.linear, still, executor, progress)
     if cells.wanted:
         share = None if until is None else positive_of("until", until)
         every = groups or [range(len(asked.criteria))]
-        failures = _by_time(cells, still, executor, store, progress, share, every)
+        failures = _by_time(cells, still, executor, store, progress, share, every, part, priced)
     return cells, failures
 
 
@@ -218,42 +230,59 @@ def _test(cells: Cells, linear: LinearSeas, still: Still, executor: Executor | N
 
 def _by_time(
     cells: Cells, still: Still, executor: Executor | None, store: Any, progress: bool, until: float | None,
-    groups: Sequence[Sequence[int]],
+    groups: Sequence[Sequence[int]], part: Part | None, priced: Priced | None,
 ) -> dict[int, str]:  # fmt: skip
-    """Fill the cells that are wanted by runs; why members failed, by number.
-
-    With `until` seeds are run in batches, and cells that are certain leave.
-    """
-    asked, left = cells.asked, cells.wanted
+    """Fill the cells that are wanted by runs, those of a part alone; why members failed, by number."""
     if given_drivers(still.scene):  # on given ships and in stages from rest
         start: Start = partial(equilibrium, time=still.state.time)
     else:
-        start = still.state if asked.stages else steady_start(still.scene, still.state)
-    seen: dict[Place, list[Array]] = {place: [] for place in left}
-    failures: dict[int, str] = {}
-    before = 0
-    size = len(asked.seeds) if until is None else BATCH
-    for first in range(0, len(asked.seeds), size):
-        seeds = asked.seeds[first : first + size]
-        folder = store
-        if store is not None and until is not None:
-            outer = folder_of("store", store)
-            outer.mkdir(exist_ok=True)
-            folder = outer / f"seeds_{seeds[0]}_to_{seeds[-1]}"
-        storms = storms_in(
-            replace(asked, seeds=seeds), still, [cells.words(place) for place in left], start,
-            executor=executor, store=folder, progress=progress,
-        )  # fmt: skip
-        failures |= {before + number: why for number, why in storms.failures.items()}
-        before += len(storms.members)
-        for place, numbers in zip(left, numbers_in(storms, len(left), asked, len(seeds)), strict=True):
-            seen[place].append(numbers)
-            so_far = np.concatenate(seen[place], axis=2)
-            cells.take_time(place, allowable_of(asked, still, so_far), so_far.shape[2])
-        left = [place for place in left if until is None or not cells.certain(place, until, groups)]
-        if not left:
-            break
-    return failures
+        start = still.state if cells.asked.stages else steady_start(still.scene, still.state)
+    judge = ByRuns(table=cells, still=still, share=until, groups=groups)
+    storms = storms_in(
+        cells.asked, still, judge, start, executor=executor, store=store, progress=progress, part=part,
+        priced=priced,
+    )  # fmt: skip
+    return dict(storms.failures)
+
+
+@dataclass(kw_only=True, eq=False)
+class ByRuns(Judge):
+    """Fills cells by their runs, and knows one where its Hs is known to a share of it, or all seeds are run.
+
+    Attributes
+    ----------
+    groups : Criteria by number, of which each allows an Hs of its own.
+    """
+
+    table: Cells
+    still: Still
+    share: float | None
+    groups: Sequence[Sequence[int]]
+
+    def __post_init__(self) -> None:
+        places = self.table.places
+        self.cells = [places.index(one) for one in self.table.wanted]
+        self.asked = {} if self.share is None else {"allowable_hs": self.share}
+        for place in self.table.wanted:
+            self.table.not_run(place)
+
+    def growth(self, members: Members, pack: int | None, size: int) -> Growth:
+        """By batches of ten seeds where a share is asked for."""
+        seeds, heights = self.table.asked.seeds, len(self.table.asked.hs)
+        batch = len(seeds) if self.share is None else min(BATCH, len(seeds))
+        if batch < len(seeds) and [*seeds] != [*range(seeds[0], seeds[0] + len(seeds))]:
+            raise SceneError(
+                f"until: seeds is {shown(seeds)}, with gaps; give seeds one after another, as range(1, 21)"
+            )
+        others = {name: values for name, values in members.axes.items() if name != "seed"}
+        return Growth(seeds=seeds, others=others, size=size, batch=batch, within=heights)
+
+    def knows(self, growth: Growth, cell: int, outcomes: Sequence[Outcome]) -> bool:
+        """As of `Judge`."""
+        place, asked = self.table.places[cell], self.table.asked
+        numbers = numbers_of(outcomes, asked)
+        self.table.take_time(place, allowable_of(asked, self.still, numbers), numbers.shape[2])
+        return self.share is None or self.table.certain(place, self.share, self.groups)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

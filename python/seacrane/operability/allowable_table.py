@@ -52,8 +52,7 @@ class AllowableHs(Answer):
         database. `again_hs` (m) is the lowest Hs of runs above `allowable_hs` at which what governs is kept
         again, or NaN: such a limit is not monotone in Hs. `runs` counts the seeds at each Hs.
     failures : mapping of int to str
-        Why runs failed, by their number: periods, directions, Hs, seeds fastest, of the cells by runs;
-        with `until` batch after batch.
+        Why runs failed, by their number: seeds, periods, directions, Hs fastest, of all cells.
     """
 
     scene: str

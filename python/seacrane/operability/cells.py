@@ -88,6 +88,10 @@ class Cells:
         else:
             self.reason[place] = f"within {share:.1f} % of the allowance ({name})"
 
+    def not_run(self, place: Place) -> None:
+        """Nothing is known of a cell until its runs are there."""
+        self.by_criterion[(slice(None), *place)] = np.nan
+
     def take_time(self, place: Place, found: Sequence[ByTime], seeds: int) -> None:
         """Fill a cell by its runs of so many seeds."""
         self.runs[place] = seeds

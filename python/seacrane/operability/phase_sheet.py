@@ -9,6 +9,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane.ensembles.object_store import folder_of
+from seacrane.ensembles.parts import part_of
+from seacrane.ensembles.price import Priced
 from seacrane.ensembles.study import Stages
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import not_negative_of
@@ -52,6 +54,8 @@ def phase_sheet(
     store: str | os.PathLike[str] | None = None,
     method: Method | None = None,
     accuracy: Mapping[str, float] | None = None,
+    part: tuple[int, int] | str | None = None,
+    priced: Priced | None = None,
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> PhaseSheet:
@@ -88,11 +92,18 @@ def phase_sheet(
     executor, store, method, accuracy, progress, **shorthand
         As of `allowable_hs`; the store has a folder for each load case and phase. A sheet that was stopped
         goes on.
+    part : (int, int) or str, optional
+        Of the runs those of one part of so many alone, (3, 40) or "3/40": of every n-th sea all Hs and seeds.
+        `merge_parts` makes one store of each folder; other seas are not known.
+    priced : callable, optional
+        As of `ensemble`, called for the runs of each stationary phase, and of the passages, of a load case.
+        What is not run then is not known.
 
     Raises
     ------
     SceneError
-        As `allowable_hs`, for a criterion of no phase, a phase without criteria, or a passage without stages.
+        As `allowable_hs`, for a criterion of no phase, a phase without criteria, or a passage without stages;
+        for a part or price of phases whose linear model is tested.
     """
     listed, factor = listed_of("phases", Phase, phases), alpha_of(alpha)
     cases = _cases(scene)
@@ -106,7 +117,8 @@ def phase_sheet(
     shared: dict[str, Any] = {
         "tp": tp, "direction_deg": direction_deg, "hs": hs, "seeds": seeds, "until": until,
         "linear_within": linear_within, "executor": executor, "method": method, "accuracy": accuracy,
-        "progress": progress, "shorthand": shorthand,
+        "progress": progress, "part": None if part is None else part_of(part), "priced": priced,
+        "shorthand": shorthand,
     }  # fmt: skip
     still = {"domain": domain, "duration": duration, "start_up": start_up, "stages": ()}
     moving = {"domain": "auto", "duration": None, "start_up": None, "stages": stages, "time": 0.0}

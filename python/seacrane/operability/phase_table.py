@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -128,12 +129,8 @@ class PhaseSheet(Answer):
         for direction, column in zip(
             data["direction_deg"].to_numpy(), data["allowable_hs"].to_numpy().T, strict=True
         ):
-            least = int(np.argmin(np.nan_to_num(column, nan=np.inf)))
-            if (
-                column[: least + 1].max() > column[least] + LEAST
-                and column[least:].max() > column[least] + LEAST
-            ):
-                told.append(f"in Tp at {direction:g} deg, least at {tp[least]:g} s")
+            turns = _turns(tp, column)
+            told += [f"in Tp at {direction:g} deg, {', '.join(turns)}"] if turns else []
         for i, j in np.argwhere(np.isfinite(data["again_hs"].to_numpy())):
             at, again = data["direction_deg"].to_numpy()[j], data["again_hs"].to_numpy()[i, j]
             told.append(f"in Hs at {tp[i]:g} s and {at:g} deg, kept again at {again:g} m")
@@ -229,3 +226,14 @@ class PhaseSheet(Answer):
             axes=[Column(head="Tp", values=data["tp"].to_numpy(), unit="s", form="g")], columns=columns,
             title=f"{case + ': ' if case else ''}forecast Hs [m] of the whole operation in one sea ({told})",
         )  # fmt: skip
+
+
+def _turns(tp: Array, heights: Array) -> list[str]:
+    """Where heights (m) over periods (s) that are known turn round, in words."""
+    known = np.isfinite(heights)
+    periods, steps = tp[known], np.diff(heights[known])
+    changes = np.flatnonzero(np.abs(steps) > LEAST)
+    return [
+        f"{'least' if steps[before] < 0.0 else 'largest'} at {periods[before + 1]:g} s"
+        for before, after in pairwise(changes) if steps[before] * steps[after] < 0.0
+    ]  # fmt: skip

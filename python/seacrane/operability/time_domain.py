@@ -15,9 +15,13 @@ from seacrane import _core
 from seacrane.analysis.after_run import require_finite
 from seacrane.arrays import Array
 from seacrane.description.databases import without_databases
+from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.ensemble import Ensemble, ensemble
+from seacrane.ensembles.growing import Judge
 from seacrane.ensembles.job import stepped
 from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.parts import Part
+from seacrane.ensembles.price import Priced
 from seacrane.ensembles.study import Start
 from seacrane.errors import SeacraneError
 from seacrane.operability.asked import Asked, Still
@@ -46,32 +50,39 @@ class ByTime:
 
 
 def storms_in(
-    asked: Asked, still: Still, seas: Iterable[Mapping[str, Any]], start: Start, *,
-    executor: Executor | None, store: str | os.PathLike[str] | None, progress: bool,
+    asked: Asked, still: Still, judge: Judge, start: Start, *, executor: Executor | None,
+    store: str | os.PathLike[str] | None, progress: bool, part: Part | None, priced: Priced | None,
 ) -> Ensemble:  # fmt: skip
-    """Runs at each Hs, of all seeds, in seas of other periods and directions; seeds are the fastest."""
-    over = [{**sea, "hs": hs, "seed": seed} for sea in seas for hs in asked.hs for seed in asked.seeds]
+    """Runs of the seeds that the judge asks for, at each Hs, in the cells that it wants."""
+    over = {"seed": asked.seeds, "tp": asked.tp, "direction_deg": asked.direction_deg, "hs": asked.hs}
     after = still.state.time + asked.start_up
     keep = {
-        f"criterion_{i}": RecordNumbers(channel=one.channel, names=one.names, after=after, stage=one.stage)
+        kept_as(i): RecordNumbers(channel=one.channel, names=one.names, after=after, stage=one.stage)
         for i, one in enumerate(asked.criteria)
     }
     return ensemble(
         still.scene, over=over, keep=keep, stages=asked.stages,
         t_end=None if asked.duration is None else after + asked.duration, method=asked.method,
         outputs=asked.outputs, start=start, executor=executor, store=store, progress=progress,
-        accuracy=asked.accuracy,
+        accuracy=asked.accuracy, until=judge, part=None if part is None else str(part), priced=priced,
     )  # fmt: skip
 
 
-def numbers_in(storms: Ensemble, cells: int, asked: Asked, seeds: int) -> Array:
-    """`record_numbers` of all runs, (cells, criteria, Hs, seeds, 4); NaN where nothing is kept."""
-    every = (cells, len(asked.hs), seeds, 4)
-    kept = [f"criterion_{i}" for i in range(len(asked.criteria))]
-    found = [storms.dataset[name].to_numpy() if name in storms.dataset else np.nan for name in kept]
-    return np.stack(
-        [np.broadcast_to(one, (int(np.prod(every[:3])), 4)).reshape(every) for one in found], axis=1
-    )
+def kept_as(criterion: int) -> str:
+    """Name under which the numbers of a criterion are kept."""
+    return f"criterion_{criterion}"
+
+
+def numbers_of(outcomes: Sequence[Outcome], asked: Asked) -> Array:
+    """`record_numbers` of the runs of a cell, (criteria, Hs, seeds, 4); NaN where one failed."""
+    heights = len(asked.hs)
+    ordered = sorted(outcomes, key=lambda one: one.index)  # seeds slowest, Hs fastest
+    lost = np.full(4, np.nan)
+    every = [
+        [one.kept[name].values if name in one.kept else lost for one in ordered]
+        for name in map(kept_as, range(len(asked.criteria)))
+    ]
+    return np.array(every).reshape(len(every), -1, heights, 4).swapaxes(1, 2)
 
 
 def allowable_of(asked: Asked, still: Still, numbers: Array) -> list[ByTime]:
