@@ -201,9 +201,9 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
 def relative_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> Iterator[Finding]:
     """Pairs of a group whose mean relative place or heading is out of range."""
     moved, waves = {vessel.name: motion for vessel, motion in motions(scene, channels)}, scene.waves
-    if waves is not None and time[-1] - time[0] < peak_of(scene).period:
-        return  # within one wave there is no mean
     pairs = [(name, pair) for name, group in scene.groups.items() for pair in combinations(group.vessels, 2)]
+    if pairs and waves is not None and time[-1] - time[0] < peak_of(scene).period:
+        return  # within one wave there is no mean
     for name, (one, other) in pairs:
         if not {one, other} <= moved.keys():
             continue

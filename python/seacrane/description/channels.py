@@ -144,6 +144,12 @@ def channel_of(name: str) -> str:
     return name
 
 
+@lru_cache(maxsize=1024)
+def dims_of(name: str, axes: int) -> tuple[str, ...]:
+    """Dimensions of an array with so many axes, of a channel or of its least or largest values."""
+    return CHANNELS[channel_of(name)].dims_of(axes)
+
+
 def attributes(name: str) -> dict[str, str]:
     """`units` and `long_name` of a channel, of its least or largest values, or of `time`."""
     if name == "time":

@@ -142,7 +142,10 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
         return kept
     whole = magnitudes.sum(axis=0)
     share = np.divide(magnitudes, whole, out=np.zeros_like(magnitudes), where=whole > 0.0)
-    order = np.argsort(share.max(axis=1), kind="stable")
+    largest = share.max(axis=1)
+    if largest.min() > limit:
+        return kept
+    order = np.argsort(largest, kind="stable")
     left_out = np.cumsum(share[order], axis=0).max(axis=1)
     kept[order[: min(np.searchsorted(left_out, limit, side="right"), len(order) - 1)]] = False
     return kept

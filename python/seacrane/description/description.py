@@ -106,7 +106,8 @@ class Description:
     def __post_init__(self) -> None:
         held = vars(self)
         for key, kind in KINDS.items():  # a table belongs to one scene
-            held[key] = Table(kind, held[key])
+            held[key] = table = Table(held[key])
+            table.kind = kind
         self.notes = deepcopy(dict(self.notes))
         self.warned = dict[str, None](held.get("warned", ()))  # messages, while it was described
 
@@ -185,10 +186,6 @@ class Table(dict[str, Element]):
     that is not there says so."""
 
     kind: str
-
-    def __init__(self, kind: str, elements: Mapping[str, Element] | None = None) -> None:
-        super().__init__(elements or {})
-        self.kind = kind
 
     def __missing__(self, name: object) -> NoReturn:
         known = ", ".join(map(repr, self)) or "none"

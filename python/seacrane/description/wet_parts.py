@@ -191,13 +191,13 @@ def refuse_contradictions_in_water(scene: Description) -> None:
 
 
 def _refuse_seabeds(scene: Description) -> None:
-    waves = scene.waves
-    if waves is None or not np.any(waves.amplitude):
+    waves, seabeds = scene.waves, {depth: what for what, depth in _seabeds(scene)}
+    if not seabeds or waves is None or not np.any(waves.amplitude):
         return
     energy = np.abs(np.asarray(waves.amplitude)) ** 2
     omega = np.asarray(waves.omega, dtype=float)
     known = wavenumber(omega, g=scene.gravity, depth=waves.depth)
-    for depth, what in {depth: what for what, depth in _seabeds(scene)}.items():
+    for depth, what in seabeds.items():
         there = wavenumber(omega, g=scene.gravity, depth=depth)
         difference = float((energy * np.abs(there / known - 1.0)).sum() / energy.sum())
         if difference > LARGEST_DIFFERENCE:

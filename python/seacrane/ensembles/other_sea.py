@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from seacrane.sea import SeaState, Spectrum, Spreading, WaveSystem, jonswap, pie
 
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
 SAME = 1e-9  # relative
+SAME_SETTINGS = ("current", "relative_bound", "evaluation", "stretching")
 SPECTRA: Mapping[str, Callable[..., Spectrum]] = {
     "JONSWAP": jonswap,
     "Pierson-Moskowitz": lambda *, hs, tp, gamma: pierson_moskowitz(hs=hs, tp=tp),
@@ -28,16 +28,17 @@ def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
     """A copy of the scene in another sea, all else of which is as it was; repeats are not looked for."""
     assert scene.waves is not None
     old = scene.waves
-    out = scene.copy(waves=replace(_realised(scene, given), stretching=old.stretching))
+    out = scene.copy(waves=_realised(scene, given))
     for body in old.hulls:
-        out.add_sea(**as_put(out, old, body), relative_bound=old.relative_bound, evaluation=old.evaluation)
+        out.add_sea(**as_put(out, old, body))
     return out
 
 
 def _realised(scene: Scene, given: Mapping[str, Any]) -> Waves:
     """The sea of the scene with other words, no vessel in it yet."""
     assert scene.waves is not None
-    record, depth, current = scene.waves.provenance.sea, scene.waves.depth, scene.waves.current
+    record, depth = scene.waves.provenance.sea, scene.waves.depth
+    same = {name: getattr(scene.waves, name) for name in SAME_SETTINGS}
     if record is not None:
         sea = SeaState(
             systems=[_system(system) for system in record["systems"]],
@@ -45,11 +46,11 @@ def _realised(scene: Scene, given: Mapping[str, Any]) -> Waves:
             depth=float("inf") if record["depth"] is None else record["depth"],
             placement=record["placement"],
         )
-        return realised_sea(sea, {}, depth, current=current, look_for_repeats=False)
+        return realised_sea(sea, {}, depth, look_for_repeats=False, **same)
     settings = _settings(scene)
     if "gamma" not in given and settings["spectrum"] != "jonswap":
         settings.pop("gamma")
-    return realised_sea(None, settings | dict(given), depth, current=current, look_for_repeats=False)
+    return realised_sea(None, settings | dict(given), depth, look_for_repeats=False, **same)
 
 
 def require_same_sea(scene: Scene, words: Collection[str]) -> None:

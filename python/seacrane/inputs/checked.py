@@ -31,13 +31,14 @@ __all__ = [
     "numbers_of", "positive_of", "require_unmasked", "rows_of", "shaped_of", "text_of", "texts_of",
     "vector_of",
 ]  # fmt: skip
-FEW = 2000  # numbers, which are looked at one by one sooner than they are added
+FEW = 2000  # numbers, whose squares are added sooner than a sum is asked not to warn
 
 
 def is_finite(array: NDArray[Any]) -> bool:
-    """A finite sum has finite terms; one that is not may be too large."""
+    """A finite sum, of terms or of their squares, has finite terms; one that is not may be too large."""
     if array.size > FEW:
         with np.errstate(over="ignore", invalid="ignore"):
-            if np.isfinite(array.sum()):
-                return True
-    return bool(np.isfinite(array).all())
+            found = array.sum()
+    else:
+        found = np.vdot(array, array)
+    return bool(np.isfinite(found) or np.isfinite(array).all())

@@ -22,7 +22,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from seacrane.arrays import Array
-from seacrane.description.channels import CHANNELS, channel_of
+from seacrane.description.channels import channel_of, dims_of
 from seacrane.errors import FileFormatError
 from seacrane.inputs import sole_writer
 from seacrane.result.about import About, Event, parted
@@ -64,8 +64,7 @@ class Piece:
     @property
     def dims(self) -> dict[str, tuple[str, ...]]:
         """The dimensions of each channel."""
-        return {name: CHANNELS[channel_of(name)].dims_of(array.ndim) for name, array in self.arrays.items()
-                if name != "time"}  # fmt: skip
+        return {name: dims_of(name, array.ndim) for name, array in self.arrays.items() if name != "time"}
 
     def to_bytes(self) -> bytes:
         """The body of a record."""

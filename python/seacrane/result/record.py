@@ -8,10 +8,9 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from seacrane.arrays import Array
-from seacrane.description.channels import CHANNELS, MOTIONS, channel_of, unit_of
+from seacrane.description.channels import MOTIONS, dims_of, unit_of
 from seacrane.description.pick import Pick, column_name, pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.keywords import named
@@ -19,11 +18,6 @@ from seacrane.plotting.table import Column, Table
 from seacrane.result.about import About, Event, StageSpan, Stat
 
 Extremes = Mapping[str, tuple[Array, Array]]  # least and largest values by channel
-
-
-def dims_of(channels: Mapping[str, ArrayLike]) -> dict[str, tuple[str, ...]]:
-    """The dimensions of arrays by the names of channels."""
-    return {name: CHANNELS[channel_of(name)].dims_of(np.ndim(array)) for name, array in channels.items()}
 
 
 @named
@@ -44,7 +38,8 @@ class Record(Mapping[str, Array]):
     def __post_init__(self) -> None:
         for name in ("channels", "coords", "stats", "extremes"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
-        object.__setattr__(self, "dims", MappingProxyType(dims_of(self.channels)))
+        dims = {name: dims_of(name, array.ndim) for name, array in self.channels.items()}
+        object.__setattr__(self, "dims", MappingProxyType(dims))
 
     def __getitem__(self, name: str) -> Array:
         """The channel of that name; the error lists what was recorded."""

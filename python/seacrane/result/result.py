@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane.arrays import Array
-from seacrane.description.channels import CHANNELS, FIXED, attributes, channel_of
+from seacrane.description.channels import CHANNELS, FIXED, attributes, channel_of, dims_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.description.places import POSE, on_body, position_of
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
@@ -39,7 +39,7 @@ from seacrane.result.about import (
 )
 from seacrane.result.history import axes_note, history_sheet
 from seacrane.result.partial_file import Piece, is_partial, partial_path, read_partial
-from seacrane.result.record import Record, dims_of
+from seacrane.result.record import Record
 from seacrane.result.result_file import read_netcdf, write_netcdf
 from seacrane.result.traces import as_arrays, parted
 from seacrane.result.utilisation import Utilisation, utilisation_of
@@ -180,14 +180,14 @@ class Result(Record, Answer):
         for name in arrays:
             if channel_of(name) not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
-        all_dims = dims_of(arrays)
+        all_dims = {name: dims_of(name, np.ndim(values)) for name, values in arrays.items()}
         used = dict.fromkeys(dim for dims in all_dims.values() for dim in dims[1:])
         given = {dim: checked_names(dim, coords[dim]) for dim in used if dim in coords}
         names = given | dict(FIXED)
+        sizes = {dim: len(own) for dim, own in names.items()}
         checked = {}
         for name, values in arrays.items():
-            dims = all_dims[name]
-            shape = (times.size, *(len(names.get(dim, ())) for dim in dims[1:]))
+            shape = (times.size, *(sizes.get(dim, 0) for dim in all_dims[name][1:]))
             checked[name] = checked_array(name, values, shape, gaps or channel_of(name) in gappy)
         channels, extremes = parted(checked)
         return cls(

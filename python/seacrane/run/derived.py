@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
@@ -120,26 +121,26 @@ class _Made:
             return None
         return self.arrays[channel][:, [recorded.index(place) for place in wanted.values()]]
 
-    def driven(self, wanted: Places) -> Array | None:
-        """What actuators, drivers and cylinders apply along joint coordinates; None unless known of all."""
+    @cached_property
+    def drives(self) -> Mapping[tuple[str, str] | None, list[Array]]:
+        """What actuators, drivers and cylinders apply, by the joint coordinate along which they do."""
         slides = [slide_of(self.scene, one) for one in hydraulic_cylinders(self.scene).values()]
         acting: dict[str, list[tuple[str, str] | None]] = {
             "actuator_force": [(one.joint, one.coordinate) for one in self.scene.actuators.values()],
             "driver_force": [(one.joint, one.coordinate) for one in self.scene.drivers.values()],
             "hydraulic_force": [None if slide is None else (slide, "displacement") for slide in slides],
         }
-        columns = []
-        for place in wanted.values():
-            loads = [
-                self.arrays[channel][:, i]
-                for channel, places in acting.items()
-                for i, one in enumerate(places)
-                if one == place and channel in self.arrays
-            ]
-            if not loads:
-                return None
-            columns.append(sum(loads[1:], loads[0].copy()))
-        return np.column_stack(columns) if columns else None
+        found = defaultdict(list)
+        for channel, places in acting.items():
+            for i, place in enumerate(places if channel in self.arrays else ()):
+                found[place].append(self.arrays[channel][:, i])
+        return found
+
+    def driven(self, wanted: Places) -> Array | None:
+        """The same along some coordinates; None unless known of all."""
+        columns = [self.drives.get(place, []) for place in wanted.values()]
+        known = columns and all(columns)
+        return np.column_stack([sum(loads[1:], loads[0]) for loads in columns]) if known else None
 
     def pressures(self) -> Array | None:
         """In the loaded chambers of the cylinders whose areas are known."""

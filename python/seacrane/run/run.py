@@ -159,7 +159,7 @@ class Run:
         self._prepare()
         try:  # what a result could not hold is refused now, not when the run is over
             plain_stats(self._told())
-            self.about.to_attributes()
+            About(settings=self.settings).to_attributes()
         except ValueError as error:
             raise SceneError(f"scene {self.scene.name!r}: {error}") from error
 

@@ -16,6 +16,7 @@ from seacrane.description.once import once
 from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
 from seacrane.description.suspension import hung_loads, static_weights
+from seacrane.errors import SceneError
 from seacrane.inputs.plain_data import plain_data, plain_notes
 from seacrane.result.about import About, Event
 from seacrane.run.method import Method
@@ -48,12 +49,17 @@ def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) ->
 
 @once
 def about_of(scene: Scene) -> About:
-    """What a result notes of a scene; of its settings nothing."""
-    return About(
+    """What a result notes of a scene; of its settings nothing. SceneError for what no file could hold."""
+    about = About(
         limit_states=tuple(scene.limit_states.values()), outline=outline_of(scene), bounds=bounds_of(scene),
         cranes=plain_data("cranes", [*scene.roles.values()]), hung=hung_notes(scene),
         hanging_weight=static_weights(scene),
     )  # fmt: skip
+    try:
+        about.to_attributes()
+    except ValueError as error:
+        raise SceneError(f"scene {scene.name!r}: {error}") from error
+    return about
 
 
 @once

@@ -44,9 +44,9 @@ MOST_SECOND_ORDER = 0.3  # of the first order
 
 def realised_sea(
     sea: SeaState | None, given: dict[str, Any], depth: float, *, current: Current | None = None,
-    look_for_repeats: bool = True,
+    look_for_repeats: bool = True, **settings: Any,
 ) -> Waves:  # fmt: skip
-    """A sea with no vessel in it yet, of that depth where it is not a SeaState.
+    """A sea with no vessel in it yet, of that depth where it is not a SeaState; with settings of `Waves`.
 
     Looking for repeats takes longer than all the rest; without, its provenance does not tell them.
 
@@ -72,7 +72,8 @@ def realised_sea(
         repeat_period_s=float(realised.repeat.time) if look_for_repeats else None,
         repeat_found=int(realised.repeat.found) if look_for_repeats else None,
     )  # fmt: skip
-    return Waves(hulls={}, depth=sea.depth, current=current, provenance=provenance, **components)
+    settings |= {"depth": sea.depth, "current": current, "provenance": provenance}
+    return Waves(hulls={}, **settings, **components)
 
 
 def _not_stopped(waves: _core.WaveComponents, current: Current | None) -> NDArray[np.bool_]:

@@ -273,7 +273,7 @@ def _evaluated(waves: Waves, **given: Any) -> Waves:
                 f"is {value!r}, that of {', '.join(map(repr, waves.hulls))} is "
                 f"{getattr(waves, name)!r}; vessels in one sea share it, leave it out",
             )
-    return replace(waves, **given)
+    return replace(waves, **given) if given else waves
 
 
 def _pose(
@@ -294,6 +294,8 @@ def _pose(
 
 def require_depth(waves: Waves, database: Source, vessel: str) -> None:
     """Refuse a database computed at a depth where the waves of a sea have another length than in that sea."""
+    if waves.depth == database.depth:
+        return
     there, computed = (
         wavenumber(waves.omega, g=database.g, depth=depth) for depth in (waves.depth, database.depth)
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane.arrays import Array
 from seacrane.one_thread import one_thread
@@ -29,10 +30,11 @@ def spline_weights(knots: Array, query: Array, *, period: float | None = None) -
         curvature = _curvature(np.asarray(knots, float).tobytes(), period)
         n = len(knots)
         wrap = np.concatenate([[n - 1], np.arange(n), [0]])
-        return _evaluate(x, where, np.eye(n)[wrap], curvature[wrap])
+        return _evaluate(x, where, wrap, curvature[wrap])
     if len(knots) < 4:
         return _polynomial_weights(knots, query)
-    return _evaluate(knots, query, np.eye(len(knots)), _curvature(np.asarray(knots, float).tobytes(), None))
+    every = np.arange(len(knots))
+    return _evaluate(knots, query, every, _curvature(np.asarray(knots, float).tobytes(), None))
 
 
 def by_straight_lines(x: Array, table: Array, where: Array) -> Array:
@@ -42,16 +44,19 @@ def by_straight_lines(x: Array, table: Array, where: Array) -> Array:
     return np.asarray((1.0 - part) * table[right - 1] + part * table[right])
 
 
-def _evaluate(x: Array, query: Array, value: Array, curvature: Array) -> Array:
-    """Piecewise cubic from the knots' values and second derivatives (rows of both matrices)."""
+def _evaluate(x: Array, query: Array, value: NDArray[np.intp], curvature: Array) -> Array:
+    """Piecewise cubic from the columns of the knots' values, and the rows of their second derivatives."""
     i = np.clip(np.searchsorted(x, query, side="right") - 1, 0, len(x) - 2)
     h = x[i + 1] - x[i]
     right = (query - x[i]) / h
     left = 1.0 - right
     bend_left = (left**3 - left) * h**2 / 6.0
     bend_right = (right**3 - right) * h**2 / 6.0
-    linear = left[:, None] * value[i] + right[:, None] * value[i + 1]
-    return np.asarray(linear + bend_left[:, None] * curvature[i] + bend_right[:, None] * curvature[i + 1])
+    out, every = bend_left[:, None] * curvature[i], np.arange(len(query))
+    out[every, value[i]] += left
+    out[every, value[i + 1]] += right
+    out += bend_right[:, None] * curvature[i + 1]
+    return np.asarray(out)
 
 
 @lru_cache(maxsize=16)
