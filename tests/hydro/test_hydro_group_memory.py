@@ -15,6 +15,9 @@ from seacrane.hydro import (
     motion_response,
     passivity_certificate,
 )
+from seacrane.hydro.memory.by_motion import _Coupled, _lost, _without
+from seacrane.hydro.memory.coupled import CoupledProblem, _Point
+from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.hydro.memory.oscillators import Oscillators
 
 HEAVE, SWAY = 2, 1
@@ -89,6 +92,43 @@ def test_it_is_passive_over_all_motions_and_couples_the_hulls(group: HydroGroup,
         assert np.abs(fitted[:, HEAVE, 6 + HEAVE] - coupled).max() < 0.1 * np.ptp(coupled)
         assert fitted[:, HEAVE, 6 + HEAVE] == pytest.approx(fitted[:, 6 + HEAVE, HEAVE], rel=1e-9)
     assert model.added_mass[HEAVE, HEAVE] == pytest.approx(0.4 * INERTIA, rel=0.1)
+
+
+@pytest.mark.parametrize("known", [False, True])
+def test_the_normal_equations_are_those_of_differences(group: HydroGroup, known: bool) -> None:
+    """Gradient and matrix of Gauss and Newton, by what steps in each parameter do to the misfit."""
+    band, infinite = (0.3, 1.8), group.infinite_frequency_added_mass if known else None
+    felt = _Coupled(motion_judge(group, band), group.omega, band, infinite, MOVING).felt
+    felt.emphasise(np.array([1.0, 2.0, 0.5, 1.0]))
+    water = known_water(0.3)
+    problem = CoupledProblem(felt, 4)
+    start = problem.pack(replace(water, coupling=water.coupling / np.sqrt(INERTIA)))
+    start[4:] += 0.1 * np.random.default_rng(1).normal(size=len(start) - 4)
+    matrix, gradient = _Point(problem, start).normal_equations()
+    step = 1e-5 * np.eye(len(start))
+    ends = [(_Point(problem, start + one), _Point(problem, start - one)) for one in step]
+    by_cost = np.array([(a.cost - b.cost) / 4e-5 for a, b in ends])
+    assert np.abs(gradient - by_cost).max() < 1e-6 * np.abs(by_cost).max()
+    misfits = [(a.misfit - b.misfit) / 2e-5 for a, b in ends]
+    square = np.array([[np.vdot(one, felt(other)).real for other in misfits] for one in misfits])
+    sizes = problem.sizes(start)[1]
+    assert np.abs(square + sizes.T @ sizes - matrix).max() < 1e-6 * np.abs(matrix).max()
+
+
+def test_what_a_pair_is_felt_by_is_that_of_all_motions_solved_anew(group: HydroGroup) -> None:
+    judge = motion_judge(group, (0.3, 1.8))
+    pair = (SWAY, 6 + HEAVE)
+    quick, whole = judge.error_of_pair(*pair, _lost(judge, pair)), judge.error(_without(judge, [pair]))
+    assert quick.seas == pytest.approx(whole.seas, rel=1e-9, abs=1e-13)
+    assert quick.peaks == pytest.approx(whole.peaks, rel=1e-9, abs=1e-13) and whole.worst > 1e-3
+
+
+def test_a_bar_shows_masses_and_error(
+    group: HydroGroup, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("SEACRANE_CACHE", "off")
+    assert fit_memory(database=group, limit=0.3, progress=True).motion is not None
+    assert "fluid memory" in (shown := capsys.readouterr().err) and "masses" in shown
 
 
 def test_bodies_in_another_order_take_the_memory_along(group: HydroGroup, model: MemoryModel) -> None:

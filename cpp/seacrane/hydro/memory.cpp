@@ -51,20 +51,39 @@ Memory::Memory(const std::vector<StateSpaceBlock>& blocks, int motions) {
     motions_.insert(motions_.end(), s.inputs.begin(), s.inputs.end());
     block.first_output = static_cast<int>(motions_.size());
     motions_.insert(motions_.end(), s.outputs.begin(), s.outputs.end());
-    put_in_tiles(s.a, s.b);
-    put_in_tiles(s.c, s.d);
+    if (block.alone && block.states <= tile) {
+      put_alone(s);
+    } else {
+      put_in_tiles(s.a, s.b, s.inputs);
+      put_in_tiles(s.c, s.d, s.inputs);
+    }
     blocks_.push_back(block);
     states_ += block.states;
   }
 }
 
-/// The matrix (left, right).
-void Memory::put_in_tiles(const MatXd& left, const MatXd& right) {
-  MatXd all(left.rows(), left.cols() + right.cols());
-  all << left, right;
-  in_tiles(static_cast<int>(all.rows()), [&]<int rows>(int first) {
-    for (Eigen::Index j = 0; j < all.cols(); ++j) {
-      for (int i = 0; i < rows; ++i) coefficients_.push_back(all(first + i, j));
+/// All coefficients, by columns.
+void Memory::put_alone(const StateSpaceBlock& s) {
+  for (const auto& [left, right] : {std::pair{&s.a, &s.b}, std::pair{&s.c, &s.d}}) {
+    for (const MatXd* part : {left, right}) {
+      coefficients_.insert(coefficients_.end(), part->data(), part->data() + part->size());
+    }
+  }
+}
+
+/// The matrix (left, right), whose right columns belong to `inputs`.
+void Memory::put_in_tiles(const MatXd& left, const MatXd& right, const std::vector<int>& inputs) {
+  in_tiles(static_cast<int>(left.rows()), [&]<int rows>(int first) {
+    for (const MatXd* part : {&left, &right}) {
+      const std::size_t count = columns_.size();
+      columns_.push_back(0);
+      for (Eigen::Index j = 0; j < part->cols(); ++j) {
+        const auto column = part->col(j).segment<rows>(first);
+        if ((column.array() == 0.0).all()) continue;
+        ++columns_[count];
+        columns_.push_back(part == &left ? static_cast<int>(j) : inputs[static_cast<std::size_t>(j)]);
+        coefficients_.insert(coefficients_.end(), column.data(), column.data() + rows);
+      }
     }
   });
 }

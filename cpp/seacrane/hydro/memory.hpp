@@ -31,6 +31,7 @@ class Memory {
   template <class T>
   void evaluate(const T* u, const T* x, T* x_rate, T* mu) const {
     const double* m = coefficients_.data();
+    const int* column = columns_.data();
     for (const Block& block : blocks_) {
       if (block.alone && block.states <= tile) {
         in_tiles(block.states, [&]<int n>(int /*first*/) { evaluate_alone<n>(block, m, u, x, x_rate, mu); });
@@ -39,11 +40,11 @@ class Memory {
         continue;
       }
       in_tiles(block.states, [&]<int rows>(int first) {
-        const auto sum = next_rows<rows, T>(block, m, u, x);
+        const auto sum = next_rows<rows, T>(m, column, u, x);
         std::copy_n(sum.data(), rows, x_rate + first);
       });
       in_tiles(block.outputs, [&]<int rows>(int first) {
-        const auto sum = next_rows<rows, T>(block, m, u, x);
+        const auto sum = next_rows<rows, T>(m, column, u, x);
         const int* const output = motions_.data() + block.first_output + first;
         for (int i = 0; i < rows; ++i) mu[output[i]] += sum[idx(i)];
       });
@@ -101,21 +102,19 @@ class Memory {
     mu[motions_[idx(block.first_output)]] += load;
   }
 
-  void put_in_tiles(const MatXd& left, const MatXd& right);
+  void put_alone(const StateSpaceBlock& s);
+  void put_in_tiles(const MatXd& left, const MatXd& right, const std::vector<int>& inputs);
 
-  /// The next rows of a block times (x, u); moves on to the coefficients after them.
+  /// The next rows of a block times (x, u), without columns of zeros; moves on to what comes after them.
   template <int rows, class T>
-  std::array<T, idx(rows)> next_rows(const Block& block, const double*& m, const T* u, const T* x) const {
+  std::array<T, idx(rows)> next_rows(const double*& m, const int*& column, const T* u, const T* x) const {
     return [&]<std::size_t... i>(std::index_sequence<i...>) {
       std::array<T, idx(rows)> sum = {(static_cast<void>(i), T(0))...};
-      for (const T* const end = x + block.states; x != end; ++x, m += rows) ((sum[i] += *x * T(m[i])), ...);
-      const int* const input = motions_.data() + block.first_input;
-      int j = 0;  // most blocks have one input
-      do {
-        const T& motion = u[input[j]];
-        ((sum[i] += motion * T(m[i])), ...);
-        m += rows;
-      } while (++j < block.inputs);
+      for (const T* const of : {x, u}) {
+        for (const int* const end = column + *column + 1; ++column != end; m += rows) {
+          ((sum[i] += of[*column] * T(m[i])), ...);
+        }
+      }
       return sum;
     }
     (std::make_index_sequence<static_cast<std::size_t>(rows)>{});
@@ -124,6 +123,7 @@ class Memory {
   std::vector<Block> blocks_;
   std::vector<int> motions_;          // inputs, then outputs per block
   std::vector<double> coefficients_;  // (A B), then (C D) per block, in tiles of rows, by columns
+  std::vector<int> columns_;  // per tile those of x that are not zero, and of u, each after their number
   int states_ = 0;
 };
 

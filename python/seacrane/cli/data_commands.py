@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import shutil
+import sys
 from collections import Counter
 from collections.abc import Sequence
 from importlib.resources import as_file, files
@@ -83,7 +84,8 @@ def _of_group(group: HydroGroup, arguments: argparse.Namespace) -> int:
             f"{', '.join(group.names)}; leave them out, or take load_database(path)[name]"
         )
     if arguments.memory is not None:
-        group = dataclasses.replace(group, memory=fit_memory(database=group, kind=arguments.memory))
+        memory = fit_memory(database=group, kind=arguments.memory, progress=sys.stderr.isatty())
+        group = dataclasses.replace(group, memory=memory)
     _show(group.check(), as_json=arguments.json)
     return 0
 

@@ -190,7 +190,7 @@ class HydroGroup(HydroGroupData):
     def save(self, path: str | PathLike[str]) -> None:
         """Write everything, the memory model included, to a file of seacrane, atomically and without loss.
 
-        The memory of a group takes minutes to fit, and no panel code's file holds it.
+        The memory of a group takes long to fit, and no panel code's file holds it.
         """
         with atomic_write(Path(path)) as draft:
             draft.write_bytes(MAGIC + b"%d\n" % VERSION + zlib.compress(packed(self), 9))

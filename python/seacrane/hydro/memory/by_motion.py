@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from seacrane.arrays import Array, Complex
 from seacrane.hydro.data.hydro_data import AdditionalMatrices
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics, mass_of
 from seacrane.hydro.data.memory_model import (
+    PEAK_ALLOWANCE,
     RADIATION,
     FitRow,
     MemoryBlock,
@@ -19,6 +20,7 @@ from seacrane.hydro.data.memory_model import (
     MotionFit,
 )
 from seacrane.hydro.memory.certificate import TYPICAL_VELOCITY, joint_passivity, largest_states, realise_pair
+from seacrane.hydro.memory.coupled import CoupledData, CoupledProblem, Felt, first_guess
 from seacrane.hydro.memory.identification import (
     IdentificationData,
     RationalFit,
@@ -36,31 +38,49 @@ from seacrane.hydro.memory.oscillators import (
     MotionProblem,
     Oscillators,
     fit_to_motions,
-    joined,
-    with_more,
 )
 from seacrane.hydro.memory.retardation import retardation_functions
 
+if TYPE_CHECKING:
+    from tqdm import tqdm
+
 Pairs = list[tuple[int, int]]
+Found = tuple[float, Oscillators, Array]  # error, model, emphasis of the motions
 
 SHARE = 0.8  # of the limit that the radiation of one group may take
+NEARLY = 0.95  # the same, of several hulls that have no other memory
 UNFELT = 0.1  # of the limit: pairs that together change no motion by more are left out
 MOST_MASSES = 6  # beyond one per motion; a group of many motions may have two for each
 PATIENCE = 3  # orders in a row without gain, after which more masses are not tried
 GAIN = 0.05  # of the error
+SOME = 64  # pairs, of which one at a time is kept after all; of more, a share
+EVEN, APART = (
+    64,
+    0.7,
+)  # frequencies over the band, of several hulls; others are less near than a share of a step
+TRIED = (1.0, 1.15, 1.3, 1.5, 1.75, 2.0)  # numbers of masses of several hulls, over the least one
+MOST_STEPS, IDLE, SMALL_GAIN = (
+    40,
+    8,
+    0.02,
+)  # of a search: steps, and those in a row that gain less of the error
+NEAR = 4.0  # times the limit: errors from which on motions are emphasised by theirs
 BEYOND_BAND = 1.3  # times its upper end: data further up are not looked at
 MOST_INERTIA = 0.1  # of the vessel's, that an additional cause may add or take at once
 ADDITIONAL_ORDERS = range(2, 11)
 
 
 def fit_by_motion(
-    *, database: Hydrodynamics, band: tuple[float, float], known: Array | None, limit: float
-) -> MemoryModel:
+    *, database: Hydrodynamics, band: tuple[float, float], known: Array | None, limit: float,
+    progress: bool = False,
+) -> MemoryModel:  # fmt: skip
     """Radiation as damped oscillators per group of motions, other causes per pair; orders as `limit` allows.
 
     It is one of `MotionError.worst` over ``band`` (rad/s). ``known``: infinite-frequency added mass (6, 6),
-    None: estimated.
+    None: estimated. ``progress``: show a bar over the models of each group of motions.
     """
+    from tqdm import tqdm
+
     judge = motion_judge(database, band)
     below = database.omega[database.omega < BEYOND_BAND * band[1]]
     about = judge.about_peaks[(judge.about_peaks > band[0]) & (judge.about_peaks < band[1])]
@@ -71,20 +91,16 @@ def fit_by_motion(
     if database.port_starboard_symmetric:
         places = np.arange(len(infinite))
         infinite = np.where(np.add.outer(places, places) % 2, 0.0, infinite)
-    of_motions = partial(_Group, judge, grid, band, known)
-    for group in motion_groups(kept):
-        fit = of_motions(group)
-        parts: list[tuple[list[int], Oscillators]] = []
-        hulls = sorted({motion // 6 for motion in group})
-        # Of several hulls first surge, heave and pitch of each, and sway, roll and yaw: found quickly.
-        for hull, side in [(hull, side) for hull in hulls for side in (0, 1) if len(hulls) > 1]:
-            own = [motion for motion in group if motion // 6 == hull and motion % 2 == side]
-            if own:
-                model = of_motions(own).lowest_order(SHARE * limit, [])
-                parts.append(([group.index(motion) for motion in own], model))
-        masses = fit.lowest_order(SHARE * limit, parts)
-        blocks.append(fit.block(masses))
-        infinite[np.ix_(group, group)] = fit.infinite(masses)
+    groups = motion_groups(kept)
+    with tqdm(total=len(groups), desc="fluid memory", unit="group", disable=not progress) as bar:
+        for group in groups:
+            several = len({motion // 6 for motion in group}) > 1
+            fit = (_Coupled if several else _Group)(judge, grid, band, known, group)
+            whole = several and not database.additional
+            masses = fit.lowest_order((NEARLY if whole else SHARE) * limit, bar)
+            blocks.append(fit.block(masses))
+            infinite[np.ix_(group, group)] = fit.infinite(masses)
+            bar.update()
     if known is not None:
         infinite = known
     mass, stiffness = np.zeros_like(infinite), np.zeros_like(infinite)
@@ -126,22 +142,34 @@ def felt_pairs(
         if (database.port_starboard_symmetric and (j + k) % 2) or not (radiates[j] and radiates[k])
     ]
     others = [pair for pair in pairs if pair not in forbidden and pair[0] != pair[1]]
-    felt = {pair: judge.error(_without(judge, [pair])).worst for pair in others}
+    felt = {pair: _felt(judge, pair) for pair in others}
     faint = sorted((pair for pair in others if felt[pair] < UNFELT * limit), key=lambda pair: felt[pair])
     while faint and judge.error(_without(judge, faint)).worst > UNFELT * limit:
-        faint.pop()
+        del faint[-max(1, len(faint) // SOME) :]
     left_out = sorted([*forbidden, *faint])
     return [pair for pair in pairs if pair not in left_out], tuple(left_out)
 
 
+def _felt(judge: MotionJudge, pair: tuple[int, int]) -> float:
+    """The error of leaving out the memory of a pair; of several hulls, with many pairs, the quick way."""
+    if len(judge.moves) == 6:
+        return judge.error(_without(judge, [pair])).worst
+    return judge.error_of_pair(*pair, _lost(judge, pair)).worst
+
+
 def _without(judge: MotionJudge, pairs: Pairs) -> Complex:
     """Change of impedance (n, 6, 6) if pairs had no damping and a constant added mass."""
-    w = judge.omega
     out = np.zeros(judge.damping.shape, dtype=complex)
     for j, k in pairs:
-        variation = judge.added_mass[:, j, k] - judge.added_mass[:, j, k].mean()
-        out[:, j, k] = out[:, k, j] = w**2 * variation - 1j * w * judge.damping[:, j, k]
+        out[:, j, k] = out[:, k, j] = _lost(judge, (j, k))
     return out
+
+
+def _lost(judge: MotionJudge, pair: tuple[int, int]) -> Complex:
+    """The same (n,) of one pair."""
+    w, (j, k) = judge.omega, pair
+    variation = judge.added_mass[:, j, k] - judge.added_mass[:, j, k].mean()
+    return np.asarray(w**2 * variation - 1j * w * judge.damping[:, j, k])
 
 
 class _Group:
@@ -157,30 +185,39 @@ class _Group:
         )
         self.scale = np.sqrt(np.maximum(b.max(axis=0).diagonal(), 1e-300))
         self.product = np.outer(self.scale, self.scale)
+        self.omega, self.trusted = omega, within(omega, band)
+        inner = None if known is None else known[np.ix_(group, group)] / self.product
+        self.take(a / self.product, b / self.product, inner)
+
+    def take(self, added_mass: Array, damping: Array, known: Array | None) -> None:
+        """The data of the fit."""
+        lever = self.judge.lever(self.omega, self.group) * self.product[np.triu_indices(len(self.group))]
         self.data = MotionData(
-            omega=omega, added_mass=a / self.product, damping=b / self.product, trusted=within(omega, band),
-            added_mass_infinite=None if known is None else known[np.ix_(group, group)] / self.product,
-            lever=judge.lever(omega, group) * self.product[np.triu_indices(len(group))],
+            omega=self.omega, added_mass=added_mass, damping=damping, trusted=self.trusted,
+            added_mass_infinite=known, lever=lever,
         )  # fmt: skip
 
-    def lowest_order(self, limit: float, parts: list[tuple[list[int], Oscillators]]) -> Oscillators:
-        """Model of the fewest masses that keeps the limit, beginning with those of ``parts`` together."""
+    def lowest_order(self, limit: float, bar: tqdm) -> Oscillators:
+        """Model of the fewest masses that keeps the limit."""
         best: tuple[float, Oscillators] | None = None
         model: Oscillators | None = None
         idle = 0
         for _ in range(max(MOST_MASSES, 2 * len(self.group)) + 1):
-            if parts:
-                model = joined(self.data, parts) if model is None else with_more(self.data, model)
-            else:
-                model = fit_to_motions(self.data, model)
-            error = self._error(model).of(self.group)
+            model = fit_to_motions(self.data, model)
+            error = self.told(model, limit, bar)
             idle = 0 if best is None or error < (1.0 - GAIN) * best[0] else idle + 1
             if best is None or error < best[0]:
                 best = (error, model)
-            if error <= limit or idle == (1 if parts else PATIENCE):
+            if error <= limit or idle == PATIENCE:
                 break
         assert best is not None
         return best[1]
+
+    def told(self, model: Oscillators, limit: float, bar: tqdm) -> float:
+        """The error of a model, shown in the bar."""
+        error = self._error(model).of(self.group)
+        bar.set_postfix_str(f"{len(model.w)} masses, {100.0 * error:.2g} of {100.0 * limit:.2g} %")
+        return error
 
     def infinite(self, model: Oscillators) -> Array:
         """Infinite-frequency added mass (m, m) in SI units."""
@@ -206,6 +243,73 @@ class _Group:
             D=np.zeros((len(motions), len(motions))),
             state_scale=largest_states(a, b * TYPICAL_VELOCITY[motions % 6]),
         )  # fmt: skip
+
+
+class _Coupled(_Group):
+    """One group of motions of several hulls."""
+
+    def __init__(
+        self, judge: MotionJudge, omega: Array, band: tuple[float, float], known: Array | None,
+        group: list[int],
+    ) -> None:  # fmt: skip
+        even = np.linspace(*band, EVEN)
+        spread = np.sort(np.concatenate([omega[~within(omega, band)], even]))
+        super().__init__(judge, spread, band, known, group)
+
+    def take(self, added_mass: Array, damping: Array, known: Array | None) -> None:
+        left, right = self.judge.sides(self.omega, self.group)
+        kernel = damping + 1j * self.omega[:, None, None] * added_mass
+        self.felt = Felt(
+            CoupledData(
+                omega=self.omega, kernel=kernel, trusted=self.trusted, added_mass_infinite=known,
+                left=left * self.scale, right=self.scale[:, None] * right,
+            )
+        )  # fmt: skip
+
+    def lowest_order(self, limit: float, bar: tqdm) -> Oscillators:
+        """Of some numbers of masses, each searched from its own guess, the first that keeps the limit."""
+        hulls = len({motion // 6 for motion in self.group})
+        least = len(self.group) * (1.2 + 0.12 * hulls)
+        best: Found | None = None
+        for times in TRIED:
+            found = self._searched(round(times * least), limit, bar)
+            if best is None or found[0] < best[0]:
+                best = found
+            if found[0] <= limit:
+                break
+        assert best is not None
+        self.felt.emphasise(best[2])
+        return best[1]
+
+    def _searched(self, masses: int, limit: float, bar: tqdm) -> Found:
+        """A model that keeps the limit, or the best one of a search.
+
+        Least squares make the mean error small. What counts is the largest: once that is near the limit,
+        motions that err by more than others are emphasised.
+        """
+        emphasis = np.ones(len(self.group))
+        self.felt.emphasise(emphasis)
+        best: Found | None = None
+        idle = 0
+        problem = CoupledProblem(self.felt, masses)
+        for count, model in enumerate(problem.steps(first_guess(self.felt.data, masses))):
+            errors = self._error(model)
+            error = self.told(model, limit, bar)
+            idle = 0 if best is None or error < (1.0 - SMALL_GAIN) * best[0] else idle + 1
+            if best is None or error < best[0]:
+                best = (error, model, emphasis)
+            if error <= limit or idle == IDLE or count == MOST_STEPS:
+                break
+            if error < NEAR * limit and count % 3 == 0:
+                share = np.maximum(errors.seas, errors.peaks / PEAK_ALLOWANCE)[self.group]
+                emphasis = emphasis * np.maximum(share / np.sqrt(np.mean(share**2)), 0.3)
+                emphasis /= emphasis.mean()
+                self.felt.emphasise(emphasis)
+        assert best is not None
+        return best
+
+    def infinite(self, model: Oscillators) -> Array:
+        return np.asarray(self.felt.infinite_of(model) * self.product)
 
 
 def _additional(

@@ -49,7 +49,7 @@ BY_MOTION = "by-motion"
 KINDS = (BY_MOTION, "per-pair")
 LIMIT = 0.01  # of the motions
 R2 = 0.99
-VERSION = 2  # raised with every change of a fit
+VERSION, OF_GROUPS = 2, 3  # of fits of one hull, of several; raised with every change of a fit
 USED = (
     "omega",
     "heading",
@@ -70,7 +70,7 @@ _of_process: dict[str, MemoryModel] = {}
 def fit_memory(
     *, database: Hydrodynamics, band: tuple[float, float] | None = None, r2: float | None = None,
     infinite_frequency: Literal["estimated", "known"] = "estimated", kind: str = BY_MOTION,
-    limit: float | None = None,
+    limit: float | None = None, progress: bool = False,
 ) -> MemoryModel:  # fmt: skip
     """Identify the fluid memory of ``database``.
 
@@ -93,6 +93,7 @@ def fit_memory(
         any motion in seas of Tp 5 to 18 s (hulls below 60 m: in their own, docs/memory.md) from any stored
         heading, against the database's own matrices; a fifth of what it may change the peaks of heave, roll
         and pitch. What was reached is `MemoryModel.motion`.
+    progress : show a progress bar of a fit by motion, with the masses and the error of the model at hand.
 
     Returns
     -------
@@ -149,7 +150,9 @@ def fit_memory(
     if model is None:
         if not isinstance(database, HydroData) or kind == BY_MOTION:
             inner = None if known is None else symmetric(known)
-            model = fit_by_motion(database=database, band=judged, known=inner, limit=target)
+            model = fit_by_motion(
+                database=database, band=judged, known=inner, limit=target, progress=progress
+            )
         else:
             model = _fit_per_pair(database, known, judged, target)
         _of_process[name] = model
@@ -237,7 +240,8 @@ def _kept(name: str) -> MemoryModel | None:
 
 def _digest(database: Hydrodynamics, settings: dict[str, Any]) -> str:
     """Of everything that a fit depends on, as hexadecimal text."""
-    parts = hashlib.sha256(json.dumps([VERSION, settings]).encode())
+    version = VERSION if isinstance(database, HydroData) else OF_GROUPS
+    parts = hashlib.sha256(json.dumps([version, settings]).encode())
     length = length_of(database)
     if length < SHIP:  # whose fit is judged in seas of its own
         parts.update(peak_periods(length).tobytes())

@@ -283,11 +283,11 @@ def judged_rows(
     part = (parts | {one.cause: one for one in database.additional})[cause]
     fitted = (model.frequency_response if radiation else model.additional_response)(database.omega)
     data, inside = (part.added_mass, part.damping), within(database.omega, model.band)
-    rows = []
+    rows, blocks = [], [(one, one.poles) for one in model.blocks if one.cause == cause]
     for j, k in pairs:
-        of_pair = [one for one in model.blocks if one.cause == cause and j in one.outputs and k in one.inputs]
+        of_pair = [poles for one, poles in blocks if j in one.outputs and k in one.inputs]
         if of_pair:
-            poles = np.concatenate([one.poles for one in of_pair])
+            poles = np.concatenate(of_pair)
             rows.append(fit_row(cause, (j, k), poles, pair_r2((j, k), data, fitted, inside), least))
     return rows
 

@@ -120,7 +120,18 @@ class MotionJudge(_Solved):
     def error(self, difference: Complex) -> MotionError:
         """The error of a difference (n, 6, 6) of impedance, the model's less the data's."""
         changed = np.linalg.solve(self.impedance + difference, self.force[..., None])[..., 0]
-        apart = np.abs(changed - self.motion)
+        return self._of_motions(changed - self.motion)
+
+    def error_of_pair(self, j: int, k: int, difference: Complex) -> MotionError:
+        """The error of a difference (n,) of the impedance of a pair of a group, by Woodbury's formula."""
+        pair = [j, k]
+        coupled = difference[:, None, None] * np.eye(2)[::-1]
+        lost = np.eye(2) + coupled @ self.receptance[:, pair][:, :, pair]
+        pushed = np.linalg.solve(lost, coupled @ np.moveaxis(self.motion[:, :, pair], 0, 2))
+        return self._of_motions(-np.moveaxis(self.receptance[:, :, pair] @ pushed, 2, 0))
+
+    def _of_motions(self, change: Complex) -> MotionError:
+        apart = np.abs(change)
         variance = np.einsum("sn,mni->smi", self.weights, apart**2)
         share = np.sqrt(variance.max(axis=1) / self.variance)
         seas = np.where(self.moves, share, 0.0).max(axis=0)
@@ -139,12 +150,12 @@ class MotionJudge(_Solved):
         fitted = -(w**2) * (added_mass + more_mass) + 1j * w * (damping + more_damping)
         return self.error(fitted + self.static - self.memory)
 
-    def lever(self, omega: Array, group: list[int]) -> Complex:
-        """Weighted motions (n, p, p) by misfit of the kernel's pairs of a group at ``omega`` (n,).
+    def sides(self, omega: Array, group: list[int]) -> tuple[Complex, Complex]:
+        """What a misfit of the kernel of a group's motions at ``omega`` (n,) moves, weighted.
 
-        A misfit dK of the retardation functions moves the motions X by -H i w dK X, to first order. Squares
-        are summed over motions, headings and seas, each over the variance of the motion; zero out of the
-        band.
+        A misfit dK of the retardation functions moves the motions X by -H i w dK X, to first order:
+        ``left @ (i w dK) @ right``, (n, p, p) and (n, p, headings). Squares are summed over motions, headings
+        and seas, each over the variance of the motion; zero out of the band.
         """
         solved = _Solved(self.table, omega)
         inside = within(omega, (self.omega[0], self.omega[-1]))
@@ -152,7 +163,11 @@ class MotionJudge(_Solved):
         weight = energies.T @ np.where(self.moves, 1.0 / self.variance, 0.0)
         square = np.ix_(range(len(omega)), group, group)
         left = solved.receptance[square] * np.sqrt(weight[:, group])[:, :, None]
-        headings = np.linalg.qr(np.moveaxis(solved.motion[:, :, group], 1, 0))[1].swapaxes(1, 2)
+        return left, np.linalg.qr(np.moveaxis(solved.motion[:, :, group], 1, 0))[1].swapaxes(1, 2)
+
+    def lever(self, omega: Array, group: list[int]) -> Complex:
+        """The same (n, p, p) by the misfit of the p pairs of a group."""
+        left, headings = self.sides(omega, group)
         columns = []
         for j, k in zip(*np.triu_indices(len(group)), strict=True):
             column = left[:, :, j, None] * headings[:, k, None, :]

@@ -33,11 +33,9 @@ DATA_WEIGHT = 0.05  # of the misfit of A and B, beside that of the motions: keep
 LARGEST = 30.0
 SLOWEST_DECAY = 0.05  # 1/s; models that forget more slowly are taken only where there is no other
 PLACES = 6  # tried for each new mass
-GLANCE, LOOK, SEARCH = 10, 40, 120  # evaluations: every place, the best two or many masses, the best
+GLANCE, LOOK, SEARCH = 10, 40, 120  # evaluations: every place, the best two, the best
 SMALL_GAIN = 1e-4  # of the sum of squares in one step, below which a search ends
 MOST_DAMPING = 1e12
-MORE, APART = 6, 1.08  # masses added at a time to several hulls, and the least ratio of their frequencies
-FAINT = 0.01  # least damping of a new mass, of the group's scale
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -98,19 +96,61 @@ class Oscillators:
         )
 
 
-class MotionProblem:
-    """Least squares of the misfit of the motions, and a little of that of B and A, over log w, L and b.
+class OscillatorParameters:
+    """What a search for oscillators varies: angles that keep log w within its bounds, entries of L, and b.
 
-    The infinite-frequency added mass enters both linearly and is eliminated from them together. ``damped``
-    are the entries of L that are searched, all of the lower triangle where it is None.
+    ``lower`` are the places of the entries of L that are searched.
     """
 
-    def __init__(self, data: MotionData, masses: int, damped: Places | None = None) -> None:
-        self.data, self.n, self.m = data, masses, data.damping.shape[1]
-        self.j, self.k = j, k = np.triu_indices(self.m)
-        self.lower = np.tril_indices(masses) if damped is None else damped
+    def __init__(self, omega: Array, motions: int, masses: int, lower: Places) -> None:
+        self.n, self.m, self.lower = masses, motions, lower
         self.bottom = np.log(LOWEST_FREQUENCY)
-        self.span = np.log(HIGHEST_FREQUENCY * data.omega[-1]) - self.bottom
+        self.span = np.log(HIGHEST_FREQUENCY * omega[-1]) - self.bottom
+
+    def pack(self, guess: Oscillators) -> Array:
+        """Parameters: angles that keep w within its bounds, the lower triangle of L, b."""
+        share = np.clip((np.log(guess.w) - self.bottom) / self.span, 0.005, 0.995)
+        factor = np.linalg.cholesky(guess.dampers - FLOOR * np.eye(self.n) + 1e-6 * np.eye(self.n))
+        return np.concatenate([np.arcsin(2.0 * share - 1.0), factor[self.lower], guess.coupling.ravel()])
+
+    def unpack(self, parameters: Array) -> tuple[Array, Array, Array]:
+        """w, L and b."""
+        w = np.exp(self.bottom + self.span * 0.5 * (1.0 + np.sin(parameters[: self.n])))
+        rest = np.clip(parameters[self.n :], -LARGEST, LARGEST)
+        factor = np.zeros((self.n, self.n))
+        count = len(self.lower[0])
+        factor[self.lower] = rest[:count]
+        return w, factor, rest[count:].reshape(self.n, self.m)
+
+    def oscillators(self, parameters: Array) -> Oscillators:
+        """The model that the parameters stand for."""
+        w, factor, coupling = self.unpack(parameters)
+        return Oscillators(w=w, dampers=factor @ factor.T + FLOOR * np.eye(self.n), coupling=coupling)
+
+    def angle_slope(self, parameters: Array) -> Array:
+        """Derivative of w over the angles."""
+        w = self.unpack(parameters)[0]
+        return np.asarray(w * 0.5 * self.span * np.cos(parameters[: self.n]))
+
+    def sizes(self, parameters: Array) -> tuple[Array, Array]:
+        """Weighted sizes (masses,) of the dampers, and their derivative."""
+        factor = self.unpack(parameters)[1]
+        p, q = self.lower
+        slope = np.zeros((self.n, len(parameters)))
+        slope[p, self.n + np.arange(len(p))] = 2.0 * DAMPER_WEIGHT * factor[p, q]
+        return DAMPER_WEIGHT * np.sum(factor**2, axis=1), slope
+
+
+class MotionProblem(OscillatorParameters):
+    """Least squares of the misfit of the motions, and a little of that of B and A, over log w, L and b.
+
+    The infinite-frequency added mass enters both linearly and is eliminated from them together.
+    """
+
+    def __init__(self, data: MotionData, masses: int) -> None:
+        super().__init__(data.omega, data.damping.shape[1], masses, np.tril_indices(masses))
+        self.data = data
+        self.j, self.k = j, k = np.triu_indices(self.m)
         weight = np.where(data.trusted, 1.0, OUTSIDE_WEIGHT)[:, None]
         self.weight_a = weight / self._spread(data.added_mass)
         self.weight_b = weight / self._spread(data.damping)
@@ -130,42 +170,14 @@ class MotionProblem:
         floor = SMALL_PAIR * np.outer(diagonal, diagonal)
         return np.asarray(np.maximum(spread, floor)[self.j, self.k])
 
-    def pack(self, guess: Oscillators) -> Array:
-        """Parameters: angles that keep w within its bounds, the lower triangle of L, b."""
-        share = np.clip((np.log(guess.w) - self.bottom) / self.span, 0.005, 0.995)
-        factor = np.linalg.cholesky(guess.dampers - FLOOR * np.eye(self.n) + 1e-6 * np.eye(self.n))
-        return np.concatenate([np.arcsin(2.0 * share - 1.0), factor[self.lower], guess.coupling.ravel()])
-
-    def _unpack(self, parameters: Array) -> tuple[Array, Array, Array]:
-        w = np.exp(self.bottom + self.span * 0.5 * (1.0 + np.sin(parameters[: self.n])))
-        rest = np.clip(parameters[self.n :], -LARGEST, LARGEST)
-        factor = np.zeros((self.n, self.n))
-        count = len(self.lower[0])
-        factor[self.lower] = rest[:count]
-        return w, factor, rest[count:].reshape(self.n, self.m)
-
-    def oscillators(self, parameters: Array) -> Oscillators:
-        """The model that the parameters stand for."""
-        w, factor, coupling = self._unpack(parameters)
-        return Oscillators(w=w, dampers=factor @ factor.T + FLOOR * np.eye(self.n), coupling=coupling)
-
-    def sizes(self, parameters: Array) -> tuple[Array, Array]:
-        """Weighted sizes (masses,) of the dampers, and their derivative."""
-        factor = self._unpack(parameters)[1]
-        p, q = self.lower
-        slope = np.zeros((self.n, len(parameters)))
-        slope[p, self.n + np.arange(len(p))] = 2.0 * DAMPER_WEIGHT * factor[p, q]
-        return DAMPER_WEIGHT * np.sum(factor**2, axis=1), slope
-
     def kernel_slope(self, parameters: Array) -> Complex:
         """Derivative (n, entries, parameters) of the kernel, by ``d (Q^-1) = -Q^-1 dQ Q^-1`` with Q the
         oscillators' stiffness."""
-        w, factor, _ = self._unpack(parameters)
+        w, factor, _ = self.unpack(parameters)
         x = self.oscillators(parameters).deflection(self.data.omega)
         s: Complex = np.asarray(1j * self.data.omega[:, None, None])
         left, right = x[:, :, self.j].swapaxes(1, 2), x[:, :, self.k].swapaxes(1, 2)
-        by_angle = w * 0.5 * self.span * np.cos(parameters[: self.n])
-        d_w = -2.0 * s * w * left * right * by_angle
+        d_w = -2.0 * s * w * left * right * self.angle_slope(parameters)
         y = factor.T @ x
         y_left, y_right = y[:, :, self.j].swapaxes(1, 2), y[:, :, self.k].swapaxes(1, 2)
         p, q = self.lower
@@ -263,47 +275,3 @@ def fit_to_motions(data: MotionData, lower: Oscillators | None) -> Oscillators:
     last = problem.search(best[0], SEARCH)
     slow = problem.oscillators(last[0]).slowest_decay < SLOWEST_DECAY
     return problem.oscillators(best[0] if quick and slow else last[0])
-
-
-@one_thread
-def joined(data: MotionData, parts: list[tuple[list[int], Oscillators]]) -> Oscillators:
-    """Best fit with the masses of all parts, each of some of the motions, by their place in the group.
-
-    A wave from one hull reaches the other later, so that their coupling takes many masses. A search over all
-    dampers among them would take long: only those within a part are searched, and every coupling to a motion.
-    """
-    masses = sum(len(part.w) for _, part in parts)
-    dampers, coupling = np.zeros((masses, masses)), np.zeros((masses, data.damping.shape[1]))
-    start = 0
-    for motions, part in parts:
-        own = slice(start, start + len(part.w))
-        dampers[own, own], coupling[own, motions] = part.dampers, part.coupling
-        start = own.stop
-    w = np.concatenate([part.w for _, part in parts])
-    return _searched(data, Oscillators(w=w, dampers=dampers, coupling=coupling))
-
-
-@one_thread
-def with_more(data: MotionData, lower: Oscillators) -> Oscillators:
-    """Best fit with some masses more, coupled to what the damping lacks most at as many frequencies."""
-    missing = data.damping - lower.transfer(data.omega).real
-    values, vectors = np.linalg.eigh(missing)
-    high = data.omega[data.trusted][-1]
-    inside = (data.omega >= LOWEST_FREQUENCY) & (data.omega <= high)
-    model = lower
-    chosen: list[float] = []
-    for i in np.argsort(-np.where(inside, values[:, -1], -np.inf)):
-        w = float(data.omega[i])
-        if len(chosen) == MORE or not inside[i]:
-            break
-        if all(max(w / other, other / w) > APART for other in chosen):
-            chosen.append(w)
-            row = vectors[i, :, -1] * np.sqrt(max(values[i, -1], FAINT) * 0.15 * w)
-            model = model.with_mass(w, 0.15 * w + FLOOR, row)
-    return _searched(data, model)
-
-
-def _searched(data: MotionData, guess: Oscillators) -> Oscillators:
-    rows, columns = np.nonzero(np.tril(guess.dampers))
-    problem = MotionProblem(data, len(guess.w), (rows, columns))
-    return problem.oscillators(problem.search(problem.pack(guess), LOOK)[0])
