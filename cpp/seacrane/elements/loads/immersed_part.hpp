@@ -8,13 +8,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "seacrane/elements/loads/immersed_attitude.hpp"
 #include "seacrane/elements/loads/immersed_part_description.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/margin.hpp"
 #include "seacrane/elements/loads/water_by_cause.hpp"
 #include "seacrane/elements/loads/wet_volume.hpp"
+#include "seacrane/math/lever_masses.hpp"
 #include "seacrane/math/monotone_spline.hpp"
-#include "seacrane/math/spatial.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
 namespace seacrane {
@@ -30,7 +31,7 @@ namespace seacrane {
 /// the surface in its own plane: at a depth of its centre of s the surface is s / cos(inclination) away. So a
 /// cylinder that lies has A(h) of a circle, an upright one as much as of its length is wet (Morison), and
 /// each between has what its strips have, however many. The end of a cylinder, a disc, likewise: see
-/// look_through_disc.
+/// ImmersedAttitude.
 ///
 /// Momentum A v is brought in on entry; half of |A' h'| v^2 goes with the jet, and as much remains in the
 /// water on exit. The moment is Munk's (Kirchhoff's equations; H. Lamb, Hydrodynamics, art. 124).
@@ -103,26 +104,21 @@ struct ImmersedPart {
 
   std::array<int, 1> bodies() const { return {body}; }
 
-  /// Over which the added mass of a round part is a mean: depths within `along` of its centre's plus `shift`,
-  /// in planes that the part reaches `across` into either way; and their rates. Half widths along the
-  /// vertical.
-  template <class T>
-  struct Window {
-    T shift = T(0), along = T(0), across = T(0);
-    T shift_rate = T(0), along_rate = T(0), across_rate = T(0);
-  };
-
-  /// What strips of a row have in common.
+  /// What strips of a row have in common, and what they add up to about the state point, axes of the part.
   template <class T>
   struct Shared {
-    Mat3<T> axes;                // of the part, inertial
-    Vec3<T> velocity, turning;   // of the body at its state point, axes of the part
-    Vec3<T> half;                // of the widths along the vertical
-    T below = T(0), reaches{0};  // its lowest point under its centre, and how fast that sinks
-    Window<T> window;
-    FlowPlace<T> first;  // of the row, and what comes from strip to strip
+    ImmersedAttitude<T> lie;
+    Vec3<T> velocity, turning;  // of the body at its state point
+    FlowPlace<T> first;         // of the row, and what comes from strip to strip
     Vec3<T> step;
     std::span<const LocalFlow<double>> row;  // of a double, where a wave reaches it
+    LeverMasses<T> mass;
+    Vec3<T> force = Vec3<T>::Zero(), moment = Vec3<T>::Zero();
+    T lift = T(0);                         // upwards
+    Vec3<T> lifted = Vec3<T>::Zero();      // and its first moments
+    Vec3<T> over_width = Vec3<T>::Zero();  // slopes of the energy of buoyancy in the half widths
+
+    explicit Shared(const ImmersedAttitude<T>& lie) : lie(lie) {}
   };
 
   bool shares(const ImmersedPart& other) const {
@@ -134,63 +130,97 @@ struct ImmersedPart {
   Shared<T> shared(const LoadInput<T>& in) const {
     using std::sqrt;
     const auto& k = in.bodies[body];
-    Shared<T> out;
-    out.axes = k.rotation * axes.cast<T>();
-    out.velocity = out.axes.transpose() * k.velocity;
-    out.turning = out.axes.transpose() * k.angular_velocity;
-    reach_down(k.angular_velocity, out);
-    out.first = {k.position + k.rotation * first_point.cast<T>(), out.axes * widths.cast<T>(),
-                 k.angular_velocity, T(0)};
+    const Mat3<T> own = times<T>(k.rotation, axes);
+    Shared<T> out(ImmersedAttitude<T>(shape, d.size, edge, own, k.angular_velocity));
+    out.velocity = times_transposed<T>(own, k.velocity);
+    out.turning = times_transposed<T>(own, k.angular_velocity);
+    out.first = {k.position + times<T>(k.rotation, first_point), times<T>(own, widths), k.angular_velocity,
+                 T(0)};
     out.first.height =
         sqrt(out.first.extents.row(2).squaredNorm() + T(edge * edge));  // plates have slopes too
-    out.step = k.rotation * step.cast<T>();
+    out.step = times<T>(k.rotation, step);
     if constexpr (std::is_same_v<T, double>) {
       const double last = out.first.position.z() + (d.count - 1.0) * out.step.z();
-      if (std::min(out.first.position.z(), last) - out.below < in.sea->crest(stencil))
+      if (std::min(out.first.position.z(), last) - out.lie.below < in.sea->crest(stencil))
         out.row = in.sea->row(stencil, in.time, out.first, out.step);
     }
     return out;
   }
 
   template <class T>
-  void add_inertia(const LoadInput<T>& in, const Shared<T>& as, Mat6<T>* mass) const {
-    const Place<T> at = place(in, as);
-    if (!moves_water(as, at)) return;
-    const Vec3<T> along = added_at(as, at).mass;
-    const Mat3<T> weighted = as.axes * along.asDiagonal(), a = weighted * as.axes.transpose();
-    add_mass_at<T>(at.lever, a, mass[body]);
+  void add_inertia(const LoadInput<T>& in, Shared<T>& as) const {
+    T center = -height(in, as);
+    meet(in, as, [&](const LocalFlow<T>& flow) { center += flow.elevation; });
+    if (moves_water(as, center)) as.mass.add(arm, added_at(as, center).mass);
+  }
+  template <class T>
+  void put(const Shared<T>& as, Mat6<T>* mass) const {
+    as.mass.add_to(as.lie.axes, mass[body]);
   }
   template <class T>
   void add_inertia(const LoadInput<T>& in, Mat6<T>* mass) const {
-    add_inertia(in, shared(in), mass);
+    Shared<T> as = shared(in);
+    add_inertia(in, as);
+    put(as, mass);
   }
 
   template <class T>
-  void apply(const LoadInput<T>& in, const Shared<T>& as, LoadSum<T>& out) const {
+  void apply(const LoadInput<T>& in, Shared<T>& as, LoadSum<T>& out) const {
     const Place<T> at = place(in, as);
     T& slam = out.state_rates[states.first];
     slam = T(0);
     const WetShare<T> wet = wet_share(as, at);
-    Vec3<T> force = Vec3<T>::Zero(), moment = Vec3<T>::Zero();  // about its centre, its axes
+    Vec3<T> force = Vec3<T>::Zero();  // at its centre
     if (wet.share > T(0)) {
-      float_on(as, at, wet, force, out);
+      const T up = T(weight) * wet.share;
+      const Vec3<T> pushed = at.pulled * (T(d.density * volume) * wet.share);  // the pressure of the flow
       const Vec3<T> braked = drag(at, wet);
-      force += braked;
-      out.add_power(braked.dot(at.own));
+      as.lift += up;
+      as.lifted += up * arm.cast<T>();
+      as.over_width += wet.over_width * T(weight);
+      force = pushed + braked;
+      out.add_power(up * at.rise + dot<T>(pushed, at.own));
+      out.add_power(dot<T>(braked, at.own));
     }
-    if (moves_water(as, at)) {
+    if (moves_water(as, at.center)) {
       const Carried<T> water = carried(as, at);
       force += water.force;
-      moment = water.moment;
+      as.moment += water.moment;
       out.add_power(water.power);
       slam = water.loss;
     }
-    out.wrench[body].add(as.axes * force, at.lever);
-    out.wrench[body].moment += as.axes * moment;
+    as.force += force;
+    as.moment += moment_of(force);
+  }
+  /// Buoyancy is the gradient of its energy: it also turns.
+  template <class T>
+  void put(const Shared<T>& as, LoadSum<T>& out) const {
+    const ImmersedAttitude<T>& lie = as.lie;
+    BodyLoad<T>& to = out.wrench[body];
+    const Vec3<T> lever = times<T>(lie.axes, as.lifted);
+    Vec3<T> moment(lever.y(), -lever.x(), T(0));
+    const auto turn = [&](int i, const T& over_cosine) {  // times axis x e_z
+      moment[0] -= over_cosine * lie.axes(1, i);
+      moment[1] += over_cosine * lie.axes(0, i);
+    };
+    const auto slope = [&](int i, int axis) -> T {
+      const double width = 0.5 * d.size[i];
+      return as.over_width[i] * T(width * width) * lie.axes(2, axis) / lie.half[i];
+    };
+    if (shape == Shape::box) {
+      for (int i = 0; i < 3; ++i) turn(i, slope(i, i));
+    } else if (shape == Shape::cylinder) {
+      turn(0, slope(0, 0) - slope(1, 0));
+    }
+    to.force += times<T>(lie.axes, as.force);
+    to.force[2] += as.lift;
+    to.moment += times<T>(lie.axes, as.moment) + moment;
   }
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
-    apply(in, shared(in), out);
+    Shared<T> as = shared(in);
+    apply(in, as, out);
+    put(as, out);
   }
 
   /// By cause, with an acceleration of its body (state point, inertial axes).
@@ -199,9 +229,10 @@ struct ImmersedPart {
     const Shared<double> as = shared(in);
     const Place<double> at = place(in, as);
     const WetShare<double> wet = wet_share(as, at);
+    const Mat3d& axes = as.lie.axes;
     WaterByCause out;
     const auto add = [&](Cause cause, const Vec3d& along) {
-      out.force(cause) += as.axes * along;
+      out.force(cause) += axes * along;
       return along.dot(at.own);
     };
     if (wet.share > 0.0) {
@@ -210,20 +241,21 @@ struct ImmersedPart {
           weight * wet.share * at.rise + add(Cause::waves, at.pulled * (d.density * volume * wet.share));
       out.power(Cause::drag) = add(Cause::drag, drag(at, wet));
     }
-    if (!moves_water(as, at)) return out;
-    const Added<double> here = added_at(as, at);
+    if (!moves_water(as, at.center)) return out;
+    const Added<double> here = added_at(as, at.center, at.rate);
     const Carried<double> water = carried(as, at);
     const Vec3d driven = here.mass.cwiseProduct(at.pulled);
     const Vec3d slam = -here.gain.cwiseMax(0.0).cwiseProduct(at.velocity);
-    const Vec3d accelerated = acceleration.head<3>() + Vec3d(acceleration.tail<3>()).cross(at.lever);
-    const Vec3d opposed = here.mass.cwiseProduct(as.axes.transpose() * accelerated);
+    const Vec3d turning = axes.transpose() * acceleration.tail<3>();
+    const Vec3d accelerated = axes.transpose() * acceleration.head<3>() + turning.cross(arm);
+    const Vec3d opposed = here.mass.cwiseProduct(accelerated);
     add(Cause::waves, driven);
     add(Cause::slam, slam);
     add(Cause::added_mass, water.force - slam - driven - opposed);
     out.power(Cause::slam) = -water.loss;
     out.power(Cause::waves) += water.power + water.loss;
-    out.momentum = as.axes * here.mass.cwiseProduct(at.velocity);
-    out.shed = -(as.axes * here.gain.cwiseMin(0.0).cwiseProduct(at.velocity));
+    out.momentum = axes * here.mass.cwiseProduct(at.velocity);
+    out.shed = -(axes * here.gain.cwiseMin(0.0).cwiseProduct(at.velocity));
     return out;
   }
 
@@ -240,7 +272,7 @@ struct ImmersedPart {
   Margins margins(const LoadInput<double>& in) const {
     const Shared<double> as = shared(in);
     const Place<double> at = place(in, as);
-    return Margins(std::array<Margin, 2>{{{"touch", -at.depth}, {"awash", as.below - at.center}}});
+    return Margins(std::array<Margin, 2>{{{"touch", -at.depth}, {"awash", as.lie.below - at.center}}});
   }
   /// A part above all crests has these to come down to; others see the water where they are.
   Sight look(const LoadInput<double>& in) const {
@@ -257,18 +289,13 @@ struct ImmersedPart {
   }
 
  private:
-  static constexpr double kLeast = 1e-6;      // of a radius: no attitude is singular
-  static constexpr double kStruck = 0.4;      // 2 / C_S, with C_S 5 of what is flat
-  static constexpr double kRoundEnds = 0.25;  // of the depth over which a disc is struck
-
   /// Where a part is.
   template <class T>
   struct Place {
-    Vec3<T> lever;                     // from the state point to its centre, inertial axes
     Vec3<T> own;                       // velocity of its centre, its axes
     Vec3<T> velocity;                  // and over the water
     Vec3<T> pulled = Vec3<T>::Zero();  // acceleration of the water, its axes
-    T rise;                            // how fast the surface above its centre rises
+    T rise = T(0);                     // how fast the surface above its centre rises
     T center, depth, rate;  // depths of its centre, of its lowest point, and how fast that one sinks
   };
 
@@ -285,130 +312,83 @@ struct ImmersedPart {
     T loss = T(0), power = T(0);  // by slam, and into the energy of the ledger
   };
 
-  /// How far the part reaches down, and its half widths along the vertical.
-  template <class T>
-  void reach_down(const Vec3<T>& turning, Shared<T>& as) const {
-    as.half = Vec3<T>::Zero();
-    if (shape == Shape::sphere || shape == Shape::table) {
-      as.below = T(0.5 * d.size[2]);
-      return;
-    }
-    const auto reach = [&](int axis, double half, const T& square, const T& square_rate) {
-      const Rounded<T> share(square);
-      as.half[axis] = width(half, square);
-      as.below += T(half) * share.value;
-      as.reaches += T(half) * share.slope * square_rate;
-    };
-    for (int i = 0; i < (shape == Shape::box ? 3 : 1); ++i) {
-      const T n = as.axes(2, i), n_rate = turning.x() * as.axes(1, i) - turning.y() * as.axes(0, i);
-      const T square = n * n, square_rate = T(2) * n * n_rate;
-      if (shape == Shape::disc) {
-        as.half[0] = T(edge);
-      } else {
-        reach(i, 0.5 * d.size[i], square, square_rate);
-      }
-      if (!round()) continue;
-      reach(1, 0.5 * d.size[1], T(1) - square, -square_rate);
-      look_through(n, n_rate, as.window);
-    }
-  }
-
-  /// With half of the length exact, so that strips add up to the whole.
-  template <class T>
-  void look_through(const T& n, const T& n_rate, Window<T>& w) const {
-    const double radius = 0.5 * d.size[1];
-    const Rounded<T> share(T(1) - n * n);
-    w.across = T(radius) * (T(1.0 - kLeast) * share.value + T(kLeast));
-    w.across_rate = T(-2.0 * (1.0 - kLeast) * radius) * share.slope * n * n_rate;
-    if (shape == Shape::disc) return look_through_disc(n, n_rate, w);
-    const double half = n < T(0) ? -0.5 * d.size[0] : 0.5 * d.size[0];
-    w.along = T(half) * n;
-    w.along_rate = T(half) * n_rate;
-  }
-
-  /// A disc, x out of what it closes, gains its water over size[0] as it goes under facing up, by its C_S
-  /// facing down, with rounded ends; one that stands on its edge gains it as it becomes wet.
-  template <class T>
-  void look_through_disc(const T& n, const T& n_rate, Window<T>& w) const {
-    using std::sqrt;
-    const double mean = 0.25 * (1.0 + kStruck) * d.size[0], odd = 0.25 * (1.0 - kStruck) * d.size[0];
-    const double round = kRoundEnds * kStruck * d.size[0];
-    const T size = sqrt(n * n + T(kRoundedShare * kRoundedShare));
-    w.along = T(mean) * size + T(odd) * n;
-    w.along_rate = (T(mean) * n / size + T(odd)) * n_rate;
-    w.shift = T(-round) - w.along;
-    w.shift_rate = -w.along_rate;
-    w.across += T(round);
-  }
-
   bool round() const { return shape == Shape::cylinder || shape == Shape::disc; }
 
-  /// Whether it has added mass.
+  /// Its moment about the state point, at the centre, axes of the part.
   template <class T>
-  bool moves_water(const Shared<T>& as, const Place<T>& at) const {
-    if (!round()) return at.depth > T(0);
-    return at.center + as.window.shift + as.window.along + as.window.across > T(0);
+  Vec3<T> moment_of(const Vec3<T>& force) const {
+    const double x = arm.x(), y = arm.y(), z = arm.z();
+    return {y * force.z() - z * force.y(), z * force.x() - x * force.z(), x * force.y() - y * force.x()};
+  }
+
+  /// Of its centre over the still water.
+  template <class T>
+  T height(const LoadInput<T>& in, const Shared<T>& as) const {
+    const Mat3<T>& axes = as.lie.axes;
+    return in.bodies[body].position.z() +
+           (arm.x() * axes(2, 0) + arm.y() * axes(2, 1) + arm.z() * axes(2, 2));
+  }
+
+  /// f(flow), unless it is above all crests.
+  template <class T, class F>
+  void meet(const LoadInput<T>& in, const Shared<T>& as, F&& f) const {
+    if constexpr (std::is_same_v<T, double>) {
+      if (!as.row.empty()) f(as.row[idx(place_in_row)]);
+    } else if (in.sea->field() && height(in, as) - as.lie.below < T(in.sea->crest(stencil))) {
+      f(in.sea->template in_row<T>(stencil, place_in_row, in.time, as.first, as.step));
+    }
+  }
+
+  /// Whether it has added mass at a depth of its centre.
+  template <class T>
+  bool moves_water(const Shared<T>& as, const T& center) const {
+    const ImmersedAttitude<T>& lie = as.lie;
+    return center + (round() ? lie.shift + lie.along + lie.across : lie.below) > T(0);
   }
 
   template <class T>
-  Added<T> added_at(const Shared<T>& as, const Place<T>& at) const {
+  Added<T> added_at(const Shared<T>& as, const T& at_center, const T& rate = T(0)) const {
+    const ImmersedAttitude<T>& lie = as.lie;
     if (!round()) {
-      const auto here = added.at(at.depth);
-      return {here.value, at.rate * here.slope};
+      const auto here = added.at(T(at_center + lie.below));
+      return {here.value, here.slope * rate};
     }
-    const Window<T>& w = as.window;
-    const T center = at.center + w.shift, radius = T(0.5 * d.size[1]), scale = radius / w.across;
-    const auto here = added.over(radius + (center - w.along) * scale, radius + (center + w.along) * scale);
-    const T sinks = at.rate - as.reaches + w.shift_rate, widens = w.across_rate / w.across;
+    const T center = at_center + lie.shift, radius = T(0.5 * d.size[1]), scale = radius / lie.across;
+    const auto here =
+        added.over(T(radius + (center - lie.along) * scale), T(radius + (center + lie.along) * scale));
+    const T sinks = rate - lie.reaches + lie.shift_rate, widens = lie.across_rate / lie.across;
     const T by_chord = scale * (sinks - center * widens);
-    const T by_bend = T(2) * scale * (w.along_rate - w.along * widens);
+    const T by_bend = T(2) * scale * (lie.along_rate - lie.along * widens);
     return {here.mean, by_chord * here.chord + by_bend * here.bend};
   }
 
   template <class T>
   Place<T> place(const LoadInput<T>& in, const Shared<T>& as) const {
-    const auto& k = in.bodies[body];
+    const ImmersedAttitude<T>& lie = as.lie;
     Place<T> at;
-    at.lever = k.rotation * point.cast<T>();
-    at.own = as.velocity + cross<T>(as.turning, arm.cast<T>());
+    at.own = as.velocity - moment_of(as.turning);
     at.velocity = at.own;
-    const T z = k.position.z() + at.lever.z();
-    const Vec3<T> own = k.velocity + cross<T>(k.angular_velocity, at.lever);
-    at.rise = T(0);
-    at.center = -z;
-    if (z - as.below < T(in.sea->crest(stencil))) {  // else it is above all crests
-      const auto met = [&](const LocalFlow<T>& flow) {
-        at.velocity -= as.axes.transpose() * flow.velocity;
-        at.pulled = as.axes.transpose() * flow.acceleration;
-        at.rise = flow.elevation_rate + flow.slope[0] * own.x() + flow.slope[1] * own.y();
-        at.center += flow.elevation;
-      };
-      if constexpr (std::is_same_v<T, double>) {
-        if (!as.row.empty()) met(as.row[idx(place_in_row)]);
-      } else if (in.sea->field()) {
-        met(in.sea->template in_row<T>(stencil, place_in_row, in.time, as.first, as.step));
-      }
-    }
-    at.depth = at.center + as.below;
-    at.rate = as.reaches - own.z() + at.rise;
+    at.center = -height(in, as);
+    const Vec3<T> own = times<T>(lie.axes, at.own);
+    meet(in, as, [&](const LocalFlow<T>& flow) {
+      at.velocity -= times_transposed<T>(lie.axes, flow.velocity);
+      at.pulled = times_transposed<T>(lie.axes, flow.acceleration);
+      at.rise = flow.elevation_rate + flow.slope[0] * own.x() + flow.slope[1] * own.y();
+      at.center += flow.elevation;
+    });
+    at.depth = at.center + lie.below;
+    at.rate = lie.reaches - own.z() + at.rise;
     return at;
-  }
-
-  /// Half of a size along the vertical, from the square of its cosine.
-  template <class T>
-  T width(double half, const T& square) const {
-    using std::sqrt;
-    return sqrt(T(half * half) * square + T(edge * edge));
   }
 
   template <class T>
   WetShare<T> wet_share(const Shared<T>& as, const Place<T>& at) const {
     switch (shape) {
       case Shape::box:
-        return wet_box<T>(at.center, as.half);
+        return wet_box<T>(at.center, as.lie.half);
       case Shape::cylinder:
       case Shape::disc:
-        return wet_cylinder<T>(at.center, as.half);
+        return wet_cylinder<T>(at.center, as.lie.half);
       case Shape::sphere:
         return wet_sphere<T>(at.center, 0.5 * d.size[0]);
       case Shape::table:
@@ -417,31 +397,6 @@ struct ImmersedPart {
     WetShare<T> out;
     if (at.depth > T(0)) out.share = wet_volume.at(at.depth).value[0] / T(whole);
     return out;
-  }
-
-  /// Buoyancy with the pressure of the flow: the gradient of its energy.
-  template <class T>
-  void float_on(const Shared<T>& as, const Place<T>& at, const WetShare<T>& wet, Vec3<T>& force,
-                LoadSum<T>& out) const {
-    const Vec3<T> up(T(0), T(0), T(weight) * wet.share);
-    const Vec3<T> pushed = at.pulled * (T(d.density * volume) * wet.share);
-    force += pushed;
-    out.wrench[body].add(up, at.lever);
-    out.add_power(up.z() * at.rise + pushed.dot(at.own));
-    const auto turn = [&](int i, const T& over_cosine) {
-      const T energy = T(weight) * over_cosine;  // times axis x e_z
-      out.wrench[body].moment[0] -= energy * as.axes(1, i);
-      out.wrench[body].moment[1] += energy * as.axes(0, i);
-    };
-    const auto slope = [&](int i, int axis) -> T {
-      const double half = 0.5 * d.size[i];
-      return wet.over_width[i] * T(half * half) * as.axes(2, axis) / as.half[i];
-    };
-    if (shape == Shape::box) {
-      for (int i = 0; i < 3; ++i) turn(i, slope(i, i));
-    } else if (shape == Shape::cylinder) {
-      turn(0, slope(0, 0) - slope(1, 0));
-    }
   }
 
   /// Drag of the part that is wet: of a cylinder across and along by themselves, of a sphere by its speed.
@@ -471,7 +426,7 @@ struct ImmersedPart {
   template <class T>
   Carried<T> carried(const Shared<T>& as, const Place<T>& at) const {
     Carried<T> out;
-    const Added<T> here = added_at(as, at);
+    const Added<T> here = added_at(as, at.center, at.rate);
     const Vec3<T>&v = at.velocity, &own = at.own, &turning = as.turning;
     const Vec3<T> momentum = here.mass.cwiseProduct(v);
     const Vec3<T> swept = cross<T>(turning, own - as.velocity);
@@ -488,7 +443,7 @@ struct ImmersedPart {
     }
     out.force = -(along + cross<T>(turning, momentum));
     out.moment = -cross<T>(v, momentum);
-    out.power = out.force.dot(own) + out.moment.dot(turning) + stored;
+    out.power = dot<T>(out.force, own) + dot<T>(out.moment, turning) + stored;
     return out;
   }
 

@@ -62,9 +62,10 @@ concept Leads = requires(const typename Load::Description& d) {
 };
 
 /// A load that has what it takes most work to find in common with those beside it that it shares() it with.
+/// It adds to that, and one of them puts the sum where it belongs.
 template <class Load>
-concept SharesWork = requires(const Load& load, const LoadInput<double>& in) {
-  load.template shared<double>(in);
+concept SharesWork = requires(const Load& load, const LoadInput<double>& in, LoadSum<double>& sum) {
+  load.put(load.template shared<double>(in), sum);
   { load.shares(load) } -> std::same_as<bool>;
 };
 
@@ -89,9 +90,11 @@ class LoadListOf final : public LoadsOf<Load> {
   }
 
   void apply(const LoadInput<double>& in, LoadSum<double>& sum) const override {
-    for_each(in, [&](const Load& load, const auto&... shared) {
-      load.template apply<double>(in, shared..., sum);
-    });
+    if constexpr (SharesWork<Load>) {
+      for_each_shared(in, sum, [&](const Load& load, auto& shared) { load.apply(in, shared, sum); });
+    } else {
+      for (const Load& load : items) load.template apply<double>(in, sum);
+    }
   }
   void apply(Place i, const LoadInput<double>& in, LoadSum<double>& sum) const override {
     items[i].template apply<double>(in, sum);
@@ -100,10 +103,10 @@ class LoadListOf final : public LoadsOf<Load> {
     if constexpr (!ByDifferences<Load>) items[i].template apply<Slopes>(in, sum);
   }
   void add_inertia(const LoadInput<double>& in, Mat6d* mass) const override {
-    if constexpr (AddsInertia<Load>) {
-      for_each(in, [&](const Load& load, const auto&... shared) {
-        load.template add_inertia<double>(in, shared..., mass);
-      });
+    if constexpr (AddsInertia<Load> && SharesWork<Load>) {
+      for_each_shared(in, mass, [&](const Load& load, auto& shared) { load.add_inertia(in, shared); });
+    } else if constexpr (AddsInertia<Load>) {
+      for (const Load& load : items) load.template add_inertia<double>(in, mass);
     }
   }
   void add_inertia(Place i, const LoadInput<Slopes>& in, Mat6<Slopes>* mass) const override {
@@ -239,16 +242,14 @@ class LoadListOf final : public LoadsOf<Load> {
   }
 
  private:
-  /// Calls f(load), or f(load, what it shares).
-  template <class F>
-  void for_each(const LoadInput<double>& in, F&& f) const {
-    if constexpr (SharesWork<Load>) {
-      for (auto load = items.begin(); load != items.end();) {
-        const auto shared = load->template shared<double>(in);
-        for (const auto first = load; load != items.end() && load->shares(*first); ++load) f(*load, shared);
-      }
-    } else {
-      for (const Load& load : items) f(load);
+  /// Calls f(load, what it shares), and puts what each group adds up to.
+  template <class Out, class F>
+  void for_each_shared(const LoadInput<double>& in, Out&& out, F&& f) const {
+    for (auto load = items.begin(); load != items.end();) {
+      const auto first = load;
+      auto shared = first->template shared<double>(in);
+      for (; load != items.end() && load->shares(*first); ++load) f(*load, shared);
+      first->put(shared, out);
     }
   }
 };
