@@ -14,9 +14,9 @@ from seacrane.description.given import floating_bodies, given_vessels, shown_siz
 from seacrane.description.limit_state import Range
 from seacrane.description.loads import drawn_springs, joint_ends, lines_of, path_of
 from seacrane.description.suspension import hung_loads
+from seacrane.hydro.data.hydro_group_data import USUAL_RADII
 
 NO_BOUND = 1e7  # m or rad: a bound here or beyond is none
-GYRATION = (0.36, 0.25)  # usual radii of gyration of ships: of the breadth in roll, of the length in pitch
 
 
 def outline_of(scene: Description) -> dict[str, Any]:
@@ -95,7 +95,7 @@ def size_of_ship(scene: Description, body: str) -> tuple[float, float]:
 
 def ship_size(body: _core.Body) -> tuple[float, float]:
     """Length and breadth that a ship's radii of gyration suggest, m."""
-    roll, pitch = GYRATION
+    roll, pitch, _ = USUAL_RADII
     about_x, about_y = np.sqrt(np.diag(np.asarray(body.inertia))[:2] / body.mass)
     return float(about_y) / pitch, float(about_x) / roll
 

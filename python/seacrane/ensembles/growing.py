@@ -8,6 +8,7 @@ resumed, and whether parts of its cells were run apart.
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
@@ -84,7 +85,7 @@ class Growth:
         return {name: value for name, value in values.items() if name != "seed"}
 
 
-class Judge:
+class Judge(ABC):
     """Says how an ensemble grows, and of each cell whether it is known.
 
     Attributes
@@ -96,13 +97,13 @@ class Judge:
     cells: Sequence[int] | None = None
     asked: Mapping[str, float]
 
+    @abstractmethod
     def growth(self, members: Members, pack: int | None, size: int) -> Growth:
         """Of all members that there may be, in packs that were asked for, or of a usual size."""
-        raise NotImplementedError
 
+    @abstractmethod
     def knows(self, growth: Growth, cell: int, outcomes: Sequence[Outcome]) -> bool:
         """Whether a cell is known by its outcomes so far."""
-        raise NotImplementedError
 
     def expected(self, growth: Growth, batches: int, cells: Sequence[int]) -> int:
         """Members that cells which are not known after so many batches will still take."""

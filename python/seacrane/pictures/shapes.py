@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.arrays import Array
 from seacrane.description.description import Description
-from seacrane.description.outline import GYRATION
 from seacrane.description.revolved import revolved
 from seacrane.description.wet_parts import immersed_parts
 from seacrane.hydro import Hull
+from seacrane.hydro.data.hydro_group_data import USUAL_RADII
 
 BLOCK = 0.7  # usual share of length x breadth x draught that displaces water
 DENSITY = 1025.0  # kg/m3
@@ -167,7 +167,7 @@ def box_hull(
 def schematic_size(mass: float, inertia: Array) -> tuple[float, float, float]:
     """Length, breadth and draught, m: in the usual ratio to the radii of gyration, to displace the mass."""
     roll, pitch = np.sqrt(np.maximum(np.diag(inertia)[:2], 0.0) / mass)
-    length, breadth = float(pitch) / GYRATION[1], float(roll) / GYRATION[0]
+    length, breadth = float(pitch / USUAL_RADII[1]), float(roll / USUAL_RADII[0])
     if not (length > 0.0 and breadth > 0.0):
         length = breadth = float(np.cbrt(mass / DENSITY / BLOCK))
     draught = mass / (DENSITY * BLOCK * length * breadth)

@@ -177,7 +177,7 @@ class HydroGroupData:
 
 Hydrodynamics = HydroData | HydroGroupData  # of one hull, or of several: the same equations, of other size
 
-USUAL_RADII = np.array([0.36, 0.25, 0.25])  # of gyration, of breadth, length, length
+USUAL_RADII = np.array([0.36, 0.25, 0.25])  # of gyration of ships, over breadth, length and length
 
 
 def mass_of(database: Hydrodynamics) -> Array:

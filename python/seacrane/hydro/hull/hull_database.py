@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.arrays import Array
+from seacrane.hydro.data.hydro_group_data import USUAL_RADII
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.database.transform import point_of
@@ -28,7 +29,6 @@ PANELS = 40  # on each half section
 PANELS_PER_WAVE = 8.0
 METHODS = ("strip", "capytaine")
 WAVES = (50.0, 0.05)  # lengths of the ship: the longest and the shortest in deep water
-GYRATION = (0.36, 0.25, 0.25)  # of breadth, length, length
 DISPLACEMENT_LIMIT = 0.01  # of the displaced mass
 TRIM_LIMIT = 0.001  # rad
 
@@ -109,7 +109,7 @@ def hydro_from_hull(
     headings = _increasing(f"{what}: heading", heading, -1e-12, 2.0 * np.pi, "from 0 to below 2 pi rad")
     displaced = rho * shape.hydrostatics.volume
     weight = displaced if mass is None else float(mass)
-    radii = np.array(GYRATION) * [shape.breadth, shape.length, shape.length]
+    radii = USUAL_RADII * [shape.breadth, shape.length, shape.length]
     if radii_of_gyration is not None:
         radii = point_of(f"{what}: radii_of_gyration", radii_of_gyration)
         if np.any(radii <= 0.0):

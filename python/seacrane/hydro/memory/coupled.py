@@ -29,9 +29,7 @@ from seacrane.hydro.memory.oscillators import (
 )
 
 BAND = 5  # masses that share dampers: each with so many less one on either side
-DATA_WEIGHT = (
-    0.2  # of the misfit of the data, over the spreads of their diagonals, beside that of the motions
-)
+DATA_WEIGHT = 0.2  # of the misfit of the data over the spreads of their diagonals, beside that of motions
 SPARSE = 3  # the data themselves count at every third frequency
 BEYOND = 1.25  # of the upper end of the band: the highest mass of a guess
 A_PLACE = 3  # masses at one frequency, about
