@@ -269,9 +269,13 @@ def test_blocks_whose_states_do_not_feel_each_other_make_the_same_loads() -> Non
     def transfer(block: MemoryBlock, omega: float) -> Any:
         return block.C @ np.linalg.solve(1j * omega * np.eye(len(block.A)) - block.A, block.B) + block.D
 
-    for block in two_barges(lid_damping=0.03).memory.blocks:
-        parts = independent_blocks(block)
-        assert len(parts) > 1 and sum(len(part.A) for part in parts) == len(block.A)
-        for omega in (0.0, 0.7, 3.0):
-            whole, apart = transfer(block, omega), sum(transfer(part, omega) for part in parts)
-            np.testing.assert_allclose(apart, whole, rtol=0.0, atol=1e-12 * np.abs(whole).max())
+    one = two_barges(lid_damping=0.03).memory.blocks[0]
+    block = replace(
+        one, A=np.kron(np.eye(2), one.A), B=np.vstack([one.B, 0.5 * one.B]), C=np.hstack([one.C, one.C]),
+        state_scale=np.tile(one.state_scale, 2),
+    )  # fmt: skip
+    parts = independent_blocks(block)
+    assert [len(part.A) for part in parts] == [len(one.A)] * 2
+    for omega in (0.0, 0.7, 3.0):
+        whole, apart = transfer(block, omega), sum(transfer(part, omega) for part in parts)
+        np.testing.assert_allclose(apart, whole, rtol=0.0, atol=1e-12 * np.abs(whole).max())
