@@ -33,8 +33,7 @@ def reference_of(case: Case, limit_s: float) -> Reference:
     refused = {}
     for method in TIGHT:
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
+            with warnings.catch_warnings(action="ignore"):
                 done = timed(case, method, POINTS.channels, limit_s=SLOWER * limit_s)
                 found[method.name] = POINTS.values(done.result())
         except (ValueError, SimulationError, OutOfTime) as error:  # a SceneError, or what is not finite
@@ -65,8 +64,7 @@ def _nearest(found: Mapping[str, Array]) -> tuple[float, tuple[str, str]]:
 
 def measure(case: Case, method: Method, truth: Reference, limit_s: float, row: Row) -> Row:
     """The row filled in; never raises for what a run may do."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         try:
             return measured(case, method, QUANTITIES, truth, row, limit_s=limit_s)
         except Exception as error:

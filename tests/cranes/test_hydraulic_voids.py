@@ -34,8 +34,7 @@ def dropped(**settings: Any) -> Scene:
 
 
 def quietly(scene: Scene, t_end: float, **settings: Any) -> dict[str, Array]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", BoilingOilWarning)
+    with warnings.catch_warnings(action="ignore", category=BoilingOilWarning):
         return record(scene, t_end, **settings)
 
 

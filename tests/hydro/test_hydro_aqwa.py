@@ -151,6 +151,5 @@ def test_damage(suffix: str, old: str, new: str, answer: str, hull: HydroDatabas
     run = run_of(hull, centre(hull))
     text = ah1(run) if suffix == ".AH1" else listing(run)
     (tmp_path / f"ship{suffix}").write_text(text.replace(old, new, 1))
-    with warnings.catch_warnings(), pytest.raises(FileFormatError, match=answer):
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"), pytest.raises(FileFormatError, match=answer):
         read_aqwa(tmp_path / f"ship{suffix}")

@@ -146,8 +146,7 @@ def test_a_rough_run_goes_on_where_a_void_opens(number: int) -> None:
     """A step up to the kink turned back before it: its last stages saw the rate of the other side."""
     scene, _ = scene_of(number, seed=SEED)
     span = {"t_end": 8.0, "dt_out": 0.1, "channels": ["position"]}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         rough = simulate(scene, integrator="tsit5", rtol=1e-3, **span)
         truth = simulate(scene, integrator="dop853", rtol=1e-8, **span)
     apart = np.abs(rough["position"] - truth["position"]).max()
@@ -168,8 +167,7 @@ def test_a_burst_to_the_pistons_end_is_as_accurate_as_told(time: float, area: fl
         piston=Piston(viscous_friction=friction),
     )  # fmt: skip
     span = {"t_end": 5.0, "dt_out": 0.1, "channels": ["position"]}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         truth, other = (
             simulate(scene, integrator=name, rtol=1e-11, **span)["position"] for name in OTHERS[:3:2]
         )

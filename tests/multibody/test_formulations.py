@@ -29,8 +29,7 @@ NEARLY_DEPENDENT = (1e-10, 3e-3)  # smallest over largest singular value of the 
 
 
 def compiled(scene: Scene) -> Model:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)
+    with warnings.catch_warnings(action="ignore", category=UserWarning):
         return scene.compile()
 
 

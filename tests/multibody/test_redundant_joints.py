@@ -41,9 +41,7 @@ def test_two_hinges_warn_and_move_like_one(formulation: str) -> None:
     two = door([-0.8, 0.8])
     with pytest.warns(UserWarning, match=r"hinge 0, hinge 1 are redundant \(5 more than needed\)"):
         out = record(two, 2.0, rtol=1e-9, formulation=formulation)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        one = record(door([0.0]), 2.0, rtol=1e-9)
+    one = record(door([0.0]), 2.0, rtol=1e-9)
     assert np.ptp(one["coordinate"]) > 1.0
     for name in ("position", "velocity", "quaternion", "coordinate"):
         np.testing.assert_allclose(out[name], one[name], atol=1e-7)
@@ -158,8 +156,7 @@ def folding(start: float, *, pins: int = 1, rate: float | None = None) -> Scene:
 
 def told(scene: Scene, formulation: str = "auto", **settings: Any) -> tuple[Result, list[str]]:
     """A run, and its warnings of what is near singular; those of redundant joints are left out."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         result = simulate(scene, formulation=formulation, **settings)
     near = [str(one.message) for one in caught if "are redundant" not in str(one.message)]
     assert all(issubclass(one.category, NearSingularWarning) for one in caught if str(one.message) in near)

@@ -49,8 +49,7 @@ def drift(scene: Scene, t_end: float, **settings: Any) -> float:
     channels = [
         "velocity", "angular_velocity", "quaternion", "energy_balance", "absolute_work", "constraint_error"
     ]  # fmt: skip
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)
+    with warnings.catch_warnings(action="ignore", category=UserWarning):
         result = simulate(scene, t_end=t_end, dt_out=0.5, channels=channels, rtol=1e-10, **settings)
     assert np.max(result["absolute_work"]) == 0.0
     assert np.max(result["constraint_error"]) < 1e-9

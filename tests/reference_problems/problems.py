@@ -35,8 +35,7 @@ class Comparison(NamedTuple):
 
 def run(scene: Scene, t_end: float, dt_out: float, settings: dict[str, Any], *channels: str) -> Result:
     """Joints that hold a motion twice are part of some problems: no warning."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)
+    with warnings.catch_warnings(action="ignore", category=UserWarning):
         return simulate(scene, t_end=t_end, dt_out=dt_out, channels=list(channels), **settings)
 
 

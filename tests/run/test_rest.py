@@ -53,8 +53,7 @@ MANY = pytest.mark.slow("hundreds of random rests")
 @pytest.mark.parametrize("seed", [pytest.param(n, marks=MANY if n % USUAL else []) for n in range(EVERY)])
 def test_a_rest_lasts_or_is_told_not_to(seed: int) -> None:
     """A scene without rest, as of winches that chase each other, is refused and still moves after minutes."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         try:
             far = moved(Builder(seed).scene)
         except SceneError as refused:

@@ -215,8 +215,7 @@ def a_drive_of_what_is_welded() -> Scene:
     (lambda: scene_of_two(length_scale=0.0), "length_scale is 0 m"),
 )  # fmt: skip
 def test_scenes_that_cannot_be_assembled(what: Callable[[], Scene], told: str) -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # redundant joints
+    with warnings.catch_warnings(action="ignore"):  # redundant joints
         refused(lambda: what().compile(), told)
 
 
@@ -378,8 +377,7 @@ def test_any_set_of_joints_compiles_and_runs_or_is_refused(joints: list[dict[str
             scene.add_joint(f"j{i}", **joint)
         return scene
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # redundant joints
+    with warnings.catch_warnings(action="ignore"):  # redundant joints
         try:
             model = build().compile()
         except SceneError:

@@ -228,8 +228,7 @@ UNIQUE = "reactions not unique (minimum norm given)"
 
 
 def section(scene: Scene, name: str) -> dict[str, Any]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # redundant joints
+    with warnings.catch_warnings(action="ignore"):  # redundant joints
         return dict(scene_report(scene)[name])
 
 

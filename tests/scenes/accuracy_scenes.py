@@ -202,8 +202,7 @@ def word(number: int, *, seed: int) -> SimpleNamespace:
     """What `accuracy=` promises on one scene, judged by two other methods at tighter tolerances."""
     scene, part = scene_of(number, seed=seed)
     span = {"t_end": T_END, "dt_out": DT_OUT, "channels": ["position"]}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         rough = position(scene, integrator="verner76", rtol=1e-6, **span)
         limit = part * max(float(np.abs(rough - rough[0]).max()), 0.01)
         try:

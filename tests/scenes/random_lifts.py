@@ -288,8 +288,7 @@ def judged(seed: int) -> tuple[str, dict[str, str]]:
     """How the lift of a seed went, and by view what was wrong."""
     lift = drawn(seed)
     wrong = {}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         try:
             as_drawn = Lift(lift, AS_DRAWN).run()
         except SeacraneError as error:

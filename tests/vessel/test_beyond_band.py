@@ -141,12 +141,10 @@ def test_what_is_below_the_band_is_named() -> None:
     at, scene = natural_frequency(strip(), 3), Scene()
     with pytest.warns(BelowBandWarning, match=rf"roll at {at:.3g} rad/s.*capytaine"):
         scene.add_vessel(strip(), memory="none")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", BelowBandWarning)
+    with warnings.catch_warnings(action="error", category=BelowBandWarning):
         Scene().add_vessel(replace(strip(), trusted_band=(0.3, 1.8)), memory="none")
     for tp, count in ((6.0, 0), (12.0, 2)):
-        with warnings.catch_warnings(record=True) as seen:
-            warnings.simplefilter("always")
+        with warnings.catch_warnings(record=True, action="always") as seen:
             scene.copy().add_sea(hs=2.0, tp=tp, direction_deg=90.0, seed=1)
             spectrum = jonswap(hs=2.0, tp=tp)
             response_statistics(scene, spectrum=spectrum, direction=0.5 * np.pi, body="vessel")

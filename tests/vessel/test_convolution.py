@@ -177,8 +177,7 @@ def driven_heave(database: HydroDatabase, omega: float) -> complex:
     """Force of a driver per metre of the heave that it prescribes, in the steady state, less inertia and
     restoring: i omega B - omega^2 A."""
     scene = Scene()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         scene.add_vessel(database, memory="convolution", mooring=None)
     scene.add_joint(kind="free", name="motion", first="ground", second="vessel")
     for motion in ("x", "y", "z", "roll", "pitch", "yaw"):

@@ -161,8 +161,7 @@ def test_the_vessel_alone_moves_as_the_databases_matrices_say(ship: str, shared:
     """The shipped hull; the supply ship's roll tanks, with the roll damping of the time domain; the tanker's
     mass matrix beyond that of a rigid body."""
     shipped = ship == "hull_115"
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         database = same = shipped_database() if shipped else load_database(shared / ship)
         scene = cases.vessel(database=database, hs=0.0, mooring=None, memory="convolution")
         if database.additional:

@@ -79,8 +79,7 @@ def ship_at(speed: float, folder: Path) -> tuple[HydroDatabase, HydroDatabase]:
 
 
 def free(database: HydroDatabase, mooring: float | None) -> Scene:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         scene = Scene()
         scene.add_vessel(database, memory="convolution", mooring=mooring)
     return scene
@@ -109,8 +108,7 @@ def test_moments_are_those_of_the_spectrum_of_encounter(heading_deg: float, tmp_
     still, moving = ship_at(5.0, tmp_path)
     sea, heading = jonswap(hs=1.0, tp=7.0), np.radians(heading_deg)
     asked = {"database": moving, "direction": heading, "body": "vessel", "memory": "database"}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", EncounterFrequencyWarning)
+    with warnings.catch_warnings(action="ignore", category=EncounterFrequencyWarning):
         found = response_statistics(free(still, 60.0), spectrum=sea, **asked)
     omega = np.linspace(moving.omega[0], moving.omega[-1], 3001)
     rao = motion_rao(free(still, 60.0), omega=omega, **asked)

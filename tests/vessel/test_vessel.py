@@ -215,8 +215,7 @@ def test_statics_and_balance_know_its_weight_and_files_it(floats: bool | None, t
 def supply(shared: Path) -> HydroDatabase:
     """With its memory per pair, as `cases` take it."""
     database = load_database(shared / "veres" / "supply")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", InfiniteFrequencyWarning)
+    with warnings.catch_warnings(action="ignore", category=InfiniteFrequencyWarning):
         return replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
 
@@ -261,8 +260,7 @@ def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, at: tuple[
 @pytest.mark.parametrize(("deg", "omega"), [(135.0, 0.45), (90.0, 0.70)])
 def test_regular_wave_returns_wamits_motion(shared: Path, deg: float, omega: float) -> None:
     """Of the tanker, by convolution, which has no fit, so that what is left is the files' own 1 %."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         tanker = load_database(shared / "wamit")
         scene = cases.vessel(database=tanker, hs=0.0, mooring=None, memory="convolution")
     heading = int(np.argmin(np.abs(np.degrees(tanker.heading) - deg)))

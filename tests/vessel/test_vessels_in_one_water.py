@@ -96,8 +96,7 @@ def linear(group: HydroGroup) -> HydroGroup:
 
 
 def motion(scene: Scene, name: str, t_end: float = 20.0, **method: Any) -> Array:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         result = simulate(scene, t_end=t_end, dt_out=0.5, channels=["vessel_motion"], **method)
     return np.asarray(result["vessel_motion"])[:, list(scene.vessels).index(name)]
 
@@ -147,8 +146,7 @@ def test_a_free_pair_keeps_its_energy() -> None:
     for name, velocity in velocities.items():
         turning = (0.02, -0.01, 0.03)
         scene.replace(name, kind="body", velocity=velocity, angular_velocity=turning)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         result = simulate(scene, t_end=30.0, dt_out=1.0, rtol=1e-10, channels=["energy_balance"])
     speed = np.array([*velocities["a"]])
     energy = 0.5 * float(scene.bodies["a"].mass) * float(speed @ speed)
@@ -165,8 +163,7 @@ def test_small_waves_move_it_as_the_coupled_frequency_domain(body: str) -> None:
         model = linear_model(scene, vessel="a")
         centre = scene.bodies[body].center_of_mass
         summed = response_summed(model, body=body, point=centre)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             result = simulate(
                 scene, t_end=40.0, dt_out=1.0, rtol=1e-13, start=model.full_state(summed.state_at(0.0)),
                 channels=["position", "quaternion"],
