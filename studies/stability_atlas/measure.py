@@ -7,18 +7,15 @@ import warnings
 from collections.abc import Mapping
 from itertools import combinations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from seacrane import Method, SimulationError
 from seacrane.accuracy.case import Case, OutOfTime, timed
 from seacrane.accuracy.measured import Reference, measured
 from seacrane.accuracy.quantities import compare, motion_of
 from seacrane.accuracy.row import UNNAMED, Row
+from seacrane.arrays import Array
 from stability_atlas.methods import TIGHT
 from stability_atlas.points import POINTS, QUANTITIES, KnownCase
 
-Array = NDArray[np.float64]
 REST = 1e-300  # in place of no motion
 AGREED = 1e-4  # of the motion, within which two tight runs need no third
 SLOWER = 4.0  # a tight run may take that many times the time of others

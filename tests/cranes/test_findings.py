@@ -6,9 +6,9 @@ import re
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Result, cases, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.inputs.frames import rotation_matrix
@@ -23,8 +23,6 @@ from seacrane.pictures.findings import (
 )
 from seacrane.result import MOTIONS
 from seacrane.warnings import LargeSwingWarning
-
-Array = NDArray[np.float64]
 
 
 @pytest.fixture(scope="module")

@@ -11,11 +11,10 @@ import pytest
 from hydraulic_scenes import VALVE, raised
 from multibody_runs import record
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, _core, cases, simulate
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 STIFF = "dopri5-stiff"
 FORMULATIONS = ("redundant", "recursive")
 

@@ -10,14 +10,13 @@ from contact_scenes import REBOUNDS
 from element_runs import FORMULATIONS
 from heavy_line_scenes import BED
 from line_scenes import add_led
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SceneError, _core, simulate
+from seacrane.arrays import Array
 from seacrane.description.elements import add_load
 from seacrane.result import heavy_line_tension
 from seacrane.scene.heavy_line import Chain
 
-Array = NDArray[np.float64]
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-10}
 WEIGHT, EA = 3324.385, 1.674e9  # N/m in water, N: 390 kg/m that displaces a circle of 0.252 m, g 9.81
 # m: across, up, length; N at the upper end; m on the seabed: elastic catenary without friction

@@ -9,15 +9,14 @@ import pytest
 from element_runs import both_forms, goes_on
 from line_scenes import MASS as LOAD
 from line_scenes import STIFFNESS, hung
-from numpy.typing import NDArray
 from test_jacobian import largest_error, moving
 
 from seacrane import Curve, Scene, _core, equilibrium, natural_modes, simulate
 from seacrane.analysis import Evaluator
+from seacrane.arrays import Array
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
 
-Array = NDArray[np.float64]
 G = 9.80665
 LENGTH, MASS = 9.0, 12e3  # m, kg
 

@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 from event_scenes import ball, lift, pendulum, pushed
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from seacrane import Result, Run, Scene, SceneError, _core, simulate
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 SEAT = _core.Limit(name="seat", kind="seat", joint="air")
 CONTRADICTIONS: list[tuple[str, dict[str, Any], str]] = [
     ("stop", {}, "neither minimum nor maximum"),

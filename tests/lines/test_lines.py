@@ -15,15 +15,14 @@ from heavy_line_scenes import KINDS, dropped, in_waves, wet
 from line_scenes import MASS, STIFFNESS, G, busy, hung, on_deck, reeved, settled, swinging, taut
 from multibody_runs import record
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 from reeving_scenes import slewing, stiff
 from scipy.integrate import solve_ivp
 from test_jacobian import largest_error, moving
 
 from seacrane import Curve, Result, Run, Scene, SceneError, integrator_names, simulate
 from seacrane.analysis import equilibrium, linear_model, natural_modes
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)
 
 

@@ -9,7 +9,6 @@ import pytest
 from line_scenes import below
 from multibody_runs import record
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 from reeving_scenes import HEIGHT, MASS, RADIUS, G, belt, capstan, path_of_tackle, slewing, stiff, tackle
 from scipy.interpolate import PchipInterpolator
 
@@ -17,8 +16,6 @@ from seacrane import Scene, SceneError, SimulationError, equilibrium, simulate
 from seacrane.description.line_path import described_poses, laid
 from seacrane.pictures.wheels import wires_of
 from seacrane.warnings import FleetAngleWarning, LineTableWarning
-
-Array = NDArray[np.float64]
 
 
 def start(scene: Scene) -> dict[str, Any]:

@@ -8,18 +8,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.stats import genpareto, gumbel_r
 
 import seacrane as sc
 from seacrane import Result, SceneError
+from seacrane.arrays import Array
 from seacrane.result.about import ALWAYS_STATED
 from seacrane.statistics.record import start_differs
 from seacrane.statistics.seeds import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.tail import Tail, extremal_index, peaks_over_threshold
 from seacrane.warnings import RepeatingSeaWarning
 
-Array = NDArray[np.float64]
 THREE_HOURS, STEP = 10800.0, 0.5
 NARROW, BROAD = (0.8, 0.06), (0.8, 0.25)  # peak and width, rad/s
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SeacraneError, _core, cases, shipped_database, simulate
+from seacrane.arrays import Array
 from seacrane.scene.wind_current import FlowCoefficients
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
@@ -186,8 +186,6 @@ def test_inputs_and_restarts_reach_the_merged_bodies() -> None:
         ends.append(np.array(run.core.state.values)[:-1])  # without the absolute work
     np.testing.assert_allclose(ends[0], ends[1], rtol=0.0, atol=1e-7)
 
-
-Array = NDArray[np.float64]
 
 ROPE = {"EA": 2e8, "rung": "elastic"}
 PARTS = [f"{jib}_{part}" for jib in ("main", "knuckle") for part in ("jib", "barrel", "rod")]

@@ -10,14 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 from multibody_runs import CRANK, slider_crank
-from numpy.typing import NDArray
 from reference_problems import bricard, four_bars, pendulums, tops
 
 from seacrane import Result, Scene, cases, simulate
+from seacrane.arrays import Array
 from seacrane.crane import Payload
 from seacrane.inputs.frames import rotation_matrix
-
-Array = NDArray[np.float64]
 
 
 def thrown_crane() -> Scene:

@@ -13,15 +13,14 @@ from typing import Any
 
 import numpy as np
 from linear_scenes import reference_vessel
-from numpy.typing import NDArray
 from test_convolution import convolved
 from test_vessel import moored, regular_wave
 
 from seacrane import Scene, State, linear_model, natural_modes, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import shipped_database
 from seacrane.scene import Waves
 
-Array = NDArray[np.float64]
 AMPLITUDE, OMEGA = 1e-5, 0.7
 
 

@@ -9,13 +9,13 @@ elliptic functions.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
 from .planar import add_body, add_pin
 
-Array = NDArray[np.float64]
 GRAVITY, SPEED = 9.81, 1.0
 
 

@@ -8,11 +8,11 @@ Lagrange's equations in the angle of both rods and the slider's place, by SciPy.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 GRAVITY, DENSITY, BALL = 9.81, 3000.0, 5.0
 LENGTH, WIDTH, BLOCK, OFFSET = 1.0, 0.01, 0.1, 0.05  # rods and shaft, slider, hinges and springs off the axis
 STIFFNESS, DAMPING, NATURAL_LENGTH = 8.0e5, 4.0e4, 0.5

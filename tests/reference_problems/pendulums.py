@@ -7,13 +7,13 @@ horizontal, g = 9.81 m/s2.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
 from .planar import add_body, add_pin
 
-Array = NDArray[np.float64]
 GRAVITY = 9.81
 
 

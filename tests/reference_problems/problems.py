@@ -9,17 +9,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from multibody_runs import CRANK, slider_crank
-from numpy.typing import NDArray
 from test_vessel import moored, regular_wave, steady_state
 
 from seacrane import Result, Scene, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
 
 from . import andrews, bricard, cummins, four_bars, governor, pendulums, tops
 from .planar import angles
-
-Array = NDArray[np.float64]
 
 
 class Comparison(NamedTuple):

@@ -11,12 +11,12 @@ Euler's equations near the intermediate axis, by elliptic functions (`reference.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from reference.classic import free_rotation
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 GRAVITY, MASS = 9.81, 15.0
 INERTIA = np.array([0.234375, 0.46875, 0.234375])  # about the centre, 1 m from the tip along body y
 RATE = np.array([0.0, 150.0, -4.61538])  # rad/s, body axes, the top's axis level at the start

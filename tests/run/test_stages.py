@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from multibody_runs import masses, momentum
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 from stage_scenes import HEIGHT, MASS, RATE, STIFFNESS, G, hoisting, lift_off, meeting, on_deck, swinging
 
 from seacrane import (
@@ -29,10 +28,10 @@ from seacrane import (
     simulate,
     summary,
 )
+from seacrane.arrays import Array
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.run import StagedRun
 
-Array = NDArray[np.float64]
 TWO = [Stage(name="one", duration=2.0), Stage(name="two", duration=3.0)]
 
 

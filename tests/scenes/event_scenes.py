@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 from named import on_joint
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 GRAVITY = 9.80665
 HEIGHT, MASS, INERTIA = 2.0, 3.0, (0.1, 0.2, 0.3)
 LENGTH, FIRST_SPEED = 2.0, 8.0  # of the pendulum: enough to leave the circle, too little to go round

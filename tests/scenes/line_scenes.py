@@ -5,11 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
 
-Array = NDArray[np.float64]
 G = 9.80665
 MASS, STIFFNESS = 20e3, 3e6  # kg, N/m: of the load and of the line at its start
 

@@ -5,17 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from reference.classic import Link
 from reference.jets import Jet
 from reference.mechanisms import SingleCoordinate, SliderCrank
 from reference.rotation import quaternions_from_matrices
 
 from seacrane import Curve, Run, Scene
+from seacrane.arrays import Array
 from seacrane.crane import Payload
 from seacrane.inputs.frames import rotation_matrix
 
-Array = NDArray[np.float64]
 ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
 # Stiffness and damping that give the stiffest coordinate of the crane a frequency of about 5 rad/s.

@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
 from seacrane.description.line_path import path_length
 
-Array = NDArray[np.float64]
 G = 9.80665
 MASS, STIFFNESS = 20e3, 3e6  # kg, N: of the hook and of its line
 RADIUS, HEIGHT = 0.3, 8.0  # m: of sheaves, and of the crown above the hook

@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, response_statistics
+from seacrane.arrays import Array
 from seacrane.hydro import HydroDatabase, hydro_from_hull, natural_frequency, shipped_database
 from seacrane.hydro.hull.hull import shipped_hull
 from seacrane.inputs.frames import MOTIONS
@@ -19,7 +20,6 @@ from seacrane.sea import jonswap, realise_waves
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import BelowBandWarning
 
-Array = NDArray[np.float64]
 HEADINGS = np.radians([0.0, 30.0, 45.0, 75.0, 90.0, 135.0, 180.0])
 LENGTH, BREADTH, DRAUGHT, DEPTH = 60.0, 14.0, 4.0, 20.0
 

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Curve, Result, Run, Scene, SceneError, State, cases, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import (
     HydroDatabase,
     RetardationFunctions,
@@ -25,7 +25,6 @@ from seacrane.hydro.memory.retardation import cosine_transform
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
-Array = NDArray[np.float64]
 CHANNELS = ["vessel_motion", "energy_balance", "absolute_work"]
 
 

@@ -9,17 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from veres_writer import VeresRun
 
 from seacrane import Scene, SceneError, cases, linear_model, motion_rao, response_statistics
 from seacrane.analysis import response_summed
+from seacrane.arrays import Array
 from seacrane.hydro import HydroDatabase, motion_response, read_veres, shipped_database
 from seacrane.hydro.data.motion import encounter_frequency
 from seacrane.sea import Spreading, cos_2s, cos_n, jonswap
 from seacrane.warnings import EncounterFrequencyWarning
 
-Array = NDArray[np.float64]
 SEA = jonswap(hs=2.0, tp=9.0)
 
 

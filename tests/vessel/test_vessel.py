@@ -12,13 +12,13 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Result, Scene, State, _core, balance, cases, equilibrium, load_database, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import HydroDatabase, fit_memory, rigid_mass_matrix, shipped_database, vessel_parameters
 from seacrane.hydro.data.hydro_data import RollDamping
 from seacrane.hydro.data.motion import motion_response
 from seacrane.scene import HullLoads, Waves
 from seacrane.warnings import InfiniteFrequencyWarning, RollDampingWarning
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 G = 9.80665
 

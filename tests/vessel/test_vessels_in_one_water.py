@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, linear_model, motion_rao, natural_modes, simulate
 from seacrane.analysis import response_summed
 from seacrane.analysis.hull_range import gap_between, relative_findings
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
@@ -29,7 +29,6 @@ from seacrane.hydro.memory.certificate import independent_blocks
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.warnings import RelativePlaceWarning
 
-Array = NDArray[np.float64]
 MIRROR = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])  # about the plane between two hulls side by side
 FAR = 60.0  # m
 STEPS: dict[str, Any] = {"integrator": "rk4", "dt": 0.1}

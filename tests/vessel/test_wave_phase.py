@@ -9,17 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.analysis.hull_range import peak_frequency
+from seacrane.arrays import Array
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.scene import ByHeading, HullLoads, Waves
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
-Array = NDArray[np.float64]
 G = 9.80665
 CUTOFF = 0.5  # rad/s, of hulls that are driven: high, so that transients are short
 TIMES = np.array([0.0, 0.4, 17.3, 99.0, 1234.5])

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SceneError, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import BoxPart, Compartment, CylinderPart
 
-Array = NDArray[np.float64]
 G, RHO, ATMOSPHERE, VAPOUR = 9.80665, 1025.0, 101325.0, 2339.0
 AIR_DENSITY = 1.204
 D, H, MASS, C_D = 6.0, 12.0, 90e3, 0.6

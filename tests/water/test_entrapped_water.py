@@ -9,17 +9,16 @@ import pytest
 import wet_scenes as wet
 from element_runs import both_forms, goes_on
 from marks import needs_lanes
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, equilibrium, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import BoxPart, Compartment, CylinderPart, Opening
 from seacrane.scene import Waves
 from seacrane.sea import Current
 
-Array = NDArray[np.float64]
 ROUNDED = 1e-3  # m, the head over which the root is rounded off
 BOTTOM = ((0.0, 0.0, 0.0), 0.05)  # place and area of an opening
 AREA, HEIGHT, C_D = 3.0, 4.0, 0.62

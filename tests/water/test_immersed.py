@@ -9,12 +9,12 @@ import pytest
 import wet_scenes as wet
 from element_runs import both_forms, goes_on
 from marks import needs_lanes
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, SceneError, _core, simulate
+from seacrane.arrays import Array
 from seacrane.description.elements import add_load
 from seacrane.hydro import BoxPart, CylinderPart, PlatePart, SpherePart, circle_added_mass, perforation_factor
 from seacrane.hydro.parts.parts import Part
@@ -22,7 +22,6 @@ from seacrane.run import Run
 from seacrane.scene import Waves
 from seacrane.sea import Current
 
-Array = NDArray[np.float64]
 SLICE: dict[str, Any] = {"length": 1.0, "diameter": 1.0, "drag": 0.0, "ends": ("joined", "joined")}
 
 

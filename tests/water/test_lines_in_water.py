@@ -6,17 +6,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, _core, natural_modes, simulate
+from seacrane.arrays import Array
 from seacrane.description.elements import add_load
 from seacrane.result import heavy_line_tension
 from seacrane.sea import Current
-
-Array = NDArray[np.float64]
 
 
 def area(diameter: float) -> float:

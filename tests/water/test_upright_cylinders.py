@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 import wet_scenes as wet
 from element_runs import both_forms
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 from wet_scenes import EXACT, FORMS, RHO, G
 
 from seacrane import Scene, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import CylinderPart, circle_added_mass
 
-Array = NDArray[np.float64]
 D, LENGTH = 8.0, 60.0
 R = 0.5 * D
 AREA, DISC = np.pi * R**2, 4.0 / 3.0 * R**3

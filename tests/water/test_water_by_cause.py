@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import simpson
 from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.transform import Rotation
@@ -16,12 +15,12 @@ from test_lines_in_water import tossed
 from wet_scenes import EXACT, FORMS, RHO, G, quaternion
 
 from seacrane import Scene, simulate
+from seacrane.arrays import Array
 from seacrane.description.channels import FIXED
 from seacrane.hydro import BoxPart, CylinderPart, SpherePart
 from seacrane.run import Run
 from seacrane.scene import Waves
 
-Array = NDArray[np.float64]
 BUOYANCY, WAVES, ADDED, DRAG, SLAM = range(5)
 assert FIXED["cause"] == ("buoyancy", "waves", "added mass", "drag", "slam")
 
