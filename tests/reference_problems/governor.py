@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
 
 from seacrane import Scene
 from seacrane.arrays import Array
@@ -81,8 +82,6 @@ def rate(_: float, y: Array, momentum: float) -> list[float]:
 
 def solution(times: ArrayLike) -> Array:
     """Rods' angle and slider's height (k, 2), Radau at 1e-10."""
-    from scipy.integrate import solve_ivp
-
     t = np.asarray(times, dtype=float)
     momentum = (TURNING + 2.0 * rod_turning(HANGING)[0]) * SPIN
     start = [HANGING, SLIDER, 0.0, 0.0]

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from named import on_joint
+from scipy.integrate import solve_ivp
 
 from seacrane import Curve, Scene
 from seacrane.arrays import Array
@@ -37,7 +38,6 @@ def pendulum(restitution: float = 0.0, **wire: Any) -> Scene:
 
 def scipy_pendulum(times: Array, restitution: float) -> tuple[Array, list[float]]:
     """Positions (n, 2) of the same ball by SciPy, in polar and Cartesian coordinates by turns, and events."""
-    from scipy.integrate import solve_ivp
 
     def tension(_: float, y: Array) -> Any:
         return y[1] ** 2 * LENGTH + GRAVITY * np.cos(y[0])

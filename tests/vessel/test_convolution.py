@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 from seacrane import Curve, Result, Run, Scene, SceneError, State, cases, simulate
 from seacrane.arrays import Array
@@ -31,8 +32,6 @@ CHANNELS = ["vessel_motion", "energy_balance", "absolute_work"]
 @cache
 def fitted_kernel(step: float, duration: float = 200.0) -> Array:
     """K of the shipped hull's per-pair models, C exp(A t) B."""
-    from scipy.linalg import expm
-
     out = np.zeros((round(duration / step) + 1, 6, 6))
     for block in vessel_parameters(shipped_database()).memory.blocks:
         ahead, states = expm(block.A * step), block.B.copy()
