@@ -9,17 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from scipy.optimize import fsolve
 
 from seacrane import Result, Scene, State, _core, balance, cases, equilibrium, load_database, simulate
-from seacrane.arrays import Array
+from seacrane.arrays import Array, Complex
 from seacrane.hydro import HydroDatabase, fit_memory, rigid_mass_matrix, shipped_database, vessel_parameters
 from seacrane.hydro.data.hydro_data import RollDamping
 from seacrane.hydro.data.motion import motion_response
 from seacrane.scene import HullLoads, Waves
 from seacrane.warnings import InfiniteFrequencyWarning, RollDampingWarning
 
-Complex = NDArray[np.complex128]
 G = 9.80665
 
 
@@ -81,11 +80,9 @@ def complex_amplitude(result: Result, omega: float, *, start: float) -> Complex:
     return np.asarray(cosine + 1j * sine)
 
 
-def steady_state(
-    database: HydroDatabase, scene: Scene, waves: Waves, *, t_end: float
-) -> tuple[Complex, Complex]:
+def steady_state(database: HydroDatabase, scene: Scene, waves: Waves) -> tuple[Complex, Complex]:
     """Simulated and expected complex motions in one regular wave."""
-    omega, scene.waves = waves.omega[0], waves
+    omega, scene.waves, t_end = waves.omega[0], waves, 500.0
     period = 2.0 * np.pi / omega
     result = simulate(scene, t_end=t_end, dt_out=period / 16.0, rtol=1e-10, channels=["vessel_motion"])
     found = complex_amplitude(result, omega, start=t_end - 4.0 * period)
@@ -100,7 +97,7 @@ def test_steady_state_in_a_regular_wave(omega: float, heading_deg: float) -> Non
     """All six motions, 1e-3 of amplitude asked for; measured below 1e-6."""
     database = shipped_database()
     waves = regular_wave(database, omega=omega, heading_deg=heading_deg, amplitude=1e-3, phase=0.4)
-    found, expected = steady_state(database, moored(database), waves, t_end=500.0)
+    found, expected = steady_state(database, moored(database), waves)
     assert np.all(np.abs(expected) > 1e-4 * waves.amplitude[0])
     np.testing.assert_array_less(np.abs(found - expected) / np.abs(expected), 1e-5)
 
@@ -110,8 +107,6 @@ def rest_under_vertical_force(database: HydroDatabase, point: Array, force: floa
 
     The generalised loads of the force are the derivatives of its point's height.
     """
-    from scipy.optimize import fsolve
-
     c = database.restoring[2:5, 2:5]
     x, y, z = point
 
