@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from accuracy_scenes import KINDS, OTHERS, scene_of, told, word
 from reference_problems import four_bars
-from trade_scenes import pendulum, promise, shares, summary
+from trade_scenes import pendulum, promise, shares, summary, thrown
 
 from seacrane import SampledController, Scene, SceneError, cases, simulate
 from seacrane.accuracy.expected import STIFF, method_for, probe_of, scale_of
@@ -102,11 +102,8 @@ def test_impossible_accuracies_are_refused(accuracy: Any, also: dict[str, Any], 
 
 
 def test_a_chaotic_motion_is_named_as_the_limit() -> None:
-    scene = pendulum()
-    scene.add_body(name="second", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 1.0))
-    scene.add_joint(kind="revolute", name="p2", first="bob", second="second", point=(1, 0, 0), axis=(0, 1, 0))
     with pytest.raises(SceneError, match="set by the motion itself"):
-        simulate(scene, t_end=60.0, accuracy={"position": 1e-6})
+        simulate(thrown(), t_end=60.0, accuracy={"position": 1e-6})
 
 
 def test_a_coarse_wave_table_is_named_as_the_limit() -> None:

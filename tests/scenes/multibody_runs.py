@@ -115,3 +115,15 @@ def momentum(scene: Scene, out: dict[str, Any]) -> tuple[Array, Array]:
     spin = np.einsum("knij,knj->kni", world_inertia(scene, out["quaternion"]), out["angular_velocity"])
     linear = m * out["velocity"]
     return linear.sum(axis=1), (spin + np.cross(out["position"], linear)).sum(axis=1)
+
+
+def struck(bob: float = 2.0) -> Scene:
+    """A cart that takes up 1.5 m/s at once, with a pendulum on it."""
+    scene = Scene(name="struck")
+    scene.add_body("cart", mass=3.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
+    runs = Curve.table([1.0, 4.0], [0.0, 4.5], between="linear")
+    scene.add_driver("rail", curve=Curve.constant(value=0.0).then(time=1.0, curve=runs))
+    scene.add_body("bob", mass=bob, inertia=(0.3, 0.3, 0.3), position=(0.2, 0.0, -1.0))
+    scene.add_joint("pin", kind="revolute", first="cart", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
+    return scene
