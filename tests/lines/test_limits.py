@@ -103,7 +103,6 @@ def gaps(result: Result, top: float) -> Array:
 
 
 @RIGGED
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize(("top", "yaw_rate"), [(1.0, 0.2), (0.5, 1e-3)])
 def test_a_payload_on_four_wires_turns_and_swings(top: float, yaw_rate: float, formulation: str) -> None:
     result = simulate(payload(top, yaw_rate), t_end=6.0, dt_out=0.05, formulation=formulation)

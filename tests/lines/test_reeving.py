@@ -79,7 +79,6 @@ def test_forces_are_the_gradient_of_the_length_out_of_plane() -> None:
     assert np.max(np.abs(out["energy_balance"])) < 1e-7 * MASS
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_quasi_static_stretch_takes_sheaves_and_friction(formulation: str) -> None:
     """Places are the elastic line's to less than its stretch, the tensions its once both have settled."""
     stiffness = 3e8

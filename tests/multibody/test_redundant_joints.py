@@ -19,12 +19,6 @@ from seacrane.warnings import NearSingularWarning
 G = 9.80665
 
 
-@pytest.fixture(params=["redundant", "recursive"])
-def formulation(request: pytest.FixtureRequest) -> str:
-    """Runs are made with each; reactions are those of the redundant form, evaluated at the outputs."""
-    return str(request.param)
-
-
 def door(hinges: list[float]) -> Scene:
     """A door of 30 kg, 1 m wide, on hinges at these heights on a leaning post, which makes it swing."""
     scene = Scene(name="door")

@@ -92,7 +92,6 @@ def test_energy_balance_is_1e_8_of_the_absolute_work(
 
 
 @pytest.mark.slow("long runs")
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_case2_keeps_its_joints_and_energy_for_three_hours(formulation: str) -> None:
     result = simulate(cases.case2(), t_end=10800.0, dt_out=1.0, formulation=formulation)
     assert np.max(result["constraint_error"]) < 1e-9

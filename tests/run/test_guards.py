@@ -40,7 +40,6 @@ def slide(stiffness: float) -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept(formulation: str) -> None:
     scene = Scene(name="box")
     scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1])

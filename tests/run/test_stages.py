@@ -113,7 +113,6 @@ def test_a_load_that_is_let_go_falls_and_its_rope_takes_its_energy_along(tmp_pat
 
 
 @pytest.mark.parametrize("kind", ["weld", "spherical", "revolute"])
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_connection_keeps_momentum_and_books_what_it_takes(kind: str, formulation: str) -> None:
     scene = meeting(kind)
     stages = [Stage(name="drift", duration=0.5), Stage(name="connected", duration=1.0, connect=["shackle"])]

@@ -94,7 +94,6 @@ class _Stop(Exception):
 SLOW = pytest.param({"integrator": "rk4", "dt": 1e-3}, marks=pytest.mark.slow("thousands of steps"))
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize("method", [{"rtol": 1e-11}, SLOW])
 def test_a_run_stopped_at_any_step_goes_on(method: Any, formulation: str, tmp_path: Any) -> None:
     """Nothing lands on the checkpoint; long enough for the loop to ask on any machine."""

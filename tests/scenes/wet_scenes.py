@@ -16,7 +16,6 @@ from seacrane.run.lanes import module_of
 
 G, RHO = 9.80665, 1025.0
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-11}
-FORMS = ("recursive", "redundant")
 ALIKE = {"position": 1e-7, "load_state": (1e-3, 1e-5)}  # in both formulations
 SWINGS = {"mass": 4000.0, "angular_velocity": (0.3, -0.2, 0.4), "velocity": (0.62, 0.97, 0.02)}
 

@@ -177,7 +177,6 @@ def frame(height: float = 1.0) -> TablePart:
     return TablePart(height=height, added_masses=rows, source="mine", **given)
 
 
-@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 def test_a_table_without_volume_keeps_its_drag_and_its_ledger(formulation: str) -> None:
     scene = Scene(name="frame", gravity=G)
     scene.add_body("load", mass=1e3, inertia=(1e3,) * 3, position=(0.0, 0.0, 2.0))
