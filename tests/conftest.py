@@ -45,6 +45,12 @@ def repository() -> Path:
     return REPOSITORY
 
 
+@pytest.fixture(params=["redundant", "recursive"])
+def formulation(request: pytest.FixtureRequest) -> str:
+    """Each of the two, where a test holds in both."""
+    return str(request.param)
+
+
 @pytest.fixture
 def modules(repository: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Any]:
     """Imports a module of the benchmarks."""

@@ -7,18 +7,15 @@ import warnings
 from collections.abc import Mapping
 from itertools import combinations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from seacrane import Method, SimulationError
 from seacrane.accuracy.case import Case, OutOfTime, timed
 from seacrane.accuracy.measured import Reference, measured
 from seacrane.accuracy.quantities import compare, motion_of
 from seacrane.accuracy.row import UNNAMED, Row
+from seacrane.arrays import Array
 from stability_atlas.methods import TIGHT
 from stability_atlas.points import POINTS, QUANTITIES, KnownCase
 
-Array = NDArray[np.float64]
 REST = 1e-300  # in place of no motion
 AGREED = 1e-4  # of the motion, within which two tight runs need no third
 SLOWER = 4.0  # a tight run may take that many times the time of others
@@ -33,8 +30,7 @@ def reference_of(case: Case, limit_s: float) -> Reference:
     refused = {}
     for method in TIGHT:
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
+            with warnings.catch_warnings(action="ignore"):
                 done = timed(case, method, POINTS.channels, limit_s=SLOWER * limit_s)
                 found[method.name] = POINTS.values(done.result())
         except (ValueError, SimulationError, OutOfTime) as error:  # a SceneError, or what is not finite
@@ -65,8 +61,7 @@ def _nearest(found: Mapping[str, Array]) -> tuple[float, tuple[str, str]]:
 
 def measure(case: Case, method: Method, truth: Reference, limit_s: float, row: Row) -> Row:
     """The row filled in; never raises for what a run may do."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         try:
             return measured(case, method, QUANTITIES, truth, row, limit_s=limit_s)
         except Exception as error:

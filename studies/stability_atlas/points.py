@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane.accuracy.case import Case
 from seacrane.accuracy.quantities import Quantity
 from seacrane.accuracy.row import UNKNOWN, Row
+from seacrane.arrays import Array
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
 
-Array = NDArray[np.float64]
 LEAST_MOTION = 1e-9  # m: what rests within it has no relative error
 
 

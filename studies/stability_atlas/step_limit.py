@@ -30,7 +30,6 @@ from stability_atlas.crane_axes import held_crane
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
 PUSH, GROWTH = 1e-8, 1e4  # of the velocities, in units of their scale; more growth than that is instability
 STEPS = 800  # of one trial
 START = 20  # steps that a pair may need to reach its longest

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
+from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table, lift_of
 
 from seacrane import Lift, Method, Outputs, Result, Scene, cases, simulate
 from seacrane.cli import main
@@ -33,11 +33,6 @@ EXAMPLE, STUDY = (
     (ROOT / "examples" / "lifts" / f"{name}.toml").read_text(encoding="utf-8")
     for name in ("box_over_the_side", "case2_study")
 )
-
-
-def lift_of(text: str, folder: Path, name: str = "my_lift.toml") -> Lift:
-    (folder / name).write_text(text, encoding="utf-8")
-    return Lift.load(folder / name)
 
 
 def test_a_depth_chooses_among_those_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from lift_examples import HEAD, ON_DECK
+from lift_examples import HEAD, ON_DECK, lift_of
 
 from seacrane import Curve, FileFormatError, Lift, Move, Result, Scene, Stage, Until, simulate
 from seacrane.cli import main
@@ -36,11 +36,6 @@ name = "slew"; duration_s = 5
 commands = [{ name = "slew", by_deg = 10, over_s = 4 }, { name = "main.reference", to_m = 0.2, over_s = 4 }]
 """.replace("; ", "\n")
 )
-
-
-def lift_of(text: str, folder: Path) -> Lift:
-    (folder / "my_lift.toml").write_text(text, encoding="utf-8")
-    return Lift.load(folder / "my_lift.toml")
 
 
 def test_tables_are_stages(tmp_path: Path) -> None:

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from lift_examples import HEAD
+from lift_examples import HEAD, lift_of
 from test_jointed_cranes import LATTICE
 
-from seacrane import Lift, MotionRaos, Scene, simulate
+from seacrane import MotionRaos, Scene, simulate
 from seacrane.crane import load_crane
 from seacrane.hydro import shipped_database
 from seacrane.scene import MotionHistory
@@ -43,11 +43,6 @@ vessel = "quay"
 """.replace("; ", "\n")
 
 
-def lift_of(text: str, folder: Path) -> Lift:
-    (folder / "lift.toml").write_text(HEAD + text, encoding="utf-8")
-    return Lift.load(folder / "lift.toml")
-
-
 @pytest.mark.warns("RaoPhaseWarning", "OutsideRaosWarning", sometimes=("OutsideRaosWarning",))
 def test_given_ships(tmp_path: Path) -> None:
     barge = MotionRaos(
@@ -65,7 +60,7 @@ def test_given_ships(tmp_path: Path) -> None:
     scene.add_sea(hs=1.0, tp=12.0, direction_deg=90.0, count=40)
     scene.add_sea(vessel="barge")
     scene.add_sea(vessel="quay")
-    read = lift_of(SHIPS, tmp_path).scene()
+    read = lift_of(HEAD + SHIPS, tmp_path).scene()
     one, other = simulate(read, 5.0), simulate(scene, 5.0)
     np.testing.assert_allclose(one["vessel_motion"], other["vessel_motion"], atol=1e-12)
     assert np.ptp(one["vessel_motion"][:, 0, 2]) > 1e-3 and read.provenance == scene.provenance
@@ -87,7 +82,7 @@ line = "luffing rope"; rate_m_per_s = 0.1
 t_end_s = 0.5
 """.replace("; ", "\n")
     (tmp_path / "crane.toml").write_text(LATTICE, encoding="utf-8")
-    result = lift_of(text, tmp_path).simulate()
+    result = lift_of(HEAD + text, tmp_path).simulate()
     assert result["link_tension"][0] == pytest.approx(20e3 * G, rel=1e-2)
     assert result["line_length"][-1, 0] > result["line_length"][0, 0]
 
@@ -111,4 +106,4 @@ tension_at_start_N = {LOAD * G!r}
 [run]
 t_end_s = 1
 """.replace("; ", "\n")
-    assert np.ptp(lift_of(text, tmp_path).simulate()["hydraulic_stroke"]) < 1e-6
+    assert np.ptp(lift_of(HEAD + text, tmp_path).simulate()["hydraulic_stroke"]) < 1e-6

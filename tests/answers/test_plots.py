@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from matplotlib.text import Text
-from test_result import crane_result, vessel_result
 
 from seacrane import cases, motion_rao, plot_overview, simulate
 from seacrane.inputs.frames import AXES_NOTE
@@ -20,7 +20,7 @@ from seacrane.result.traces import traces
 
 @pytest.fixture(scope="module")
 def lift() -> Result:
-    return crane_result(t_end=20.0)
+    return simulate(cases.case2(), 20.0)
 
 
 def test_traces_have_names_and_units_that_people_read(lift: Result) -> None:
@@ -44,7 +44,8 @@ def test_traces_have_names_and_units_that_people_read(lift: Result) -> None:
 
 
 def test_a_spectrum_keeps_the_variance_and_finds_the_frequency() -> None:
-    result = vessel_result(t_end=400.0)
+    run = simulate(cases.vessel(), 400.0)
+    result = replace(run, channels={"wave_elevation": np.cos(2 * np.pi * run.time / 8.0)})
     sheet = spectrum_sheet(result, "wave_elevation", after=10.0)
     (panel,), omega = sheet.panels, sheet.abscissa
     (line,) = panel.lines

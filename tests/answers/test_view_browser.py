@@ -21,10 +21,7 @@ SHOWN = ("case2", pytest.param("pair", marks=pytest.mark.slow("opens a page")))
 
 @pytest.fixture(scope="module")
 def tab() -> Iterator[chromium.Tab]:
-    command = chromium.found()
-    if command is None:
-        pytest.skip("no Chromium: install Debian's package chromium")
-    with chromium.tab(command) as opened:
+    with chromium.tab() as opened:
         yield opened
 
 

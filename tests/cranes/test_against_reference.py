@@ -11,18 +11,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from reference.compare import differences
 from reference.simulate import simulate as simulate_reference
 from reference.system import System
 
 from seacrane import Scene, cases, simulate
 from seacrane._core import Curve
+from seacrane.arrays import Array
 from seacrane.crane import FOOT, Payload, load_crane
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.inputs.frames import rotation_matrix
-
-Array = NDArray[np.float64]
 
 MOVE_END = 2.0  # s: faster than the case's 45 s, so that every term counts within a short run
 SWITCH = 2.5  # s: from there both strokes follow 2 m - (1 + cos) as in case 3, with its step in acceleration

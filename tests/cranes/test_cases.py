@@ -6,14 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SceneError, balance, cases, simulate
 from seacrane.analysis import Evaluator, driven, feed_forward, quasi_static_loads
+from seacrane.arrays import Array
 from seacrane.crane import FOOT, Payload, load_crane
 from seacrane.warnings import UnstableRestWarning
 
-Array = NDArray[np.float64]
 G = 9.80665
 CASES: dict[str, Callable[..., Scene]] = {"case1": cases.case1, "case2": cases.case2, "case3": cases.case3}
 

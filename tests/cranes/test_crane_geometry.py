@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -17,7 +16,6 @@ from seacrane.crane.load_crane import SHIPPED, parse_crane
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.inputs.frames import rotation_matrix
 
-Array = npt.NDArray[np.float64]
 CRANE = load_crane()
 TEXT = (SHIPPED / "knuckle_boom_250t.toml").read_text(encoding="utf-8")
 STROKE = st.floats(0.0, 5.0)

@@ -6,13 +6,12 @@ import math
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
+from seacrane.arrays import Array
 from seacrane.crane import Box, Tube, load_crane
 from seacrane.crane.mass_properties import combine
 
-Array = npt.NDArray[np.float64]
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for the polynomials met here
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
 from seacrane._core import Body
+from seacrane.arrays import Array
 from seacrane.crane import Payload, load_crane
 from seacrane.inputs.frames import rotation_matrix
 
-Array = npt.NDArray[np.float64]
 G = 9.80665
 CRANE = load_crane()
 POSES = [(0.0, 0.0), (2.0, 2.0), (4.0, 4.0), (0.0, 5.0), (5.0, 0.0), (1.3, 3.7)]

@@ -9,7 +9,7 @@ import pytest
 from element_runs import FORMULATIONS as FORMS
 from element_runs import goes_on
 from marks import needs_lanes
-from multibody_runs import ACTUATORS, crane_scene, ramp, record, swing_out
+from multibody_runs import ACTUATORS, crane_scene, ramp, record, struck, swing_out
 
 from seacrane import Curve, Run, Scene, SceneError, SeacraneError, _core, shipped_database, simulate
 from seacrane.analysis import driven, inverse_dynamics, reflected_inertia
@@ -94,18 +94,6 @@ def test_accelerations_and_a_run_at_a_fixed_step_are_those_of_rows(name: str) ->
     work = np.abs(rows["absolute_work"]).max()
     assert np.abs(led["absolute_work"] - rows["absolute_work"]).max() < 1e-7 * work
     assert np.abs(led["energy_balance"]).max() < 1e-6 * work
-
-
-def struck() -> Scene:
-    """A cart that takes up 1.5 m/s at once, with a pendulum on it."""
-    scene = Scene(name="struck")
-    scene.add_body("cart", mass=3.0, inertia=(1.0, 1.0, 1.0))
-    scene.add_joint("rail", kind="prismatic", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
-    runs = Curve.table([1.0, 4.0], [0.0, 4.5], between="linear")
-    scene.add_driver("rail", curve=Curve.constant(value=0.0).then(time=1.0, curve=runs))
-    scene.add_body("bob", mass=2.0, inertia=(0.3, 0.3, 0.3), position=(0.2, 0.0, -1.0))
-    scene.add_joint("pin", kind="revolute", first="cart", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
-    return scene
 
 
 def test_a_stroke_beyond_its_hinge_is_refused_by_name() -> None:

@@ -99,7 +99,6 @@ def test_soft_stop_returns_what_is_not_damped() -> None:
     assert np.abs(damped["energy_balance"]).max() < 1e-8
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_cylinder_of_a_crane_afloat_runs_onto_its_stop(formulation: str) -> None:
     """The boom stops, its payload flies on, the wire snatches and lifts the boom off again; then it rests."""
     scene = cases.case2()

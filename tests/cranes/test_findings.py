@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from test_figures import read_csv
 
 from seacrane import Result, cases, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.inputs.frames import rotation_matrix
@@ -19,12 +21,11 @@ from seacrane.pictures.findings import (
     amplitude_at,
     memory_effect,
     paper_findings,
+    save_paper_figures,
     slew_stop,
 )
 from seacrane.result import MOTIONS
 from seacrane.warnings import LargeSwingWarning
-
-Array = NDArray[np.float64]
 
 
 @pytest.fixture(scope="module")
@@ -42,8 +43,11 @@ def motion(result: Result, name: str) -> Array:
 
 def test_every_finding_is_reproduced_and_its_numbers_are_right(runs: PaperRuns) -> None:
     """The number of memory's effect: rms difference over rms; the 5 s component, most in sway and roll."""
-    verdicts = [finding.verdict for finding in paper_findings(runs)]
-    assert verdicts.count("reproduced") == 6 and len(verdicts) == 7
+    found = paper_findings(runs)
+    assert [one.verdict for one in found].count("reproduced") == 6 and len(found) == 7
+    assert found[1].verdict == "measured"
+    states = runs.vessel.stats["states"] / runs.vessel_without_memory.stats["states"]
+    assert f"states x {states:.2f}" in found[1].number
     assert runs.vessel.stats["memory_states"] > 40 and runs.vessel_without_memory.stats["memory_states"] == 0
     printed = dict(re.findall(r"(\w+) (\d+) %", memory_effect(runs).number))
     for name in MOTIONS:
@@ -62,6 +66,35 @@ def test_every_finding_is_reproduced_and_its_numbers_are_right(runs: PaperRuns) 
     assert added["sway"] > added["heave"] > 3.0 * added["surge"]
     assert np.degrees(added["roll"]) > 0.5 and added["roll"] > 10.0 * max(added["pitch"], added["yaw"])
     assert all(added[name] > 5.0 * without[name] for name in ("sway", "heave", "roll"))
+    assert f"sway {added['sway']:.2g} m" in found[-1].number
+    assert f"roll {np.degrees(added['roll']):.2g} deg" in found[-1].number
+    late = runs.vessel.time >= OSCILLATION_START
+    alone, *heel = (
+        np.degrees(motion(run, "roll")[late].mean()) for run in (runs.vessel, runs.case1, runs.case2)
+    )
+    assert f"case 1 {heel[0] - alone:+.3f} deg, case 2 {heel[1] - alone:+.3f} deg" in found[4].number
+
+
+def test_eight_figures_and_their_data_are_written(runs: PaperRuns, tmp_path: Path) -> None:
+    assert list(save_paper_figures(runs=runs, folder=tmp_path)) == list(range(3, 11))
+    for number in range(3, 11):
+        assert (tmp_path / f"figure_{number:02d}.png").read_bytes().startswith(b"\x89PNG")
+    names, numbers = read_csv(tmp_path / "figure_03.csv")
+    ours = [[MOTIONS.index(one.partition(",")[0]), one.endswith("[deg]")] for one in names[1:]]
+    for column, (which, turns) in enumerate(ours, start=1):
+        run = runs.vessel if column % 2 else runs.vessel_without_memory
+        expected_values = run["vessel_motion"][:, which] * (np.degrees(1.0) if turns else 1.0)
+        np.testing.assert_allclose(numbers[:, column], expected_values, rtol=1e-9, atol=1e-12)
+    assert len(ours) == 12 and sum(turns for _, turns in ours) == 6
+    _, numbers = read_csv(tmp_path / "figure_07.csv")
+    assert numbers[-1, 3] == pytest.approx(-90.0, abs=0.1)
+    king, tower = (runs.case3.select("euler_xyz", body=name, axis="z") for name in ("king", "tower"))
+    phi = np.unwrap(king - tower)
+    np.testing.assert_allclose(numbers[:, 3], np.rad2deg(phi), atol=1e-6)
+    _, numbers = read_csv(tmp_path / "figure_10.csv")  # the difference of two heaves
+    np.testing.assert_allclose(
+        numbers[:, 1], motion(runs.case3, "heave") - motion(runs.case1, "heave"), rtol=1e-9
+    )
 
 
 def test_a_ship_adrift_moves_as_momentum_says() -> None:

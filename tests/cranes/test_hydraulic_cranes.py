@@ -214,7 +214,6 @@ def test_a_hose_bursts_where_its_pressure_passes_a_bound() -> None:
     assert np.min(result["hydraulic_spill"][result.time > at + 0.01]) > 0.0
 
 
-@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 def test_a_run_goes_on_bit_for_bit_across_a_burst(formulation: str) -> None:
     burst, valve = Rupture(time=1.5, area=HOLE), Counterbalance(pressure=6e6, flow=8e-4)
     how: dict[str, Any] = {"dt_out": 0.1, "rtol": 1e-6, "formulation": formulation}

@@ -11,14 +11,13 @@ from element_runs import goes_on
 from hydraulic_scenes import FULL, MASS, RING, SET, START, STROKE, G, raised
 from multibody_runs import record
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import Scene, SimulationError, simulate
+from seacrane.arrays import Array
 from seacrane.scene import Chamber, Oil, Piston, Pump, Rupture, Valve
 from seacrane.warnings import BoilingOilWarning
 
-Array = NDArray[np.float64]
 VAPOUR, ATMOSPHERE, BURST = 2e3, 1e5, 0.2  # Pa, Pa, s
 HOLE = 2e-5  # m2: the load comes down at about a metre a second
 CLOSED: dict[str, Any] = {
@@ -34,8 +33,7 @@ def dropped(**settings: Any) -> Scene:
 
 
 def quietly(scene: Scene, t_end: float, **settings: Any) -> dict[str, Array]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", BoilingOilWarning)
+    with warnings.catch_warnings(action="ignore", category=BoilingOilWarning):
         return record(scene, t_end, **settings)
 
 

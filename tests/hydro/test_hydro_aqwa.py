@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
-from aqwa_writer import PARAMETERS, ah1, listing, run_of, run_of_group
+from aqwa_writer import ah1, listing, run_of, run_of_group
 from test_hydro_group_rm3 import three_codes
 
-from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
     HydroGroup,
@@ -131,26 +129,3 @@ def test_a_pair_comes_back(tmp_path: Path) -> None:
     for name in (*MATRICES, "force"):
         ours, other = getattr(pair, name), getattr(found, name)
         assert np.abs(ours - other).max() <= 1e-8 * np.abs(ours).max()
-
-
-@pytest.mark.parametrize(
-    ("suffix", "old", "new", "answer"),
-    [
-        (".AH1", "ADDEDMASS\n", "ADDEDMAS\n", "holds no ADDEDMASS"),
-        (".AH1", "  1  1  2", "  1  1  1", "no indices of another record"),
-        (".AH1", "COG\n  1", "COG\n  2", "COG holds 1 records"),
-        (".AH1", "MASS\n", "DAMPING\n", "stands a second time"),
-        (".LIS", "S T R U C T U R E   1", f"S T R U C T U R E   2\n{PARAMETERS}",
-         r"2 structures.*\.AH1"),
-        (".LIS", "   RZ ", "   R  ", "not of six rows"),
-        (".LIS", "INERTIA", "INERT", "holds no inertia matrix"),
-        (".LIS", "WAVE FREQUENCY =", "WAVE FREQUENCY = 9", "not at the"),
-    ],
-)  # fmt: skip
-def test_damage(suffix: str, old: str, new: str, answer: str, hull: HydroDatabase, tmp_path: Path) -> None:
-    run = run_of(hull, centre(hull))
-    text = ah1(run) if suffix == ".AH1" else listing(run)
-    (tmp_path / f"ship{suffix}").write_text(text.replace(old, new, 1))
-    with warnings.catch_warnings(), pytest.raises(FileFormatError, match=answer):
-        warnings.simplefilter("ignore")
-        read_aqwa(tmp_path / f"ship{suffix}")

@@ -13,7 +13,7 @@ import pytest
 from test_hydro_capytaine import solved_barge
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroDatabase, load_database, read_bemio, read_nemoh, shipped_database
+from seacrane.hydro import HydroDatabase, HydroGroup, load_database, read_bemio, read_nemoh, shipped_database
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import AssumedDensityWarning
 
@@ -40,33 +40,44 @@ def control(turn: np.ndarray, depth: float = 0.0) -> str:
     return "\n".join([*head, *body, "6 ! Degrees of freedom", *motions, "6 ! Forces", *motions, "0 !"]) + "\n"
 
 
+def write_tables(base: HydroDatabase | HydroGroup, folder: Path, place: Any, *, old: bool) -> None:
+    """As NEMOH 2 or 3 leaves radiation and waves, to twelve digits, waves measured at a place (x, y)."""
+    head, wide, size = ['VARIABLES="w (rad/s)"'], 4 if old else 1, f"I= {len(base.omega)}," if old else ""
+
+    def row(omega: float, one: np.ndarray, other: np.ndarray) -> str:
+        return " ".join(f"{value:.12E}" for value in (omega, *np.stack([one, other], axis=1).ravel()))
+
+    radiation = head + [f'"A\t1\t{i}" "B\t1\t{i}"' for i in range(1, 7) if old]
+    for j in range(base.added_mass.shape[1]):
+        motion = f"Motion of body {j // 6 + 1:{wide}d} in DoF {j % 6 + 1:{wide}d}"
+        radiation.append(f'Zone t="{motion}",{size}F=POINT')
+        radiation += map(row, base.omega, base.added_mass[:, :, j], base.damping[:, :, j])
+    waves = head + [f'"abs(F\t1\t{i})" "angle(F\t1\t{i})"' for i in range(1, 7) if old]
+    k = wavenumber(base.omega, g=base.g, depth=np.inf)
+    for heading, forces in zip(base.heading, base.force, strict=True):
+        waves.append(f'Zone t="Excitation force - beta = {np.degrees(heading):.8f} deg",{size}F=POINT')
+        along = place[0] * np.cos(heading) + place[1] * np.sin(heading)
+        there = np.conj(forces * np.exp(1j * along * k)[:, None])
+        waves += map(row, base.omega, np.abs(there), np.angle(there))
+    for name, lines in (("RadiationCoefficients", radiation), ("ExcitationForce", waves)):
+        (folder / f"{name}.tec").write_text("\n".join(lines) + "\n")
+
+
+def write_hydrostatics(folder: Path, number: str, restoring: Any, gravity: Any, volume: float) -> None:
+    np.savetxt(folder / f"{'Kh' if number else 'KH'}{number}.dat", restoring, fmt="%.12E")
+    lines = [f"{axis}F = 0.0 - {axis}G = {at:7.4f}" for axis, at in zip("XYZ", gravity, strict=True)]
+    text = "\n".join([*lines, f"Displacement = {volume:.10E}\n"])
+    (folder / f"Hydrostatics{number}.dat").write_text(text)
+
+
 def write_project(base: HydroDatabase, folder: Path) -> None:
-    """A project folder as NEMOH 2 leaves it, results to twelve digits."""
+    """A project folder of NEMOH 2."""
     (folder / "results").mkdir(parents=True)
     (folder / "mesh").mkdir()
     (folder / "Nemoh.cal").write_text(control(CENTRE))
-    radiation = ['VARIABLES="w (rad/s)"', *(f'"A\t1\t{i}" "B\t1\t{i}"' for i in range(1, 7))]
-    for j in range(6):
-        radiation.append(f'Zone t="Motion of body   1 in DoF   {j + 1}",I= {len(base.omega)},F=POINT')
-        for i, omega in enumerate(base.omega):
-            pairs = np.stack([base.added_mass[i, :, j], base.damping[i, :, j]], axis=1).ravel()
-            radiation.append(" ".join(f"{value:.12E}" for value in (omega, *pairs)))
-    (folder / "results" / "RadiationCoefficients.tec").write_text("\n".join(radiation) + "\n")
-    k = wavenumber(base.omega, g=base.g, depth=np.inf)
-    waves = ['VARIABLES="w (rad/s)"', *(f'"abs(F\t1\t{i})" "angle(F\t1\t{i})"' for i in range(1, 7))]
-    for heading, forces in zip(base.heading, base.force, strict=True):
-        degrees = np.degrees(heading)
-        waves.append(f'Zone t="Excitation force - beta = {degrees:.6f} deg",I= {len(k)},F=POINT')
-        at_mesh = np.conj(forces * np.exp(-1j * CENTRE[0] * np.cos(heading) * k)[:, None])
-        for omega, force in zip(base.omega, at_mesh, strict=True):
-            pairs = np.stack([np.abs(force), np.angle(force)], axis=1).ravel()
-            waves.append(" ".join(f"{value:.12E}" for value in (omega, *pairs)))
-    (folder / "results" / "ExcitationForce.tec").write_text("\n".join(waves) + "\n")
-    np.savetxt(folder / "mesh" / "KH.dat", base.restoring, fmt="%.12E")
-    volume = base.mass_matrix[0, 0] / base.rho
-    gravity = CENTRE + np.array([0.0, 0.0, 1.5])
-    lines = [f"{axis}F = 0.0 - {axis}G = {at:7.4f}" for axis, at in zip("XYZ", gravity, strict=True)]
-    (folder / "mesh" / "Hydrostatics.dat").write_text("\n".join([*lines, f"Displacement = {volume:.10E}\n"]))
+    write_tables(base, folder / "results", -CENTRE, old=True)
+    gravity, volume = CENTRE + np.array([0.0, 0.0, 1.5]), base.mass_matrix[0, 0] / base.rho
+    write_hydrostatics(folder / "mesh", "", base.restoring, gravity, volume)
 
 
 def assert_same(found: HydroDatabase, base: HydroDatabase, tolerance: float) -> None:

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import (
     MainParticulars,
     ikeda_roll_damping,
@@ -21,7 +21,6 @@ from seacrane.hydro import (
 from seacrane.hydro.hull.hull import shipped_hull
 from seacrane.hydro.hull.ikeda import bilge_keels, eddy, eddy_coefficient, friction, friction_at_speed, lift
 
-Array = NDArray[np.float64]
 SHIP = MainParticulars(
     length=300.0, breadth=50.0, draught=12.5, block_coefficient=0.65, midship_coefficient=0.98
 )

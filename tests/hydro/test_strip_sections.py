@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from ursell_multipoles import LewisSection, radiation
 
 from seacrane import SceneError, _core
+from seacrane.arrays import Array
 
-FloatArray = NDArray[np.float64]
 RHO, G = 1025.0, 9.81
 CIRCLE = LewisSection(a1=0.0, a3=0.0)
 FULL = LewisSection(a1=0.2, a3=-0.1, scale=8.0)  # b / d = 1.57, area coefficient 0.94
@@ -20,11 +19,11 @@ DEEP = LewisSection(a1=-0.2, a3=0.02, scale=8.0)  # b / d = 0.67, area coefficie
 RECTANGLE = np.array([[12.5, 0.0], [12.5, -6.4], [0.0, -6.4]])
 
 
-def solved(points: FloatArray, omega: Any, **options: Any) -> dict[str, FloatArray]:
+def solved(points: Array, omega: Any, **options: Any) -> dict[str, Array]:
     return _core.section_radiation(points=points, omega=omega, rho=RHO, g=G, **options)
 
 
-def diagonal(matrices: FloatArray) -> FloatArray:
+def diagonal(matrices: Array) -> Array:
     return np.diagonal(matrices, axis1=1, axis2=2)
 
 
@@ -66,7 +65,7 @@ def test_agrees_with_multipoles_and_the_limits_of_its_mapping(section: LewisSect
 
 
 @pytest.mark.parametrize("points", [FULL.points(100), RECTANGLE], ids=["lewis", "rectangle"])
-def test_radiated_energy_and_reciprocity(points: FloatArray) -> None:
+def test_radiated_energy_and_reciprocity(points: Array) -> None:
     """Damping from pressure equals the power of the waves far away, coupling included."""
     omega = np.linspace(0.2, 2.5, 24)
     found = solved(points, omega, panels=80)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-import importlib.util
 import json
+import runpy
 from pathlib import Path
 
 import numpy as np
@@ -123,9 +123,6 @@ def test_masses_by_argument_and_by_command(
 
 
 def test_the_table_in_the_document_is_that_of_the_readers() -> None:
-    spec = importlib.util.spec_from_file_location("reader_table", ROOT / "tools" / "reader_table.py")
-    assert spec is not None and spec.loader is not None
-    made = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(made)
-    text = made.DOCUMENT.read_text(encoding="utf-8")
-    assert text == made.current(text), "run python tools/reader_table.py"
+    made = runpy.run_path(str(ROOT / "tools" / "reader_table.py"))
+    text = made["DOCUMENT"].read_text(encoding="utf-8")
+    assert text == made["current"](text), "run python tools/reader_table.py"

@@ -7,17 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 from contact_scenes import REBOUNDS
-from element_runs import FORMULATIONS
 from heavy_line_scenes import BED
 from line_scenes import add_led
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SceneError, _core, simulate
+from seacrane.arrays import Array
 from seacrane.description.elements import add_load
 from seacrane.result import heavy_line_tension
 from seacrane.scene.heavy_line import Chain
 
-Array = NDArray[np.float64]
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-10}
 WEIGHT, EA = 3324.385, 1.674e9  # N/m in water, N: 390 kg/m that displaces a circle of 0.252 m, g 9.81
 # m: across, up, length; N at the upper end; m on the seabed: elastic catenary without friction
@@ -63,7 +61,6 @@ def test_a_chain_at_rest_tends_to_the_catenary_on_a_seabed_with_second_order(
     assert worst[-1] < 1e-4
 
 
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_a_chain_stays_where_it_is_described(formulation: str) -> None:
     """From an anchor to a point at the surface."""
     scene = Scene(name="moored", gravity=9.81)
@@ -107,7 +104,6 @@ def test_a_blow_rebounds_as_hunt_and_crossley_say(damped: float, rebound: float,
     assert depth.max() == pytest.approx(deepest * np.sqrt(100.0 / 1e4), rel=1e-4)
 
 
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize("heading", [0.7, 4.0])
 def test_friction_holds_for_an_hour_without_creep(heading: float, formulation: str) -> None:
     """Pushed by two thirds of what holds, in any direction: it gives by that share, and the anchor stays."""

@@ -13,7 +13,6 @@ from seacrane import Scene, SceneError, natural_modes, simulate
 from seacrane.result import heavy_line_tension
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.warns(sometimes=["LineLengthWarning"])
 @pytest.mark.parametrize("count", [1, 8])
 def test_a_hanging_wire_is_longer_by_half_its_weight_and_the_load_s(count: int, formulation: str) -> None:

@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 from event_scenes import ball, lift, pendulum, pushed
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from seacrane import Result, Run, Scene, SceneError, _core, simulate
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 SEAT = _core.Limit(name="seat", kind="seat", joint="air")
 CONTRADICTIONS: list[tuple[str, dict[str, Any], str]] = [
     ("stop", {}, "neither minimum nor maximum"),
@@ -104,7 +103,6 @@ def gaps(result: Result, top: float) -> Array:
 
 
 @RIGGED
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize(("top", "yaw_rate"), [(1.0, 0.2), (0.5, 1e-3)])
 def test_a_payload_on_four_wires_turns_and_swings(top: float, yaw_rate: float, formulation: str) -> None:
     result = simulate(payload(top, yaw_rate), t_end=6.0, dt_out=0.05, formulation=formulation)

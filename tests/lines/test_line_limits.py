@@ -12,8 +12,6 @@ from numpy.testing import assert_allclose
 
 from seacrane import Curve, Scene, SceneError, SimulationError, cases, simulate
 
-FORMULATIONS = ["redundant", "recursive"]
-
 
 def pendulum(stiffness: float | None, **rung: Any) -> Scene:
     """2 t on 8 m, let go at 1 rad; the line is as long under its tension there as the rigid link."""
@@ -29,7 +27,6 @@ def on_link(scene: Scene, **given: Any) -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
 def test_motion_and_tension_tend_to_the_rigid_link_as_one_over_ea(rung: str, formulation: str) -> None:
     settings: dict[str, Any] = {"dt_out": 0.1, "rtol": 1e-9, "formulation": formulation}
@@ -57,7 +54,6 @@ def falling(speed: float, *, stiffness: float | None, ratio: float = 0.02, along
 
 
 @pytest.mark.warns("UnitWarning")
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize("along", [0.0, 0.5])
 def test_a_snatch_is_the_impact_of_the_rigid_wire(along: float, formulation: str) -> None:
     """Impulse and speeds to 1 %: the wire's restitution is exp(-pi z / sqrt(1 - z^2)), 0.94 at 2 %."""
@@ -102,7 +98,6 @@ def flying(rung: str) -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
 def test_a_line_keeps_momentum(rung: str, formulation: str) -> None:
     """Linear and angular, of three bodies in free flight, taut, slack and snatching."""

@@ -15,8 +15,7 @@ from seacrane.warnings import LiftedStartWarning
 
 def told(scene: Scene, t_end: float = 0.2) -> list[str]:
     """Warnings of a run, by class and beginning."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         simulate(scene, t_end, dt_out=0.1)
     return [f"{one.category.__name__}: {one.message}" for one in caught]
 
@@ -27,8 +26,7 @@ def test_a_start_that_lifts_far_more_than_the_weight_is_told() -> None:
         simulate(hung(stretch=2.6 * MASS * G / 3e6, falls=3), 0.05, dt_out=0.05)
     assert told(hung(stretch=1.4 * MASS * G / 3e6)) == []
     rest = equilibrium(hung(stretch=0.15))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", LiftedStartWarning)
+    with warnings.catch_warnings(action="error", category=LiftedStartWarning):
         simulate(hung(stretch=0.15), 0.05, dt_out=0.05, start=rest)
 
 

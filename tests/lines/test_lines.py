@@ -9,21 +9,20 @@ from typing import Any
 
 import numpy as np
 import pytest
-from element_runs import FORMULATIONS, both_forms, goes_on
+from element_runs import both_forms, goes_on
 from heave_scenes import moving_crane
 from heavy_line_scenes import KINDS, dropped, in_waves, wet
 from line_scenes import MASS, STIFFNESS, G, busy, hung, on_deck, reeved, settled, swinging, taut
 from multibody_runs import record
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 from reeving_scenes import slewing, stiff
 from scipy.integrate import solve_ivp
 from test_jacobian import largest_error, moving
 
 from seacrane import Curve, Result, Run, Scene, SceneError, integrator_names, simulate
 from seacrane.analysis import equilibrium, linear_model, natural_modes
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 OMEGA = np.sqrt(STIFFNESS / MASS)
 
 
@@ -110,7 +109,6 @@ def test_states_are_named_read_and_set_and_kept_in_files(tmp_path: Path) -> None
         simulate(hung(), 1.5, start=state)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_winch_lifts_a_load_off_its_stop(formulation: str) -> None:
     """It takes the weight over while the line stretches; the load leaves when the line carries all of it."""
     result = simulate(on_deck(), 3.0, dt_out=0.01, rtol=1e-8, formulation=formulation)
@@ -228,7 +226,6 @@ def test_formulations_agree_and_the_ledger_closes(name: str) -> None:
 
 
 @SOMETIMES
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize(
     ("name", "method"), [(name, i) for name, case in RUNS.items() for i in range(len(case.methods))]
 )

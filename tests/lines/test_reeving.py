@@ -9,7 +9,6 @@ import pytest
 from line_scenes import below
 from multibody_runs import record
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 from reeving_scenes import HEIGHT, MASS, RADIUS, G, belt, capstan, path_of_tackle, slewing, stiff, tackle
 from scipy.interpolate import PchipInterpolator
 
@@ -17,8 +16,6 @@ from seacrane import Scene, SceneError, SimulationError, equilibrium, simulate
 from seacrane.description.line_path import described_poses, laid
 from seacrane.pictures.wheels import wires_of
 from seacrane.warnings import FleetAngleWarning, LineTableWarning
-
-Array = NDArray[np.float64]
 
 
 def start(scene: Scene) -> dict[str, Any]:
@@ -82,7 +79,6 @@ def test_forces_are_the_gradient_of_the_length_out_of_plane() -> None:
     assert np.max(np.abs(out["energy_balance"])) < 1e-7 * MASS
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_quasi_static_stretch_takes_sheaves_and_friction(formulation: str) -> None:
     """Places are the elastic line's to less than its stretch, the tensions its once both have settled."""
     stiffness = 3e8

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 
 from seacrane import FileFormatError, Result, Scene, SceneError, simulate
+from seacrane.arrays import Array
 from seacrane.scene.file import scene_digest
 
-Array = NDArray[np.float64]
 CORNER, EDGE, COM = (1.0, -2.0, -3.0), (4.0, 5.0, 1.5), (0.3, -0.2, 0.6)
 
 

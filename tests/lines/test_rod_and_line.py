@@ -64,8 +64,7 @@ def hook(by: str) -> str:
 
 
 def warned(by: str, category: type[Warning], *, runs: bool = True, **given: Any) -> bool:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         scene = hung(by, **given)
         if runs:
             simulate(scene, 0.01, **HOW)

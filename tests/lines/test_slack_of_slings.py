@@ -6,15 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
 from seacrane import Scene, SceneError, simulate
 from seacrane.analysis.least_pulls import least_pulls
+from seacrane.arrays import Array
 from seacrane.hydro import BoxPart, Compartment, Opening
 
-Array = NDArray[np.float64]
 G, RHO, EA = 9.80665, 1025.0, 5e7
 MASS, BLOCK, SIZE = 40e3, 1e3, (6.0, 4.0, 3.0)  # kg, kg, m
 VOLUME = (3.0, 2.0, 2.0)  # m, of the box that keeps water out

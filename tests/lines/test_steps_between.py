@@ -66,7 +66,6 @@ def test_a_given_step_that_leads_through_a_deck_is_refused_and_a_short_one_holds
 
 
 @needs_lanes
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_a_tip_that_turns_about_a_standing_middle_is_met_at_each_half_turn(formulation: str) -> None:
     height, reach, spin = 1.995, 2.0, 2.0  # it dips for 0.07 s, and steps are as long as the run
     scene = Scene(name="propeller", gravity=GRAVITY)
@@ -104,7 +103,6 @@ def test_a_load_that_a_stage_lets_go_hits_the_deck_and_ends_the_stage_there() ->
 
 
 @pytest.mark.warns(sometimes=["LineLengthWarning"])
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize(("speed", "held_by"), [(10.0, "leash"), (9.0, "leash"), (10.0, "stop")])
 def test_what_holds_for_a_moment_is_met_within_one_step(speed: float, held_by: str, formulation: str) -> None:
     """A bob thrown up beyond the length of its line or onto a stop is held, and less high it is free."""
@@ -127,7 +125,6 @@ def test_what_holds_for_a_moment_is_met_within_one_step(speed: float, held_by: s
 
 
 @pytest.mark.warns("ContactStartWarning")
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_a_point_that_is_torn_off_gives_its_energy_to_the_ledger(formulation: str) -> None:
     """It leaves faster than 1 / damping: what the surface held, k p^2 / 2, is lost in it."""
     scene = Scene(name="torn off", gravity=0.0)

@@ -48,8 +48,7 @@ def runs() -> dict[str, Result]:
     for rung in QUICK:
         scene = lift(rung, base="vessel", slew=-0.5 * np.pi)
         scene.add_sea(hs=1.0, tp=8.0, seed=3, direction_deg=60.0)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # an unballasted lift at sea
+        with warnings.catch_warnings(action="ignore"):  # an unballasted lift at sea
             found[rung] = simulate(scene, 60.0)
     return found
 

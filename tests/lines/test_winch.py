@@ -179,7 +179,6 @@ def test_errors_fall_with_the_tolerance_past_every_kink() -> None:
     assert {event.name for event in run.events()} == {f"hoist.{bound}" for bound in bounds}
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize(
     ("way", "end", "told"), [(-1.0, "minimum", "hauled in"), (1.0, "maximum", "paid out")]
 )

@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 from heavy_line_scenes import FIRST, LAG, PAID, asked, wet
 from line_scenes import add_led
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import Curve, Move, Scene, SceneError, SimulationError, Stage, Until, simulate
 from seacrane.analysis import equilibrium, natural_modes
+from seacrane.arrays import Array
 from seacrane.result import heavy_line_tension
 
-Array = NDArray[np.float64]
 G = 9.80665
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-9}
 

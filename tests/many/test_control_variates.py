@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, equilibrium, simulate
+from seacrane.arrays import Array
 from seacrane.cases import vessel
 from seacrane.crane import Payload
 from seacrane.ensembles import HookLoadControl, LinearControl
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.hydro import BoxPart, shipped_database
 from seacrane.statistics import controlled_mean
-
-Array = NDArray[np.float64]
 
 
 def pairs(random: np.random.Generator, correlation: float, count: int) -> tuple[Array, Array]:

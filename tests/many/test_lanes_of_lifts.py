@@ -9,10 +9,11 @@ import pytest
 from ensemble_studies import cart, luffed, pendulum
 from hydraulic_scenes import raised
 from marks import needs_lanes
+from multibody_runs import struck
 from stage_scenes import on_deck
 from test_lanes import beside_and_alone, differences
 
-from seacrane import Curve, Kept, Move, Run, Scene, Stage, Until, _core, ensemble, shipped_database
+from seacrane import Kept, Move, Run, Scene, Stage, Until, _core, ensemble, shipped_database
 from seacrane.scene import Gas, Stops
 
 pytestmark = [needs_lanes, pytest.mark.filterwarnings("ignore::UserWarning")]
@@ -113,17 +114,6 @@ def test_all_lanes_end_a_step_where_one_meets_a_kink() -> None:
     assert all("kept_apart" not in run.lanes for run in runs)
     reached = [float(np.abs(run.result()["position"][:, 0, 2]).max()) for run in runs]
     assert [far > 0.6 for far in reached] == [False, True, False, True]
-
-
-def struck(bob: float) -> Scene:
-    scene = Scene(name="struck")
-    scene.add_body("cart", mass=3.0, inertia=(1.0, 1.0, 1.0))
-    scene.add_joint("rail", kind="prismatic", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
-    runs = Curve.table([0.5, 4.0], [0.0, 5.25], between="linear")
-    scene.add_driver("rail", curve=Curve.constant(value=0.0).then(time=0.5, curve=runs))
-    scene.add_body("bob", mass=bob, inertia=(0.3, 0.3, 0.3), position=(0.2, 0.0, -1.0))
-    scene.add_joint("pin", kind="revolute", first="cart", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
-    return scene
 
 
 def test_drivers_move_all_lanes_and_strike_them() -> None:

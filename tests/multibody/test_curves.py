@@ -104,8 +104,7 @@ def test_a_driver_follows_tables_and_the_jumps_of_a_linear_ones_rate_are_told() 
     for between, values in (("linear", [0.0, 0.0, 2.0]), ("cubic", [0.0, 0.5, 2.0])):
         scene, curve = cart(), Curve.table([0.0, 1.0, 3.0], values, between=between)
         scene.add_driver("rail", curve=curve)
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
+        with warnings.catch_warnings(record=True, action="always") as caught:
             result = simulate(scene, 4.0, dt_out=0.1)
         told = {one.category for one in caught}
         assert (DriverImpulseWarning in told) == (between == "linear")

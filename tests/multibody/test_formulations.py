@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 from multibody_runs import CRANK, add_crane, slider_crank, swing_out
-from numpy.typing import NDArray
 from random_loops import nearly_flat, shape_of
 from random_scenes import Shape, build, moving
 from reference_problems import bricard
@@ -18,19 +17,18 @@ from test_redundant_joints import bars, chain
 
 from seacrane import Model, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.analysis import Evaluator
+from seacrane.arrays import Array
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
-Array = NDArray[np.float64]
 AGREEMENT = 1e-9  # of the largest like quantity
 EPS = float(np.finfo(float).eps)
 NEARLY_DEPENDENT = (1e-10, 3e-3)  # smallest over largest singular value of the rows
 
 
 def compiled(scene: Scene) -> Model:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)
+    with warnings.catch_warnings(action="ignore", category=UserWarning):
         return scene.compile()
 
 

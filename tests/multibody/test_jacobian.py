@@ -10,16 +10,14 @@ import pytest
 from joint_examples import own_arguments
 from linear_scenes import reference_vessel
 from multibody_runs import quaternion_about
-from numpy.typing import NDArray
 
 from seacrane import FlowCoefficients, Scene, _core, cases, equilibrium, linear_model, simulate
 from seacrane.analysis.linearise import jacobian
 from seacrane.analysis.reduced_coordinates import Terms
+from seacrane.arrays import Array
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
-
-Array = NDArray[np.float64]
 
 
 def differences(evaluator: _core.Evaluator, t: float, y: Array, scale: Array, *, step: float) -> Array:

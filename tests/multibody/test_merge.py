@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Curve, Run, Scene, SeacraneError, _core, cases, shipped_database, simulate
+from seacrane.arrays import Array
 from seacrane.scene.wind_current import FlowCoefficients
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
@@ -18,7 +18,6 @@ pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarni
 
 TURNED = np.array([0.8, 0.2, -0.4, 0.4])  # unit quaternion
 FORCE = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)
-FORMULATIONS = ("redundant", "recursive")
 
 
 @FORCE
@@ -98,7 +97,6 @@ def test_every_load_on_welded_bodies_acts_as_before(formulation: str, orientatio
     compare(scene, 2e-8, formulation=formulation, t_end=1.0)
 
 
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_accelerations_at_a_moving_state_agree_to_rounding(formulation: str) -> None:
     scene = with_loads(askew())
     full = scene.compile(merge=False)
@@ -141,7 +139,6 @@ def arm(curve: _core.Curve) -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_joints_held_still_are_locked(formulation: str) -> None:
     scene = arm(Curve.constant(value=0.3))
     model = scene.compile()
@@ -187,8 +184,6 @@ def test_inputs_and_restarts_reach_the_merged_bodies() -> None:
     np.testing.assert_allclose(ends[0], ends[1], rtol=0.0, atol=1e-7)
 
 
-Array = NDArray[np.float64]
-
 ROPE = {"EA": 2e8, "rung": "elastic"}
 PARTS = [f"{jib}_{part}" for jib in ("main", "knuckle") for part in ("jib", "barrel", "rod")]
 CRANE = sorted(["tower", "king", *PARTS])
@@ -221,7 +216,6 @@ def test_a_held_crane_is_one_body_with_its_ship_and_held_strokes_leave_the_slew_
 
 
 @pytest.mark.warns("BallastWarning")
-@pytest.mark.parametrize("formulation", FORMULATIONS)
 def test_a_run_at_a_fixed_step_is_that_of_the_joints(formulation: str) -> None:
     how = {"t_end": 4.0, "dt_out": 0.5, "integrator": "rk4", "dt": 0.002}
     merged = recorded(lift(), merge=True, formulation=formulation, **how)

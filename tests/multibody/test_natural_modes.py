@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from linear_scenes import crane_with_payload, rod
-from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, cases, equilibrium, linear_model, natural_modes, simulate
 
-Array = NDArray[np.float64]
 G = 9.80665
 
 

@@ -62,7 +62,6 @@ def spinning() -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_point_moves_with_its_body(formulation: str) -> None:
     channels = ["position", "quaternion", "point_position", "point_velocity", "point_acceleration"]
     result = simulate(

@@ -13,7 +13,6 @@ import pytest
 from reference_problems import four_bars
 from reference_problems.problems import MECHANISMS, run, squeezer
 
-BOTH = ("redundant", "recursive")
 LIMITS: dict[str, list[tuple[dict[str, Any], float]]] = {
     "pendulum": [({"rtol": 1e-10}, 2e-9), ({"integrator": "cvode-bdf", "rtol": 1e-8}, 2e-5)],
     "four-bars": [({"rtol": 1e-8}, 1e-6)],
@@ -41,7 +40,6 @@ LIMITS: dict[str, list[tuple[dict[str, Any], float]]] = {
 CASES = [(name, settings, limit) for name, rows in LIMITS.items() for settings, limit in rows]
 
 
-@pytest.mark.parametrize("formulation", BOTH)
 @pytest.mark.parametrize(
     ("name", "settings", "limit"), CASES, ids=[f"{n}-{s.get('integrator', 'dopri5')}" for n, s, _ in CASES]
 )

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from kink_scenes import sprung
-from trade_scenes import pendulum
+from trade_scenes import pendulum, thrown
 
 from seacrane import Scene, SceneError, cases, simulate, step_error
 from seacrane.accuracy import model_error
@@ -23,14 +23,6 @@ def error_of(scene: Scene, **setting: Any) -> float:
     run = simulate(scene, **setting)
     truth = simulate(scene, integrator="verner76", rtol=1e-12, t_end=setting["t_end"])
     return compare(np.asarray(truth["position"]), np.asarray(run["position"])).largest
-
-
-def thrown() -> Scene:
-    """Two bodies on pins that turn over: the smallest differences grow to all of the motion."""
-    scene = pendulum()
-    scene.add_body(name="second", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 1.0))
-    scene.add_joint(kind="revolute", name="p2", first="bob", second="second", point=(1, 0, 0), axis=(0, 1, 0))
-    return scene
 
 
 def stiff() -> Scene:

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 from multibody_runs import ramp
-from numpy.typing import NDArray
 
 from seacrane import Scene, cases, simulate
+from seacrane.arrays import Array
 from seacrane.inputs.frames import rotation_matrix
 
-Array = NDArray[np.float64]
 ROD = np.diag([0.3, 0.3, 0.02])  # about z
 PLATE = np.array([[2.0, 0.3, 0.1], [0.3, 1.5, 0.2], [0.1, 0.2, 2.2]])
 TILT = np.array([np.cos(0.3), 0.6 * np.sin(0.3), 0.8 * np.sin(0.3), 0.0])  # of all that is built

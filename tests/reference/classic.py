@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
+from scipy.special import ellipj
 
 from .rotation import Array
 
@@ -17,8 +19,6 @@ RTOL, ATOL = 1e-12, 1e-13
 
 def integrate(rate: Callable[[float, Array], Any], start: ArrayLike, times: ArrayLike) -> Array:
     """States (k, n) at the output times by DOP853 at tight tolerance, from t = 0."""
-    from scipy.integrate import solve_ivp
-
     t = np.asarray(times, dtype=float)
     solution = solve_ivp(
         rate, (0.0, float(t[-1])), np.asarray(start, dtype=float), "DOP853", t, rtol=RTOL, atol=ATOL,
@@ -64,8 +64,6 @@ def free_rotation(times: ArrayLike, inertia: Sequence[float], rates: Sequence[fl
 
     Landau & Lifshitz, Mechanics, section 37; the sign of 2 T I2 - L^2 decides which of w1 and w3 reverses.
     """
-    from scipy.special import ellipj
-
     i1, i2, i3 = inertia
     w1, _, w3 = rates
     t = np.asarray(times, dtype=float)

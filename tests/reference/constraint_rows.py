@@ -11,9 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy import vecdot as dot
 
 from .kinematics import Indices, VectorMotion
-from .rotation import Array, cross, dot, skew
+from .rotation import Array, cross, skew
 
 
 @dataclass

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy import vecdot as dot
 
 from .constraint_rows import ConstraintRows
 from .kinematics import BodyVectors, Motion, VectorMotion
-from .rotation import Array, cross, dot
+from .rotation import Array, cross
 
 
 @dataclass(frozen=True)

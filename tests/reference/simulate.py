@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
 
 from .kinematics import Motion
 from .rotation import Array, quaternions_from_matrices, skew
@@ -49,8 +50,6 @@ def simulate(
     The absolute tolerance is rtol / 100. The state is projected and the integrator restarted at multiples of
     `projection_interval` and at the breaks of curves.
     """
-    from scipy.integrate import solve_ivp
-
     wanted = np.asarray(times, dtype=float)
     memory = np.zeros(system.memory_states)
     y = pack(system.project(0.0, system.start, memory), memory)

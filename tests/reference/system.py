@@ -27,12 +27,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from .constraint_rows import ConstraintRows, RowValues
 from .forces import Actuators, PointForces
 from .joints import JointCoordinates, add_joint
 from .kinematics import BodyVectors, Motion, VectorMotion
-from .rotation import Array, cross, matrix_from_quaternion, nearest_rotation, rotation_exponential
+from .rotation import Array, cross, nearest_rotation
 from .vessel import Vessel, VesselLoads, WaveLoads
 
 
@@ -58,9 +59,10 @@ class System:
         self.mass = np.array([float(b["mass"]) for b in bodies])
         self.inertia = np.array([b["inertia"] for b in bodies], dtype=float).reshape(-1, 3, 3)
         at_rest = np.zeros((len(bodies) + 1, 3))
+        turned = [b["quaternion"] for b in bodies]
         self.start = Motion(
             np.array([*(b["position"] for b in bodies), np.zeros(3)], dtype=float),
-            np.array([*(matrix_from_quaternion(b["quaternion"]) for b in bodies), np.eye(3)]),
+            np.array([*Rotation.from_quat(np.roll(turned, -1, axis=1)).as_matrix(), np.eye(3)]),
             at_rest, at_rest.copy(),
         )  # fmt: skip
         self.vectors = BodyVectors()
@@ -168,7 +170,7 @@ class System:
             best = error
             steps = self.solve(mass, values, zero, -values.residual)[0].reshape(-1, 6)
             out.r[:-1] += steps[:, :3]
-            out.rotation[:-1] = rotation_exponential(steps[:, 3:]) @ out.rotation[:-1]
+            out.rotation[:-1] = Rotation.from_rotvec(steps[:, 3:]).as_matrix() @ out.rotation[:-1]
         if not error < 1e-7:
             raise ValueError(f"the joints do not close at t = {t} s: residual {error:.3g} m or rad")
         step = self.solve(mass, values, zero, -self.matrix(values) @ out.twists())[0].reshape(-1, 6)

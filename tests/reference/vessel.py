@@ -18,9 +18,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from .kinematics import BodyVectors, Motion, VectorMotion
-from .rotation import Array, angle_rate_matrix, cross, rotation_exponential, skew, yaw_pitch_roll
+from .rotation import Array, angle_rate_matrix, cross, skew
 
 WaveLoads = Callable[[float], Array]
 UP = np.array([0.0, 0.0, 1.0])
@@ -100,15 +101,15 @@ class Vessel:
 
     def displacement(self, x: VectorMotion) -> Array:
         """Surge, sway, heave from rest and roll, pitch, yaw of yaw-pitch-roll (6)."""
-        angles = yaw_pitch_roll(x.motion.rotation[self.body])
-        return np.concatenate([x.point(self.point) - self.rest, angles])
+        angles = Rotation.from_matrix(x.motion.rotation[self.body]).as_euler("ZYX")
+        return np.concatenate([x.point(self.point) - self.rest, angles[::-1]])
 
     def loads(self, t: float, x: VectorMotion, memory: Array) -> VesselLoads:
         """The added-mass inertia is returned, its velocity terms are part of the wrench."""
         lever, w = x.g[self.point], x.motion.w[self.body]
         eta = self.displacement(x)
         rates = angle_rate_matrix(eta[4], eta[5])
-        yaw = np.kron(np.eye(2), rotation_exponential(eta[5] * UP))
+        yaw = np.kron(np.eye(2), Rotation.from_rotvec(eta[5] * UP).as_matrix())
         twist = np.concatenate([x.point_velocity(self.point), w])
         angle_rates = rates @ w
         u = yaw.T @ twist

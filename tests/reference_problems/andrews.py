@@ -11,14 +11,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from reference.classic import integrate
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
 from .planar import add_body, add_pin, angles
 
-Array = NDArray[np.float64]
 START = np.array([
     -0.0617138900142764496358948458001, 0.0, 0.455279819163070380255912382449,
     0.222668390165885884674473185609, 0.487364979543842550225598953530, -0.222668390165885884674473185609,

@@ -14,13 +14,12 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from reference.jets import Jet
 from reference.mechanisms import JetVector, Moving, SingleCoordinate, add, fixed, inner, scale
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 GRAVITY = 9.81
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1], [0, 0, 1]], dtype=float)
 AXES = np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], dtype=float)

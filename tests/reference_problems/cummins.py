@@ -9,19 +9,18 @@ from __future__ import annotations
 
 import itertools
 from functools import cache
-from typing import Any
 
 import numpy as np
 from linear_scenes import reference_vessel
-from numpy.typing import NDArray
-from test_convolution import convolved
+from scipy.linalg import expm
+from test_convolution import fitted_kernel, with_kernel
 from test_vessel import moored, regular_wave
 
 from seacrane import Scene, State, linear_model, natural_modes, simulate
-from seacrane.hydro import shipped_database
+from seacrane.arrays import Array
+from seacrane.hydro import RetardationFunctions, shipped_database
 from seacrane.scene import Waves
 
-Array = NDArray[np.float64]
 AMPLITUDE, OMEGA = 1e-5, 0.7
 
 
@@ -33,19 +32,13 @@ def scene(memory: str = "states") -> Scene:
     """At rest in a regular wave that is there at once: memory by states, or convolved in steps of 0.05 s."""
     out = moored(shipped_database())
     if memory == "convolution":
-        by_convolution = convolved(0.05).vessels["vessel"]
-        vessel = out.vessels.pop("vessel")
-        names = ("added_mass", "linear_damping", "quadratic_damping", "restoring", "mooring_stiffness")
-        kept: dict[str, Any] = {name: getattr(vessel, name) for name in (*names, "mooring_damping")}
-        out.add_vessel(body="vessel", memory=by_convolution.memory, **kept)
+        out = with_kernel(out, RetardationFunctions(step=0.05, kernel=fitted_kernel(0.05)))
     out.waves = waves()
     return out
 
 
 def trapezoidal(step: float, t_end: float) -> Array:
     """Motions (k, 6) by the trapezoidal rule, in time and integral: errors in even powers of the step."""
-    from scipy.linalg import expm
-
     linear = reference_vessel(moored(shipped_database()))
     count = round(t_end / step)
     ahead, kernel = expm(linear.memory.a * step), np.zeros((count + 1, 6, 6))

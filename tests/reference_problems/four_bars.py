@@ -9,13 +9,14 @@ elliptic functions.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+from scipy.special import ellipj, ellipk
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
 from .planar import add_body, add_pin
 
-Array = NDArray[np.float64]
 GRAVITY, SPEED = 9.81, 1.0
 
 
@@ -45,8 +46,6 @@ def turned(loops: int, times: ArrayLike) -> tuple[Array, Array]:
     I a'' = G sin a with I = (N + 1) / 3 + N and G = g ((N + 1) / 2 + N): sin(b / 2) = sn(w t / 2, 4 G / (I
     w^2)) with b the angle from hanging and w its rate there.
     """
-    from scipy.special import ellipj, ellipk
-
     inertia, weight = (loops + 1) / 3.0 + loops, GRAVITY * (0.5 * (loops + 1) + loops)
     fastest = np.sqrt(SPEED**2 + 4.0 * weight / inertia)
     m = 4.0 * weight / (inertia * fastest**2)

@@ -8,11 +8,12 @@ Lagrange's equations in the angle of both rods and the slider's place, by SciPy.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 GRAVITY, DENSITY, BALL = 9.81, 3000.0, 5.0
 LENGTH, WIDTH, BLOCK, OFFSET = 1.0, 0.01, 0.1, 0.05  # rods and shaft, slider, hinges and springs off the axis
 STIFFNESS, DAMPING, NATURAL_LENGTH = 8.0e5, 4.0e4, 0.5
@@ -81,8 +82,6 @@ def rate(_: float, y: Array, momentum: float) -> list[float]:
 
 def solution(times: ArrayLike) -> Array:
     """Rods' angle and slider's height (k, 2), Radau at 1e-10."""
-    from scipy.integrate import solve_ivp
-
     t = np.asarray(times, dtype=float)
     momentum = (TURNING + 2.0 * rod_turning(HANGING)[0]) * SPIN
     start = [HANGING, SLIDER, 0.0, 0.0]

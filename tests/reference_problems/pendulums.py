@@ -7,13 +7,14 @@ horizontal, g = 9.81 m/s2.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+from scipy.special import ellipj, ellipk
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
 from .planar import add_body, add_pin
 
-Array = NDArray[np.float64]
 GRAVITY = 9.81
 
 
@@ -26,8 +27,6 @@ def scene() -> Scene:
 
 def place(times: ArrayLike) -> Array:
     """Place (x, z) of the mass (k, 2): sin(b / 2) = k sn(K - w t), k = sin(45 deg), w^2 = g / L."""
-    from scipy.special import ellipj, ellipk
-
     sn, _, _, _ = ellipj(ellipk(0.5) - np.sqrt(GRAVITY) * np.asarray(times, dtype=float), 0.5)
     angle = -2.0 * np.arcsin(np.sqrt(0.5) * sn)  # from hanging, towards +x positive
     return np.column_stack([np.sin(angle), -np.cos(angle)])

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 # Plane -> its two axes in space, and the axis about which positive angles turn the first into the second.
 PLANES = {"xy": np.array([[1.0, 0, 0], [0, 1.0, 0]]), "xz": np.array([[1.0, 0, 0], [0, 0, 1.0]])}
 

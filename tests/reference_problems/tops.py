@@ -11,12 +11,13 @@ Euler's equations near the intermediate axis, by elliptic functions (`reference.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from reference.classic import free_rotation
+from scipy.special import ellipj, ellipk, elliprf, elliprj
 
 from seacrane import Scene
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 GRAVITY, MASS = 9.81, 15.0
 INERTIA = np.array([0.234375, 0.46875, 0.234375])  # about the centre, 1 m from the tip along body y
 RATE = np.array([0.0, 150.0, -4.61538])  # rad/s, body axes, the top's axis level at the start
@@ -58,7 +59,6 @@ def momenta() -> tuple[float, float, float]:
 
 def third_kind(n: float, amplitude: Array, m: float) -> Array:
     """Legendre's incomplete elliptic integral Pi(n; amplitude | m), by Carlson's forms and whole periods."""
-    from scipy.special import elliprf, elliprj
 
     def within(angle: Array) -> Array:
         s, c = np.sin(angle), np.cos(angle)
@@ -78,8 +78,6 @@ def center(times: ArrayLike) -> Array:
     Hardly any momentum about the downward vertical is left here: the top swings through it, and its
     precession jumps by nearly pi, which quadrature of p - s u over 1 - u^2 would miss.
     """
-    from scipy.special import ellipj, ellipk
-
     above, m, speed = nutation()
     low = above - 1.0
     p, s, _ = momenta()

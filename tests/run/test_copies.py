@@ -15,42 +15,24 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_scene_file import every_kind
+from test_elements import every_load
 
 from seacrane import Curve, Result, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.hydro import two_barges
-from seacrane.scene import Chamber, Drive, FlowForce, Gas, Pump, Valve
 
 
 def all_kinds() -> Scene:
-    scene = every_kind()
-    scene.add_stop(joint="pin", maximum=2.0, restitution=0.1)
+    """And what has no other kind: channels of a user, limit states, lift factors, vessels in one water."""
+    scene = every_load()
     scene.add_friction(joint="pin", load=1.0 / 3.0, speed=0.1)
     scene.add_channel(joint="pin", minimum=-2.0, maximum=2.0)
     scene.add_limit_state(channel="position", maximum=9.0, names={"body": "hull"})
-    scene.add_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
-    gas = Gas(area=0.1, pressure=1e5, volume=3.0, length=0.7)
-    scene.add_spring(name="passive", first="hull", second="arm", gas=gas)
-    scene.add_hydraulic_cylinder(
-        name="ram", first="hull", second="arm", full_area=0.1, rod_side_area=0.07, retracted_length=0.5,
-        stroke=9.0, chamber=Chamber(pressure=1e6 / 3.0), rod_chamber=Chamber(pressure=1e5), command=0.1,
-        pump=Pump(pressure=1e7), valve=Valve(rated_flow=0.1, gain=1.0 / 3.0),
-    )  # fmt: skip
-    scene.add_heave_compensation(name="active", body="hull", lag=1.0 / 3.0, drive=Drive(maximum_rate=0.7))
-    scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 1.0 / 3.0))
     scene.add_channel("gap", points="corner", center=(1.0, 2.0, 1.0 / 3.0), size=(3.0, 0.0, 1.0))
     scene.add_channel("itself", expression="corner.x in hull")
     scene.add_channel(name="drop", expression="corner.z - hull.z")
     scene.add_limit_state(channel="constraint_error", maximum=1e-6)
     scene.add_line("rated", "hull", "arm", EA=1e6, length=1.0, breaking_load=1e5, safety_factor=5.0)
     scene.add_lift_factors("arm", weight_contingency=1.0 + 1.0 / 3.0)
-    scene.add_mesh(body="hull", vertices=np.eye(3), faces=[[0, 1, 2]])
-    angles = np.linspace(-np.pi, np.pi, 8, endpoint=False)
-    scene.add_load(
-        FlowForce(name="wind", body="hull", point=(0, 0, 1), density=1.2, speed=Curve.constant(value=9.0),
-                  direction=0.3, frontal_area=10.0, lateral_area=20.0, length=30.0, angles=angles,
-                  coefficients=np.cos(np.outer(angles, [1, 2, 3])))
-    )  # fmt: skip
     scene.add_vessel(two_barges(lid_damping=0.03), names=["crane barge", "feeder barge"])
     return scene
 

@@ -56,7 +56,6 @@ def slack_angle() -> float:
     return float(np.arccos((2.0 * GRAVITY * LENGTH - FIRST_SPEED**2) / (3.0 * GRAVITY * LENGTH)))
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_pendulum_goes_slack_at_the_closed_form_angle_and_follows_scipy(formulation: str) -> None:
     """The first release by the energy integral up to the angle, the rest by SciPy."""
     result = simulate(pendulum(), t_end=4.0, dt_out=0.02, rtol=1e-10, formulation=formulation)

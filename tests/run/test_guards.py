@@ -7,8 +7,10 @@ import re
 from pathlib import Path
 from typing import Any
 
+import named
 import numpy as np
 import pytest
+from named import on_joint
 
 from seacrane import Result, Run, Scene, SceneError, SimulationError, State, _core, simulate
 from seacrane._core import integrators
@@ -33,14 +35,11 @@ def fails_later(t: float, state: Any, parameters: Any, wrench: Any) -> None:
 
 def slide(stiffness: float) -> Scene:
     """A box of 1 kg on a slide, held by a stiff actuator: an oscillator of sqrt(stiffness) rad/s."""
-    scene = Scene(name="slide")
-    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1], velocity=(0.1, 0, 0))
-    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
+    scene = on_joint("box", velocity=(0.1, 0, 0))
     scene.add_actuator(name="hold", joint="rail", stiffness=stiffness)
     return scene
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept(formulation: str) -> None:
     scene = Scene(name="box")
     scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1])
@@ -105,9 +104,7 @@ def test_a_run_that_one_fast_mode_makes_slow_tells_the_mode_and_the_body(integra
 
 
 def pendulum() -> Scene:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="rod", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0, 0))
-    scene.add_joint("pin", kind="revolute", first="ground", second="rod", point=(0, 0, 0), axis=(0, 1, 0))
+    scene = named.pendulum()
     scene.add_channel(joint="pin")
     return scene
 
@@ -176,6 +173,6 @@ def test_a_link_that_pushes_warns_once(tmp_path: Path) -> None:
 def test_an_angle_that_passes_half_a_turn_warns() -> None:
     scene = pendulum()
     simulate(scene, t_end=0.5)
-    scene.replace("rod", kind="body", angular_velocity=(0, 10, 0), velocity=(0, 0, -10))
+    scene.replace("bob", kind="body", angular_velocity=(0, 10, 0), velocity=(0, 0, -10))
     with pytest.warns(FullTurnWarning, match="'pin': passes 180 deg"):
         simulate(scene, t_end=2.0)

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from named import pendulum
 
 from seacrane import Result, SampledController, Scene, SceneError, SimulationError, simulate
 
@@ -20,15 +21,8 @@ LONG = 1e6  # s of simulated time: hours
 
 SETUP = """
 import json, os, signal, sys, threading, time
-from seacrane import SampledController, Scene, cases, simulate
-
-def pendulum():
-    scene = Scene()
-    scene.add_body(name="bob", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0.0, 0.0))
-    scene.add_joint(kind="revolute", name="pin", first="ground", second="bob",
-                    point=(0, 0, 0), axis=(0, 1, 0))
-    scene.add_actuator(name="motor", joint="pin")
-    return scene
+from named import pendulum
+from seacrane import SampledController, cases, simulate
 
 def interrupt_soon():
     started.wait()
@@ -37,6 +31,7 @@ def interrupt_soon():
 
 started, more = threading.Event(), None
 scene, waves = pendulum(), cases.case2()
+scene.add_actuator(name="motor", joint="pin")
 threading.Thread(target=interrupt_soon, daemon=True).start()
 """
 REPORT = """
@@ -129,9 +124,7 @@ def ball_on_a_pin() -> Scene:
 
 def diverging() -> Scene:
     """A hinge on a spring that one step of rk4 cannot resolve."""
-    scene = Scene()
-    scene.add_body(name="bob", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0.0, 0.0))
-    scene.add_joint("pin", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
+    scene = pendulum()
     scene.add_actuator(name="motor", joint="pin", stiffness=60.0)
     return scene
 

@@ -12,6 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import named
 import numpy as np
 import pytest
 
@@ -24,9 +25,7 @@ REFUSED, FULL = 3, 4  # how a writer ends
 
 
 def pendulum(stiffness: float = 0.0) -> Scene:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
-    scene.add_joint("pin", kind="revolute", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
+    scene = named.pendulum(mass=2.0)
     scene.add_actuator(name="motor", joint="pin", stiffness=stiffness)
     return scene
 

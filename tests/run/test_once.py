@@ -44,8 +44,7 @@ def held(rung: str = "auto") -> Scene:
 
 def run(scene: Scene, **given: Any) -> tuple[Result, Told]:
     """A short run, and what it warned of."""
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as told:
         result = simulate(scene, **(SHORT | given))
     return result, [(one.category, str(one.message), one.lineno) for one in told]
 

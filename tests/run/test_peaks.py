@@ -33,7 +33,6 @@ def largest(result: sc.Result, channel: str = "line_tension") -> np.ndarray:
     return np.asarray(result.reached(channel)[1]).max(axis=0)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize("fall", [0.0, 0.05, 1.0])
 def test_a_stiff_line_reaches_its_peak_in_closed_form(formulation: str, fall: float) -> None:
     """And the acceleration, where it is asked for."""
@@ -133,7 +132,6 @@ def test_a_run_that_goes_on_between_outputs_keeps_what_came_before() -> None:
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_rod_at_the_bottom_of_its_swing_and_a_driver_reach_what_they_carry(
     formulation: str, way: float
 ) -> None:
@@ -160,7 +158,6 @@ def test_a_rod_at_the_bottom_of_its_swing_and_a_driver_reach_what_they_carry(
     assert result["tension"].max() < 0.99 * result.reached("tension")[1].max()
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_what_is_evaluated_or_made_anew_reaches_its_peak(formulation: str) -> None:
     """A pendulum falls from the horizontal."""
     inertia, scene = 1e3, sc.Scene(name="pendulum", gravity=GRAVITY)

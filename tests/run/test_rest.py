@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from named import on_wire
 from random_rests import Builder
 
 import seacrane as sc
@@ -31,14 +32,6 @@ def hung(*, slack: float, driven: float) -> Scene:
     return scene
 
 
-def on_a_hoist(name: str) -> Scene:
-    """10 t on a line of their weight."""
-    scene = Scene(name=name)
-    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
-    scene.add_line("hoist", first="ground", second="load", EA=1e7, tension_at_start=1e4 * G)
-    return scene
-
-
 def moved(scene: Scene, duration: float = 60.0) -> float:
     """How far a body, or a point 1 m from it, comes in a run from rest, m."""
     result = simulate(scene, duration, start=equilibrium(scene), dt_out=1.0)
@@ -53,8 +46,7 @@ MANY = pytest.mark.slow("hundreds of random rests")
 @pytest.mark.parametrize("seed", [pytest.param(n, marks=MANY if n % USUAL else []) for n in range(EVERY)])
 def test_a_rest_lasts_or_is_told_not_to(seed: int) -> None:
     """A scene without rest, as of winches that chase each other, is refused and still moves after minutes."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         try:
             far = moved(Builder(seed).scene)
         except SceneError as refused:
@@ -90,7 +82,7 @@ def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
 @pytest.mark.parametrize("slack", [-0.01, 0.01, 0.5])
 @pytest.mark.parametrize("lag", [0.0, 0.2])
 def test_a_tugger_holds_its_tension_at_rest(slack: float, lag: float) -> None:
-    scene = on_a_hoist("tugged")
+    scene = on_wire(mass=1e4, EA=1e7)
     scene.add_line("tug", first="ground", first_point=(8, 0, -10), second="load", EA=2e5, length=8.0 + slack)
     scene.add_winch(line="tug", tension=10e3, tension_gain=1e-5, maximum_rate=1.0, lag=lag)
     result = simulate(scene, 5.0, start=equilibrium(scene))
@@ -101,7 +93,7 @@ def test_a_tugger_holds_its_tension_at_rest(slack: float, lag: float) -> None:
 def test_a_rest_that_grows_is_told_of_and_how_fast() -> None:
     """Two parallel taglines of constant tension turn a load away: k = -2 T arm (1 + arm / length)."""
     arm, tension, length, inertia = 1.0, 500.0, 20.0, 5e4
-    scene = on_a_hoist("taglines")
+    scene = on_wire(mass=1e4, EA=1e7)
     scene.replace("load", kind="body", inertia=np.diag((inertia,) * 3))
     for i, side in enumerate((-1.0, 1.0)):
         ends = {"first_point": (-side * length, 0, -10), "second_point": (side * arm, 0, 0)}

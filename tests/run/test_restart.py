@@ -7,20 +7,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from multibody_runs import slider_crank
-from numpy.typing import NDArray
-from reference.classic import Link
-from reference.mechanisms import SliderCrank
+from multibody_runs import CRANK, slider_crank
 
 from seacrane import Curve, Run, Scene, State, cases
 from seacrane._core import StepHistory
+from seacrane.arrays import Array
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
-Array = NDArray[np.float64]
 NONE = StepHistory(formulation="", integrator="", values=[], rate=[])
-CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
 STOP, END = 0.73, 1.5
 
 

@@ -58,7 +58,6 @@ def test_random_scenes_with_limits_go_on_bit_for_bit(seeds: Iterable[int], tmp_p
         assert told == {}, seed
 
 
-@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
 @pytest.mark.parametrize("stop", [0.75, 1.0])  # an output; an output at a sample of the history
 def test_a_convolution_goes_on_to_the_bit_in_every_channel(
     formulation: str, stop: float, tmp_path: Path

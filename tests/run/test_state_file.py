@@ -11,15 +11,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from test_restart import SCENES
 
 from seacrane import FileFormatError, Result, Run, Scene, SceneError, State, _core, cases, simulate
+from seacrane.arrays import Array
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
-Array = NDArray[np.float64]
 STOP, END = 0.43, 0.9
 CHANNELS = ["position", "quaternion", "energy_balance", "constraint_error_before_projection"]
 STEPS = {1: 1e-3, 2: 5e-3, 4: 0.02}  # s, by order
@@ -95,7 +94,6 @@ class _Stop(Exception):
 SLOW = pytest.param({"integrator": "rk4", "dt": 1e-3}, marks=pytest.mark.slow("thousands of steps"))
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 @pytest.mark.parametrize("method", [{"rtol": 1e-11}, SLOW])
 def test_a_run_stopped_at_any_step_goes_on(method: Any, formulation: str, tmp_path: Any) -> None:
     """Nothing lands on the checkpoint; long enough for the loop to ask on any machine."""

@@ -32,8 +32,7 @@ def module(*, height: float = -5.0, size: Any = (6, 4, 4), **hoist: Any) -> sc.S
 
 
 def told(run: Callable[[], Any]) -> dict[str, str]:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         run()
     return {one.category.__name__: str(one.message) for one in caught}
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import runpy
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -76,12 +76,9 @@ def test_channels_recorded_alone_are_those_of_a_run_that_records_all() -> None:
 
 
 def test_the_documented_table_is_current() -> None:
-    spec = importlib.util.spec_from_file_location("channel_table", TOOL)
-    assert spec is not None and spec.loader is not None
-    made = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(made)
-    text = made.DOCUMENT.read_text(encoding="utf-8")
-    assert text == made.current(text), "run python tools/channel_table.py"
+    made = runpy.run_path(str(TOOL))
+    text = made["DOCUMENT"].read_text(encoding="utf-8")
+    assert text == made["current"](text), "run python tools/channel_table.py"
 
 
 def box() -> Scene:

@@ -73,8 +73,7 @@ def test_every_truncation_is_noticed(name: str, tmp_path: Path) -> None:
     place = re.escape(target.file) + (r", line \d+" if name in WHOLE else "")
     for kept in range(len(lines) - (0 if name in WHOLE else OTHER_DAMPING)):
         (tmp_path / target.file).write_bytes(b"".join(lines[:kept]))
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
+        with warnings.catch_warnings(record=True, action="always") as caught:
             try:
                 target.read(tmp_path / target.file)
             except FileFormatError as error:

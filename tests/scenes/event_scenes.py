@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 from named import on_joint
-from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
 
 from seacrane import Curve, Scene
+from seacrane.arrays import Array
 
-Array = NDArray[np.float64]
 GRAVITY = 9.80665
 HEIGHT, MASS, INERTIA = 2.0, 3.0, (0.1, 0.2, 0.3)
 LENGTH, FIRST_SPEED = 2.0, 8.0  # of the pendulum: enough to leave the circle, too little to go round
@@ -38,7 +38,6 @@ def pendulum(restitution: float = 0.0, **wire: Any) -> Scene:
 
 def scipy_pendulum(times: Array, restitution: float) -> tuple[Array, list[float]]:
     """Positions (n, 2) of the same ball by SciPy, in polar and Cartesian coordinates by turns, and events."""
-    from scipy.integrate import solve_ivp
 
     def tension(_: float, y: Array) -> Any:
         return y[1] ** 2 * LENGTH + GRAVITY * np.cos(y[0])

@@ -8,19 +8,18 @@ from pathlib import Path
 import h5py
 import numpy as np
 import xarray
-from test_hydro_nemoh import control
+from test_hydro_nemoh import control, write_hydrostatics, write_tables
 
-from seacrane.hydro import HydroDatabase, HydroGroup, shipped_database
-from seacrane.sea.dispersion import wavenumber
+from seacrane.hydro import HydroGroup, shipped_database
 
 MOTIONS = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 FEEDER = (6.0, 38.0, -1.5)  # m, reference point of the second hull
 HEIGHT = 1.5  # m, of the first one's reference point above the still waterline
 
 
-def written_pair(*, heading: float = 0.0, hull: HydroDatabase | None = None) -> HydroGroup:
+def written_pair(*, heading: float = 0.0) -> HydroGroup:
     """A hull twice, with coupling blocks of any numbers, so that no transposition goes unseen."""
-    hull = hull or shipped_database().select(every=8, every_heading=3)
+    hull = shipped_database().select(every=8, every_heading=3)
     pair = HydroGroup.from_databases(databases={"crane": hull, "feeder": hull},
                                      positions={"crane": (0.0, 0.0, HEIGHT), "feeder": FEEDER},
                                      headings={"feeder": heading}, name="pair")  # fmt: skip
@@ -87,30 +86,10 @@ def nemoh_folder(group: HydroGroup, folder: Path) -> Path:
         bodies += body_lines
     text = [*head, "10. -4. ! XEFF YEFF", "--- Bodies ---", f"{len(group)} ! Number of bodies", *bodies]
     (folder / "Nemoh.cal").write_text("\n".join(text) + "\n")
-    radiation = ['VARIABLES="w (rad/s)"']
-    for j in range(6 * len(group)):
-        radiation.append(f'Zone t="Motion of body {j // 6 + 1} in DoF {j % 6 + 1}",F=POINT')
-        for i, omega in enumerate(group.omega):
-            pairs = np.stack([group.added_mass[i, :, j], group.damping[i, :, j]], axis=1).ravel()
-            radiation.append(" ".join(f"{value:.12E}" for value in (omega, *pairs)))
-    (folder / "Results" / "RadiationCoefficients.tec").write_text("\n".join(radiation) + "\n")
-    waves = ['VARIABLES="w (rad/s)"']
-    k = wavenumber(group.omega, g=group.g, depth=np.inf)
-    for heading, forces in zip(group.heading, group.force, strict=True):
-        waves.append(f'Zone t="Excitation force - beta = {np.degrees(heading):.8f} deg",F=POINT')
-        along = 10.0 * np.cos(heading) - 4.0 * np.sin(heading)
-        for omega, force in zip(group.omega, np.conj(forces * np.exp(1j * along * k)[:, None]), strict=True):
-            pairs = np.stack([np.abs(force), np.angle(force)], axis=1).ravel()
-            waves.append(" ".join(f"{value:.12E}" for value in (omega, *pairs)))
-    (folder / "Results" / "ExcitationForce.tec").write_text("\n".join(waves) + "\n")
+    write_tables(group, folder / "Results", (10.0, -4.0), old=False)
     for i, body in enumerate(group.bodies):
-        np.savetxt(folder / "Mesh" / f"Kh_{i}.dat", body.restoring, fmt="%.12E")
-        lines = [
-            f"{axis}F = 0.0 - {axis}G = {at:7.4f}" for axis, at in zip("XYZ", body.position, strict=True)
-        ]
         volume = body.mass_matrix[0, 0] / group.rho
-        text = "\n".join([*lines, f"Displacement = {volume:.10E}\n"])
-        (folder / "Mesh" / f"Hydrostatics_{i}.dat").write_text(text)
+        write_hydrostatics(folder / "Mesh", f"_{i}", body.restoring, body.position, volume)
     return folder
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
+from seacrane.arrays import Array
 from seacrane.scene import Drive
 
-Array = NDArray[np.float64]
 G = 9.80665
 TIP, ROPE = 20.0, 15.0  # m
 MASS, STIFFNESS = 2e3, 5e7  # kg, N

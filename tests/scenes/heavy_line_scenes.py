@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
 from seacrane.scene import spline_curve
 from seacrane.sea import Current
 
-Array = NDArray[np.float64]
 G = 9.80665
 EA, MASS, LENGTH, RATIO = 1e8, 100.0, 900.0, 0.02  # N, kg/m, m: of the line that heaves
 HEAVE, PERIOD = 1.0, 12.0  # m, s

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.hydro import OffsetTable
 
-Array = NDArray[np.float64]
 Mesh = tuple[Array, NDArray[np.int64]]
 
 

@@ -6,15 +6,14 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import Curve, Scene
+from seacrane.arrays import Array
 from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.inputs.values import flat
 from seacrane.scene import Chamber, Oil, Piston, Pump, Valve
 
-Array = NDArray[np.float64]
 G = 9.80665
 MASS = 1000.0  # kg
 BORE, ROD = 0.08, 0.035  # m

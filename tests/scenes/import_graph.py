@@ -6,7 +6,11 @@ import ast
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
+
+import numpy as np
+from scipy.sparse.csgraph import connected_components
 
 
 @dataclass(frozen=True)
@@ -90,30 +94,12 @@ def _inside(
 
 
 def circles(arrows: Mapping[str, set[str]]) -> list[list[str]]:
-    """Sets of nodes that reach each other (Tarjan 1972), each sorted."""
-    number: dict[str, int] = {}
-    lowest: dict[str, int] = {}
-    path: list[str] = []
-    found: list[list[str]] = []
-
-    def visit(node: str) -> None:
-        number[node] = lowest[node] = len(number)
-        path.append(node)
-        for other in arrows.get(node, ()):
-            if other not in number:
-                visit(other)
-            if other in path:
-                lowest[node] = min(lowest[node], lowest[other])
-        if lowest[node] == number[node]:
-            at = path.index(node)
-            if len(path) - at > 1:
-                found.append(sorted(path[at:]))
-            del path[at:]
-
-    for node in list(arrows):
-        if node not in number:
-            visit(node)
-    return found
+    """Sets of nodes that reach each other, each sorted."""
+    nodes = sorted({*arrows, *chain(*arrows.values())})
+    graph = np.array([[other in arrows.get(node, ()) for other in nodes] for node in nodes])
+    count, part = connected_components(graph, connection="strong")
+    parts = [[node for node, one in zip(nodes, part, strict=True) if one == i] for i in range(count)]
+    return [one for one in parts if len(one) > 1]
 
 
 def arrows_between_rooms(folder: Path) -> dict[str, set[str]]:

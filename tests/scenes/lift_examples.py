@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import re
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from seacrane import Curve, FlowCoefficients, Frame, Scene
+from seacrane import Curve, FlowCoefficients, Frame, Lift, Scene
 from seacrane.description.hydraulic_cylinders import VALUES
 from seacrane.hydro import BoxPart, Compartment, Opening, SpherePart
 from seacrane.lift.tables import TABLES
 from seacrane.scene import gust_curve, heave, spline_curve, springs
+
+
+def lift_of(text: str, folder: Path, name: str = "my_lift.toml") -> Lift:
+    (folder / name).write_text(text, encoding="utf-8")
+    return Lift.load(folder / name)
+
 
 HEAD = 'format = "seacrane lift"\nversion = 2\n'
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
 
-Array = NDArray[np.float64]
 G = 9.80665
 MASS, STIFFNESS = 20e3, 3e6  # kg, N/m: of the load and of the line at its start
 
@@ -52,21 +50,32 @@ def on_deck() -> Scene:
     return scene
 
 
-def reeved() -> Scene:
-    """A swinging arm that carries a block, a tackle of two falls below it, and a tugger on a third body."""
-    scene = Scene(name="reeved")
+SWINGING_WINCH: dict[str, Any] = {
+    "rate": Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.5, omega=2.1), "maximum_rate": 0.4,
+    "maximum_acceleration": 0.6, "lag": 0.15,
+}  # fmt: skip
+
+
+def on_arm(load: tuple[float, float, float]) -> Scene:
+    """A swinging arm that carries a block, and a load at a place."""
+    scene = Scene(name="on arm")
     scene.add_body(name="arm", mass=800.0, inertia=(50.0, 900.0, 900.0), position=(2.0, 0.0, 0.0))
     scene.add_joint(kind="revolute", name="pin", first="ground", second="arm", point=(0, 0, 0),
                     axis=(0, 1, 0))  # fmt: skip
     scene.add_actuator(joint="pin", stiffness=4e6, damping=3e5)
     scene.add_body(name="cleat", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(3.5, 0.0, 0.2))
     scene.add_joint(kind="weld", name="bolts", first="arm", second="cleat", point=(3.5, 0, 0))
-    scene.add_body(name="load", mass=1500.0, inertia=(200.0, 250.0, 300.0), position=(4.2, 0.1, -5.0))
+    scene.add_body(name="load", mass=1500.0, inertia=(200.0, 250.0, 300.0), position=load)
+    return scene
+
+
+def reeved() -> Scene:
+    """A tackle of two falls below the arm's block, and a tugger on a third body."""
+    scene = on_arm((4.2, 0.1, -5.0))
     scene.add_line(name="hoist", bodies=["ground", "cleat", "load", "cleat"],
                    points=[(0.0, 0.0, 2.0), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.4, 0.2, 0.1)], EA=3e6,
                    length=13.4, damping_ratio=0.05)  # fmt: skip
-    scene.add_winch(line="hoist", rate=Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.5, omega=2.1),
-                    maximum_rate=0.4, maximum_acceleration=0.6, lag=0.15)  # fmt: skip
+    scene.add_winch(line="hoist", **SWINGING_WINCH)
     tugger = Curve.harmonic(start_time=0.0, offset=7.2, amplitude=0.1, omega=3.0)
     scene.add_line(name="tugger", bodies=["ground", "load"], points=[(10.0, 3.0, -5.0), (0.5, 0, 0)], EA=2e4,
                    length=tugger)  # fmt: skip

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from reference.linear_vessel import LinearVessel
 from reference.vessel import MemoryModel
 
@@ -12,8 +11,6 @@ from seacrane.analysis.rest_state import held
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
-
-Array = NDArray[np.float64]
 
 
 def reference_vessel(scene: Scene) -> LinearVessel:

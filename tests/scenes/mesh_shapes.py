@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.spatial import ConvexHull
 
-Array = NDArray[np.float64]
+from seacrane.arrays import Array
 
 
 def hull_of(points: ArrayLike) -> Array:

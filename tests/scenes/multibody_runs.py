@@ -5,17 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from reference.classic import Link
 from reference.jets import Jet
 from reference.mechanisms import SingleCoordinate, SliderCrank
 from reference.rotation import quaternions_from_matrices
 
 from seacrane import Curve, Run, Scene
+from seacrane.arrays import Array
 from seacrane.crane import Payload
 from seacrane.inputs.frames import rotation_matrix
 
-Array = NDArray[np.float64]
 ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
 # Stiffness and damping that give the stiffest coordinate of the crane a frequency of about 5 rad/s.
@@ -116,3 +115,15 @@ def momentum(scene: Scene, out: dict[str, Any]) -> tuple[Array, Array]:
     spin = np.einsum("knij,knj->kni", world_inertia(scene, out["quaternion"]), out["angular_velocity"])
     linear = m * out["velocity"]
     return linear.sum(axis=1), (spin + np.cross(out["position"], linear)).sum(axis=1)
+
+
+def struck(bob: float = 2.0) -> Scene:
+    """A cart that takes up 1.5 m/s at once, with a pendulum on it."""
+    scene = Scene(name="struck")
+    scene.add_body("cart", mass=3.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_joint("rail", kind="prismatic", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
+    runs = Curve.table([1.0, 4.0], [0.0, 4.5], between="linear")
+    scene.add_driver("rail", curve=Curve.constant(value=0.0).then(time=1.0, curve=runs))
+    scene.add_body("bob", mass=bob, inertia=(0.3, 0.3, 0.3), position=(0.2, 0.0, -1.0))
+    scene.add_joint("pin", kind="revolute", first="cart", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
+    return scene

@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Result, Run, Scene, SeacraneError, Stage, State, Until, shipped_database, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import BoxPart, CylinderPart, HydroGroup, Opening, PlatePart, SpherePart, two_barges
 from seacrane.scene import Oil, Piston
 from seacrane.sea.dispersion import wavenumber
 
-Array = NDArray[np.float64]
 G = 9.80665
 HALF = 0.5
 OIL = {"oil": Oil(modulus=1.2e9), "piston": Piston(viscous_friction=2e4, friction=0.0)}
@@ -288,8 +288,7 @@ def judged(seed: int) -> tuple[str, dict[str, str]]:
     """How the lift of a seed went, and by view what was wrong."""
     lift = drawn(seed)
     wrong = {}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         try:
             as_drawn = Lift(lift, AS_DRAWN).run()
         except SeacraneError as error:

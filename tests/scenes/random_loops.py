@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from random_scenes import CLOSING, KINDS, Shape, unit
 
 from seacrane import Scene
-
-Array = NDArray[np.float64]
+from seacrane.arrays import Array
 
 
 def shape_of(seed: int, *, most: int = 6, loops: int = 0, struts: int = 0) -> Shape:

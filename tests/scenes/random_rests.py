@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 from hydraulic_scenes import OF_CRANE, OIL, PARTS
-from numpy.typing import NDArray
 
 from seacrane import Scene
+from seacrane.arrays import Array
 from seacrane.scene import Chamber, Counterbalance, Piston, Tank
 
-Array = NDArray[np.float64]
 G = 9.80665
 SHIP = "vessel"
 AHEAD = np.array([1.0, 0.0, 0.0])

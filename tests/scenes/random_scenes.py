@@ -7,14 +7,13 @@ from typing import Any
 
 import joint_examples
 import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import Curve, Model, Scene
 from seacrane.analysis import Evaluator
+from seacrane.arrays import Array
 from seacrane.hydro import StateSpaceBlock
 from seacrane.inputs.frames import rotation_matrix
 
-Array = NDArray[np.float64]
 # All kinds, those first that hold something and let something go.
 KINDS = sorted(joint_examples.KINDS, key=lambda kind: joint_examples.KINDS[kind].rows in (0, 6))
 CLOSING = ["distance", "spherical", "universal", "cylindrical", "planar"]

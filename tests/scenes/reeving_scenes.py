@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from line_scenes import SWINGING_WINCH, on_arm
 
-from seacrane import Curve, Scene
+from seacrane import Scene
 from seacrane.description.line_path import path_length
 
-Array = NDArray[np.float64]
 G = 9.80665
 MASS, STIFFNESS = 20e3, 3e6  # kg, N: of the hook and of its line
 RADIUS, HEIGHT = 0.3, 8.0  # m: of sheaves, and of the crown above the hook
@@ -78,15 +77,7 @@ def capstan(*, turns: float = 0.0, friction: float = 0.1, rate: float = -0.5) ->
 def slewing(sheaves: Any = None, **change: Any) -> Scene:
     """An arm that swings, with a tackle of two falls over sheaves that lean out of its plane, a winch on the
     arm, friction, and a cord to the load."""
-    scene = Scene(name="slewing")
-    scene.add_body(name="arm", mass=800.0, inertia=(50.0, 900.0, 900.0), position=(2.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="arm", point=(0, 0, 0), axis=(0, 1, 0)
-    )
-    scene.add_actuator(joint="pin", stiffness=4e6, damping=3e5)
-    scene.add_body(name="cleat", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(3.5, 0.0, 0.2))
-    scene.add_joint(kind="weld", name="bolts", first="arm", second="cleat", point=(3.5, 0, 0))
-    scene.add_body(name="load", mass=1500.0, inertia=(200.0, 250.0, 300.0), position=(4.2, 0.3, -5.0))
+    scene = on_arm((4.2, 0.3, -5.0))
     sheaves = {
         "radii": [0, 0.2, 0.25, 0.2, 0],
         "axes": [(0, 0, 0), (0.0, 1.0, 0.1), (0.1, 1.0, 0.1), (0.2, -1.0, 0.1), (0, 0, 0)],
@@ -95,8 +86,7 @@ def slewing(sheaves: Any = None, **change: Any) -> Scene:
     scene.add_line(name="hoist", bodies=["ground", "arm", "cleat", "load", "cleat"], sheaves=sheaves,
                    points=[(0.0, 0.0, 0.0), (-0.5, 0.0, 0.8), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.9, 0.2,
                    0.1)], **{"EA": 3e6, "length": 14.75, "damping_ratio": 0.05} | change)  # fmt: skip
-    scene.add_winch(line="hoist", rate=Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.5, omega=2.1),
-                    maximum_rate=0.4, maximum_acceleration=0.6, lag=0.15)  # fmt: skip
+    scene.add_winch(line="hoist", **SWINGING_WINCH)
     scene.add_line(
         name="cord", bodies=["ground", "load"], points=[(10.0, 3.0, -5.0), (0.5, 0, 0)], length=5.0,
         strains=[0.0, 0.1, 0.3, 0.8], tensions=[0.0, 300.0, 700.0, 3000.0],

@@ -85,8 +85,7 @@ def lift_of(number: int) -> Lift:
 
 def word(number: int) -> SimpleNamespace:
     """What `accuracy=` promises on one lift, judged by two other methods at tighter tolerances."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         return _word(number)
 
 

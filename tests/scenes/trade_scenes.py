@@ -82,6 +82,14 @@ def random_chain(rng: np.random.Generator) -> Scene:
     return scene
 
 
+def thrown() -> Scene:
+    """Two bodies on pins that turn over: the smallest differences grow to all of the motion."""
+    scene = pendulum()
+    scene.add_body(name="second", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 1.0))
+    scene.add_joint(kind="revolute", name="p2", first="bob", second="second", point=(1, 0, 0), axis=(0, 1, 0))
+    return scene
+
+
 def promise(rng: np.random.Generator, *, t_end: float, grid: bool = True) -> SimpleNamespace:
     """Ask for a random accuracy of a random quantity, and compare with a tight run and, for cost, a grid."""
     scene = random_scene(rng)

@@ -12,11 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expi
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from seacrane.arrays import Array, Complex
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,24 +25,24 @@ class LewisSection:
     a3: float
     scale: float = 1.0
 
-    def outline(self, angle: FloatArray) -> ComplexArray:
+    def outline(self, angle: Array) -> Complex:
         """Points y + i z (m) at angles 0 (waterline) to pi / 2 (keel)."""
         zeta = np.exp(-1j * angle)
         return np.asarray(self.scale * (zeta + self.a1 / zeta + self.a3 / zeta**3))
 
-    def points(self, count: int) -> FloatArray:
+    def points(self, count: int) -> Array:
         """Half section (count + 1, 2) from waterline to keel."""
         z = self.outline(np.linspace(0.0, 0.5 * np.pi, count + 1))
         points = np.column_stack([z.real, z.imag])
         points[0, 1] = points[-1, 0] = 0.0
         return points
 
-    def slope(self, zeta: ComplexArray) -> ComplexArray:
+    def slope(self, zeta: Complex) -> Complex:
         """dz / dZ."""
         return self.scale * (1.0 - self.a1 / zeta**2 - 3.0 * self.a3 / zeta**4)
 
 
-def radiation(section: LewisSection, nu: float, terms: int = 20) -> ComplexArray:
+def radiation(section: LewisSection, nu: float, terms: int = 20) -> Complex:
     """Added mass + damping / (i omega), over density, (3, 3) in sway, heave, roll at the wavenumber nu."""
     node, weight = np.polynomial.legendre.leggauss(6 * terms)
     angle = 0.25 * np.pi * (node + 1.0)
@@ -65,9 +63,9 @@ def radiation(section: LewisSection, nu: float, terms: int = 20) -> ComplexArray
 
 
 def _basis(
-    section: LewisSection, zeta: ComplexArray, z: ComplexArray, normal: ComplexArray, nu: float, parity: int,
+    section: LewisSection, zeta: Complex, z: Complex, normal: Complex, nu: float, parity: int,
     terms: int,
-) -> tuple[ComplexArray, ComplexArray]:  # fmt: skip
+) -> tuple[Complex, Complex]:  # fmt: skip
     """Potentials and normal velocities (points, terms + 1); the imaginary part is that of exp(i omega t)."""
     w = 1j * nu * z
     wave, standing = np.exp(-w), np.exp(-w) * expi(w)

@@ -6,18 +6,16 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from seacrane import Scene, _core
+from seacrane.arrays import Array
 from seacrane.hydro import BoxPart, CylinderPart, PlatePart, SpherePart, TablePart
 from seacrane.hydro.parts.parts import Part
 from seacrane.run.lanes import module_of
 
-Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0
 EXACT: dict[str, Any] = {"integrator": "dop853", "rtol": 1e-11}
-FORMS = ("recursive", "redundant")
 ALIKE = {"position": 1e-7, "load_state": (1e-3, 1e-5)}  # in both formulations
 SWINGS = {"mass": 4000.0, "angular_velocity": (0.3, -0.2, 0.4), "velocity": (0.62, 0.97, 0.02)}
 

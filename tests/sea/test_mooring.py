@@ -8,15 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Lift, Scene, SceneError, linear_model
+from seacrane.arrays import Array
 from seacrane.description.outline import outline_of
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.scene import MooringSpring, mooring_matrix
 from seacrane.warnings import OwnMooringWarning
 
-Array = NDArray[np.float64]
 FOUR = [
     MooringSpring(point=(x, y, z), direction_deg=angle, stiffness=k)
     for x, y, z, angle, k in (

@@ -190,8 +190,7 @@ def test_a_current_along_the_waves_is_named_from_a_tenth_on(
     flow = scene.add_wind if density < 500.0 else scene.add_current
     at = {"speed": speed * G * 8.0 / (2.0 * np.pi), "direction_deg": direction_deg, "density": density}
     flow(coefficients=along, frontal_area=100.0, lateral_area=500.0, length=115.0, **at)
-    with warnings.catch_warnings(record=True) as seen:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as seen:
         simulate(scene, t_end=1.0)
     assert [one.category for one in seen].count(CurrentInWavesWarning) == told
 

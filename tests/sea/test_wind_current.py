@@ -7,16 +7,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Curve, FlowCoefficients, Scene, SceneError, _core, simulate
 from seacrane.analysis import Evaluator
+from seacrane.arrays import Array
 from seacrane.scene import gust_curve
 from seacrane.scene.wind_current import npd_spectrum
 from seacrane.sea import jonswap, realise_waves
 from seacrane.warnings import DoubleCountedDampingWarning
 
-Array = NDArray[np.float64]
 MASS = 2e6
 AREAS: dict[str, float] = {"frontal_area": 400.0, "lateral_area": 1500.0, "length": 100.0}
 

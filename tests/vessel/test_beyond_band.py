@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, response_statistics
+from seacrane.arrays import Array
 from seacrane.hydro import HydroDatabase, hydro_from_hull, natural_frequency, shipped_database
 from seacrane.hydro.hull.hull import shipped_hull
 from seacrane.inputs.frames import MOTIONS
@@ -19,7 +20,6 @@ from seacrane.sea import jonswap, realise_waves
 from seacrane.sea.dispersion import wavenumber
 from seacrane.warnings import BelowBandWarning
 
-Array = NDArray[np.float64]
 HEADINGS = np.radians([0.0, 30.0, 45.0, 75.0, 90.0, 135.0, 180.0])
 LENGTH, BREADTH, DRAUGHT, DEPTH = 60.0, 14.0, 4.0, 20.0
 
@@ -141,12 +141,10 @@ def test_what_is_below_the_band_is_named() -> None:
     at, scene = natural_frequency(strip(), 3), Scene()
     with pytest.warns(BelowBandWarning, match=rf"roll at {at:.3g} rad/s.*capytaine"):
         scene.add_vessel(strip(), memory="none")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", BelowBandWarning)
+    with warnings.catch_warnings(action="error", category=BelowBandWarning):
         Scene().add_vessel(replace(strip(), trusted_band=(0.3, 1.8)), memory="none")
     for tp, count in ((6.0, 0), (12.0, 2)):
-        with warnings.catch_warnings(record=True) as seen:
-            warnings.simplefilter("always")
+        with warnings.catch_warnings(record=True, action="always") as seen:
             scene.copy().add_sea(hs=2.0, tp=tp, direction_deg=90.0, seed=1)
             spectrum = jonswap(hs=2.0, tp=tp)
             response_statistics(scene, spectrum=spectrum, direction=0.5 * np.pi, body="vessel")

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from scipy.linalg import expm
 
 from seacrane import Curve, Result, Run, Scene, SceneError, State, cases, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import (
     HydroDatabase,
     RetardationFunctions,
@@ -25,15 +26,12 @@ from seacrane.hydro.memory.retardation import cosine_transform
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
-Array = NDArray[np.float64]
 CHANNELS = ["vessel_motion", "energy_balance", "absolute_work"]
 
 
 @cache
 def fitted_kernel(step: float, duration: float = 200.0) -> Array:
     """K of the shipped hull's per-pair models, C exp(A t) B."""
-    from scipy.linalg import expm
-
     out = np.zeros((round(duration / step) + 1, 6, 6))
     for block in vessel_parameters(shipped_database()).memory.blocks:
         ahead, states = expm(block.A * step), block.B.copy()
@@ -177,8 +175,7 @@ def driven_heave(database: HydroDatabase, omega: float) -> complex:
     """Force of a driver per metre of the heave that it prescribes, in the steady state, less inertia and
     restoring: i omega B - omega^2 A."""
     scene = Scene()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         scene.add_vessel(database, memory="convolution", mooring=None)
     scene.add_joint(kind="free", name="motion", first="ground", second="vessel")
     for motion in ("x", "y", "z", "roll", "pitch", "yaw"):

@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, _core, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 
-Array = NDArray[np.float64]
 TIMES = np.array([0.0, 3.3, 47.0, 600.0])
 
 

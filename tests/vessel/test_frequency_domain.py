@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 from linear_scenes import reference_vessel, rod
-from numpy.typing import NDArray
 from test_vessel import complex_amplitude, regular_wave
 
 from seacrane import (
@@ -28,11 +27,11 @@ from seacrane import (
 )
 from seacrane.analysis import response_summed
 from seacrane.analysis.rest_state import held
+from seacrane.arrays import Array
 from seacrane.hydro import motion_response, retardation_functions, shipped_database, vessel_parameters
 from seacrane.sea import jonswap
 from seacrane.statistics import gaussian_maximum
 
-Array = NDArray[np.float64]
 OMEGA = np.array([0.35, 0.45, 0.6, 0.8, 1.0, 1.3, 1.8])
 TIP = (10.0, -4.0, 12.0)
 
@@ -161,8 +160,7 @@ def test_the_vessel_alone_moves_as_the_databases_matrices_say(ship: str, shared:
     """The shipped hull; the supply ship's roll tanks, with the roll damping of the time domain; the tanker's
     mass matrix beyond that of a rigid body."""
     shipped = ship == "hull_115"
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         database = same = shipped_database() if shipped else load_database(shared / ship)
         scene = cases.vessel(database=database, hs=0.0, mooring=None, memory="convolution")
         if database.additional:

@@ -145,7 +145,6 @@ def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> 
     assert apart[1] == pytest.approx(apart[0], rel=1e-2)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
 def test_a_ship_at_rest_is_the_ground(formulation: str) -> None:
     still, runs = Scene(), []
     still.add_vessel(motion="rest")

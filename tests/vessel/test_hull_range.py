@@ -37,8 +37,7 @@ def moored(*, hs: float = 1.0, **vessel: Any) -> Scene:
 
 
 def told(scene: Scene, **settings: Any) -> tuple[Result, dict[type[Warning], str]]:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         result = simulate(scene, **{"t_end": 200.0, "dt_out": 0.5, **settings})
     return result, {w.category: str(w.message) for w in caught}
 
@@ -125,8 +124,7 @@ def lowered(
 
 
 def scattered(scene: Scene) -> list[str]:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings(record=True, action="always") as caught:
         Run(scene, 1.0)
     return [str(one.message) for one in caught if one.category is ScatteredWavesWarning]
 

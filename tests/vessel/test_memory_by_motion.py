@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Lift, Scene, cases, load_database, motion_rao, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import (
     HydroDatabase,
     MemoryModel,
@@ -29,8 +29,6 @@ from seacrane.hydro.vessel.parameters import growth_rate, time_domain_vessel
 from seacrane.scene.file import scene_digest
 from seacrane.sea import jonswap
 from seacrane.warnings import MemoryFitWarning
-
-Array = NDArray[np.float64]
 
 
 @cache

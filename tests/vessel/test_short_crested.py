@@ -9,17 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from veres_writer import VeresRun
 
 from seacrane import Scene, SceneError, cases, linear_model, motion_rao, response_statistics
 from seacrane.analysis import response_summed
+from seacrane.arrays import Array
 from seacrane.hydro import HydroDatabase, motion_response, read_veres, shipped_database
 from seacrane.hydro.data.motion import encounter_frequency
 from seacrane.sea import Spreading, cos_2s, cos_n, jonswap
 from seacrane.warnings import EncounterFrequencyWarning
 
-Array = NDArray[np.float64]
 SEA = jonswap(hs=2.0, tp=9.0)
 
 
@@ -79,8 +78,7 @@ def ship_at(speed: float, folder: Path) -> tuple[HydroDatabase, HydroDatabase]:
 
 
 def free(database: HydroDatabase, mooring: float | None) -> Scene:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         scene = Scene()
         scene.add_vessel(database, memory="convolution", mooring=mooring)
     return scene
@@ -109,8 +107,7 @@ def test_moments_are_those_of_the_spectrum_of_encounter(heading_deg: float, tmp_
     still, moving = ship_at(5.0, tmp_path)
     sea, heading = jonswap(hs=1.0, tp=7.0), np.radians(heading_deg)
     asked = {"database": moving, "direction": heading, "body": "vessel", "memory": "database"}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", EncounterFrequencyWarning)
+    with warnings.catch_warnings(action="ignore", category=EncounterFrequencyWarning):
         found = response_statistics(free(still, 60.0), spectrum=sea, **asked)
     omega = np.linspace(moving.omega[0], moving.omega[-1], 3001)
     rao = motion_rao(free(still, 60.0), omega=omega, **asked)

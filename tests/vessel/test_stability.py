@@ -78,8 +78,7 @@ def test_statics_tells_a_ship_that_capsizes_and_how_fast() -> None:
     for call in (scene.compile, lambda: simulate(scene, 0.1)):
         with pytest.warns(UnstableRestWarning, match="grows|'hull': has a GM of about -0"):
             call()
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", UnstableRestWarning)
+    with warnings.catch_warnings(action="error", category=UnstableRestWarning):
         light.compile()
         equilibrium(light)
 

@@ -9,17 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from scipy.optimize import fsolve
 
 from seacrane import Result, Scene, State, _core, balance, cases, equilibrium, load_database, simulate
+from seacrane.arrays import Array, Complex
 from seacrane.hydro import HydroDatabase, fit_memory, rigid_mass_matrix, shipped_database, vessel_parameters
 from seacrane.hydro.data.hydro_data import RollDamping
 from seacrane.hydro.data.motion import motion_response
 from seacrane.scene import HullLoads, Waves
 from seacrane.warnings import InfiniteFrequencyWarning, RollDampingWarning
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 G = 9.80665
 
 
@@ -81,11 +80,9 @@ def complex_amplitude(result: Result, omega: float, *, start: float) -> Complex:
     return np.asarray(cosine + 1j * sine)
 
 
-def steady_state(
-    database: HydroDatabase, scene: Scene, waves: Waves, *, t_end: float
-) -> tuple[Complex, Complex]:
+def steady_state(database: HydroDatabase, scene: Scene, waves: Waves) -> tuple[Complex, Complex]:
     """Simulated and expected complex motions in one regular wave."""
-    omega, scene.waves = waves.omega[0], waves
+    omega, scene.waves, t_end = waves.omega[0], waves, 500.0
     period = 2.0 * np.pi / omega
     result = simulate(scene, t_end=t_end, dt_out=period / 16.0, rtol=1e-10, channels=["vessel_motion"])
     found = complex_amplitude(result, omega, start=t_end - 4.0 * period)
@@ -100,7 +97,7 @@ def test_steady_state_in_a_regular_wave(omega: float, heading_deg: float) -> Non
     """All six motions, 1e-3 of amplitude asked for; measured below 1e-6."""
     database = shipped_database()
     waves = regular_wave(database, omega=omega, heading_deg=heading_deg, amplitude=1e-3, phase=0.4)
-    found, expected = steady_state(database, moored(database), waves, t_end=500.0)
+    found, expected = steady_state(database, moored(database), waves)
     assert np.all(np.abs(expected) > 1e-4 * waves.amplitude[0])
     np.testing.assert_array_less(np.abs(found - expected) / np.abs(expected), 1e-5)
 
@@ -110,8 +107,6 @@ def rest_under_vertical_force(database: HydroDatabase, point: Array, force: floa
 
     The generalised loads of the force are the derivatives of its point's height.
     """
-    from scipy.optimize import fsolve
-
     c = database.restoring[2:5, 2:5]
     x, y, z = point
 
@@ -215,8 +210,7 @@ def test_statics_and_balance_know_its_weight_and_files_it(floats: bool | None, t
 def supply(shared: Path) -> HydroDatabase:
     """With its memory per pair, as `cases` take it."""
     database = load_database(shared / "veres" / "supply")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", InfiniteFrequencyWarning)
+    with warnings.catch_warnings(action="ignore", category=InfiniteFrequencyWarning):
         return replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
 
@@ -261,8 +255,7 @@ def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, at: tuple[
 @pytest.mark.parametrize(("deg", "omega"), [(135.0, 0.45), (90.0, 0.70)])
 def test_regular_wave_returns_wamits_motion(shared: Path, deg: float, omega: float) -> None:
     """Of the tanker, by convolution, which has no fit, so that what is left is the files' own 1 %."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         tanker = load_database(shared / "wamit")
         scene = cases.vessel(database=tanker, hs=0.0, mooring=None, memory="convolution")
     heading = int(np.argmin(np.abs(np.degrees(tanker.heading) - deg)))

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, linear_model, motion_rao, natural_modes, simulate
 from seacrane.analysis import response_summed
 from seacrane.analysis.hull_range import gap_between, relative_findings
+from seacrane.arrays import Array
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
@@ -29,7 +29,6 @@ from seacrane.hydro.memory.certificate import independent_blocks
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.warnings import RelativePlaceWarning
 
-Array = NDArray[np.float64]
 MIRROR = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])  # about the plane between two hulls side by side
 FAR = 60.0  # m
 STEPS: dict[str, Any] = {"integrator": "rk4", "dt": 0.1}
@@ -96,8 +95,7 @@ def linear(group: HydroGroup) -> HydroGroup:
 
 
 def motion(scene: Scene, name: str, t_end: float = 20.0, **method: Any) -> Array:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         result = simulate(scene, t_end=t_end, dt_out=0.5, channels=["vessel_motion"], **method)
     return np.asarray(result["vessel_motion"])[:, list(scene.vessels).index(name)]
 
@@ -147,8 +145,7 @@ def test_a_free_pair_keeps_its_energy() -> None:
     for name, velocity in velocities.items():
         turning = (0.02, -0.01, 0.03)
         scene.replace(name, kind="body", velocity=velocity, angular_velocity=turning)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         result = simulate(scene, t_end=30.0, dt_out=1.0, rtol=1e-10, channels=["energy_balance"])
     speed = np.array([*velocities["a"]])
     energy = 0.5 * float(scene.bodies["a"].mass) * float(speed @ speed)
@@ -165,8 +162,7 @@ def test_small_waves_move_it_as_the_coupled_frequency_domain(body: str) -> None:
         model = linear_model(scene, vessel="a")
         centre = scene.bodies[body].center_of_mass
         summed = response_summed(model, body=body, point=centre)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             result = simulate(
                 scene, t_end=40.0, dt_out=1.0, rtol=1e-13, start=model.full_state(summed.state_at(0.0)),
                 channels=["position", "quaternion"],

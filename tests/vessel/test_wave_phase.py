@@ -9,17 +9,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from element_runs import goes_on
 
 from seacrane import Curve, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.analysis.hull_range import peak_frequency
+from seacrane.arrays import Array
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.scene import ByHeading, HullLoads, Waves
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
-Array = NDArray[np.float64]
 G = 9.80665
 CUTOFF = 0.5  # rad/s, of hulls that are driven: high, so that transients are short
 TIMES = np.array([0.0, 0.4, 17.3, 99.0, 1234.5])
@@ -219,16 +219,7 @@ def test_formulations_and_merging_agree() -> None:
     ("integrator", "formulation"), [("dopri5", "recursive"), ("rosenbrock", "redundant")]
 )
 def test_a_run_goes_on_bit_for_bit(integrator: str, formulation: str) -> None:
-    settings: dict[str, Any] = {"integrator": integrator, "formulation": formulation, "dt_out": 0.5}
-    whole = Run(afloat("slow"), t_end=8.0, **settings)
-    whole.advance(3.3)
-    left = whole.core.state
-    later = Run(afloat("slow"), t_end=8.0, start=left, **settings)
-    for going in (whole, later):
-        going.advance(8.0)
-    one, other = (np.array(going.core.state.values) for going in (whole, later))
-    assert not np.array_equal(one, left.values)
-    np.testing.assert_array_equal(one, other)
+    goes_on(lambda: afloat("slow"), 8.0, 3.3, dt_out=0.5, integrator=integrator, formulation=formulation)
 
 
 def test_files_keep_positions_and_actual_ones_have_no_filter_left(tmp_path: Path) -> None:

@@ -9,17 +9,16 @@ import pytest
 import wet_scenes as wet
 from element_runs import both_forms, goes_on
 from marks import needs_lanes
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
-from wet_scenes import EXACT, FORMS, RHO, G
+from wet_scenes import EXACT, RHO, G
 
 from seacrane import Scene, SceneError, _core, equilibrium, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import BoxPart, Compartment, CylinderPart, Opening
 from seacrane.scene import Waves
 from seacrane.sea import Current
 
-Array = NDArray[np.float64]
 ROUNDED = 1e-3  # m, the head over which the root is rounded off
 BOTTOM = ((0.0, 0.0, 0.0), 0.05)  # place and area of an opening
 AREA, HEIGHT, C_D = 3.0, 4.0, 0.62
@@ -180,7 +179,6 @@ def test_its_inertia_is_that_of_a_rod_from_the_bottom_to_the_surface() -> None:
     assert found == pytest.approx(expected, rel=1e-6, abs=1e-3)
 
 
-@pytest.mark.parametrize("formulation", FORMS)
 @pytest.mark.parametrize(("start", "current"), [(2.0, 0.0), (0.0, 1.2)])
 def test_water_that_comes_in_is_brought_up_to_speed(start: float, current: float, formulation: str) -> None:
     """Along a level guide momentum is that of body and water, and half of m' v^2 over the water is lost."""
@@ -202,7 +200,6 @@ def test_water_that_comes_in_is_brought_up_to_speed(start: float, current: float
 HOLES = (((0.0, 0.0, 0.1), 0.2), ((0.0, 0.0, 2.5), 0.1))
 
 
-@pytest.mark.parametrize("formulation", FORMS)
 def test_a_lift_out_of_the_water_is_that_of_the_same_equations(formulation: str) -> None:
     """Pulled out of the water from below by a force that just exceeds its weight with water."""
     scene = guided((0.0, 0.0, 1.0), -7.0)
@@ -278,7 +275,6 @@ def test_both_formulations_agree_and_the_ledger_closes(seed: int, air: str) -> N
 
 
 @pytest.mark.parametrize("air", ["free", "vented", "shut"])
-@pytest.mark.parametrize("formulation", FORMS)
 def test_a_run_continues_bit_for_bit(formulation: str, air: str) -> None:
     goes_on(lambda: hanging(1, air), 2.0, 0.97, integrator="dopri5", dt_out=0.1, formulation=formulation)
 

@@ -9,12 +9,12 @@ import pytest
 import wet_scenes as wet
 from element_runs import both_forms, goes_on
 from marks import needs_lanes
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
-from wet_scenes import EXACT, FORMS, RHO, G
+from wet_scenes import EXACT, RHO, G
 
 from seacrane import Scene, SceneError, _core, simulate
+from seacrane.arrays import Array
 from seacrane.description.elements import add_load
 from seacrane.hydro import BoxPart, CylinderPart, PlatePart, SpherePart, circle_added_mass, perforation_factor
 from seacrane.hydro.parts.parts import Part
@@ -22,7 +22,6 @@ from seacrane.run import Run
 from seacrane.scene import Waves
 from seacrane.sea import Current
 
-Array = NDArray[np.float64]
 SLICE: dict[str, Any] = {"length": 1.0, "diameter": 1.0, "drag": 0.0, "ends": ("joined", "joined")}
 
 
@@ -95,7 +94,6 @@ def test_strips_share_all_that_a_part_has(part: Part) -> None:
     assert np.mean([p.offset for p in strips], axis=0) == pytest.approx(np.zeros(3), abs=1e-12)
 
 
-@pytest.mark.parametrize("formulation", FORMS)
 def test_a_cylinder_that_is_dropped_falls_as_its_equation_says(formulation: str) -> None:
     """Half as heavy as water: depth, speed, and what slam took."""
     result = run(dropped(CylinderPart(**SLICE), mass=np.pi / 8.0 * 1000.0), 0.3, 0.01, formulation)
@@ -123,7 +121,6 @@ def test_touch_and_awash_are_events() -> None:
     assert told[0].time == pytest.approx((np.sqrt(4.0 + 2.0 * G * 0.1) - 2.0) / G, abs=1e-9)
 
 
-@pytest.mark.parametrize("formulation", FORMS)
 @pytest.mark.parametrize(
     ("part", "share"),
     [(SpherePart(diameter=2.0, drag=0.0), 0.5), (CylinderPart(length=2.0, diameter=1.0, drag=0.0), 1.0)],
@@ -326,7 +323,6 @@ def test_a_small_neutral_sphere_moves_as_the_water() -> None:
 
 
 @pytest.mark.warns(sometimes=["DragAxesWarning"])
-@pytest.mark.parametrize("formulation", FORMS)
 def test_a_body_in_a_current_moves_as_one_that_is_towed_through_still_water(formulation: str) -> None:
     """Relativity of Galileo: added mass, its moment, slam and drag see the speed over the water alone."""
     u, runs = np.array([1.3, -0.6, 0.0]), []
@@ -365,7 +361,6 @@ def test_both_formulations_agree_in_waves_and_the_ledger_closes(seed: int) -> No
 
 
 @pytest.mark.warns(sometimes=["DragAxesWarning"])
-@pytest.mark.parametrize("formulation", FORMS)
 def test_a_run_in_waves_continues_bit_for_bit(formulation: str) -> None:
     goes_on(lambda: in_a_sea(1), 2.0, 0.97, integrator="dopri5", dt_out=0.1, formulation=formulation)
 

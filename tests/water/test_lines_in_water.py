@@ -6,17 +6,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
-from wet_scenes import EXACT, FORMS, RHO, G
+from wet_scenes import EXACT, RHO, G
 
 from seacrane import Scene, _core, natural_modes, simulate
+from seacrane.arrays import Array
 from seacrane.description.elements import add_load
 from seacrane.result import heavy_line_tension
 from seacrane.sea import Current
-
-Array = NDArray[np.float64]
 
 
 def area(diameter: float) -> float:
@@ -50,7 +48,6 @@ def tossed(*, waves: bool = True) -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("formulation", FORMS)
 def test_a_line_in_a_current_moves_as_one_that_is_towed_through_still_water(formulation: str) -> None:
     """Relativity of Galileo: added mass, its moment, slam and drag see the speed over the water alone."""
     u, runs = np.array([1.3, -0.6, 0.0]), []
@@ -87,7 +84,6 @@ def test_a_line_that_sinks_takes_on_its_terminal_speed_as_its_equation_says(alon
         assert speed == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 
-@pytest.mark.parametrize("formulation", FORMS)
 def test_a_rod_that_moves_askew_turns_by_the_moment_of_munk(formulation: str) -> None:
     """A neutral rod of two masses beside the equations of Kirchhoff in a plane: momentum is kept."""
     length, mass, diameter, angle = 4.0, 30.0, 0.2, 0.3
@@ -236,7 +232,6 @@ def test_a_slack_line_is_described_where_it_rests(mass_per_length: float, top: f
         assert (inner.max() > top + 1.0) == (mass_per_length < RHO * area(0.08)), "it floats up"
 
 
-@pytest.mark.parametrize("formulation", FORMS)
 def test_a_span_between_bodies_that_move_as_one_has_its_water_too(formulation: str) -> None:
     """Two bodies that are welded, level and light: they rise by buoyancy over mass and added mass."""
     scene = Scene(name="raft", gravity=G)

@@ -14,17 +14,16 @@ import mesh_shapes
 import numpy as np
 import pytest
 from hull_shapes import stl
-from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 
 from seacrane import Scene, SceneError, simulate
+from seacrane.arrays import Array
 from seacrane.hydro import BoxPart, MeshPart, part_from_mesh
 from seacrane.hydro.parts import panel_added_mass, panel_workers
 from seacrane.hydro.parts.panel_added_mass import MeshShape, volumes_below
 from seacrane.warnings import MeshConvergenceWarning
 
-Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.MeshConvergenceWarning")  # coarse
 BOX = mesh_shapes.box((2.0, 1.0, 1.5))

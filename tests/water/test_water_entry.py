@@ -9,13 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from seacrane import _core
+from seacrane.arrays import Array
 from seacrane.hydro import circle_added_mass
 
-Array = NDArray[np.float64]
 WEDGE = {  # m/s at the times of the set
     "table with pile-up": [4.70, 3.95, 3.28, 2.77, 2.40, 2.12, 1.73],
     "table of the plate as broad as the level water": [4.87, 4.37, 3.81, 3.33, 2.93, 2.61, 2.15],

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import pytest
 from line_scenes import add_led
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from seacrane import (
@@ -31,6 +30,7 @@ from seacrane.analysis import drag_in_sea, equilibrium, linear_model, natural_mo
 from seacrane.analysis.drag_in_sea import drag_in_components, mean_slope
 from seacrane.analysis.parts_in_waves import PartsInWaves
 from seacrane.answers import statics, summary
+from seacrane.arrays import Array
 from seacrane.description.wet_parts import immersed_parts
 from seacrane.hydro import BoxPart, Compartment, CylinderPart, PlatePart, SpherePart, TablePart
 from seacrane.hydro.parts.added_mass import sphere_table
@@ -38,7 +38,6 @@ from seacrane.hydro.parts.parts import Part
 from seacrane.run import Stage, Until
 from seacrane.sea import Current, jonswap
 
-Array = NDArray[np.float64]
 G, RHO = 9.80665, 1025.0
 SIZE, FILL, MASS, EA = (4.0, 3.0, 2.0), 0.5, 40e3, 2e8  # m, -, kg, N
 DRY, LIFT = MASS * G, RHO * G * FILL * 24.0  # N: weight, and buoyancy of all of it

@@ -39,8 +39,7 @@ def recorded(name: str) -> Record:
     import bits.scenes  # noqa: F401  fills the list
 
     case = CASES[name]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         scene = case.build()
         kinds = sorted({kind_of(load) for load in all_loads(scene)})
         return {"loads": kinds, "runs": {label(method): _run(case, method) for method in case.methods}}

@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from seacrane.arrays import Array
 from seacrane.pictures.pose import hull_lines
 
-Array = NDArray[np.float64]
 INK, SHIP, GHOST, SEA = "0.15", "0.4", "0.72", "#0072B2"
 X_COLOUR, Y_COLOUR, Z_COLOUR = "#B3332F", "#2E7D32", "#1F4E9E"
 MOVED = "#D55E00"

@@ -10,6 +10,7 @@ import numpy as np
 from seacrane.arrays import Array
 from seacrane.crane.data import FREEDOMS, HOME, CraneData, JointData, Placed
 from seacrane.errors import SceneError
+from seacrane.hydro.data.rigid_mass import cross_matrix
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.plausible import angle_of
 from seacrane.one_thread import one_thread
@@ -95,7 +96,7 @@ def twists(joint: JointData, moved: Mapping[str, Placed]) -> list[Array]:
     axes += [] if joint.axis is None else [first.axes @ joint.axis]
     axes += [] if joint.second_axis is None else [second.axes @ joint.second_axis]
     at = first.point(joint.point)
-    return [np.column_stack([_cross(axis), -_cross(axis) @ at]) for axis in axes]
+    return [np.column_stack([cross_matrix(axis), -cross_matrix(axis) @ at]) for axis in axes]
 
 
 def gap_rates(data: CraneData, joints: Iterable[JointData], moved: Mapping[str, Placed]) -> Array:
@@ -177,14 +178,8 @@ def turned(vector: Array) -> Array:
     angle = float(np.linalg.norm(vector))
     if angle == 0.0:
         return np.eye(3)
-    across = _cross(vector / angle)
+    across = cross_matrix(vector / angle)
     return np.asarray(np.eye(3) + np.sin(angle) * across + (1.0 - np.cos(angle)) * (across @ across))
-
-
-def _cross(vector: Array) -> Array:
-    """The matrix (3, 3) of a cross product."""
-    x, y, z = vector.tolist()
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 def _crossing(joint: JointData) -> list[tuple[Array, Array]]:

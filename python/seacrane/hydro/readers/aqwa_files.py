@@ -144,7 +144,7 @@ def read_database(path: Path) -> Run:
         every: list[tuple[int, ...]] = []
         if len(told[name]) == np.prod(sizes):
             every = [tuple(at + 1 for at in place) for place in np.ndindex(*sizes)]
-        if set(every) != set(told[name]):
+        if not every or set(every) != set(told[name]):
             raise FileFormatError(
                 f"{path}: {name} holds {len(told[name])} records, and {' x '.join(map(str, sizes))} are "
                 "needed; the file is truncated or damaged"
