@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas
@@ -11,7 +13,7 @@ import pytest
 from lift_examples import HEAD
 
 import seacrane.answers
-from seacrane import FileFormatError, Lift, SceneError
+from seacrane import FileFormatError, Lift, Result, Scene, SceneError
 from seacrane.answers import (
     Cargo,
     Draught,
@@ -23,7 +25,7 @@ from seacrane.answers import (
 )
 from seacrane.cli.command_line import main
 from seacrane.lift.answer_keys import ANSWERS
-from seacrane.lift.answers_run import run_answers
+from seacrane.lift.answers_run import RUN, run_answers
 from seacrane.run.outputs import Outputs
 from seacrane.simulation import simulate
 
@@ -124,6 +126,29 @@ def test_a_file_gives_what_the_calls_give(tmp_path: Path, capsys: pytest.Capture
     assert held["fastening"].tolist() == ["box 1", "box 2", "box 3"]
     assert main(["answers", str(path), "--out", str(out)]) == 0
     assert capsys.readouterr().out.startswith("SIMULATED ABOVE THE CODE: dynamic factor.")
+
+
+def test_neither_a_stop_nor_an_answer_that_is_refused_loses_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = lift_in(tmp_path, ('deck = "load"', 'after_s = 20\ndeck = "load"')), tmp_path / "out"
+
+    def stopped(scene: Scene, t_end: float, **how: Any) -> Any:
+        return replace(simulate(scene, 0.5 * t_end, **how), interrupted=True)
+
+    with monkeypatch.context() as patched:
+        patched.setattr("seacrane.lift.answers_run.simulate", stopped)
+        assert main(["answers", str(path), "--out", str(out)]) == 130
+    assert "the same command goes on" in capsys.readouterr().err
+    assert Result.load(out / RUN).time[-1] == 5.0
+    assert main(["answers", str(path), "--out", str(out)]) == 1
+    assert "[deck_cargo]: deck_cargo: after is 20.0 s, past the last output" in capsys.readouterr().err
+    run_answers(lift_in(tmp_path), tmp_path / "whole")
+    here, whole = (pandas.read_csv(one / "fatigue.csv", index_col=0) for one in (out, tmp_path / "whole"))
+    pandas.testing.assert_frame_equal(here, whole, rtol=1e-6)
+    assert "SIMULATED ABOVE" in (out / "answers.html").read_text()
+    run_answers(lift_in(tmp_path, ("t_end_s = 10", "t_end_s = 5")), out)  # another run replaces it
+    assert Result.load(out / RUN).time[-1] == 5.0
 
 
 AGAIN = '{ channels = ["line_tension[wire]"], constant = 1, slope = 3 }'

@@ -68,7 +68,8 @@ class Asked:
             require_curves(scene, self.curves)
             if self.over:
                 require_same_sea(scene, self.over)
-            code: Any = self.call.make(**self._given(scene)) if self.simulated else None
+            given = self._given(scene)
+            code: Any = self.call.make(**given) if self.simulated else None
         for name, kept in self.simulated.items():
             own = scene.channels.get(kept.names.get("expression", ""))
             unit = unit_of(kept.channel, kept.names.values()) if own is None else own.unit

@@ -78,7 +78,8 @@ def run_sheet(
     if lift.sheet is None:
         raise SceneError(f"{Path(path).name} has no [sheet]; add it")
     target = made_folder(folder, FILE, (RUNS, *WRITTEN))
-    lift.save(target / FILE)
+    if not (target / FILE).exists():
+        lift.save(target / FILE)
     asked = lift.sheet
     scenes = load_cases(lift, asked)
     made = partial(
@@ -91,6 +92,7 @@ def run_sheet(
         if priced is not None and not priced(_price(made)):
             return None
         sheet = made()
+    lift.save(target / FILE)  # the runs are of it: those of another lift were refused
     if part is not None:
         if not stores_in(target):
             raise SceneError(f"part {part}: the sheet is known without runs; run it as one")
@@ -152,19 +154,21 @@ def stores_in(folder: Path) -> list[str]:
 def _answered(sheet: PhaseSheet, asked: Sheet, target: Path) -> SheetRun:
     """The sheet with what is held against it, written."""
     answers: dict[str, Answer] = {"Seas by phase": sheet}
-    for case in sheet.cases:
-        of = f" of {case}" if case else ""
-        if asked.forecast:
-            with refused_at(asked.entry, "forecast"):
-                answers[f"Forecast{of}"] = _held(go_or_no_go, sheet, case, **asked.forecast)
-        if asked.hindcast:
-            with refused_at(asked.entry, "hindcast"):
-                answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
-        if asked.scatter:
-            with refused_at(asked.entry, "scatter"):
-                answers |= _available(sheet, case, of, **asked.scatter)
-    sheet.to_csv(target / CSV)
-    answers_report(f"{sheet.name}: seas by phase", answers).save(target / PAGE)
+    try:
+        for case in sheet.cases:
+            of = f" of {case}" if case else ""
+            if asked.forecast:
+                with refused_at(asked.entry, "forecast"):
+                    answers[f"Forecast{of}"] = _held(go_or_no_go, sheet, case, **asked.forecast)
+            if asked.hindcast:
+                with refused_at(asked.entry, "hindcast"):
+                    answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
+            if asked.scatter:
+                with refused_at(asked.entry, "scatter"):
+                    answers |= _available(sheet, case, of, **asked.scatter)
+    finally:  # whatever it is held against, the sheet is known
+        sheet.to_csv(target / CSV)
+        answers_report(f"{sheet.name}: seas by phase", answers).save(target / PAGE)
     return SheetRun(sheet=sheet, answers=answers)
 
 
