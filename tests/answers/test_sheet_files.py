@@ -119,6 +119,7 @@ def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
         ('name = "hanging"\nhours = 1', 'name = "hanging"\nhours = -1', "hours"),
         ("lead_hours = 3", "lead_h = 3", "nearest: lead_hours"),
         ("lead_hours = 3", "cases = { hoist.mass_kgs = [1.0] }", "nearest: hoist.mass_kg"),
+        ("lead_hours = 3", "cases = { sea.hs_m = [1, 2] }", "sea.hs_m is that of the seas of the sheet"),
         ("lead_hours = 3", "cases = { hoist.mass_t = [1], hoist.mass_kg = [2] }", "mass_t in another unit"),
     ],
 )

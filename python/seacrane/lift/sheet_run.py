@@ -24,6 +24,7 @@ from seacrane.lift.lift import Lift
 from seacrane.lift.sheet import Sheet
 from seacrane.lift.sheet_keys import READ
 from seacrane.lift.study_run import in_two_units, keys_in, made_folder, with_keys
+from seacrane.lift.tables import TABLES
 from seacrane.operability.availability import ScatterDiagram, availability
 from seacrane.operability.go import go_or_no_go
 from seacrane.operability.hindcast import WaveHindcast
@@ -36,6 +37,10 @@ from seacrane.scene.scene import Scene
 
 FILE, RUNS = "sheet.toml", "runs"
 BESIDE_IT = ("forecast", "hindcast", "scatter")  # what it is held against
+SEA = {  # keys whose values are those of the sheet
+    spelling for key in TABLES["sea"].keys if key.name in ("hs", "tp", "direction_deg", "seed")
+    for spelling in key.spellings
+}  # fmt: skip
 CSV, PAGE = WRITTEN = ("sheet.csv", "sheet.html")
 
 
@@ -209,6 +214,8 @@ def load_cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
             asked.entry.fail(
                 f"cases: {shown(name)} is no key of the lift; {nearest(name, tuple(keys))}", "cases"
             )
+        if name.startswith("sea.") and name.rpartition(".")[2] in SEA:
+            asked.entry.fail(f"cases: {name} is that of the seas of the sheet; leave it out", "cases")
     for name, first in in_two_units({name: keys[name] for name in asked.cases}):
         asked.entry.fail(f"cases: {name} is {first} in another unit; leave one of them out", "cases")
     found = {}
