@@ -167,6 +167,7 @@ SIMULATED = '"slack_margin[wire].max"'
         (SIMULATED, '"slack_margin[rope].max"', "no weighed 'rope'"),
         (SIMULATED, '"own[lead].max"', "own is in m, and 'dynamic factor' in 1"),
         ('{ "dynamic factor"', '{ "psi"', "no row 'psi'"),
+        ('"box.x - 0 m"', '"0 m / (box.x / 1 m)"', "own is no number at some outputs"),
         ('deck = "fixed"', 'deck = "quay"', "nearest|known are"),
         ("stiffness_N_per_m = 5e5", "falls = 2", "give stiffness_N_per_m"),
         ("volume_m3 = 4,", "volume_m3 = 40,", "'half under': the load floats"),
@@ -203,6 +204,24 @@ def test_an_answer_is_a_public_call_and_every_keyword_a_key(name: str) -> None:
     assert call.make is getattr(seacrane.answers, name)
     words = set(inspect.signature(call.keep or call.make).parameters) - {"result"}
     assert words <= {key.name for key in call.keys}
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.SeacraneWarning")
+def test_runs_over_seeds_that_all_fail_say_why(tmp_path: Path) -> None:
+    text = (
+        HEAD
+        + """
+[vessel]; database = "hull_115"; memory = "none"
+[sea]; hs_m = 1; tp_s = 8; count = 6
+[crane]; base = "ground"; foot_m = [0, 0, 20]; held = true
+[hoist]; mass_t = 50; size_m = [6, 4, 4]; on = "ground"; height_m = 0; feet = {}; EA_N = 6e7
+[run]; t_end_s = 0.1
+[re_hit_probability]; contact = "load on ground"; margin_m = 0.1; seeds = 1; hs_m = [0]
+""".replace("; ", "\n")
+    )
+    (tmp_path / "my_lift.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(FileFormatError, match=r"\[re_hit_probability\]: every run has failed: .*hs"):
+        run_answers(tmp_path / "my_lift.toml", tmp_path / "out")
 
 
 def test_a_stiffness_that_is_left_out_is_that_of_the_hook_off_its_deck(tmp_path: Path) -> None:

@@ -126,4 +126,6 @@ def _of_seeds(
             outputs=replace(lift.outputs, channels=asked.channels), executor=executor, store=store,
             progress=progress,
         )  # fmt: skip
+        if "kept" not in done.dataset:
+            raise SceneError(f"every run has failed: {next(iter(done.failures.values()))}")
         return asked.call.make(done.dataset["kept"])

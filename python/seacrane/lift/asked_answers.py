@@ -144,4 +144,6 @@ def _number(kept: Kept, result: Result) -> float:
     values = kept.of(result).values
     if values.size != 1:
         raise SceneError(f"simulated: {kept.channel} has several curves; name one in brackets")
+    if not np.isfinite(values).all():
+        raise SceneError(f"simulated: {kept.channel} is no number at some outputs; name a stage that has it")
     return float(values.item())
