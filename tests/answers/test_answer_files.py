@@ -160,6 +160,7 @@ SIMULATED = '"slack_margin[wire].max"'
     [
         ("scale_kN = 1000", "scale_m = 1", r"scale_m is unknown|scale_m in .* is in m, and scale"),
         ("scale_kN = 1000", "scale_m3 = 1", "scale of line_tension.wire. is in N or m2 or 1; give scale_N"),
+        ('"line_tension[wire]"', '"own[lead]"', "scale_kN is given, and the scale of own.lead. is in 1"),
         ("curves = [", f"curves = [{AGAIN}, ", "there twice"),
         ('["line_tension[wire]"]', '["line_tension[wier]"]', "no line 'wier'; did you mean 'wire'"),
         (SIMULATED, '"slack_margin[wire]"', "a curve; give a number of it"),
