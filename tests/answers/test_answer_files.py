@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas
@@ -11,7 +13,7 @@ import pytest
 from lift_examples import HEAD
 
 import seacrane.answers
-from seacrane import FileFormatError, Lift, SceneError
+from seacrane import FileFormatError, Lift, Result, Scene, SceneError
 from seacrane.answers import (
     Cargo,
     Draught,
@@ -23,7 +25,7 @@ from seacrane.answers import (
 )
 from seacrane.cli.command_line import main
 from seacrane.lift.answer_keys import ANSWERS
-from seacrane.lift.answers_run import run_answers
+from seacrane.lift.answers_run import RUN, run_answers
 from seacrane.run.outputs import Outputs
 from seacrane.simulation import simulate
 
@@ -126,6 +128,29 @@ def test_a_file_gives_what_the_calls_give(tmp_path: Path, capsys: pytest.Capture
     assert capsys.readouterr().out.startswith("SIMULATED ABOVE THE CODE: dynamic factor.")
 
 
+def test_neither_a_stop_nor_an_answer_that_is_refused_loses_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = lift_in(tmp_path, ('deck = "load"', 'after_s = 20\ndeck = "load"')), tmp_path / "out"
+
+    def stopped(scene: Scene, t_end: float, **how: Any) -> Any:
+        return replace(simulate(scene, 0.5 * t_end, **how), interrupted=True)
+
+    with monkeypatch.context() as patched:
+        patched.setattr("seacrane.lift.answers_run.simulate", stopped)
+        assert main(["answers", str(path), "--out", str(out)]) == 130
+    assert "the same command goes on" in capsys.readouterr().err
+    assert Result.load(out / RUN).time[-1] == 5.0
+    assert main(["answers", str(path), "--out", str(out)]) == 1
+    assert "[deck_cargo]: deck_cargo: after is 20.0 s, past the last output" in capsys.readouterr().err
+    run_answers(lift_in(tmp_path), tmp_path / "whole")
+    here, whole = (pandas.read_csv(one / "fatigue.csv", index_col=0) for one in (out, tmp_path / "whole"))
+    pandas.testing.assert_frame_equal(here, whole, rtol=1e-6)
+    assert "SIMULATED ABOVE" in (out / "answers.html").read_text()
+    run_answers(lift_in(tmp_path, ("t_end_s = 10", "t_end_s = 5")), out)  # another run replaces it
+    assert Result.load(out / RUN).time[-1] == 5.0
+
+
 AGAIN = '{ channels = ["line_tension[wire]"], constant = 1, slope = 3 }'
 SIMULATED = '"slack_margin[wire].max"'
 
@@ -135,6 +160,7 @@ SIMULATED = '"slack_margin[wire].max"'
     [
         ("scale_kN = 1000", "scale_m = 1", r"scale_m is unknown|scale_m in .* is in m, and scale"),
         ("scale_kN = 1000", "scale_m3 = 1", "scale of line_tension.wire. is in N or m2 or 1; give scale_N"),
+        ('"line_tension[wire]"', '"own[lead]"', "scale_kN is given, and the scale of own.lead. is in 1"),
         ("curves = [", f"curves = [{AGAIN}, ", "there twice"),
         ('["line_tension[wire]"]', '["line_tension[wier]"]', "no line 'wier'; did you mean 'wire'"),
         (SIMULATED, '"slack_margin[wire]"', "a curve; give a number of it"),
@@ -142,6 +168,7 @@ SIMULATED = '"slack_margin[wire].max"'
         (SIMULATED, '"slack_margin[rope].max"', "no weighed 'rope'"),
         (SIMULATED, '"own[lead].max"', "own is in m, and 'dynamic factor' in 1"),
         ('{ "dynamic factor"', '{ "psi"', "no row 'psi'"),
+        ('"box.x - 0 m"', '"0 m / (box.x / 1 m)"', "own is no number at some outputs"),
         ('deck = "fixed"', 'deck = "quay"', "nearest|known are"),
         ("stiffness_N_per_m = 5e5", "falls = 2", "give stiffness_N_per_m"),
         ("volume_m3 = 4,", "volume_m3 = 40,", "'half under': the load floats"),
@@ -178,6 +205,24 @@ def test_an_answer_is_a_public_call_and_every_keyword_a_key(name: str) -> None:
     assert call.make is getattr(seacrane.answers, name)
     words = set(inspect.signature(call.keep or call.make).parameters) - {"result"}
     assert words <= {key.name for key in call.keys}
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.SeacraneWarning")
+def test_runs_over_seeds_that_all_fail_say_why(tmp_path: Path) -> None:
+    text = (
+        HEAD
+        + """
+[vessel]; database = "hull_115"; memory = "none"
+[sea]; hs_m = 1; tp_s = 8; count = 6
+[crane]; base = "ground"; foot_m = [0, 0, 20]; held = true
+[hoist]; mass_t = 50; size_m = [6, 4, 4]; on = "ground"; height_m = 0; feet = {}; EA_N = 6e7
+[run]; t_end_s = 0.1
+[re_hit_probability]; contact = "load on ground"; margin_m = 0.1; seeds = 1; hs_m = [0]
+""".replace("; ", "\n")
+    )
+    (tmp_path / "my_lift.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(FileFormatError, match=r"\[re_hit_probability\]: every run has failed: .*hs"):
+        run_answers(tmp_path / "my_lift.toml", tmp_path / "out")
 
 
 def test_a_stiffness_that_is_left_out_is_that_of_the_hook_off_its_deck(tmp_path: Path) -> None:

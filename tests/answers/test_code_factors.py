@@ -55,6 +55,10 @@ def test_a_simulation_above_the_code_is_said_first(tmp_path: Path) -> None:
     assert still.exceeded == ("deck speed",)  # of which the code has nothing
     with pytest.raises(SceneError, match="no row 'psi'"):
         code_factors(hs=2.0, mass=1.0, stiffness=1.0, simulated={"psi": 1.0})
+    wrong = {"falls": np.nan, "deck": ["barge"], "simulated": 2.0}
+    for word, given in wrong.items():
+        with pytest.raises(SceneError, match=f"{word} is"):
+            code_factors(**{"hs": 2.0, "mass": 1.0, "stiffness": 1.0, word: given})
 
 
 def test_the_simplified_method_at_three_draughts_by_hand() -> None:

@@ -35,6 +35,12 @@ def test_cargo_on_a_rolling_deck_feels_gravity_once() -> None:
     largest = int(np.argmax(felt[:, 1]))
     assert together[2, 1:] == pytest.approx(felt[largest]) and "what occurs together" in str(found)
     cargo = Cargo(point="module", mass=1e4)
+    assert not found.coarse
+    few = simulate(scene, t_end=21.0, dt_out=7.0, channels=["point_acceleration", "quaternion"])
+    assert deck_cargo(few, cargo=[cargo]).coarse == ("module",)
+    assert "Peaks between the outputs: module; shorten dt_out" in str(deck_cargo(few, cargo=[cargo]))
+    with pytest.raises(SceneError, match="'module' is on deck, which turns on barge"):
+        deck_cargo(result, cargo=[cargo], deck="barge")
     with pytest.raises(SceneError, match="stands on barge, deck"):
         deck_cargo(result, cargo=[cargo, Cargo(point="beside", mass=1.0)])
     for listed, after, answer in (

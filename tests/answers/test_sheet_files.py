@@ -56,6 +56,9 @@ def test_a_file_gives_what_the_call_gives(tmp_path: Path, capsys: pytest.Capture
     assert "hoisting" in page and "Forecast" in page and (tmp_path / "out" / "sheet.csv").exists()
     assert main(["sheet", str(path), "--out", str(tmp_path / "out")]) == 0  # runs are not run again
     told = capsys.readouterr().out
+    small(tmp_path, ("mass_kg = 50e3", "mass_kg = 60e3"))
+    assert main(["sheet", str(path), "--out", str(tmp_path / "out")]) == 1  # of another lift, which is told
+    assert Lift.load(tmp_path / "out" / "sheet.toml") == lift
     assert "passage, P90 of 3 seeds" in told and "GO at 2026-06-01T06:00" in told
 
 
@@ -69,6 +72,10 @@ def test_a_scatter_table_gives_the_availability_of_each_phase(tmp_path: Path) ->
     done = run_sheet(tmp_path / "lift.toml", tmp_path / "out")
     assert done is not None
     scatter = ScatterDiagram(hs=[0, 1, 4], tp=[6, 9, 12], counts=[[30, 10], [20, 40]], source="site.csv")
+    (tmp_path / "site.csv").unlink()
+    with pytest.raises(FileNotFoundError, match=r"site\.csv"):
+        run_sheet(tmp_path / "lift.toml", tmp_path / "alone")
+    assert (tmp_path / "alone" / "sheet.csv").read_text() == (tmp_path / "out" / "sheet.csv").read_text()
     for phase in ("positioning", "hanging"):
         found = done.answers[f"Availability: {phase}"]
         assert str(found) == str(availability(done.sheet.table(phase), scatter))
@@ -112,6 +119,7 @@ def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
         ('name = "hanging"\nhours = 1', 'name = "hanging"\nhours = -1', "hours"),
         ("lead_hours = 3", "lead_h = 3", "nearest: lead_hours"),
         ("lead_hours = 3", "cases = { hoist.mass_kgs = [1.0] }", "nearest: hoist.mass_kg"),
+        ("lead_hours = 3", "cases = { sea.hs_m = [1, 2] }", "sea.hs_m is that of the seas of the sheet"),
         ("lead_hours = 3", "cases = { hoist.mass_t = [1], hoist.mass_kg = [2] }", "mass_t in another unit"),
     ],
 )

@@ -131,6 +131,8 @@ BAD = [
     (LATTICE, "total_mass = 171000.0", "total_mass = 171.0", "bodies add up to 171000 kg"),
     (LATTICE, "total_mass =", "total_mass_t = 171\ntotal_mass =", "total_mass_t and total_mass; write one"),
     (LATTICE, "total_mass =", "total_mass_kN =", "total_mass is missing, and total_mass_kN is in no"),
+    (LATTICE, "range_deg = [0.0", "range_m = [0.0", "range_m is of a revolute joint; write range_rad"),
+    (A_FRAME, "range_m = [-1.6", "range_deg = [-1.6", "range_deg is of a prismatic joint; write range_m"),
     (LATTICE, "range_deg = [0.0", "range_m = [0, 1]\nrange_deg = [0.0", "range_m and range_deg; write one"),
     (LATTICE, '"house"\nsecond = "boom"', '"boom"\nsecond = "house"', "nothing carries its first"),
     (A_FRAME, "[[closing_joints]]", "[[joints]]", r"'rod head' closes a loop.*\[\[closing"),

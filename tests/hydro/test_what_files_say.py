@@ -39,7 +39,7 @@ from seacrane.hydro.database.figures import hydro_sheets
 from seacrane.hydro.readers.text_records import number_of_word
 from seacrane.scene.file import scene_digest
 from seacrane.sea.dispersion import wavenumber
-from seacrane.warnings import AssumedReferenceWarning, FloatingPositionWarning
+from seacrane.warnings import AssumedReferenceWarning, FloatingPositionWarning, WaterMismatchWarning
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::seacrane.warnings.RoughDataWarning",
@@ -278,7 +278,9 @@ def test_a_set_without_masses_asks_for_them_where_a_vessel_is_made(
 ) -> None:
     """In Python, lift file and command alike; it is read, moved, checked and written without."""
     _, write, read = READERS[reader]
-    found = read(write(BASE, tmp_path), **({"mass_matrix": None} if reader == "wamit" else {}))
+    (tmp_path / "files").mkdir()
+    files = write(BASE, tmp_path / "files")
+    found = read(files, **({"mass_matrix": None} if reader == "wamit" else {}))
     assert found.mass_matrix is None and found.at(PLACE).mirror().mass_matrix is None
     assert not {"mass_t", "natural_period_roll_s", "memory_states"} & {row.check for row in found.check()}
     assert "no mass" in repr(found) and "motion" not in hydro_sheets(found)
@@ -305,6 +307,16 @@ def test_a_set_without_masses_asks_for_them_where_a_vessel_is_made(
     scene = Scene()
     scene.add_vessel(load_database(bare, mass_matrix=mass), memory="none")
     assert scene_digest(Lift.load(tmp_path / "mass.toml").scene()) == scene_digest(scene)
+    with pytest.warns(WaterMismatchWarning, match=r"its mass needs 0.001"):
+        load_database(bare, mass_matrix=1e-3 * mass)
+    slips = {"in t, or a placeholder": 1e-3 * mass, "not symmetric": np.tril(mass, -1) * 1.5 + np.triu(mass)}
+    turning = mass.copy()
+    turning[3:, 3:] *= 1e3
+    for told, slip in {**slips, "inertia has a radius of": turning}.items():
+        with pytest.raises(FileFormatError, match=told):
+            read(files, mass_matrix=slip)
+    assert main(["hydro", str(bare), "--mass", "100", "0", "0", "0", "-5", "9", "9"]) == 1
+    assert "radii of gyration above zero" in capsys.readouterr().err
     assert main(["hydro", str(bare)]) == 0 and "mass_t" not in capsys.readouterr().out
     assert main(["hydro", str(bare), "--memory", "by-motion"]) == 1 and "--mass" in capsys.readouterr().err
 

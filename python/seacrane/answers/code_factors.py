@@ -118,7 +118,7 @@ class CodeFactors(Beside[CodeRow]):
 
 def deck_speed(hs: float, deck: str) -> float:
     """v_D of EN 13852-1, m/s: of a deck that is "fixed", or that of a "barge" or a "supply vessel"."""
-    if deck not in DECKS:
+    if not isinstance(deck, str) or deck not in DECKS:
         raise SceneError(f"deck is {shown(deck)}; choose from {', '.join(DECKS)}")
     a, b = DECKS[deck]
     return a * hs / (hs + b)
@@ -171,8 +171,8 @@ def code_factors(
     """
     height, weight = not_negative_of("hs", hs, "m"), positive_of("mass", mass, "kg")
     k, v_c = positive_of("stiffness", stiffness, "N/m"), not_negative_of("tip_speed", tip_speed, "m/s")
-    if falls != int(falls) or falls < 1:
-        raise SceneError(f"falls is {shown(falls)}; give a whole number from 1 on")
+    if positive_of("falls", falls) % 1.0:
+        raise SceneError(f"falls is {shown(falls)}; give a whole number")
     v_d, k_h = deck_speed(height, deck), REEVING[falls == 1]
     both = float(np.hypot(v_d, v_c))
     v_h = k_h * both
@@ -202,7 +202,10 @@ def code_factors(
 
 def simulated_of(what: str, given: Mapping[str, float] | None, names: Sequence[str]) -> dict[str, float]:
     """Numbers of a simulation by all names, NaN where there is none; SceneError for another name."""
-    for name in given or {}:
+    given = {} if given is None else given
+    if not isinstance(given, Mapping):
+        raise SceneError(f"simulated is {shown(given)}; give numbers by the names of rows")
+    for name in given:
         if name not in names:
             raise SceneError(f"simulated: there is no {what} {shown(name)}; give {', '.join(names)}")
-    return {name: number_of(f"simulated: {name}", (given or {}).get(name, float("nan"))) for name in names}
+    return {name: number_of(f"simulated: {name}", given.get(name, float("nan"))) for name in names}

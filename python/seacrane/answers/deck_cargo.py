@@ -20,6 +20,8 @@ from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result import Result
 
 AXES = ("x", "y", "z")
+STILL = 0.02  # rad, by which what stands on a deck may turn against it
+HIDDEN = 0.05  # of the range of the steps, which the outputs may leave out
 
 
 @named
@@ -101,11 +103,14 @@ class DeckCargo(Answer):
         keel it is (0, 0, g).
     forces : dict of str to ndarray, shape (k, n, 3)
         Of its fastenings on it, N.
+    coarse : tuple of str
+        Cargo whose accelerations have peaks between the outputs: extremes are too small.
     """
 
     time: Array
     accelerations: dict[str, Array]
     forces: dict[str, Array]
+    coarse: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<DeckCargo: {', '.join(self.accelerations)}>"
@@ -126,6 +131,8 @@ class DeckCargo(Answer):
         ]  # fmt: skip
         axes = [Column(name="cargo", values=list(self.accelerations)), Column(name="extreme", values=names)]
         remarks = ["Along the deck's axes; gravity is in it, once: at rest on an even keel z is g."]
+        if self.coarse:
+            remarks.append(f"Peaks between the outputs: {', '.join(self.coarse)}; shorten dt_out.")
         return Table(
             axes=axes, columns=columns, title="Deck cargo: extremes, and what occurs together",
             remarks=remarks, below=self._held(),
@@ -191,6 +198,18 @@ def deck_cargo(
         moved = {one.point: result.select("point_acceleration", point=one.point)[part] for one in listed}
     except ValueError as error:
         raise SceneError(f"deck_cargo: {error}") from error
+    for one in listed:
+        body = deck if scene is None else scene.points[one.point].body
+        along = np.swapaxes(turned, 1, 2) @ rotation_matrix(result.select("quaternion", body=body)[part])
+        if np.ptp(along, axis=0).max() > STILL:
+            raise SceneError(f"deck_cargo: {one.point!r} is on {body}, which turns on {deck}; give its deck")
     felt = {name: np.einsum("kji,kj->ki", turned, values + up) for name, values in moved.items()}
     forces = {one.point: one.forces(felt[one.point]) for one in listed}
-    return DeckCargo(time=np.asarray(result.time)[part], accelerations=felt, forces=forces)
+    coarse = []
+    for name, values in moved.items():
+        least, largest = result.reached("point_acceleration", part=part, point=name)
+        every = largest.max(axis=0) - least.min(axis=0)
+        coarse += [name] * bool(np.any(np.ptp(values, axis=0) < (1.0 - HIDDEN) * every))
+    return DeckCargo(
+        time=np.asarray(result.time)[part], accelerations=felt, forces=forces, coarse=tuple(coarse)
+    )

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from seacrane.arrays import Array
-from seacrane.description.channels import unit_of
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of, positive_of, text_of
@@ -18,6 +17,7 @@ from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.plotting.table import Rows, Table
 from seacrane.result import Result
+from seacrane.run.channel_names import unit_in
 from seacrane.statistics.record import FEWEST_VALUES, ROUNDING, SpectrumEstimate, spectrum_estimate
 
 UNVERIFIED = "unverified"
@@ -250,7 +250,7 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
             raise SceneError(f"fatigue: {name} is {shown(curve)}; give a FatigueCurve")
         pick = pick_of("fatigue", name)
         values = np.asarray(result.curve(name))[part]
-        unit = unit_of(pick.channel, list(pick.names.values()))
+        unit = unit_in(result.scene, pick)
         gaps = float(np.mean(~np.isfinite(values)))
         if gaps:
             told.append(f"{name} is NOT JUDGED: it is no number at {gaps:.0%} of the outputs; leave them out")

@@ -67,8 +67,11 @@ def _mass(given: Sequence[float]) -> Array:
     """The matrix (6, 6) of t, centre and radii of gyration."""
     import numpy as np
 
+    from seacrane.errors import SceneError
     from seacrane.hydro import rigid_mass_matrix
 
+    if not min(given[0], *given[4:]) > 0.0:
+        raise SceneError(f"--mass is {' '.join(map(str, given))}; give mass and radii of gyration above zero")
     mass, centre, radii = 1e3 * given[0], np.array(given[1:4]), np.array(given[4:])
     return rigid_mass_matrix(mass, centre, np.diag(mass * radii**2))
 

@@ -100,8 +100,8 @@ def _done(arguments: argparse.Namespace, run: Callable[..., Done], tell: Callabl
         except KeyboardInterrupt:
             _end_workers(executor)
             print(
-                f"seacrane {arguments.command}: interrupted; {arguments.out} keeps the members that came "
-                "back, and the same command goes on",
+                f"seacrane {arguments.command}: interrupted; {arguments.out} keeps what came back, and the "
+                "same command goes on",
                 file=sys.stderr,
             )
             return INTERRUPTED

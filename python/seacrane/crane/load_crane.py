@@ -29,7 +29,7 @@ from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
 from seacrane.errors import FileFormatError
 from seacrane.inputs.shown import listed, shown
-from seacrane.inputs.units import into_si
+from seacrane.inputs.units import UNITS, into_si
 from seacrane.inputs.whole_file import read_whole
 
 LARGEST_FILE = 2**20  # bytes
@@ -144,7 +144,7 @@ def _joint(table: FileTable, *, closes: bool = False) -> JointData:
     frame, second = table.text("first"), table.text("second")
     first, point = table.point_on(frame)
     axis, second_axis = (table.axis_on(frame, key) for key in ("axis", "second_axis"))
-    closes, limits = closes or table.flag("closes"), _range(table)
+    closes, limits = closes or table.flag("closes"), _range(table, kind)
     table.finish()
     return JointData(
         name=name, kind=kind, first=first, second=table.frames.get(second, (second,))[0], point=point,
@@ -152,11 +152,14 @@ def _joint(table: FileTable, *, closes: bool = False) -> JointData:
     )  # fmt: skip
 
 
-def _range(table: FileTable) -> tuple[float, float] | None:
-    """In rad or m."""
+def _range(table: FileTable, kind: str) -> tuple[float, float] | None:
+    """In rad of a hinge, m of a slide."""
     found = table.spelt("range", "m", "rad")
     if found is None:
         return None
+    own = {"revolute": "rad", "prismatic": "m"}.get(kind, found[1])
+    if UNITS[found[1]][1] != UNITS[own][1]:
+        table.refuse(f"{table.label(found[0])} is of a {kind} joint; write range_{own}")
     low, high = table.numbers("range", 2, "m", "rad")
     if not low < high:
         table.refuse(f"{table.label(found[0])} is {low:g} to {high:g}, in SI; write the lower end first")

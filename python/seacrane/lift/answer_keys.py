@@ -19,12 +19,12 @@ from seacrane.answers.re_hits import ReHit, re_hit_probability
 from seacrane.answers.rest_columns import HOOK_STIFFNESS, columns_of
 from seacrane.answers.simplified_method import Draught, simplified_method
 from seacrane.answers.statics import hanging_rest
-from seacrane.description.channels import unit_of
 from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
 from seacrane.lift.inner_keys import LENGTH, POINT, ROW, TIME
 from seacrane.lift.keys import EITHER, Key, keys_of, require_unit
 from seacrane.plotting.table import Answer
+from seacrane.run.channel_names import unit_in
 from seacrane.scene.scene import Scene
 
 Given = Mapping[str, Any]
@@ -43,7 +43,8 @@ class AnswerCall:
     ----------
     make : Its call, with `result` where it takes a run, and `simulated` where a run may stand beside it.
     keys : Of its table.
-    rows : Of the tables within it, by keyword: what one makes by its names, as it is written and as keywords.
+    rows : Of the tables within it, by keyword: what one makes by its names.
+    require : Of the tables within it, by keyword: refuses one, as it is written, that does not fit the scene.
     gather : What the call takes of all that rows make by their names.
     curves : Of the run, by what is asked: each must be one that the scene has.
     channels : Which the run records besides.
@@ -53,7 +54,8 @@ class AnswerCall:
 
     make: Callable[..., Answer]
     keys: tuple[Key, ...]
-    rows: Mapping[str, Callable[[Given, Given], Given]] = field(default_factory=dict)
+    rows: Mapping[str, Callable[[Given], Given]] = field(default_factory=dict)
+    require: Mapping[str, Callable[[Scene, Given], None]] = field(default_factory=dict)
     gather: Callable[[Given], Any] = lambda found: [*found.values()]
     curves: Callable[[Given], Iterable[Pick]] = lambda given: ()
     channels: tuple[str, ...] = ()
@@ -71,19 +73,21 @@ def _tables(call: Any, *before: Key, **more: Given) -> dict[str, Any]:
     return {"type": "tables", "keys": (*before, *keys_of(call, more=more))}
 
 
-def _named(kind: Callable[..., Any], by: str) -> Callable[[Given, Given], Given]:
-    return lambda table, given: {given[by]: kind(**given)}
+def _named(kind: Callable[..., Any], by: str) -> Callable[[Given], Given]:
+    return lambda given: {given[by]: kind(**given)}
 
 
-def _curves(table: Given, given: Given) -> dict[str, FatigueCurve]:
-    """One curve by its channels, over a scale in their unit, or of a section."""
-    of, channels = dict(given), given["channels"]
-    del of["channels"]
-    for channel in channels:
-        pick = pick_of("fatigue", channel)
-        units = SCALES.get(unit_of(pick.channel, list(pick.names.values())), ("1",))
+def _curves(given: Given) -> dict[str, FatigueCurve]:
+    """One curve by its channels."""
+    of = dict(given)
+    return dict.fromkeys(of.pop("channels"), FatigueCurve(**of))
+
+
+def _require_scale(scene: Scene, table: Given) -> None:
+    """Of the unit of its channels, or of a section."""
+    for channel in table["channels"]:
+        units = SCALES.get(unit_in(scene, pick_of("fatigue", channel)), ("1",))
         require_unit(SCALED, table, EITHER.join(units), f"the scale of {channel}")
-    return dict.fromkeys(channels, FatigueCurve(**of))
 
 
 def _hook_stiffness(scene: Scene) -> float:
@@ -106,7 +110,7 @@ SEEDS = (
 _ALL = (
     AnswerCall(
         make=fatigue, keys=keys_of(fatigue, more={"curves": CURVE, "after": TIME}, without=("result",)),
-        rows={"curves": _curves}, gather=dict,
+        rows={"curves": _curves}, require={"curves": _require_scale}, gather=dict,
         curves=lambda given: [pick_of("fatigue", one) for one in given["curves"]],
     ),
     AnswerCall(

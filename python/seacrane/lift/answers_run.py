@@ -8,11 +8,12 @@ from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from seacrane.answers.report import answers_report
 from seacrane.ensembles.ensemble import ensemble
 from seacrane.ensembles.object_store import folder_of
-from seacrane.errors import SceneError
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.lift.answer_keys import ANSWERS
 from seacrane.lift.asked_answers import Asked
 from seacrane.lift.build import refused_at
@@ -22,7 +23,7 @@ from seacrane.result.result import Result
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 
-RUNS = "runs"
+RUN, RUNS = "answers_run.nc", "runs"
 
 
 def run_answers(
@@ -34,7 +35,8 @@ def run_answers(
 ) -> Mapping[str, Answer]:
     """Give the answers that a lift file asks for, by their titles; those that a simulation exceeds first.
 
-    Writes `answers.html`, a CSV file of each table, and the runs over seeds, which are not run again.
+    Writes `answers.html`, a CSV file of each table, the run as `answers_run.nc`, and the runs over seeds;
+    what is there of them is not run again. Where an answer is refused, the others are written before.
 
     Raises
     ------
@@ -52,20 +54,28 @@ def run_answers(
     for one in lift.answers:
         one.require(scene)
     target.mkdir(parents=True, exist_ok=True)
-    result = _run_of(lift, scene, progress=progress)
+    result = _run_of(lift, scene, target / RUN, progress=progress)
     found: dict[str, Answer] = {}
+    refused: list[FileFormatError] = []
     for stem, one in _by_stem(lift.answers).items():
-        if one.over:
-            found[stem] = _of_seeds(lift, scene, one, target / RUNS / stem, executor, progress=progress)
-        else:
-            found[stem] = one.of(scene, result)
-    for stem, answer in found.items():
+        try:
+            if one.over:
+                answer = _of_seeds(lift, scene, one, target / RUNS / stem, executor, progress=progress)
+            else:
+                answer = one.of(scene, result)
+        except FileFormatError as error:
+            refused.append(error)
+            continue
+        found[stem] = answer
         answer.to_csv(target / f"{stem}.csv")
         for table in answer._shown().below:
             table.to_csv(target / f"{stem}_{table.axes[0].name}.csv")
     first = sorted(found, key=lambda stem: not getattr(found[stem], "exceeded", ()))
     told = {stem.replace("_", " ").capitalize(): found[stem] for stem in first}
-    answers_report(f"{scene.name}: answers", told).save(target / "answers.html")
+    if told:
+        answers_report(f"{scene.name}: answers", told).save(target / "answers.html")
+    if refused:
+        raise refused[0]
     return told
 
 
@@ -80,19 +90,28 @@ def _by_stem(answers: Iterable[Asked]) -> dict[str, Asked]:
     return found
 
 
-def _run_of(lift: Lift, scene: Scene, *, progress: bool) -> Result | None:
-    """The run of the lift with the channels that answers take; None where none takes it."""
+def _run_of(lift: Lift, scene: Scene, path: Path, *, progress: bool) -> Result | None:
+    """The run of the lift with the channels that answers take; None where none takes it.
+
+    What a file has of the same run is gone on with; stages begin anew.
+    """
     wanted = [one for one in lift.answers if one.takes_run]
     if not wanted:
         return None
     channels = tuple(dict.fromkeys(name for one in wanted for name in one.channels))
-    result = simulate(
-        scene, lift.stages or lift.t_end, start=lift.start, method=lift.method, accuracy=lift.accuracy,
-        outputs=replace(lift.outputs, channels=channels), progress=progress,
-    )  # fmt: skip
-    if result.interrupted:
+    span = lift.stages or lift.t_end
+    how: dict[str, Any] = {
+        "start": lift.start, "method": lift.method, "accuracy": lift.accuracy, "progress": progress,
+        "outputs": replace(lift.outputs, channels=channels),
+    }  # fmt: skip
+    try:
+        goes_on = not lift.stages and lift.accuracy is None
+        done = simulate(scene, span, to=path, resume=goes_on, overwrite=not goes_on, **how)
+    except (SceneError, FileFormatError, FileNotFoundError):  # none, or one of another lift or longer
+        done = simulate(scene, span, to=path, overwrite=True, **how)
+    if done.interrupted:
         raise KeyboardInterrupt
-    return result
+    return done.load()
 
 
 def _of_seeds(
@@ -107,4 +126,6 @@ def _of_seeds(
             outputs=replace(lift.outputs, channels=asked.channels), executor=executor, store=store,
             progress=progress,
         )  # fmt: skip
+        if "kept" not in done.dataset:
+            raise SceneError(f"every run has failed: {next(iter(done.failures.values()))}")
         return asked.call.make(done.dataset["kept"])

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.description.channels import unit_of
 from seacrane.description.pick import Pick
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.other_sea import require_same_sea
@@ -20,7 +19,7 @@ from seacrane.lift.calls import keywords
 from seacrane.lift.check_keys import Entry
 from seacrane.plotting.table import Answer
 from seacrane.result.result import Result
-from seacrane.run.channel_names import require_curves
+from seacrane.run.channel_names import require_curves, unit_in
 from seacrane.scene.scene import Scene
 
 
@@ -68,10 +67,14 @@ class Asked:
             require_curves(scene, self.curves)
             if self.over:
                 require_same_sea(scene, self.over)
-            code: Any = self.call.make(**self._given(scene)) if self.simulated else None
+            given = self._given(scene)
+            code: Any = self.call.make(**given) if self.simulated else None
+        for word, require in self.call.require.items():
+            for place, table in enumerate(self.entry.values[word]):
+                with refused_at(self.entry, word, place):
+                    require(scene, table)
         for name, kept in self.simulated.items():
-            own = scene.channels.get(kept.names.get("expression", ""))
-            unit = unit_of(kept.channel, kept.names.values()) if own is None else own.unit
+            unit = unit_in(scene, Pick(channel=kept.channel, names=kept.names))
             if unit != (code.unit_of(name) or "1"):
                 told = f"{kept.channel} is in {unit}, and {name!r} in {code.unit_of(name) or '1'}"
                 self.entry.fail(f"simulated: {told}; give another", "simulated")
@@ -121,9 +124,9 @@ def asked_of(entry: Entry) -> Asked:
 def _by_name(entry: Entry, word: str, call: AnswerCall, rows: Sequence[Any]) -> dict[str, Any]:
     """What the tables within one make, by their names."""
     found: dict[str, Any] = {}
-    for place, (table, row) in enumerate(zip(entry.values[word], rows, strict=True)):
+    for place, row in enumerate(rows):
         with refused_at(entry, word, place):
-            for name, one in call.rows[word](table, row).items():
+            for name, one in call.rows[word](row).items():
                 if name in found:
                     raise SceneError(f"{shown(name)} is there twice; give it once")
                 found[name] = one
@@ -143,4 +146,6 @@ def _number(kept: Kept, result: Result) -> float:
     values = kept.of(result).values
     if values.size != 1:
         raise SceneError(f"simulated: {kept.channel} has several curves; name one in brackets")
+    if not np.isfinite(values).all():
+        raise SceneError(f"simulated: {kept.channel} is no number at some outputs; name a stage that has it")
     return float(values.item())

@@ -24,6 +24,7 @@ from seacrane.lift.lift import Lift
 from seacrane.lift.sheet import Sheet
 from seacrane.lift.sheet_keys import READ
 from seacrane.lift.study_run import in_two_units, keys_in, made_folder, with_keys
+from seacrane.lift.tables import TABLES
 from seacrane.operability.availability import ScatterDiagram, availability
 from seacrane.operability.go import go_or_no_go
 from seacrane.operability.hindcast import WaveHindcast
@@ -36,6 +37,10 @@ from seacrane.scene.scene import Scene
 
 FILE, RUNS = "sheet.toml", "runs"
 BESIDE_IT = ("forecast", "hindcast", "scatter")  # what it is held against
+SEA = {  # keys whose values are those of the sheet
+    spelling for key in TABLES["sea"].keys if key.name in ("hs", "tp", "direction_deg", "seed")
+    for spelling in key.spellings
+}  # fmt: skip
 CSV, PAGE = WRITTEN = ("sheet.csv", "sheet.html")
 
 
@@ -78,7 +83,8 @@ def run_sheet(
     if lift.sheet is None:
         raise SceneError(f"{Path(path).name} has no [sheet]; add it")
     target = made_folder(folder, FILE, (RUNS, *WRITTEN))
-    lift.save(target / FILE)
+    if not (target / FILE).exists():
+        lift.save(target / FILE)
     asked = lift.sheet
     scenes = load_cases(lift, asked)
     made = partial(
@@ -91,6 +97,7 @@ def run_sheet(
         if priced is not None and not priced(_price(made)):
             return None
         sheet = made()
+    lift.save(target / FILE)  # the runs are of it: those of another lift were refused
     if part is not None:
         if not stores_in(target):
             raise SceneError(f"part {part}: the sheet is known without runs; run it as one")
@@ -152,19 +159,21 @@ def stores_in(folder: Path) -> list[str]:
 def _answered(sheet: PhaseSheet, asked: Sheet, target: Path) -> SheetRun:
     """The sheet with what is held against it, written."""
     answers: dict[str, Answer] = {"Seas by phase": sheet}
-    for case in sheet.cases:
-        of = f" of {case}" if case else ""
-        if asked.forecast:
-            with refused_at(asked.entry, "forecast"):
-                answers[f"Forecast{of}"] = _held(go_or_no_go, sheet, case, **asked.forecast)
-        if asked.hindcast:
-            with refused_at(asked.entry, "hindcast"):
-                answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
-        if asked.scatter:
-            with refused_at(asked.entry, "scatter"):
-                answers |= _available(sheet, case, of, **asked.scatter)
-    sheet.to_csv(target / CSV)
-    answers_report(f"{sheet.name}: seas by phase", answers).save(target / PAGE)
+    try:
+        for case in sheet.cases:
+            of = f" of {case}" if case else ""
+            if asked.forecast:
+                with refused_at(asked.entry, "forecast"):
+                    answers[f"Forecast{of}"] = _held(go_or_no_go, sheet, case, **asked.forecast)
+            if asked.hindcast:
+                with refused_at(asked.entry, "hindcast"):
+                    answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
+            if asked.scatter:
+                with refused_at(asked.entry, "scatter"):
+                    answers |= _available(sheet, case, of, **asked.scatter)
+    finally:  # whatever it is held against, the sheet is known
+        sheet.to_csv(target / CSV)
+        answers_report(f"{sheet.name}: seas by phase", answers).save(target / PAGE)
     return SheetRun(sheet=sheet, answers=answers)
 
 
@@ -205,6 +214,8 @@ def load_cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
             asked.entry.fail(
                 f"cases: {shown(name)} is no key of the lift; {nearest(name, tuple(keys))}", "cases"
             )
+        if name.startswith("sea.") and name.rpartition(".")[2] in SEA:
+            asked.entry.fail(f"cases: {name} is that of the seas of the sheet; leave it out", "cases")
     for name, first in in_two_units({name: keys[name] for name in asked.cases}):
         asked.entry.fail(f"cases: {name} is {first} in another unit; leave one of them out", "cases")
     found = {}

@@ -10,7 +10,7 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.analysis.least_pulls import least_pulls, weighed_suspensions
-from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN
+from seacrane.description.channels import CHANNELS, DERIVED, FIXED, OWN, unit_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
 from seacrane.description.description import Description
@@ -34,6 +34,12 @@ MONOTONE = (
     "stroke", "stroke_rate", "cylinder_force", "cylinder_pressure", "slew_torque", "link_tension",
     "hook_load", "slack_margin", "utilisation", "wire_paid_out", "wire_spare",
 )  # fmt: skip
+
+
+def unit_in(scene: Description | None, pick: Pick) -> str:
+    """The unit of one curve; of a channel of one's own that of its expression in the scene."""
+    own = None if scene is None else scene.channels.get(pick.names.get("expression", ""))
+    return unit_of(pick.channel, pick.names.values()) if own is None else own.unit
 
 
 def sources_of(name: str) -> tuple[str, ...]:

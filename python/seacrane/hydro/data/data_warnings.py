@@ -27,6 +27,7 @@ SKEW_LIMIT = 0.35  # of the diagonals, whatever the entry
 ROUND_OFF = 1e-4  # of the largest damping over mass: less is none
 SAME_WATER = 0.005
 BOX_LIMIT = 1.05  # lengths of files are between perpendiculars, or rounded
+EMPTY = 0.05  # of the box: no hull is as slender
 MOST_BELOW = 0.1  # of the energy of the waves
 FLOATING = (2, 3, 4)  # heave, roll, pitch
 
@@ -166,14 +167,14 @@ def _warn_of_headings(database: HydroData) -> None:
 
 
 def _warn_of_box(database: HydroData) -> None:
-    """A hull is no larger than the box around it: else mass, density, g or lengths are in other units."""
+    """A hull fills the box around it, in part: else mass, density, g or lengths are in other units."""
     area = database.length * database.breadth
     filled = {
         "mass": mass_scales(database)[0] / (database.rho * area * database.draught),
         "C33": database.restoring[2, 2] / (database.rho * database.g * area),
     }
     for name, share in filled.items():
-        if share > BOX_LIMIT:
+        if share > BOX_LIMIT or (name == "mass" and share < EMPTY):
             warn_caller(
                 f"database {database.name!r}: its {name} needs {share:.4g} times the box of length, breadth "
                 f"and draught at rho = {database.rho:g} kg/m3, g = {database.g:g} m/s2: weight and buoyancy "

@@ -27,6 +27,8 @@ Given = ArrayLike | Mapping[str, ArrayLike]  # of one body, or by name
 SAME_FREQUENCY = 1e-3  # of one that is to be left out, as messages round it
 LIGHTEST, HEAVIEST = 0.5, 2.0  # mass over displaced mass of a vessel that floats
 SHALLOWEST = 1e-3  # draught over breadth
+WIDEST = 5.0  # radius of gyration over the largest side of the box
+HALVES = 1e-3  # of the largest entry, by which those of a mass matrix may differ
 OBLIQUE = 0.1  # sine of twice a heading: waves from there load every motion
 ROUND = 1e-3  # by which two motions of a round body may differ
 SAME_DIRECTION = 1e-9  # rad
@@ -138,7 +140,7 @@ def mass_of_file(
     displaced: float | None = None,
     box: tuple[float, float, float] | None = None,
 ) -> Array:
-    """The mass matrix (6, 6) of a file, its halves completed; asked for where it is none of a vessel.
+    """The mass matrix (6, 6) of a file or as given, its halves completed; asked for where it is of no vessel.
 
     Parameters
     ----------
@@ -146,7 +148,7 @@ def mass_of_file(
     displaced : kg, where the file tells it.
     box : length, breadth and draught of the equivalent box, m, where the mass is all that tells the last.
 
-    Raises FileFormatError: no mass, no inertia, or a placeholder.
+    Raises FileFormatError: no mass, no inertia, halves that differ, or a placeholder.
     """
     matrix = mirrored(np.asarray(mass_matrix, dtype=float))
     mass = float(matrix[0, 0]) if matrix.shape == (6, 6) else np.nan
@@ -154,14 +156,20 @@ def mass_of_file(
     if not np.all(np.isfinite(matrix)) or matrix.shape != (6, 6):
         wrong = "its mass matrix is not (6, 6) finite numbers"
     elif displaced is not None and not LIGHTEST <= mass / displaced <= HEAVIEST:
-        wrong = f"its mass is {mass:.6g} kg, and it displaces {displaced:.6g} kg of water: a placeholder"
+        wrong = (
+            f"its mass is {mass:.6g} kg, and it displaces {displaced:.6g} kg of water: in t, or a placeholder"
+        )
     elif box is not None and 0.0 < box[2] < SHALLOWEST * box[1]:
         wrong = (
             f"its mass is {mass:.6g} kg, which floats {box[2]:.3g} m deep on {box[0]:.4g} x {box[1]:.4g} m: "
-            "a placeholder"
+            "in t, or a placeholder"
         )
+    elif np.abs(matrix - matrix.T).max() > HALVES * np.abs(matrix).max():
+        wrong = "its mass matrix is not symmetric"
     elif np.linalg.eigvalsh(0.5 * (matrix + matrix.T))[0] <= 0.0:
         wrong = "its mass matrix is not positive definite: no mass or no inertia in some motion"
+    elif box is not None and (radius := np.sqrt(np.diag(matrix)[3:].max() / mass)) > WIDEST * max(box):
+        wrong = f"its inertia has a radius of {radius:.4g} m on {box[0]:.4g} x {box[1]:.4g} m"
     if wrong:
         raise FileFormatError(
             f"{where or asked.where}: {wrong}; give {asked.reader}(mass_matrix=...), (6, 6) in SI, or to "

@@ -117,7 +117,7 @@ def floating_body(
     ----------
     water : density and gravity, kg/m3 and m/s2.
     mass : (6, 6), or None where neither the file nor the caller tells it.
-    volume : m3; None: that of the mass, which has to be one of a vessel where it is the file's.
+    volume : m3; None: that of the mass.
     displaced : m3, where the file tells it beside such a mass.
     where : the file of its hydrostatics, for messages.
     others : of `GroupBody`; sizes that the file tells take the place of the box's, where they are not None.
@@ -130,11 +130,12 @@ def floating_body(
     if volume is None:
         volume = np.nan if mass is None else float(mass[0, 0]) / rho
     box = box_of(where, name if several else "", restoring, volume, rho * water[1])
-    if of_mass and mass is not None and asked.mass_matrix is None:
-        told = None if displaced is None else rho * displaced
+    if mass is not None and (of_mass or asked.mass_matrix is not None):
+        floats = displaced if of_mass else volume
         mass = mass_of_file(
-            asked, mass, where=Path(f"{where}: {name}") if several else where, displaced=told, box=box
-        )
+            asked, mass, where=Path(f"{where}: {name}") if several else where, box=box,
+            displaced=None if floats is None else rho * floats,
+        )  # fmt: skip
     sizes: dict[str, Any] = dict(zip(("length", "breadth", "draught"), box, strict=True))
     sizes |= {key: value for key, value in others.items() if value is not None}
     return GroupBody(name=name, mass_matrix=mass, restoring=restoring, **sizes)
