@@ -106,8 +106,11 @@ def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
         ("passage = true\n", "", r"line \d+.*stages are of a passage"),
         ("maximum_deg = 2", "maximum_m = 2", r"line \d+.*maximum_m.*maximum_rad"),
         ("maximum_deg = 2", "maximum_t = 2", "maximum in that of its channel.*nearest: maximum_tf"),
-        (LOAD, 'channel = "position"\nmaximum_m = 9\nstage = "hoisting"', "several curves; give body"),
+        (LOAD, 'channel = "position"\nmaximum_m = 9\nstage = "hoisting"', "not which body"),
         ("start = ", "utc_offset = 'two'\nstart = ", r"utc_offset in \[sheet.forecast\].*number"),
+        ('"forecast.csv"', '"none.csv"', r"line \d+: \[sheet.forecast\]: .*none.csv cannot be read"),
+        ('T06:00"', 'T06:30"', r"line \d+: \[sheet.forecast\]: start is .*a time of the forecast"),
+        ('T03:00"', 'T09:00"', r"line \d+: \[sheet.forecast\]: issued is .*after the start"),
         ("[0.80, 0.85, 0.90]", "[0.80, 0.85, 1.90]", "above 0, up to 1"),
         ('name = "hanging"\nhours = 1', 'name = "hanging"\nhours = -1', "hours"),
         ("lead_hours = 3", "lead_h = 3", "nearest: lead_hours"),
@@ -118,6 +121,7 @@ def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
 def test_what_is_wrong_is_named_with_its_line(old: str, new: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match=message):
         run_sheet(small(tmp_path, (old, new)), tmp_path / "out")
+    assert not (tmp_path / "out" / "runs").exists(), "before anything runs"
 
 
 def test_a_sheet_without_phases_is_refused() -> None:

@@ -22,10 +22,10 @@ from seacrane.lift.check_keys import nearest, shipped_lift
 from seacrane.lift.inner_keys import LIFTS
 from seacrane.lift.lift import Lift
 from seacrane.lift.sheet import Sheet
-from seacrane.lift.sheet_keys import READ
+from seacrane.lift.sheet_keys import READ, SCATTER
 from seacrane.lift.study_run import in_two_units, keys_in, made_folder, with_keys
 from seacrane.operability.availability import ScatterDiagram, availability
-from seacrane.operability.go import go_or_no_go
+from seacrane.operability.go import go_or_no_go, start_of
 from seacrane.operability.hindcast import WaveHindcast
 from seacrane.operability.phase import Phase
 from seacrane.operability.phase_sheet import phase_sheet
@@ -87,6 +87,7 @@ def run_sheet(
         stages=lift.stages, store=target / RUNS, executor=executor, progress=progress,
         accuracy=lift.accuracy, method=lift.method, dt_out=lift.outputs.dt_out, part=part, **asked.given,
     )  # fmt: skip
+    beside = _beside(asked) if part is None else {}  # a part may run where these files are not
     with refused_at(asked.entry):
         if priced is not None and not priced(_price(made)):
             return None
@@ -95,7 +96,7 @@ def run_sheet(
         if not stores_in(target):
             raise SceneError(f"part {part}: the sheet is known without runs; run it as one")
         return None
-    return _answered(sheet, asked, target)
+    return _answered(sheet, asked, target, beside)
 
 
 def _price(made: Callable[..., PhaseSheet]) -> Price | None:
@@ -149,36 +150,47 @@ def stores_in(folder: Path) -> list[str]:
     return sorted(str(one.parent.relative_to(folder)) for one in (folder / RUNS).rglob(STUDY))
 
 
-def _answered(sheet: PhaseSheet, asked: Sheet, target: Path) -> SheetRun:
+def _beside(asked: Sheet) -> dict[str, tuple[Any, dict[str, Any]]]:
+    """What a sheet is held against, read before anything runs, and what else is said of it."""
+    found = {}
+    for name in BESIDE_IT:
+        given = dict(getattr(asked, name))
+        if not given:
+            continue
+        load, keys = (ScatterDiagram.load, SCATTER) if name == "scatter" else (WaveHindcast.load, READ)
+        file, read = given.pop("file"), {key.name: given.pop(key.name) for key in keys if key.name in given}
+        with refused_at(asked.entry, name):
+            try:
+                found[name] = (load(file, **read), given)
+            except OSError as error:
+                raise SceneError(f"{file} cannot be read ({error.strerror}); check the path") from error
+            if name == "forecast":
+                start_of(found[name][0], given.get("start"), given.get("issued"))
+    return found
+
+
+def _answered(
+    sheet: PhaseSheet, asked: Sheet, target: Path, beside: Mapping[str, tuple[Any, dict[str, Any]]]
+) -> SheetRun:
     """The sheet with what is held against it, written."""
     answers: dict[str, Answer] = {"Seas by phase": sheet}
+    names = [phase.name for phase in sheet.phases]
     for case in sheet.cases:
         of = f" of {case}" if case else ""
-        if asked.forecast:
-            with refused_at(asked.entry, "forecast"):
-                answers[f"Forecast{of}"] = _held(go_or_no_go, sheet, case, **asked.forecast)
-        if asked.hindcast:
-            with refused_at(asked.entry, "hindcast"):
-                answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
-        if asked.scatter:
-            with refused_at(asked.entry, "scatter"):
-                answers |= _available(sheet, case, of, **asked.scatter)
+        for name, (series, given) in beside.items():
+            with refused_at(asked.entry, name):
+                if name == "forecast":
+                    answers[f"Forecast{of}"] = go_or_no_go(series, sheet, case=case, **given)
+                elif name == "hindcast":
+                    answers[f"Windows{of}"] = weather_windows(series, sheet, case=case, **given)
+                else:
+                    answers |= {
+                        f"Availability: {one}{of}": availability(sheet.table(one, case=case), series)
+                        for one in names
+                    }
     sheet.to_csv(target / CSV)
     answers_report(f"{sheet.name}: seas by phase", answers).save(target / PAGE)
     return SheetRun(sheet=sheet, answers=answers)
-
-
-def _available(sheet: PhaseSheet, case: str, of: str, *, file: str, **read: Any) -> dict[str, Answer]:
-    """The availability of each phase by a scatter table."""
-    scatter = ScatterDiagram.load(file, **read)
-    names = [phase.name for phase in sheet.phases]
-    return {f"Availability: {one}{of}": availability(sheet.table(one, case=case), scatter) for one in names}
-
-
-def _held(call: Callable[..., Answer], sheet: PhaseSheet, case: str, *, file: str, **given: Any) -> Answer:
-    """The answer of a call about the sea states of a file, read as its keys say."""
-    read = {key.name: given.pop(key.name) for key in READ if key.name in given}
-    return call(WaveHindcast.load(file, **read), sheet, case=case, **given)
 
 
 def _with_scene(phase: Phase, asked: Sheet) -> Phase:

@@ -122,12 +122,8 @@ def go_or_no_go(
     if first is not None and first not in begins:
         raise SceneError(f"first is {shown(first)}; an operation waits before {', '.join(begins)}")
     leg = sheet.legs[0] if first is None else begins[first]
-    begin, issue = (_time(name, one, times) for name, one in (("start", start), ("issued", issued)))
+    begin, issue = start_of(forecast, start, issued)
     place = int(np.searchsorted(times, begin))
-    if place == times.size or times[place] != begin:
-        raise SceneError(f"start is {begin}; give a time of the forecast, {times[0]} to {times[-1]}")
-    if issue > begin:
-        raise SceneError(f"issued is {issue}, after the start {begin}; give when the forecast was issued")
     chosen = sheet.case_of(case)
 
     def lead(at: int) -> float:
@@ -158,6 +154,17 @@ def go_or_no_go(
         ),
         starts=times[starts], source=forecast.source,
     )  # fmt: skip
+
+
+def start_of(forecast: WaveHindcast, start: Any, issued: Any) -> tuple[np.datetime64, np.datetime64]:
+    """When an operation begins and its forecast was issued; SceneError for no time of the forecast."""
+    times = forecast.time
+    begin, issue = (_time(name, one, times) for name, one in (("start", start), ("issued", issued)))
+    if begin not in times:
+        raise SceneError(f"start is {begin}; give a time of the forecast, {times[0]} to {times[-1]}")
+    if issue > begin:
+        raise SceneError(f"issued is {issue}, after the start {begin}; give when the forecast was issued")
+    return begin, issue
 
 
 def _time(name: str, given: Any, times: Times) -> np.datetime64:
