@@ -163,7 +163,17 @@ def test_a_forecast_is_go_until_the_alpha_factor_falls(sheet: PhaseSheet) -> Non
     assert late.go and late.limit[1] == pytest.approx(limits["hold"] * ALPHA.at(limits["hold"], hours=10.0))
     assert "GO at 2021-03-01T05" in str(late) and START not in late.starts
     past = go_or_no_go(series(hs), sheet, start=START + 17 * HOUR)
-    assert not past.go and np.isnan(past.hs[1])  # the forecast ends before
+    assert not past.go and np.isnan(past.hs[1]) and past.governing[1] == "not known"
+    assert "hold: the forecast ends at 2021-03-01T19" in str(past)
+    assert "connect: by another forecast, after hold" in str(past)
+    gap = hs.copy()
+    gap[3] = np.nan
+    assert "hold: the forecast has no sea state at 2021-03-01T03" in str(go_or_no_go(series(gap), sheet))
+    beyond = replace(series(hs), tp=np.full(20, 20.0), direction_from_deg=np.full(20, 240.0))
+    assert "transfer: no limit for the sea of 2021-03-01T00:00" in str(go_or_no_go(beyond, sheet))
+    assert "Tp 20 s: the sheet has 6 to 14 s" in str(go_or_no_go(beyond, sheet))
+    told = str(go_or_no_go(beyond, sheet, heading_deg=30.0))
+    assert "waves to -30 deg from the bow to port: the sheet has 6 to 14 s, to 90 to 180 deg" in told
     assert go_or_no_go(series(hs), sheet, first="connect").phases == ("connect",)
     with pytest.raises(SceneError, match="issued is no time"):
         go_or_no_go(series(hs), sheet, issued="NaT")

@@ -161,11 +161,12 @@ def _beside(asked: Sheet) -> dict[str, tuple[Any, dict[str, Any]]]:
         file, read = given.pop("file"), {key.name: given.pop(key.name) for key in keys if key.name in given}
         with refused_at(asked.entry, name):
             try:
-                found[name] = (load(file, **read), given)
+                series: Any = load(file, **read)
             except OSError as error:
                 raise SceneError(f"{file} cannot be read ({error.strerror}); check the path") from error
             if name == "forecast":
-                start_of(found[name][0], given.get("start"), given.get("issued"))
+                start_of(series, given.get("start"), given.get("issued"))
+        found[name] = (series, given)
     return found
 
 
