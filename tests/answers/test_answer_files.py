@@ -26,6 +26,7 @@ from seacrane.lift.answer_keys import ANSWERS
 from seacrane.lift.answers_run import run_answers
 from seacrane.run.outputs import Outputs
 from seacrane.simulation import simulate
+from seacrane.warnings import MassUnitWarning
 
 BOUNCING = (
     HEAD
@@ -127,6 +128,7 @@ def test_a_file_gives_what_the_calls_give(tmp_path: Path, capsys: pytest.Capture
 
 
 AGAIN = '{ channels = ["line_tension[wire]"], constant = 1, slope = 3 }'
+SEA = "[vessel]\ndatabase = 'hull_115'\nmotion = 'raos'\n[sea]\ntp_s = 6\ndirection_deg = 0\n"
 SIMULATED = '"slack_margin[wire].max"'
 
 
@@ -141,6 +143,10 @@ SIMULATED = '"slack_margin[wire].max"'
         (SIMULATED, '"line_tension[wire].max"', "line_tension is in N, and 'dynamic factor' in 1"),
         (SIMULATED, '"slack_margin[rope].max"', "no weighed 'rope'"),
         (SIMULATED, '"own[lead].max"', "own is in m, and 'dynamic factor' in 1"),
+        (SIMULATED, '"slack_margin[wire].std"', "a maximum of the run, and not its standard_dev"),
+        ('"slack_margin[wire].min"', SIMULATED, "'half under' is a minimum of the run, .*; give .min"),
+        ("[run]", f"{SEA}hs_m = 3\n[run]", "hs is 2 m, and the run beside it is in a sea of 3 m"),
+        ("[run]", f"{SEA}hs_m = 2\n[run]", "simplified.*hs is 1 m, and the run beside it is in a sea of 2 m"),
         ('{ "dynamic factor"', '{ "psi"', "no row 'psi'"),
         ('deck = "fixed"', 'deck = "quay"', "nearest|known are"),
         ("stiffness_N_per_m = 5e5", "falls = 2", "give stiffness_N_per_m"),
@@ -194,6 +200,10 @@ def test_a_stiffness_that_is_left_out_is_that_of_the_hook_off_its_deck(tmp_path:
     scene = Lift.load(tmp_path / "my_lift.toml").scene()
     stiffness = 4.0 * 6e7 / (scene.place_of("tip")[2] - 4.0)
     row = run_answers(tmp_path / "my_lift.toml", tmp_path)["Code factors"]["dynamic factor"]  # type: ignore[index]
+    slipped = tmp_path / "slipped.toml"
+    slipped.write_text(text.replace("hs_m = 2\nmass_t", "hs_m = 2\nmass_kg"), encoding="utf-8")
+    with pytest.warns(MassUnitWarning, match="mass is 50 kg, and the hook of the lift carries 5e.04 kg"):
+        run_answers(slipped, tmp_path)
     by_hand = code_factors(hs=2.0, mass=5e4, stiffness=stiffness, falls=4)["dynamic factor"]
     assert row.value == pytest.approx(by_hand.value, rel=0.01)
     assert np.isnan(row.simulated)
