@@ -11,7 +11,7 @@ import pytest
 
 from seacrane import FileFormatError, Lift, SceneError
 from seacrane.cli.command_line import main
-from seacrane.lift.sheet_run import load_cases, run_sheet
+from seacrane.lift.sheet_run import _tail, load_cases, run_sheet
 from seacrane.operability import ScatterDiagram, availability, phase_sheet
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "lifts" / "sheet_by_phases.toml"
@@ -98,6 +98,10 @@ def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
     lift = Lift.load(small(tmp_path, ("lead_hours = 3", cases)))
     assert lift.sheet is not None
     assert [*load_cases(lift, lift.sheet)] == [f"mass_kg 100000.{n}, memory none" for n in (1, 2)]
+    boom, slew = (f"crane.coordinates.{name}.value_deg" for name in ("boom", "slew"))
+    assert _tail(boom, [boom, slew]) == "boom.value_deg"
+    assert _tail("hoist.size_m.3", ["hoist.size_m.3"]) == "size_m.3"
+    assert _tail("hoist.mass_kg", ["body.pod.mass_kg", "hoist.mass_kg"]) == "hoist.mass_kg"
 
 
 @pytest.mark.parametrize(

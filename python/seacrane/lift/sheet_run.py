@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import partial
@@ -207,6 +207,17 @@ def _told(value: Value) -> str:
     return f"{value:.15g}" if isinstance(value, int | float) else value
 
 
+def _tail(key: str, keys: Iterable[str]) -> str:
+    """The last parts of a key that say which it is."""
+    parts, others = key.split("."), [f".{one}" for one in keys if one != key]
+    for place in reversed(range(1, len(parts))):
+        tail = ".".join(parts[place:])
+        bare = parts[place].isdigit() or parts[place].startswith("value")  # says not of what
+        if not bare and not any(one.endswith(f".{tail}") for one in others):
+            return tail
+    return key
+
+
 def load_cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
     """The scene of the lift, or one for each combination of values of its keys, by what they are."""
     if not asked.cases:
@@ -225,6 +236,6 @@ def load_cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
         members = members_of(asked.cases)
         for number in range(len(members)):
             values = members.values(number)
-            title = ", ".join(f"{name.rpartition('.')[2]} {_told(value)}" for name, value in values.items())
+            title = ", ".join(f"{_tail(name, values)} {_told(value)}" for name, value in values.items())
             found[title] = Lift(with_keys(tables, keys, values)).scene()
     return found

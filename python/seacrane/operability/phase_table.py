@@ -165,7 +165,7 @@ class PhaseSheet(Answer):
         at = {name: data[name].to_numpy()[i, j] for name in TAKEN}
         hs, low, high = (float(at[name]) for name in ("allowable_hs", "low", "high"))
         known = np.isfinite(hs)
-        within = f" ({low:.2f} to {high:.2f})" if np.isfinite(low) and np.isfinite(high) else ""
+        within = f" ({low:.2f} to {high:.2f})" if low < high < np.inf else ""
         kind = f"passage, P90 of {at['runs']} seeds" if phase.passage else "stationary"
         span = next(one for leg in self.legs for one in leg if one.phase is phase)
         alpha = (
