@@ -127,6 +127,17 @@ def test_a_file_gives_what_the_calls_give(tmp_path: Path, capsys: pytest.Capture
     assert capsys.readouterr().out.startswith("SIMULATED ABOVE THE CODE: dynamic factor.")
 
 
+def test_the_tables_of_the_page_stand_beside_the_lift_that_it_names(tmp_path: Path) -> None:
+    top = Path(__file__).parents[2]
+    page, lift = (top / "docs/answers.md").read_text(), (top / "examples/lifts/answers.toml").read_text()
+    tables = page[page.index("## Answers of a lift file") :].split("```")[1].removeprefix("toml")
+    (tmp_path / "lift.toml").write_text(lift[: lift.index("[fatigue]")] + tables, encoding="utf-8")
+    found = Lift.load(tmp_path / "lift.toml")
+    assert [one.call.make.__name__ for one in found.answers] == [*ANSWERS]
+    for one in found.answers:
+        one.require(found.scene())
+
+
 AGAIN = '{ channels = ["line_tension[wire]"], constant = 1, slope = 3 }'
 SEA = "[vessel]\ndatabase = 'hull_115'\nmotion = 'raos'\n[sea]\ntp_s = 6\ndirection_deg = 0\n"
 SIMULATED = '"slack_margin[wire].max"'
