@@ -28,6 +28,7 @@ from seacrane.lift.answer_keys import ANSWERS
 from seacrane.lift.answers_run import RUN, run_answers
 from seacrane.run.outputs import Outputs
 from seacrane.simulation import simulate
+from seacrane.warnings import MassUnitWarning
 
 BOUNCING = (
     HEAD
@@ -151,7 +152,19 @@ def test_neither_a_stop_nor_an_answer_that_is_refused_loses_the_others(
     assert Result.load(out / RUN).time[-1] == 5.0
 
 
+def test_the_tables_of_the_page_stand_beside_the_lift_that_it_names(tmp_path: Path) -> None:
+    top = Path(__file__).parents[2]
+    page, lift = (top / "docs/answers.md").read_text(), (top / "examples/lifts/answers.toml").read_text()
+    tables = page[page.index("## Answers of a lift file") :].split("```")[1].removeprefix("toml")
+    (tmp_path / "lift.toml").write_text(lift[: lift.index("[fatigue]")] + tables, encoding="utf-8")
+    found = Lift.load(tmp_path / "lift.toml")
+    assert [one.call.make.__name__ for one in found.answers] == [*ANSWERS]
+    for one in found.answers:
+        one.require(found.scene())
+
+
 AGAIN = '{ channels = ["line_tension[wire]"], constant = 1, slope = 3 }'
+SEA = "[vessel]\ndatabase = 'hull_115'\nmotion = 'raos'\n[sea]\ntp_s = 6\ndirection_deg = 0\n"
 SIMULATED = '"slack_margin[wire].max"'
 
 
@@ -167,6 +180,10 @@ SIMULATED = '"slack_margin[wire].max"'
         (SIMULATED, '"line_tension[wire].max"', "line_tension is in N, and 'dynamic factor' in 1"),
         (SIMULATED, '"slack_margin[rope].max"', "no weighed 'rope'"),
         (SIMULATED, '"own[lead].max"', "own is in m, and 'dynamic factor' in 1"),
+        (SIMULATED, '"slack_margin[wire].std"', "a maximum of the run, and not its standard_dev"),
+        ('"slack_margin[wire].min"', SIMULATED, "'half under' is a minimum of the run, .*; give .min"),
+        ("[run]", f"{SEA}hs_m = 3\n[run]", "hs is 2 m, and the run beside it is in a sea of 3 m"),
+        ("[run]", f"{SEA}hs_m = 2\n[run]", "simplified.*hs is 1 m, and the run beside it is in a sea of 2 m"),
         ('{ "dynamic factor"', '{ "psi"', "no row 'psi'"),
         ('"box.x - 0 m"', '"0 m / (box.x / 1 m)"', "own is no number at some outputs"),
         ('deck = "fixed"', 'deck = "quay"', "nearest|known are"),
@@ -239,6 +256,10 @@ def test_a_stiffness_that_is_left_out_is_that_of_the_hook_off_its_deck(tmp_path:
     scene = Lift.load(tmp_path / "my_lift.toml").scene()
     stiffness = 4.0 * 6e7 / (scene.place_of("tip")[2] - 4.0)
     row = run_answers(tmp_path / "my_lift.toml", tmp_path)["Code factors"]["dynamic factor"]  # type: ignore[index]
+    slipped = tmp_path / "slipped.toml"
+    slipped.write_text(text.replace("hs_m = 2\nmass_t", "hs_m = 2\nmass_kg"), encoding="utf-8")
+    with pytest.warns(MassUnitWarning, match="mass is 50 kg, and the hook of the lift carries 5e.04 kg"):
+        run_answers(slipped, tmp_path)
     by_hand = code_factors(hs=2.0, mass=5e4, stiffness=stiffness, falls=4)["dynamic factor"]
     assert row.value == pytest.approx(by_hand.value, rel=0.01)
     assert np.isnan(row.simulated)

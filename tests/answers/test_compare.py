@@ -111,6 +111,10 @@ def test_what_cannot_be_compared_is_refused(result: Result) -> None:
     for measured, given, words in refused:
         with pytest.raises(SceneError, match=words):
             compare(result, measured, **given)
+    both = MeasuredSeries(
+        time=time, columns={"roll": time, "heave": heave(time)}, units={"roll": "rad", "heave": "m"}
+    )
+    assert compare(result, both, channel="heave").column == "heave", "the column of the channel's name"
     assert compare(result, still, maximum_shift=0.0).bias == pytest.approx(heave(time).mean() - 1.0, abs=1e-3)
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from seacrane import Curve, Scene, SceneError, simulate
 from seacrane.answers import Cargo, deck_cargo
+from seacrane.warnings import MassUnitWarning
 
 G = 9.80665
 
@@ -63,6 +64,8 @@ def test_fastenings_share_force_and_overturning() -> None:
     moment = np.cross(corners, found).sum(axis=0)
     assert total == pytest.approx([0.0, 2e4, 1e4 * G]) and moment == pytest.approx([0.0] * 3, abs=1e-6)
     assert np.abs(found[:, 2] - 1e4 * G / 4.0) == pytest.approx(sideways)
+    with pytest.warns(MassUnitWarning, match="10 kg within fastenings about 72 m3.*give 10000"):
+        Cargo(point="module", mass=10.0, fastenings=corners)
     for nowhere in (np.nan, np.inf):
         with pytest.raises(SceneError, match="finite numbers"):
             Cargo(point="module", mass=1.0, fastenings=[*corners, (0.0, 0.0, nowhere)])

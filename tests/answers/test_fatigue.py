@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +13,7 @@ from seacrane import Scene, SceneError, simulate
 from seacrane.answers import FatigueCurve, fatigue, rainflow
 from seacrane.answers.fatigue import dirlik_rate, narrow_band_rate
 from seacrane.statistics.record import SpectrumEstimate
+from seacrane.warnings import UnitWarning
 
 G = 9.80665
 
@@ -80,6 +82,11 @@ def test_a_sine_has_one_cycle_in_each_period() -> None:
     for after in (45.0, np.nan):
         with pytest.raises(SceneError, match="fatigue: 0 outputs after"):
             fatigue(result, curves={"line_tension[wire]": FatigueCurve(constant=1.0, slope=3.0)}, after=after)
+    section = {"slope": 3.0, "scale": 900e-6}  # m2: 222 MPa
+    for constant, slips in ((1e12, True), (1e30, False), (1e48, True), (1e300, True)):  # MPa, Pa, far
+        curves = {"line_tension[wire]": FatigueCurve(constant=constant, **section)}
+        with pytest.warns(UnitWarning, match="1e6.slope") if slips else nullcontext():
+            assert ("a constant over MPa" in str(fatigue(result, curves=curves))) is slips
     with pytest.raises(SceneError, match="FatigueCurve"):
         fatigue(result, curves={"line_tension[wire]": 3.0})  # type: ignore[dict-item]
 
@@ -94,7 +101,7 @@ def test_a_slack_wire_goes_down_to_zero_and_one_that_is_not_known_is_named() -> 
             damping_ratio=0.0, rung="elastic",
         )  # fmt: skip
     result = simulate(scene, t_end=60.0, dt_out=0.02, channels=["line_tension"])
-    curves = {f"line_tension[{name}]": FatigueCurve(constant=1.0, slope=2.0) for name in ("wire", "spare")}
+    curves = {f"line_tension[{name}]": FatigueCurve(constant=1e12, slope=2.0) for name in ("wire", "spare")}
     wire, spare = fatigue(result, curves=curves)
     peak = 2e4 * G * (1.0 + np.sqrt(1.0 + 2.0 * 0.5 * 5e5 / (2e4 * G)))  # k x^2 / 2 = m g (0.5 m + x)
     assert wire.largest == pytest.approx(peak, rel=1e-3) and wire.rainflow > 0.0

@@ -200,6 +200,9 @@ def test_paths_are_from_the_folder_of_the_file(tmp_path: Path) -> None:
     lift = lift_of(text, tmp_path / "lifts")
     lift.save(tmp_path / "moved.toml")
     assert 'crane = "data/crane.toml"' in (tmp_path / "moved.toml").read_text()
+    (tmp_path / "lift.toml").write_text(text.replace("../data/crane.toml", "a_frame_40t"), encoding="utf-8")
+    Lift.load(tmp_path / "lift.toml").save(tmp_path / "again.toml")
+    assert Lift.load(tmp_path / "again.toml").scene().compile() is not None  # one that comes with seacrane
     assert Lift.load(tmp_path / "moved.toml") == lift
     expected = Scene()
     expected.add_crane(base="ground")

@@ -11,7 +11,7 @@ import pytest
 
 from seacrane import FileFormatError, Lift, SceneError
 from seacrane.cli.command_line import main
-from seacrane.lift.sheet_run import load_cases, run_sheet
+from seacrane.lift.sheet_run import _tail, load_cases, run_sheet
 from seacrane.operability import ScatterDiagram, availability, phase_sheet
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "lifts" / "sheet_by_phases.toml"
@@ -105,6 +105,10 @@ def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
     lift = Lift.load(small(tmp_path, ("lead_hours = 3", cases)))
     assert lift.sheet is not None
     assert [*load_cases(lift, lift.sheet)] == [f"mass_kg 100000.{n}, memory none" for n in (1, 2)]
+    boom, slew = (f"crane.coordinates.{name}.value_deg" for name in ("boom", "slew"))
+    assert _tail(boom, [boom, slew]) == "boom.value_deg"
+    assert _tail("hoist.size_m.3", ["hoist.size_m.3"]) == "size_m.3"
+    assert _tail("hoist.mass_kg", ["body.pod.mass_kg", "hoist.mass_kg"]) == "hoist.mass_kg"
 
 
 @pytest.mark.parametrize(
@@ -113,8 +117,11 @@ def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
         ("passage = true\n", "", r"line \d+.*stages are of a passage"),
         ("maximum_deg = 2", "maximum_m = 2", r"line \d+.*maximum_m.*maximum_rad"),
         ("maximum_deg = 2", "maximum_t = 2", "maximum in that of its channel.*nearest: maximum_tf"),
-        (LOAD, 'channel = "position"\nmaximum_m = 9\nstage = "hoisting"', "several curves; give body"),
+        (LOAD, 'channel = "position"\nmaximum_m = 9\nstage = "hoisting"', "not which body"),
         ("start = ", "utc_offset = 'two'\nstart = ", r"utc_offset in \[sheet.forecast\].*number"),
+        ('"forecast.csv"', '"none.csv"', r"line \d+: \[sheet.forecast\]: .*none.csv cannot be read"),
+        ('T06:00"', 'T06:30"', r"line \d+: \[sheet.forecast\]: start is .*a time of the forecast"),
+        ('T03:00"', 'T09:00"', r"line \d+: \[sheet.forecast\]: issued is .*after the start"),
         ("[0.80, 0.85, 0.90]", "[0.80, 0.85, 1.90]", "above 0, up to 1"),
         ('name = "hanging"\nhours = 1', 'name = "hanging"\nhours = -1', "hours"),
         ("lead_hours = 3", "lead_h = 3", "nearest: lead_hours"),
@@ -126,6 +133,7 @@ def test_each_load_case_has_a_name_of_its_own(tmp_path: Path) -> None:
 def test_what_is_wrong_is_named_with_its_line(old: str, new: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match=message):
         run_sheet(small(tmp_path, (old, new)), tmp_path / "out")
+    assert not (tmp_path / "out" / "runs").exists(), "before anything runs"
 
 
 def test_a_sheet_without_phases_is_refused() -> None:

@@ -84,10 +84,11 @@ def test_a_limit_that_turns_round_within_the_periods_is_told(sheet: PhaseSheet) 
     data = table.dataset.copy(deep=True)
     data["allowable_hs"][:, 2] = [1.5, 1.2, 1.3]
     told = replace(sheet, tables=dict(sheet.tables) | {("", "hold"): replace(table, dataset=data)})
-    assert "in Tp at 180 deg, least at 9 s" in told.not_monotone("hold")
-    assert "hold: not monotone in Tp" in str(told) or "; in Tp at 180 deg" in str(told)
+    data["allowable_hs"][:, :2] = [[1.0, 3.5], [2.0, 3.2], [2.0, 3.4]]
+    assert told.not_monotone("hold") == "in Tp, least at 9 s: at 135 deg, 180 deg", "alike: once"
+    assert "hold: not monotone in Tp, least" in str(told)
     data["allowable_hs"][:, 2] = [1.0, 1.4, 1.3]  # forbidden, allowed, forbidden
-    assert "in Tp at 180 deg, largest at 9 s" in told.not_monotone("hold")
+    assert "in Tp, largest at 9 s: at 180 deg" in told.not_monotone("hold")
     data["allowable_hs"][:, 2] = [1.5, 1.3, 1.3]
     assert "180 deg" not in told.not_monotone("hold")
     heights = np.array([1.0, 2.0, np.nan, 2.0, 1.5, 3.0])
@@ -163,7 +164,17 @@ def test_a_forecast_is_go_until_the_alpha_factor_falls(sheet: PhaseSheet) -> Non
     assert late.go and late.limit[1] == pytest.approx(limits["hold"] * ALPHA.at(limits["hold"], hours=10.0))
     assert "GO at 2021-03-01T05" in str(late) and START not in late.starts
     past = go_or_no_go(series(hs), sheet, start=START + 17 * HOUR)
-    assert not past.go and np.isnan(past.hs[1])  # the forecast ends before
+    assert not past.go and np.isnan(past.hs[1]) and past.governing[1] == "not known"
+    assert "hold: the forecast ends at 2021-03-01T19" in str(past)
+    assert "connect: by another forecast, after hold" in str(past)
+    gap = hs.copy()
+    gap[3] = np.nan
+    assert "hold: the forecast has no sea state at 2021-03-01T03" in str(go_or_no_go(series(gap), sheet))
+    beyond = replace(series(hs), tp=np.full(20, 20.0), direction_from_deg=np.full(20, 240.0))
+    assert "transfer: no limit for the sea of 2021-03-01T00:00" in str(go_or_no_go(beyond, sheet))
+    assert "Tp 20 s: the sheet has 6 to 14 s" in str(go_or_no_go(beyond, sheet))
+    told = str(go_or_no_go(beyond, sheet, heading_deg=30.0))
+    assert "waves to -30 deg from the bow to port: the sheet has 6 to 14 s, to 90 to 180 deg" in told
     assert go_or_no_go(series(hs), sheet, first="connect").phases == ("connect",)
     with pytest.raises(SceneError, match="issued is no time"):
         go_or_no_go(series(hs), sheet, issued="NaT")
@@ -234,7 +245,7 @@ def test_a_limit_that_is_kept_again_at_a_higher_hs_is_told(sheet: PhaseSheet) ->
     table: AllowableHs = cells.table("scene", AlphaFactor(), 1.0, {})
     assert table.dataset["again_hs"].item() == 3.0 and "1 cells are not monotone in Hs" in str(table)
     told = replace(sheet, tables={("", one.name): table for one in PHASES})
-    assert told.not_monotone("hold") == "in Hs at 9 s and 180 deg, kept again at 3 m"
+    assert told.not_monotone("hold") == "in Hs, kept again at 3 m: at 9 s and 180 deg"
     lost = table.dataset.assign(forecast_hs=np.nan * table.dataset["forecast_hs"])
     tables = {("", one.name): replace(table, dataset=lost) for one in PHASES}
     assert "'transfer' governs, forecast Hs not known" in str(replace(sheet, tables=tables))

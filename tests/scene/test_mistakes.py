@@ -25,6 +25,7 @@ from stage_scenes import lift_off, on_deck
 import seacrane
 from seacrane import Curve, MotionRaos, SampledController, Scene, Stage, Until, simulate
 from seacrane.analysis import balance, driven, equilibrium, reflected_inertia
+from seacrane.answers import FatigueCurve, fatigue
 from seacrane.crane import Payload
 from seacrane.hydro import BoxPart, HydroGroup, PlatePart, TablePart, ikeda_roll_damping, shipped_database
 from seacrane.hydro.hull.hull import shipped_hull
@@ -252,6 +253,11 @@ def a_resonant_wire_as_quasi_static() -> None:
     simulate(scene, t_end=1.0)
 
 
+def worn_over_megapascals() -> None:
+    run = simulate(on_wire(tension_at_start=2.5e5), t_end=5.0, dt_out=0.01, channels=["line_tension"])
+    fatigue(run, curves={"line_tension[hoist]": FatigueCurve(constant=1e12, slope=3, scale=900e-6)})
+
+
 def drag_of_the_world() -> None:
     tables = {"depths": (0, 3), "volumes": (0, 36), "added_masses": ((0, 0, 0), (3e4, 4e4, 9e4))}
     on_its_side(TablePart(height=3, drag_area=(40, 40, 90), source="a tank", **tables))
@@ -331,6 +337,7 @@ SCRIPTS: dict[str, list[Callable[[], Any]]] = {
         lambda: hung(rate=100.0, lag=0.2)],
     "pressures in bar": [lambda: on_gas(39.2, 0.1)],
     "volumes in litres": [lambda: on_gas(39.2e5, 100.0)],
+    "a fatigue curve over MPa": [worn_over_megapascals],
     "percentages for shares": [lambda: hung({"damping_ratio": 2.0})],
     "a heave in centimetres": [lambda: record(150.0)],
     "a record with noise": [lambda: record(1.5, noise=5e-3)],

@@ -53,6 +53,7 @@ class Beside(Rows[One]):
 
     title: str
     what: ClassVar[str]
+    what_of_run: ClassVar[str]
 
     @property
     def exceeded(self) -> tuple[str, ...]:
@@ -106,7 +107,7 @@ class CodeRow:
 class CodeFactors(Beside[CodeRow]):
     """Factors and speeds of crane codes beside simulated ones. Made by `code_factors`; prints as a table."""
 
-    what = "CODE"
+    what, what_of_run = "CODE", "maximum"
 
     def _shown(self) -> Table:
         return self._beside(

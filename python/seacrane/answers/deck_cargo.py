@@ -10,6 +10,7 @@ import numpy as np
 
 from seacrane.arrays import Array
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import is_finite, name_of, positive_of, rows_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.keywords import named
@@ -18,10 +19,12 @@ from seacrane.inputs.values import listed_of
 from seacrane.one_thread import one_thread
 from seacrane.plotting.table import Answer, Column, Table
 from seacrane.result import Result
+from seacrane.warnings import MassUnitWarning
 
 AXES = ("x", "y", "z")
 STILL = 0.02  # rad, by which what stands on a deck may turn against it
 HIDDEN = 0.05  # of the range of the steps, which the outputs may leave out
+LIGHTEST = 2.0  # kg/m3 within the fastenings, twice as high as the centre: of tonnes taken for kg
 
 
 @named
@@ -68,6 +71,11 @@ class Cargo:
         object.__setattr__(self, "stiffness", shares)
         if len(places) and np.linalg.matrix_rank(self._arms * np.sqrt(shares.ravel())) < 6:
             raise SceneError(f"{title}: its fastenings let it move; give three or more that hold it")
+        sides = np.ptp(places[:, :2], axis=0) if len(places) else np.zeros(2)
+        within = 2.0 * abs(places[:, 2].min(initial=0.0)) * float(np.prod(sides))
+        if self.mass < LIGHTEST * within:
+            told = f"mass is {self.mass:g} kg within fastenings about {within:.3g} m3, as light as air"
+            warn_caller(f"{title}: {told}; if these are tonnes, give {1e3 * self.mass:g}", MassUnitWarning)
 
     @property
     def _arms(self) -> Array:
@@ -130,7 +138,10 @@ class DeckCargo(Answer):
               for i, axis in enumerate(AXES)),
         ]  # fmt: skip
         axes = [Column(name="cargo", values=list(self.accelerations)), Column(name="extreme", values=names)]
-        remarks = ["Along the deck's axes; gravity is in it, once: at rest on an even keel z is g."]
+        remarks = [
+            "Along the deck's axes; gravity is in it, once: at rest on an even keel z is g.",
+            f"Of {np.ptp(self.time):g} s of one run: a longer one has larger extremes.",
+        ]
         if self.coarse:
             remarks.append(f"Peaks between the outputs: {', '.join(self.coarse)}; shorten dt_out.")
         return Table(

@@ -12,6 +12,7 @@ import numpy as np
 from seacrane.arrays import Array
 from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import numbers_of, positive_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
@@ -19,10 +20,12 @@ from seacrane.plotting.table import Rows, Table
 from seacrane.result import Result
 from seacrane.run.channel_names import unit_in
 from seacrane.statistics.record import FEWEST_VALUES, ROUNDING, SpectrumEstimate, spectrum_estimate
+from seacrane.warnings import UnitWarning
 
 UNVERIFIED = "unverified"
 FEW = 10.0  # outputs in a mean cycle, below which ranges are too small
 HIDDEN = 0.05  # of the range of the steps, which the outputs may leave out
+USUAL_CYCLES = (1.0, 1e20)  # that a curve bears of the largest range: one is there, more wear nothing
 NAN = float("nan")
 
 
@@ -228,6 +231,11 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
     ------
     SceneError
         For a channel that is not there, or a record that is too short for a spectrum.
+
+    Warns
+    -----
+    UnitWarning
+        For a curve that bears the largest range less than once, or more than 1e20 times.
     """
     if not isinstance(curves, Mapping) or not curves:
         raise SceneError(
@@ -258,6 +266,7 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
             continue
         row, rate = _row_of(values, duration, curve)
         rows.append(replace(row, name=name, unit=unit, zero=float(np.mean(values == 0.0))))
+        told += _slip(rows[-1], curve)
         least, largest = result.reached(name, part=part)
         hidden = np.ptp(values) < (1.0 - HIDDEN) * (largest.max() - least.min())
         if hidden or time.size < FEW * rate * duration:
@@ -265,6 +274,25 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
         elif not rate:
             told.append(f"{name} is {values[0]:g} {unit} throughout: it does not wear")
     return Fatigue(rows=tuple(rows), duration=duration, coarse=tuple(coarse), told=tuple(told))
+
+
+def _inverse(damage: float) -> float:
+    return 1.0 / damage if damage else float("inf")
+
+
+def _slip(row: FatigueRow, curve: FatigueCurve) -> list[str]:
+    """What a curve in another unit makes: told, and a warning."""
+    least, most = USUAL_CYCLES
+    borne = _inverse(curve.damage(row.largest))
+    if not row.largest or least <= borne <= most:
+        return []
+    told = (
+        f"{row.name}: the curve bears the largest range, {row.largest / curve.scale:.4g} over its scale, "
+        f"{borne:.3g} times: a slip in a unit? A curve over stress is over Pa: give a constant over MPa "
+        "times 1e6^slope"
+    )
+    warn_caller(f"fatigue: {told}", UnitWarning)
+    return [told]
 
 
 def _row_of(values: Array, duration: float, curve: FatigueCurve) -> tuple[FatigueRow, float]:
@@ -278,6 +306,6 @@ def _row_of(values: Array, duration: float, curve: FatigueCurve) -> tuple[Fatigu
     row = FatigueRow(
         cycles=float(cycles[:, 2].sum()), largest=float(cycles[:, 0].max()), rainflow=hourly,
         narrow_band=3600.0 * narrow_band_rate(spectrum, curve), dirlik=3600.0 * dirlik_rate(spectrum, curve),
-        life=1.0 / hourly, source=curve.source,
+        life=_inverse(hourly), source=curve.source,
     )  # fmt: skip
     return row, spectrum.crossing_rate

@@ -95,7 +95,7 @@ class DraughtRow:
 class SimplifiedMethod(Beside[DraughtRow]):
     """Forces by draught. Made by `simplified_method`; prints as a table."""
 
-    what = "METHOD"
+    what, what_of_run = "METHOD", "minimum"
 
     def _shown(self) -> Table:
         forces = ("static", "drag", "slam", "inertia", "buoyancy", "hydrodynamic", "snap")
@@ -104,7 +104,7 @@ class SimplifiedMethod(Beside[DraughtRow]):
             self.column("margin", form=".2f"), self.column("dynamic_factor", head="factor", form=".2f"),
             self.column("simulated", form=".2f"),
         ]  # fmt: skip
-        remarks = [f"A margin below {LEAST:g} is slack. {SOURCE}."]
+        remarks = [f"A margin below {LEAST:g} is slack; the ratio is of 1 - margin. {SOURCE}."]
         return self._beside(self.names("draught"), *columns, self._ratio(), remarks=remarks)
 
 

@@ -6,6 +6,7 @@ One entry of `ANSWERS` is all that an answer takes: schema, checks, the command 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from inspect import signature
 from typing import Any
@@ -21,17 +22,20 @@ from seacrane.answers.simplified_method import Draught, simplified_method
 from seacrane.answers.statics import hanging_rest
 from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.lift.inner_keys import LENGTH, POINT, ROW, TIME
 from seacrane.lift.keys import EITHER, Key, keys_of, require_unit
 from seacrane.plotting.table import Answer
 from seacrane.run.channel_names import unit_in
 from seacrane.scene.scene import Scene
+from seacrane.warnings import MassUnitWarning
 
 Given = Mapping[str, Any]
 MASS, SPEED, STIFFNESS = ({"unit": unit} for unit in ("kg", "m/s", "N/m"))
 AREA, ACROSS = {"unit": "m2"}, POINT | {"shapes": ((-1, 3),)}
 SIMULATED = {"type": "names", "text": 'What a run leaves by rows, such as "slack_margin[hoist].max".'}
 SCALES = {"N": ("N", "m2", "1"), "N m": ("N m", "m3", "1")}  # of a curve over the unit of its channel
+FAR = 100.0  # a mass in another unit is by 1000
 SCALE = EITHER.join(dict.fromkeys(unit for units in SCALES.values() for unit in units))
 
 
@@ -90,10 +94,26 @@ def _require_scale(scene: Scene, table: Given) -> None:
         require_unit(SCALED, table, EITHER.join(units), f"the scale of {channel}")
 
 
-def _hook_stiffness(scene: Scene) -> float:
-    """Of the only hook, the load off any deck."""
+def _of_hooks(scene: Scene, column: str) -> dict[str, float]:
+    """A column of statics by its hooks, the load off any deck."""
     columns = columns_of(hanging_rest(scene))
-    found = {name: one for name, (_, one) in columns.items() if name.startswith(HOOK_STIFFNESS)}
+    return {name: one for name, (_, one) in columns.items() if name.startswith(column)}
+
+
+def require_mass(scene: Scene, mass: float) -> None:
+    """Warn of a mass in another unit than what hangs on the only hook."""
+    found: dict[str, float] = {}
+    with suppress(SceneError):
+        found = _of_hooks(scene, "hook load")
+    hung = next(iter(found.values())) / scene.gravity if len(found) == 1 else float("nan")
+    if not FAR > mass / hung > 1.0 / FAR and np.isfinite(hung):
+        told = f"mass is {mass:g} kg, and the hook of the lift carries {hung:.4g} kg: a slip in its unit?"
+        warn_caller(told, MassUnitWarning)
+
+
+def _hook_stiffness(scene: Scene) -> float:
+    """Of the only hook."""
+    found = _of_hooks(scene, HOOK_STIFFNESS)
     if len(found) != 1 or not np.isfinite([*found.values()]).all():
         told = ", ".join(f"{name} {one:g}" for name, one in found.items()) or "no hook"
         raise SceneError.of("stiffness", f"is left to statics, which has {told}; give stiffness_N_per_m")

@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from seacrane.description.pick import Pick
+from seacrane.description.provenance import SeaProvenance
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.other_sea import require_same_sea
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
-from seacrane.lift.answer_keys import ANSWERS, AnswerCall
+from seacrane.lift.answer_keys import ANSWERS, AnswerCall, require_mass
 from seacrane.lift.build import refused_at
 from seacrane.lift.calls import keywords
 from seacrane.lift.check_keys import Entry
@@ -21,6 +22,9 @@ from seacrane.plotting.table import Answer
 from seacrane.result.result import Result
 from seacrane.run.channel_names import require_curves, unit_in
 from seacrane.scene.scene import Scene
+
+SAME_SEA = 0.01  # relative
+FIX = "give that of one sea, or leave simulated out"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,8 +71,12 @@ class Asked:
             require_curves(scene, self.curves)
             if self.over:
                 require_same_sea(scene, self.over)
+            if "mass" in self.given:
+                require_mass(scene, self.given["mass"])
             given = self._given(scene)
             code: Any = self.call.make(**given) if self.simulated else None
+            if self.simulated:
+                self._require_sea(scene)
         for word, require in self.call.require.items():
             for place, table in enumerate(self.entry.values[word]):
                 with refused_at(self.entry, word, place):
@@ -78,6 +86,19 @@ class Asked:
             if unit != (code.unit_of(name) or "1"):
                 told = f"{kept.channel} is in {unit}, and {name!r} in {code.unit_of(name) or '1'}"
                 self.entry.fail(f"simulated: {told}; give another", "simulated")
+            if kept.what != code.what_of_run:
+                told = f"{name!r} is a {code.what_of_run} of the run, and not its {kept.what}"
+                self.entry.fail(f"simulated: {told}; give .{code.what_of_run[:3]}", "simulated")
+
+    def _require_sea(self, scene: Scene) -> None:
+        """SceneError for a code in another sea than the run beside it."""
+        of = SeaProvenance() if scene.waves is None else scene.waves.provenance
+        hs, tz = self.given["hs"], self.given.get("tz", 0.0)
+        if of.sea is None and of.hs and abs(hs - of.hs) > SAME_SEA * of.hs:
+            raise SceneError.of("hs", f"is {hs:g} m, and the run beside it is in a sea of {of.hs:g} m; {FIX}")
+        if of.sea is None and of.tp and tz >= of.tp:
+            told = f"is {tz:g} s, and the run beside it is in a sea of Tp {of.tp:g} s, whose Tz is shorter"
+            raise SceneError.of("tz", f"{told}; {FIX}")
 
     def of(self, scene: Scene, result: Result | None) -> Answer:
         """The answer, of a run where it takes one."""

@@ -318,7 +318,7 @@ def _unknown(spelling: str, keys: Iterable[Key], title: str) -> str:
             is_in, fits = key.unit, " or ".join(key.spellings)
             if len(key.spellings) > MOST_TOLD:  # of whatever a channel is in
                 like = nearest(spelling, tuple(key.spellings))
-                is_in, fits = "that of its channel", f"{key.name} with it; {like}"
+                is_in, fits = "that of its channel", f"{key.name}_kN, {key.name}_deg or so; {like}"
             return f"{short(spelling)} in {title} is in {unit}, and {key.name} in {is_in}; give {fits}"
     near = nearest(spelling, tuple(one for key in keys for one in key.spellings))
     return f"{short(spelling)} is unknown in {title}; {near}"

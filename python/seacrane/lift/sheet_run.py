@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import partial
@@ -22,11 +22,11 @@ from seacrane.lift.check_keys import nearest, shipped_lift
 from seacrane.lift.inner_keys import LIFTS
 from seacrane.lift.lift import Lift
 from seacrane.lift.sheet import Sheet
-from seacrane.lift.sheet_keys import READ
+from seacrane.lift.sheet_keys import READ, SCATTER
 from seacrane.lift.study_run import in_two_units, keys_in, made_folder, with_keys
 from seacrane.lift.tables import TABLES
 from seacrane.operability.availability import ScatterDiagram, availability
-from seacrane.operability.go import go_or_no_go
+from seacrane.operability.go import go_or_no_go, start_of
 from seacrane.operability.hindcast import WaveHindcast
 from seacrane.operability.phase import Phase
 from seacrane.operability.phase_sheet import phase_sheet
@@ -93,6 +93,7 @@ def run_sheet(
         stages=lift.stages, store=target / RUNS, executor=executor, progress=progress,
         accuracy=lift.accuracy, method=lift.method, dt_out=lift.outputs.dt_out, part=part, **asked.given,
     )  # fmt: skip
+    beside = _beside(asked) if part is None else {}  # a part may run where these files are not
     with refused_at(asked.entry):
         if priced is not None and not priced(_price(made)):
             return None
@@ -102,7 +103,7 @@ def run_sheet(
         if not stores_in(target):
             raise SceneError(f"part {part}: the sheet is known without runs; run it as one")
         return None
-    return _answered(sheet, asked, target)
+    return _answered(sheet, asked, target, beside)
 
 
 def _price(made: Callable[..., PhaseSheet]) -> Price | None:
@@ -156,38 +157,50 @@ def stores_in(folder: Path) -> list[str]:
     return sorted(str(one.parent.relative_to(folder)) for one in (folder / RUNS).rglob(STUDY))
 
 
-def _answered(sheet: PhaseSheet, asked: Sheet, target: Path) -> SheetRun:
+def _beside(asked: Sheet) -> dict[str, tuple[Any, dict[str, Any]]]:
+    """What a sheet is held against, read before anything runs, and what else is said of it."""
+    found = {}
+    for name in BESIDE_IT:
+        given = dict(getattr(asked, name))
+        if not given:
+            continue
+        load, keys = (ScatterDiagram.load, SCATTER) if name == "scatter" else (WaveHindcast.load, READ)
+        file, read = given.pop("file"), {key.name: given.pop(key.name) for key in keys if key.name in given}
+        with refused_at(asked.entry, name):
+            try:
+                series: Any = load(file, **read)
+            except OSError as error:
+                raise SceneError(f"{file} cannot be read ({error.strerror}); check the path") from error
+            if name == "forecast":
+                start_of(series, given.get("start"), given.get("issued"))
+        found[name] = (series, given)
+    return found
+
+
+def _answered(
+    sheet: PhaseSheet, asked: Sheet, target: Path, beside: Mapping[str, tuple[Any, dict[str, Any]]]
+) -> SheetRun:
     """The sheet with what is held against it, written."""
     answers: dict[str, Answer] = {"Seas by phase": sheet}
+    names = [phase.name for phase in sheet.phases]
     try:
         for case in sheet.cases:
             of = f" of {case}" if case else ""
-            if asked.forecast:
-                with refused_at(asked.entry, "forecast"):
-                    answers[f"Forecast{of}"] = _held(go_or_no_go, sheet, case, **asked.forecast)
-            if asked.hindcast:
-                with refused_at(asked.entry, "hindcast"):
-                    answers[f"Windows{of}"] = _held(weather_windows, sheet, case, **asked.hindcast)
-            if asked.scatter:
-                with refused_at(asked.entry, "scatter"):
-                    answers |= _available(sheet, case, of, **asked.scatter)
+            for name, (series, given) in beside.items():
+                with refused_at(asked.entry, name):
+                    if name == "forecast":
+                        answers[f"Forecast{of}"] = go_or_no_go(series, sheet, case=case, **given)
+                    elif name == "hindcast":
+                        answers[f"Windows{of}"] = weather_windows(series, sheet, case=case, **given)
+                    else:
+                        answers |= {
+                            f"Availability: {one}{of}": availability(sheet.table(one, case=case), series)
+                            for one in names
+                        }
     finally:  # whatever it is held against, the sheet is known
         sheet.to_csv(target / CSV)
         answers_report(f"{sheet.name}: seas by phase", answers).save(target / PAGE)
     return SheetRun(sheet=sheet, answers=answers)
-
-
-def _available(sheet: PhaseSheet, case: str, of: str, *, file: str, **read: Any) -> dict[str, Answer]:
-    """The availability of each phase by a scatter table."""
-    scatter = ScatterDiagram.load(file, **read)
-    names = [phase.name for phase in sheet.phases]
-    return {f"Availability: {one}{of}": availability(sheet.table(one, case=case), scatter) for one in names}
-
-
-def _held(call: Callable[..., Answer], sheet: PhaseSheet, case: str, *, file: str, **given: Any) -> Answer:
-    """The answer of a call about the sea states of a file, read as its keys say."""
-    read = {key.name: given.pop(key.name) for key in READ if key.name in given}
-    return call(WaveHindcast.load(file, **read), sheet, case=case, **given)
 
 
 def _with_scene(phase: Phase, asked: Sheet) -> Phase:
@@ -201,6 +214,17 @@ def _with_scene(phase: Phase, asked: Sheet) -> Phase:
 def _told(value: Value) -> str:
     """A value in the name of a load case, so that others have other names."""
     return f"{value:.15g}" if isinstance(value, int | float) else value
+
+
+def _tail(key: str, keys: Iterable[str]) -> str:
+    """The last parts of a key that say which it is."""
+    parts, others = key.split("."), [f".{one}" for one in keys if one != key]
+    for place in reversed(range(1, len(parts))):
+        tail = ".".join(parts[place:])
+        bare = parts[place].isdigit() or parts[place].startswith("value")  # says not of what
+        if not bare and not any(one.endswith(f".{tail}") for one in others):
+            return tail
+    return key
 
 
 def load_cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
@@ -223,6 +247,6 @@ def load_cases(lift: Lift, asked: Sheet) -> dict[str, Scene]:
         members = members_of(asked.cases)
         for number in range(len(members)):
             values = members.values(number)
-            title = ", ".join(f"{name.rpartition('.')[2]} {_told(value)}" for name, value in values.items())
+            title = ", ".join(f"{_tail(name, values)} {_told(value)}" for name, value in values.items())
             found[title] = Lift(with_keys(tables, keys, values)).scene()
     return found

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from seacrane import _core
+from seacrane.crane.load_crane import shipped_cranes
 from seacrane.crane.parts import Payload
 from seacrane.description import elements
 from seacrane.description.hydraulic_cylinders import VALUES
@@ -177,7 +178,7 @@ CRANE = keys_of(
     add_crane,
     more=POSE
     | {
-        "crane": {"type": "file"},
+        "crane": {"type": "file", "choices": tuple(shipped_cranes())},
         "foot": POINT,
         "payload": {"type": "table", "keys": PAYLOAD},
         "payload_mass": {"unit": "kg"},

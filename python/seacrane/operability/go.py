@@ -42,6 +42,8 @@ class GoNoGo(Answer):
         Criterion of each phase at the nearest period and direction of its table.
     starts : ndarray of datetime64
         All times of the forecast at which it is go.
+    told : tuple of str
+        Why a phase cannot be judged, and what is not judged.
     """
 
     go: bool
@@ -54,6 +56,7 @@ class GoNoGo(Answer):
     governing: tuple[str, ...]
     starts: Times
     source: str
+    told: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<GoNoGo: {'go' if self.go else 'no go'} at {self.start}>"
@@ -77,7 +80,7 @@ class GoNoGo(Answer):
                 Column(name="go", head="", values=go,
                        read=("", [Verdict("go" if one else "no go", one) for one in go])),
             ],
-            title=f"{said} at {self.start} by {self.source}", remarks=[remark],
+            title=f"{said} at {self.start} by {self.source}", remarks=[*self.told, remark],
         )  # fmt: skip
 
 
@@ -122,12 +125,8 @@ def go_or_no_go(
     if first is not None and first not in begins:
         raise SceneError(f"first is {shown(first)}; an operation waits before {', '.join(begins)}")
     leg = sheet.legs[0] if first is None else begins[first]
-    begin, issue = (_time(name, one, times) for name, one in (("start", start), ("issued", issued)))
+    begin, issue = start_of(forecast, start, issued)
     place = int(np.searchsorted(times, begin))
-    if place == times.size or times[place] != begin:
-        raise SceneError(f"start is {begin}; give a time of the forecast, {times[0]} to {times[-1]}")
-    if issue > begin:
-        raise SceneError(f"issued is {issue}, after the start {begin}; give when the forecast was issued")
     chosen = sheet.case_of(case)
 
     def lead(at: int) -> float:
@@ -148,16 +147,35 @@ def go_or_no_go(
     held = zip(leg, limits(lead(place)), strict=True)
     worst = [_worst(forecast, span, limit, place) for span, limit in held]
     travel = None if heading_deg is None else forecast.travel_deg(heading_deg)
+    tables = [sheet.table(span.phase.name, case=case) for span in leg]
+    why = [
+        f"{span.phase.name}: {_why(forecast, table, one[0], travel)}"
+        for span, table, one in zip(leg, tables, worst, strict=True) if np.isnan(one[1])
+    ]  # fmt: skip
+    names = [phase.name for phase in sheet.phases]
+    if after := names[names.index(leg[-1].phase.name) + 1 :]:
+        why.append(f"{', '.join(after)}: by another forecast, after {leg[-1].phase.name}")
     return GoNoGo(
         go=bool(np.isin(place, starts)), start=begin, phases=tuple(span.phase.name for span in leg),
         hs=np.array([one[1] for one in worst]), limit=np.array([one[2] for one in worst]),
         begin=_at(begin, [span.begin for span in leg]), end=_at(begin, [span.end for span in leg]),
         governing=tuple(
-            _governing(forecast, sheet.table(span.phase.name, case=case), one[0], travel)
-            for span, one in zip(leg, worst, strict=True)
+            "not known" if np.isnan(one[1]) else _governing(forecast, table, one[0], travel)
+            for table, one in zip(tables, worst, strict=True)
         ),
-        starts=times[starts], source=forecast.source,
+        starts=times[starts], source=forecast.source, told=tuple(why),
     )  # fmt: skip
+
+
+def start_of(forecast: WaveHindcast, start: Any, issued: Any) -> tuple[np.datetime64, np.datetime64]:
+    """When an operation begins and its forecast was issued; SceneError for no time of the forecast."""
+    times = forecast.time
+    begin, issue = (_time(name, one, times) for name, one in (("start", start), ("issued", issued)))
+    if begin not in times:
+        raise SceneError(f"start is {begin}; give a time of the forecast, {times[0]} to {times[-1]}")
+    if issue > begin:
+        raise SceneError(f"issued is {issue}, after the start {begin}; give when the forecast was issued")
+    return begin, issue
 
 
 def _time(name: str, given: Any, times: Times) -> np.datetime64:
@@ -182,10 +200,24 @@ def _worst(forecast: WaveHindcast, span: Span, limit: Array, place: int) -> tupl
     end = place + steps_of(span.end, step)
     here: Flags = forecast.known[begin:end] & np.isfinite(limit[begin:end])
     if end > forecast.time.size or not here.all():
-        return min(begin, forecast.time.size - 1), float("nan"), float("nan")
+        return begin + int(np.argmin([*here, False])), float("nan"), float("nan")
     ratio = forecast.hs[begin:end] / np.maximum(limit[begin:end], 1e-12)
     at = begin + int(np.argmax(ratio))
     return at, float(forecast.hs[at]), float(limit[at])
+
+
+def _why(forecast: WaveHindcast, table: AllowableHs, at: int, travel: Array | None) -> str:
+    """Why there is no limit at a step, the first of its phase."""
+    if at >= forecast.time.size:
+        return f"the forecast ends at {forecast.time[-1]}, before it is over"
+    if not forecast.known[at]:
+        return f"the forecast has no sea state at {forecast.time[at]}"
+    tp, towards = (table.dataset[name].to_numpy() for name in ("tp", "direction_deg"))
+    has, asked = f"{tp.min():g} to {tp.max():g} s", f"Tp {forecast.tp[at]:.3g} s"
+    if travel is not None:
+        has += f", to {towards.min():g} to {towards.max():g} deg"
+        asked += f", waves to {(travel[at] + 180.0) % 360.0 - 180.0:g} deg from the bow to port"
+    return f"no limit for the sea of {forecast.time[at]}, {asked}: the sheet has {has}"
 
 
 def _governing(forecast: WaveHindcast, table: AllowableHs, at: int, travel: Array | None) -> str:

@@ -8,6 +8,7 @@ from concurrent.futures import Executor
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
+from seacrane.description.pick import Pick
 from seacrane.ensembles.object_store import folder_of
 from seacrane.ensembles.parts import part_of
 from seacrane.ensembles.price import Priced
@@ -23,6 +24,7 @@ from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.phase import Phase, Span, legs_of
 from seacrane.operability.phase_table import PhaseSheet
+from seacrane.run.channel_names import require_curves
 from seacrane.run.method import Method, Shorthand
 from seacrane.scene.scene import Scene
 
@@ -114,6 +116,13 @@ def phase_sheet(
     for span in spans:
         factor.at(1.0, hours=before + span.end)
     own = _criteria_of(listed, criteria)
+    passage = next((one.name for one in listed if one.passage), None)
+    if passage is not None and not stages:
+        raise SceneError(f"phase {passage!r} is a passage, and the lift has no stages; give stages")
+    for described in cases.values():  # before any run
+        for phase in listed:
+            picks = [Pick(channel=one.channel, names=one.names) for one in own[phase.name]]
+            require_curves(phase.scene_of(described), picks)
     shared: dict[str, Any] = {
         "tp": tp, "direction_deg": direction_deg, "hs": hs, "seeds": seeds, "until": until,
         "linear_within": linear_within, "executor": executor, "method": method, "accuracy": accuracy,
@@ -148,10 +157,6 @@ def _passages(
     alpha: AlphaFactor, lead: float, asked: Mapping[str, Any],
 ) -> dict[tuple[str, str], AllowableHs]:  # fmt: skip
     """All passages of a load case, by the same runs."""
-    if not asked["stages"]:
-        raise SceneError(
-            f"phase {spans[0].phase.name!r} is a passage, and the lift has no stages; give stages"
-        )
     every = [one for span in spans for one in own[span.phase.name]]
     places, first = {}, 0
     for span in spans:

@@ -123,18 +123,17 @@ class PhaseSheet(Answer):
 
     def not_monotone(self, phase: str, *, case: str | None = None) -> str:
         """Where the limit of a phase does not change one way over Tp or Hs, in words; empty where it does."""
-        table = self.table(phase, case=case)
-        data, told = table.dataset, []
-        tp = data["tp"].to_numpy()
-        for direction, column in zip(
-            data["direction_deg"].to_numpy(), data["allowable_hs"].to_numpy().T, strict=True
-        ):
-            turns = _turns(tp, column)
-            told += [f"in Tp at {direction:g} deg, {', '.join(turns)}"] if turns else []
-        for i, j in np.argwhere(np.isfinite(data["again_hs"].to_numpy())):
-            at, again = data["direction_deg"].to_numpy()[j], data["again_hs"].to_numpy()[i, j]
-            told.append(f"in Hs at {tp[i]:g} s and {at:g} deg, kept again at {again:g} m")
-        return "; ".join(told)
+        data = self.table(phase, case=case).dataset
+        tp, directions = (data[name].to_numpy() for name in ("tp", "direction_deg"))
+        told: dict[str, list[str]] = {}  # what is alike stands once, with where it is
+        for direction, column in zip(directions, data["allowable_hs"].to_numpy().T, strict=True):
+            if turns := _turns(tp, column):
+                told.setdefault(f"in Tp, {', '.join(turns)}: at ", []).append(f"{direction:g} deg")
+        again = data["again_hs"].to_numpy()
+        for i, j in np.argwhere(np.isfinite(again)):
+            where = f"{tp[i]:g} s and {directions[j]:g} deg"
+            told.setdefault(f"in Hs, kept again at {again[i, j]:g} m: at ", []).append(where)
+        return "; ".join(what + ", ".join(at) for what, at in told.items())
 
     def _data(self) -> Table:
         return Table(data=self.dataset)
@@ -166,7 +165,7 @@ class PhaseSheet(Answer):
         at = {name: data[name].to_numpy()[i, j] for name in TAKEN}
         hs, low, high = (float(at[name]) for name in ("allowable_hs", "low", "high"))
         known = np.isfinite(hs)
-        within = f" ({low:.2f} to {high:.2f})" if np.isfinite(low) and np.isfinite(high) else ""
+        within = f" ({low:.2f} to {high:.2f})" if low < high < np.inf else ""
         kind = f"passage, P90 of {at['runs']} seeds" if phase.passage else "stationary"
         span = next(one for leg in self.legs for one in leg if one.phase is phase)
         alpha = (

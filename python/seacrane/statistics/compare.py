@@ -174,7 +174,7 @@ def compare(
         Which curve, such as "hook_load[main, after=60]" or "roll" (`docs/channels.md`). Default: the name of
         the column, "hook load" as "hook_load".
     column : str, optional
-        Of the series; it needs no name where there is only one.
+        Of the series; it needs no name where there is only one, or one has the name of the channel.
     maximum_shift : float, optional
         s by which the record may be earlier or later than the run; default a quarter of the shorter of both;
         0: both have the same clock.
@@ -195,7 +195,7 @@ def compare(
     if not isinstance(result, Result) or not isinstance(series, MeasuredSeries):
         given = result if not isinstance(result, Result) else series
         raise SceneError(f"compare: {described(given)} is given; give a Result and a MeasuredSeries")
-    name = _column_of(series, column)
+    name = _column_of(series, column, channel)
     pick = pick_of("compare", name.replace(" ", "_") if channel is None else channel, held=result.channels)
     unit = _unit_of(pick, name, series)
     part = result.part(after=pick.after, stage=pick.stage)
@@ -227,12 +227,14 @@ def _beside(
     )  # fmt: skip
 
 
-def _column_of(series: MeasuredSeries, column: str | None) -> str:
-    if column is None and len(series.columns) > 1:
+def _column_of(series: MeasuredSeries, column: str | None, channel: str | Pick | None) -> str:
+    alike = str(channel).replace("_", " ")
+    if column is None and len(series.columns) > 1 and alike not in series.columns:
         raise SceneError(
             f"compare: the series has several columns; give column=, {listed(list(series.columns))}"
         )
-    name = next(iter(series.columns)) if column is None else column
+    name = alike if alike in series.columns else next(iter(series.columns))
+    name = name if column is None else column
     series[name]
     return name
 
