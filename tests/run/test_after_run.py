@@ -46,7 +46,7 @@ def test_a_look_that_fails_keeps_the_run(place: str, tmp_path: Path, monkeypatch
         np.testing.assert_allclose(result["position"][-1], expected["position"][-1], rtol=1e-6)
 
 
-def not_finite(run: sc.Run, arrays: Any) -> dict[str, Any]:
+def not_finite(run: sc.Run, arrays: Any, falls: Any) -> dict[str, Any]:
     """As `Run.wanted`, with a channel that is no number from its third output on."""
     out = {name: np.array(arrays[name]) for name in ("position", "energy_balance") if name in arrays}
     out["energy_balance" if "energy_balance" in out else "position"][2:] = np.nan

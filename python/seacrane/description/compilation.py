@@ -188,14 +188,13 @@ def _compiled(scene: Description, merge: bool) -> _core.Model:
     settings: dict[str, Any] = {
         key: number_of(f"scene {scene.name!r}: {key}", getattr(scene, key)) for key in SETTINGS
     }
-    if sea is not None:
-        settings["sea"] = field_of(sea)
+    settings |= {"wave_loads": []} if sea is None else water_of(sea)
     model = _core.compile(
         name=name_of("scene", scene.name),
         orientation=text_of(f"scene {scene.name!r}: orientation", scene.orientation), **settings,
         bodies=list(scene.bodies.values()), joints=list(scene.joints.values()),
         drivers=list(scene.drivers.values()), loads=loads, vessels=list(scene.vessels.values()),
-        groups=list(scene.groups.values()), wave_loads=[] if sea is None else compiled_waves(sea),
+        groups=list(scene.groups.values()),
         coordinates=[(name, *place) for name, place in scene.recorded.items()],
         points=list(scene.points.values()), merge=merge,
     )  # fmt: skip
@@ -221,8 +220,7 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
     """
     assert scene.waves is not None
     _, merge = model.compiled_from
-    sea = pruned(scene.waves, prune=merge)
-    out = model.in_sea(compiled_waves(sea), sea=field_of(sea))
+    out = model.in_sea(**water_of(pruned(scene.waves, prune=merge)))
     refuse_contradictions_in_water(scene)
     out.compiled_from = (scene, merge)
     return out
@@ -249,24 +247,26 @@ def _told_of(*bodies: str) -> Iterator[None]:
         raise SceneError(f"waves on {', '.join(map(repr, bodies)) or 'no vessel'}: {error}") from error
 
 
-def field_of(waves: Waves) -> _core.SeaField:
+def field_of(waves: Waves, components: _core.WaveComponents | None = None) -> _core.SeaField:
     """What moving points see of a sea; raises SceneError for values that make no sense."""
     with _told_of(*waves.hulls):
-        return _core.SeaField(waves.components(), stretching=waves.stretching)
+        return _core.SeaField(components or waves.components(), stretching=waves.stretching)
 
 
-def compiled_waves(waves: Waves) -> list[_core.WaveLoads]:
-    """The loads for the compiled core; raises SceneError for shapes or values that make no sense."""
+def water_of(waves: Waves) -> dict[str, Any]:
+    """A sea and its loads for the compiled core; SceneError for shapes or values that make no sense."""
     found = []
+    with _told_of(*waves.hulls):
+        sea = waves.components()
     for body, hull in waves.hulls.items():
         name = f"waves on {text_of('waves: body', body)}"
         with _told_of(body):
-            loads = _mean(waves, hull) if hull.force_by_heading is None else _positioned(waves, hull)
+            loads = (_mean if hull.force_by_heading is None else _positioned)(waves, hull, sea)
             found.append(_core.WaveLoads(name=name, body=body, **loads))
-    return found
+    return {"wave_loads": found, "sea": field_of(waves, sea)}
 
 
-def _positioned(waves: Waves, hull: HullLoads) -> dict[str, Any]:
+def _positioned(waves: Waves, hull: HullLoads, sea: _core.WaveComponents) -> dict[str, Any]:
     force, drift = hull.force_by_heading, hull.drift_by_heading
     if force is None or (hull.drift is not None and drift is None):
         raise ValueError("drift at the actual position needs drift_by_heading")
@@ -274,14 +274,14 @@ def _positioned(waves: Waves, hull: HullLoads) -> dict[str, Any]:
     if drift is not None:
         slow = {"drift_headings": np.asarray(drift.heading).tolist(), "drift": drift.values}
     positioned = _core.PositionedWaveLoad(
-        waves.components(), headings=np.asarray(force.heading).tolist(), transfer=force.values,
+        sea, headings=np.asarray(force.heading).tolist(), transfer=force.values,
         cutoff=hull.cutoff, **slow,
     )  # fmt: skip
     return {"positioned": positioned}
 
 
-def _mean(waves: Waves, hull: HullLoads) -> dict[str, Any]:
-    sea, position, bound = waves.components(), hull.position, waves.relative_bound
+def _mean(waves: Waves, hull: HullLoads, sea: _core.WaveComponents) -> dict[str, Any]:
+    position, bound = hull.position, waves.relative_bound
     exact = _core.ExactWaveLoad(sea, transfer=hull.transfer, position=position, elevation_point=position)
     loads: dict[str, Any] = {"exact": exact}
     if waves.evaluation == "table":

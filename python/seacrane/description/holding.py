@@ -8,7 +8,7 @@ from dataclasses import replace
 from seacrane.description.description import Description, Some, all_loads
 from seacrane.description.elements import add_driver
 from seacrane.description.loads import holding_loads, named
-from seacrane.description.once import once, once_in_any_sea, sharing
+from seacrane.description.once import once, once_in_any_sea, sharing, unchanged
 from seacrane.description.roles import CraneRoles
 
 Drive = tuple[str, str, str]  # label, joint and coordinate
@@ -52,9 +52,10 @@ def held_drives(scene: Description) -> Mapping[str, list[Drive]]:
 
 def with_holds(scene: Some) -> Some:
     """The scene as it is compiled: with a driver for each drive that is held; itself where there is none."""
-    if not held_drives(scene):
-        return scene
-    held = _decided_once(scene)
+    with unchanged(scene):
+        if not held_drives(scene):
+            return scene
+        held = _decided_once(scene)
     return sharing(scene.copy(roles=held.roles, drivers=held.drivers), held)
 
 

@@ -48,6 +48,8 @@ class Objects(Folder):
 
     def __getitem__(self, pack: int) -> list[Outcome]:
         path = self._file(pack)
+        if pack in self._fresh:
+            return super().__getitem__(pack)
         if not self.get(path):
             raise FileFormatError(f"{self.url}: has no {path.name}; run the ensemble again")
         try:

@@ -34,13 +34,15 @@ PACK = re.compile(rf"pack_([0-9]{{{DIGITS}}})\.nc")
 LARGEST_FILE = 2**32  # bytes of arrays
 MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
 LARGEST_PACK = 64
+MOST_FRESH = 2**26  # bytes of what was written here that wait in memory to be read
 
 
 class Folder:
     """Outcomes of packs by their number, each in a NetCDF file; one process writes."""
 
     def __init__(self, path: Path) -> None:
-        self.path = path
+        self.path, self._room = path, MOST_FRESH
+        self._fresh: dict[int, list[Outcome]] = {}  # written here, and not read since
 
     def __iter__(self) -> Iterator[int]:
         """Numbers of the packs that are there."""
@@ -76,10 +78,15 @@ class Folder:
                         _write_group(file.createGroup(f"kept_{number}"), alike)
             except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
                 raise OSError(f"the NetCDF library reports: {error}") from error
+        self._room -= bytes_in({pack: outcomes}, pack)
+        if self._room >= 0:
+            self._fresh[pack] = outcomes
 
     @interrupts_kept()
     def __getitem__(self, pack: int) -> list[Outcome]:
         """The outcomes of a pack. Raises FileFormatError where its file is damaged."""
+        if pack in self._fresh:
+            return self._fresh.pop(pack)
         path = self._file(pack)
         try:
             with open_netcdf(path, LARGEST_FILE, "give a smaller pack") as file:

@@ -57,14 +57,14 @@ OF_SOME = frozenset(
 
 
 def named_channels(
-    scene: Description, arrays: Mapping[str, Array], asked: Collection[str] | None = None
+    scene: Description, arrays: Mapping[str, Array], asked: Collection[str] | None, falls: Falls | None
 ) -> dict[str, Array]:
     """Channels of the core, and those that are made of them.
 
-    `asked`: which of those that are made are wanted; None: all.
+    `asked`: which of those that are made are wanted; None: all. `falls`: as of `derived_channels`.
     """
     wanted = [name for name in MADE if asked is None or name in asked]
-    out = {**arrays, **derived_channels(scene, arrays, wanted)}
+    out = {**arrays, **derived_channels(scene, arrays, wanted, falls)}
     return {name: np.ascontiguousarray(values) for name, values in out.items()}
 
 
@@ -233,10 +233,9 @@ class _Made:
             out /= np.linalg.norm(out, axis=1, keepdims=True)
         across = np.stack([-out[:, 1], out[:, 0], np.zeros(len(out))], axis=1)
         hang = hook - tip
-        down = -hang[:, 2]
         return (
-            np.arctan2(np.einsum("ij,ij->i", hang, out), down),
-            np.arctan2(np.einsum("ij,ij->i", hang, across), down),
+            np.arctan2(np.einsum("ij,ij->i", hang, out), -hang[:, 2]),
+            np.arctan2(np.einsum("ij,ij->i", hang, across), -hang[:, 2]),
         )
 
     def clearances(self) -> Array:
@@ -356,17 +355,18 @@ def followed_extremes(
 
 
 def derived_extremes(
-    scene: Description, arrays: Mapping[str, Array], extremes: Extremes, channels: Mapping[str, Array]
-) -> dict[str, tuple[Array, Array]]:
+    scene: Description, arrays: Mapping[str, Array], extremes: Extremes, channels: Mapping[str, Array],
+    falls: Falls | None,
+) -> dict[str, tuple[Array, Array]]:  # fmt: skip
     """Least and largest values of derived channels, from those of what they rise or fall with.
 
-    `channels` has their values at the outputs.
+    `channels` has their values at the outputs, `falls` those of their poses.
     """
     names = [one for one in MONOTONE if one in channels and any(part in extremes for part in sources_of(one))]
     if not names:
         return {}
     known, found = {name: values for name, values in arrays.items() if name != "time"}, {}
-    falls: Falls | None = None if extremes.keys() & set(POSE) else {}
+    falls = None if extremes.keys() & set(POSE) else falls  # else in the same poses
     ends = [
         derived_channels(scene, known | {name: both[i] for name, both in extremes.items()}, names, falls)
         for i in (0, 1)

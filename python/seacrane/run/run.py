@@ -41,7 +41,7 @@ from seacrane.run.channel_names import (
     wanted_extremes,
     with_sources,
 )
-from seacrane.run.derived import CHEAP, derived_extremes, followed_extremes, named_channels, own_values
+from seacrane.run.derived import CHEAP, Falls, derived_extremes, followed_extremes, named_channels, own_values
 from seacrane.run.line_rungs import COMPILED, all_elastic, line_rungs, struck, warn_of_quasi_static
 from seacrane.run.method import (
     REST,
@@ -137,9 +137,9 @@ class Run:
             )
         else:
             self.rungs = all_elastic(automatic(given), COMPILED)
-        scene = with_rungs(given, {name: rung.name for name, rung in self.rungs.items()})
-        self.scene, self.model = scene, scene.compile() if model is None else model
-        with unchanged(self.scene):
+        self.scene = scene = with_rungs(given, {name: rung.name for name, rung in self.rungs.items()})
+        with unchanged(scene):
+            self.model = scene.compile() if model is None else model
             self._begin(outputs_from, begins=begins)
 
     def _begin(self, outputs_from: float | None, *, begins: bool) -> None:
@@ -296,16 +296,18 @@ class Run:
         named = self.named(self.core.snapshot(), CHEAP.union(self.outputs.channels or ()))
         return {name: values[0] for name, values in named.items()}
 
-    def named(self, arrays: Mapping[str, Array], asked: Collection[str] | None = None) -> dict[str, Array]:
+    def named(
+        self, arrays: Mapping[str, Array], asked: Collection[str] | None = None, falls: Falls | None = None
+    ) -> dict[str, Array]:
         """Channels of the core by the names of a result; of those made of them the ones asked for, or all."""
         scene, known = self.scene, {name: values for name, values in arrays.items() if name != "time"}
-        out = named_channels(scene, known, None if asked is None else with_sources(scene, asked))
+        out = named_channels(scene, known, None if asked is None else with_sources(scene, asked), falls)
         if scene.channels and (asked is None or OWN in asked):
             own = own_values(scene, out, all_names(scene, self.model), len(arrays["time"]))
             out |= {} if own is None else {OWN: own}
         return out
 
-    def wanted(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
+    def wanted(self, arrays: Mapping[str, Array], falls: Falls | None = None) -> dict[str, Array]:
         """As `named`, those that the outputs ask for."""
         asked = self.outputs.channels
         if asked is not None and not DERIVED.keys() & set(asked):
@@ -316,8 +318,7 @@ class Run:
             kept |= {*arrays.keys() - {"time"}, *with_sources(self.scene, [OWN])}
         else:
             kept = set(asked)
-        named = self.named(arrays, kept)
-        return {name: values for name, values in named.items() if name in kept}
+        return {name: one for name, one in self.named(arrays, kept, falls).items() if name in kept}
 
     def set_inputs(self, values: Mapping[str, Any]) -> None:
         """Set inputs by name from now on; see `SampledController`."""
@@ -339,8 +340,7 @@ class Run:
             Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
             for time, name, kind, speed, impulse, lost in self.core.events()
         ]
-        burst = ruptures(self.scene, self.start.time, self.core.time)
-        return sorted([*met, *burst], key=lambda event: event.time)
+        return sorted(met + ruptures(self.scene, self.start.time, self.core.time), key=lambda one: one.time)
 
     def stats(self) -> dict[str, Any]:
         """Version, method, counters so far, and warnings of the description: `Result.stats`."""
@@ -374,9 +374,9 @@ class Run:
             every = () if most is None else (most,)
             arrays, extremes = self.core.channels(*every), self.core.extremes(*every)
             scene, met, stats = self.scene, self.events(), self.stats()
-            found: list[Finding] = []
+            found, falls = list[Finding](), Falls()
             recorded = {name: values for name, values in arrays.items() if name in CHANNELS}
-            channels = tried("making derived channels", lambda: self.wanted(arrays), recorded, found)
+            channels = tried("making derived channels", lambda: self.wanted(arrays, falls), recorded, found)
             found += findings(scene, arrays["time"], channels, stats, self.steered, described=self.described)
             reached = [(time, name) for time, name, *_ in self.core.events()]
             found += tried("looking at events", lambda: [*event_findings(scene, met, channels)], [], found)
@@ -387,7 +387,7 @@ class Run:
                 found += wrong.values()
             if found:
                 stats["validity"] = as_text(found)
-            reach = {**extremes, **derived_extremes(scene, arrays, extremes, channels)}
+            reach = {**extremes, **derived_extremes(scene, arrays, extremes, channels, falls)}
             if self._followed and len(arrays["time"]):
                 outputs = {**channels, "time": arrays["time"]}
                 reach |= followed_extremes(self.core.trail(), outputs, self._followed, self.named)
