@@ -42,33 +42,28 @@ Memory::Memory(const std::vector<StateSpaceBlock>& blocks, int motions) {
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const StateSpaceBlock& s = blocks[k];
     check(s, k, motions);
-    Block block{};
-    block.states = static_cast<int>(s.a.rows());
-    block.inputs = static_cast<int>(s.inputs.size());
-    block.outputs = static_cast<int>(s.outputs.size());
-    block.alone = block.inputs == 1 && block.outputs == 1;
-    block.first_input = static_cast<int>(motions_.size());
-    motions_.insert(motions_.end(), s.inputs.begin(), s.inputs.end());
-    block.first_output = static_cast<int>(motions_.size());
-    motions_.insert(motions_.end(), s.outputs.begin(), s.outputs.end());
-    if (block.alone && block.states <= tile) {
-      put_alone(s);
-    } else {
-      put_in_tiles(s.a, s.b, s.inputs);
-      put_in_tiles(s.c, s.d, s.inputs);
+    const int states = static_cast<int>(s.a.rows()), outputs = static_cast<int>(s.outputs.size());
+    states_ += states;
+    if (s.inputs.size() == 1 && outputs == 1 && states <= tile) {
+      put_alone(s, states);
+      continue;
     }
-    blocks_.push_back(block);
-    states_ += block.states;
+    runs_.push_back({false, states, 1, outputs, static_cast<int>(outputs_.size())});
+    outputs_.insert(outputs_.end(), s.outputs.begin(), s.outputs.end());
+    put_in_tiles(s.a, s.b, s.inputs);
+    put_in_tiles(s.c, s.d, s.inputs);
   }
 }
 
-/// All coefficients, by columns.
-void Memory::put_alone(const StateSpaceBlock& s) {
-  for (const auto& [left, right] : {std::pair{&s.a, &s.b}, std::pair{&s.c, &s.d}}) {
-    for (const MatXd* part : {left, right}) {
-      coefficients_.insert(coefficients_.end(), part->data(), part->data() + part->size());
-    }
+void Memory::put_alone(const StateSpaceBlock& s, int states) {
+  if (runs_.empty() || !runs_.back().alone || runs_.back().states != states) {
+    runs_.push_back({true, states, 0, 0, 0});
   }
+  ++runs_.back().blocks;
+  alone_.push_back({s.inputs.front(), s.outputs.front()});
+  MatXd all = MatXd::Zero(stride(states), states + 1);
+  all.topRows(states + 1) << s.a, s.b, s.c, s.d;
+  alone_coefficients_.insert(alone_coefficients_.end(), all.data(), all.data() + all.size());
 }
 
 /// The matrix (left, right), whose right columns belong to `inputs`.

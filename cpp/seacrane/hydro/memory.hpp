@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -32,77 +33,95 @@ class Memory {
   void evaluate(const T* u, const T* x, T* x_rate, T* mu) const {
     const double* m = coefficients_.data();
     const int* column = columns_.data();
-    for (const Block& block : blocks_) {
-      if (block.alone && block.states <= tile) {
-        in_tiles(block.states, [&]<int n>(int /*first*/) { evaluate_alone<n>(block, m, u, x, x_rate, mu); });
-        x += block.states;
-        x_rate += block.states;
+    const Alone* alone = alone_.data();
+    const double* of_alone = alone_coefficients_.data();
+    for (const Run& run : runs_) {
+      if (run.alone) {
+        with_count(run.states, [&]<int n>() {
+          for (const Alone* const end = alone + run.blocks; alone != end; ++alone) {
+            evaluate_alone<n>(u[alone->input], of_alone, x, x_rate, mu[alone->output]);
+            of_alone += stride(n) * (n + 1);
+            x += n;
+            x_rate += n;
+          }
+        });
         continue;
       }
-      in_tiles(block.states, [&]<int rows>(int first) {
+      in_tiles(run.states, [&]<int rows>(int first) {
         const auto sum = next_rows<rows, T>(m, column, u, x);
         std::copy_n(sum.data(), rows, x_rate + first);
       });
-      in_tiles(block.outputs, [&]<int rows>(int first) {
+      in_tiles(run.outputs, [&]<int rows>(int first) {
         const auto sum = next_rows<rows, T>(m, column, u, x);
-        const int* const output = motions_.data() + block.first_output + first;
+        const int* const output = outputs_.data() + run.first_output + first;
         for (int i = 0; i < rows; ++i) mu[output[i]] += sum[idx(i)];
       });
-      x += block.states;
-      x_rate += block.states;
+      x += run.states;
+      x_rate += run.states;
     }
   }
 
  private:
-  struct Block {
-    int states, inputs, outputs;
-    int first_input, first_output;  // in motions_
-    bool alone;                     // one input, one output
+  /// Blocks of one motion to one load that follow one another and have as many states; or one other block.
+  struct Run {
+    bool alone;
+    int states, blocks;
+    int outputs, first_output;  // of another block, in outputs_
+  };
+  struct Alone {
+    int input, output;
   };
 
   static constexpr int tile = 6;  // rows summed side by side, at most
+  /// Calls f.template operator()<count>() for up to `tile`.
+  template <class F>
+  static void with_count(int count, F&& f) {
+    switch (count) {
+      case 0:
+        return f.template operator()<0>();
+      case 1:
+        return f.template operator()<1>();
+      case 2:
+        return f.template operator()<2>();
+      case 3:
+        return f.template operator()<3>();
+      case 4:
+        return f.template operator()<4>();
+      case 5:
+        return f.template operator()<5>();
+      default:
+        return f.template operator()<tile>();
+    }
+  }
   /// Calls f.template operator()<count>(first) for rows in tiles.
   template <class F>
   static void in_tiles(int rows, F&& f) {
     int first = 0;
     for (; rows - first > tile; first += tile) f.template operator()<tile>(first);
-    switch (rows - first) {
-      case 0:
-        return;
-      case 1:
-        return f.template operator()<1>(first);
-      case 2:
-        return f.template operator()<2>(first);
-      case 3:
-        return f.template operator()<3>(first);
-      case 4:
-        return f.template operator()<4>(first);
-      case 5:
-        return f.template operator()<5>(first);
-      default:
-        return f.template operator()<tile>(first);
-    }
+    with_count(rows - first, [&]<int count>() {
+      if constexpr (count > 0) f.template operator()<count>(first);
+    });
   }
+  /// Of the rows of (A B; C D) for n states: an even number, so that two lie in one register.
+  static constexpr int stride(int n) { return (n + 2) / 2 * 2; }
+  static constexpr std::size_t kAlignment =
+      std::min<std::size_t>(2 * sizeof(double), __STDCPP_DEFAULT_NEW_ALIGNMENT__);
   /// One motion to one load, of so few states that all is laid out at compile time: most blocks.
   template <int n, class T>
-  void evaluate_alone(const Block& block, const double*& m, const T* u, const T* x, T* x_rate, T* mu) const {
-    const T motion = u[motions_[idx(block.first_input)]];
-    T load(0);
-    T rate[n];
-    for (int i = 0; i < n; ++i) rate[i] = T(0);
-    for (int j = 0; j < n; ++j, m += n) {
-      for (int i = 0; i < n; ++i) rate[i] += x[j] * T(m[i]);
+  [[gnu::always_inline]] static void evaluate_alone(const T& motion, const double* coefficients, const T* x,
+                                                    T* x_rate, T& mu) {
+    const double* const m = std::assume_aligned<kAlignment>(coefficients);
+    const auto factor = [&](int j) -> const T& { return j < n ? x[j] : motion; };
+    T sum[n + 1];
+    for (int i = 0; i <= n; ++i) sum[i] = T(0);
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) sum[i] += factor(j) * T(m[j * stride(n) + i]);
     }
-    for (int i = 0; i < n; ++i) rate[i] += motion * T(m[i]);
-    m += n;
-    for (int j = 0; j < n; ++j) load += x[j] * T(m[j]);
-    load += motion * T(m[n]);
-    m += n + 1;
-    for (int i = 0; i < n; ++i) x_rate[i] = rate[i];
-    mu[motions_[idx(block.first_output)]] += load;
+    for (int i = 0; i < n; ++i) x_rate[i] = sum[i];
+    mu += sum[n];
   }
 
-  void put_alone(const StateSpaceBlock& s);
+  void put_alone(const StateSpaceBlock& s, int states);
   void put_in_tiles(const MatXd& left, const MatXd& right, const std::vector<int>& inputs);
 
   /// The next rows of a block times (x, u), without columns of zeros; moves on to what comes after them.
@@ -120,9 +139,11 @@ class Memory {
     (std::make_index_sequence<static_cast<std::size_t>(rows)>{});
   }
 
-  std::vector<Block> blocks_;
-  std::vector<int> motions_;          // inputs, then outputs per block
-  std::vector<double> coefficients_;  // (A B), then (C D) per block, in tiles of rows, by columns
+  std::vector<Run> runs_;
+  std::vector<Alone> alone_;
+  std::vector<double> alone_coefficients_;  // (A B; C D) per block, by columns
+  std::vector<int> outputs_;
+  std::vector<double> coefficients_;  // (A B), then (C D) per other block, in tiles of rows, by columns
   std::vector<int> columns_;  // per tile those of x that are not zero, and of u, each after their number
   int states_ = 0;
 };
