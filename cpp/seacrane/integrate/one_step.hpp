@@ -56,8 +56,10 @@ class OneStepIntegrator : public Integrator {
   enum class NextStart { missing, at_start, at_end, refreshed };
 
   const std::vector<double>& next_derivative() const;
+  bool next_is_exact() const;
 
   NextStart next_start_ = NextStart::missing;
+  bool starts_exact_ = false;  // start_derivative_ is that at previous_state(), to the last bit
   std::vector<double> refreshed_;
   std::vector<double> candidate_;
   double initial_step_;
