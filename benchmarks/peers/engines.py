@@ -6,7 +6,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,11 +17,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
 from measure.records import scene_records
-from measure.timing import timed_run
+from measure.timing import best_seconds, timed_run
 from mujoco_model import mjcf
-from system import DT_OUT, T_END, tree_data, write_tree
+from system import DT_OUT, T_END, ten_body_scene, tree_data, write_tree
 
-from seacrane import Scene
+from seacrane import Run, Scene
+from seacrane.ensembles.other_sea import with_sea
+from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, module_of
 
 Array = NDArray[np.float64]
 SEACRANE = {
@@ -36,6 +38,7 @@ PINOCCHIO = {
     "rk4": ("dt", (0.1, 0.05, 0.025, 0.0125, 0.00625)),
 }
 BAUMGARTE = 10.0  # 1/s
+CHANNELS = ["position", "vessel_motion"]
 MUJOCO = [("rk4", step, factor * step) for step in (0.05, 0.0125, 0.005, 0.00125) for factor in (1.0, 0.5)]
 NUMPY = [("RK45", 1e-6), ("DOP853", 1e-9)]
 
@@ -69,12 +72,42 @@ class Reference:
 
 def own_run(scene: Scene, *, repeats: int, **settings: object) -> tuple[float, int, Array, Array]:
     """CPU time, evaluations, payload, roll of seacrane."""
-    run = timed_run(
-        scene, repeats=repeats, t_end=T_END, dt_out=DT_OUT, channels=["position", "vessel_motion"], **settings
-    )
-    payload = run.channels["position"][:, list(scene.bodies).index("payload")]
-    motion = run.channels["vessel_motion"].reshape(len(payload), -1)
-    return run.cpu, run.counters["evaluations"], payload, motion[:, 3]
+    run = timed_run(scene, repeats=repeats, t_end=T_END, dt_out=DT_OUT, channels=CHANNELS, **settings)
+    return run.cpu, run.counters["evaluations"], *_track(scene, run.channels)
+
+
+def _track(scene: Scene, channels: Mapping[str, Array]) -> tuple[Array, Array]:
+    """Payload and roll."""
+    payload = channels["position"][:, list(scene.bodies).index("payload")]
+    return payload, channels["vessel_motion"].reshape(len(payload), -1)[:, 3]
+
+
+def lane_points(reference: Reference, repeats: int) -> Iterator[Point]:
+    """A run of a batch in the lanes of this processor: the reference's sea, and others beside it."""
+    scene = ten_body_scene("table")
+    for lanes in (count for count in INSTRUCTIONS if module_of(count) is not None):
+        scenes = [scene, *(with_sea(scene, {"seed": seed}) for seed in range(101, 100 + lanes))]
+        for method, (key, values) in SEACRANE.items():
+            for value in values:
+                how = {"integrator": method, key: value, "dt_out": DT_OUT, "channels": CHANNELS}
+                batches = [[Run(one, T_END, **how) for one in scenes] for _ in range(repeats)]
+                last = batches[0][0]
+                cpu = best_seconds(
+                    lambda left=batches, beside=lanes: advance_side_by_side(left.pop(), beside, _go_on),
+                    repeats=repeats,
+                )
+                if "kept_apart" in last.lanes:
+                    raise RuntimeError(f"{method} {value:g} is not in lanes: {last.lanes['kept_apart']}")
+                result = last.result()
+                payload, roll = _track(scene, result.channels)
+                yield reference.point(
+                    payload, roll, engine=f"seacrane in {lanes} lanes", method=method,
+                    setting=f"{key} {value:g}", cpu=cpu / lanes, evaluations=int(result.stats["evaluations"]),
+                )  # fmt: skip
+
+
+def _go_on(_time: float) -> None:
+    """Nothing is looked at between steps."""
 
 
 def seacrane_points(scene: Scene, reference: Reference, repeats: int) -> Iterator[Point]:

@@ -14,7 +14,7 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from engines import Point, Reference, numpy_points, own_run, peer_points, seacrane_points
+from engines import Point, Reference, lane_points, numpy_points, own_run, peer_points, seacrane_points
 from measure.section import RESULTS, ROOT, Section
 from measure.sources import ENGINE
 from system import ten_body_scene
@@ -25,6 +25,7 @@ HERE = Path(__file__).resolve().parent
 PYTHON = ROOT / "out" / "peers" / "bin" / "python"
 LEVELS = (1e-2, 1e-4, 1e-6)  # m
 NEAREST = "its nearest"
+ALONE = ("seacrane recursive", "seacrane redundant")
 MARKS = {"seacrane recursive": "o-", "seacrane redundant": "s-", "Pinocchio": "^--", "MuJoCo": "v--",
          "NumPy/SciPy": "x:"}  # fmt: skip
 REPEATS = 3
@@ -45,10 +46,11 @@ def drivers() -> Path:
 def quickest() -> Iterator[list[Any]]:
     """Per payload error the quickest setting of each engine, over that of seacrane; then its nearest."""
     points = _points()
+    engines = list(dict.fromkeys(p.engine for p in points))
     _figure(points, RESULTS.parent / "peers" / "work_precision.png")
     for level in LEVELS:
-        own = min(p.cpu for p in points if p.engine.startswith("seacrane") and p.payload <= level)
-        for engine in MARKS:
+        own = min(p.cpu for p in points if p.engine in ALONE and p.payload <= level)
+        for engine in engines:
             passing = [p for p in points if p.engine == engine and p.payload <= level]
             if not passing:
                 yield [f"{level:g} m", engine, "no setting reaches it", None, None, None]
@@ -72,6 +74,7 @@ def _points() -> list[Point]:
     points: list[Point] = []
     for source in (
         seacrane_points(scene, reference, REPEATS),
+        lane_points(reference, REPEATS),
         peer_points(scene, reference, drivers(), REPEATS),
         numpy_points(scene, reference),
     ):

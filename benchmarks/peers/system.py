@@ -32,9 +32,9 @@ COORDINATES = (
 )  # fmt: skip
 
 
-def ten_body_scene() -> Scene:
+def ten_body_scene(evaluation: str = "exact") -> Scene:
     """Case 2 with the entrained water as part of the hull's inertia, its feed-forward that of the start."""
-    original = cases.case2(memory="none", count=COMPONENTS, evaluation="exact", feed_forward="start")
+    original = cases.case2(memory="none", count=COMPONENTS, evaluation=evaluation, feed_forward="start")
     (vessel,) = original.vessels.values()
     hull, added = original.bodies[vessel.body], np.asarray(vessel.added_mass)
     scene = original.copy(bodies={}, vessels={})

@@ -9,6 +9,7 @@
 #include "seacrane/integrate/adaptive_step.hpp"
 #include "seacrane/integrate/linear_combination.hpp"
 #include "seacrane/integrate/stability_polynomial.hpp"
+#include "seacrane/integrate/wide_loop.hpp"
 
 namespace seacrane {
 
@@ -116,6 +117,12 @@ class EmbeddedPair final : public AdaptiveStep {
     }
     return h * std::sqrt(sum * norm_.inverse_count());
   }
+  template <std::size_t lanes>
+  std::array<double, lanes> errors(double h, const Slopes& k) const;
+  SEACRANE_WIDE_LOOP static void add_product(std::size_t n, double factor, const double* k,
+                                             double* __restrict y) {
+    for (std::size_t i = 0; i < n; ++i) y[i] += factor * k[i];
+  }
   bool try_step(double h, double t_end) override;
   double error(double h) const override;
   std::size_t dominant_component(double h) const override;
@@ -139,27 +146,32 @@ bool EmbeddedPair<Tableau>::try_step(double h, double t_end) {
 }
 
 template <class Tableau>
-double EmbeddedPair<Tableau>::error(double h) const {
-  const Slopes k = slopes();
+template <std::size_t lanes>
+SEACRANE_WIDE_LOOP auto EmbeddedPair<Tableau>::errors(double h, const Slopes& k) const
+    -> std::array<double, lanes> {
   const auto tolerance = [&](std::size_t i) {
     return norm_.tolerance(i, std::max(std::abs(state_[i]), std::abs(end_state_[i])));
   };
-  return norm_.largest([&]<std::size_t lanes>() {
-    std::array<double, lanes> sum{}, low{};
-    for (std::size_t i = 0; i < size(); i += lanes) {
-      for (std::size_t j = 0; j < lanes; ++j) {
-        const double ratio = LinearCombination<Error, stages + 1>::slope(k, i + j) / tolerance(i + j);
-        sum[j] += ratio * ratio;
-        if constexpr (two_estimates) {
-          const double low_ratio =
-              LinearCombination<LowOrderError, stages + 1>::slope(k, i + j) / tolerance(i + j);
-          low[j] += low_ratio * low_ratio;
-        }
+  std::array<double, lanes> sum{}, low{};
+  for (std::size_t i = 0; i < size(); i += lanes) {
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const double ratio = LinearCombination<Error, stages + 1>::slope(k, i + j) / tolerance(i + j);
+      sum[j] += ratio * ratio;
+      if constexpr (two_estimates) {
+        const double low_ratio =
+            LinearCombination<LowOrderError, stages + 1>::slope(k, i + j) / tolerance(i + j);
+        low[j] += low_ratio * low_ratio;
       }
     }
-    for (std::size_t j = 0; j < lanes; ++j) sum[j] = combined(h, sum[j], low[j]);
-    return sum;
-  });
+  }
+  for (std::size_t j = 0; j < lanes; ++j) sum[j] = combined(h, sum[j], low[j]);
+  return sum;
+}
+
+template <class Tableau>
+double EmbeddedPair<Tableau>::error(double h) const {
+  const Slopes k = slopes();
+  return norm_.largest([&]<std::size_t lanes>() { return errors<lanes>(h, k); });
 }
 
 template <class Tableau>
@@ -199,7 +211,7 @@ void EmbeddedPair<Tableau>::interpolate(double t, double* y) const {
     double weight = 0.0;
     for (std::size_t p = degree; p-- > 0;) weight = s * (weight + dense[j][p]);
     if (weight == 0.0) continue;
-    for (std::size_t i = 0; i < n; ++i) y[i] += h * weight * k[j][i];
+    add_product(n, h * weight, k[j], y);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "seacrane/integrate/integrator.hpp"
+#include "seacrane/integrate/wide_loop.hpp"
 
 namespace seacrane {
 namespace {
@@ -55,7 +56,7 @@ ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
 
 /// Sums the squared ratios of all components, by lane.
 template <std::size_t lanes, class Ratio>
-std::array<double, lanes> ErrorNorm::sums(const Ratio& ratio) const {
+SEACRANE_WIDE_LOOP std::array<double, lanes> ErrorNorm::sums(const Ratio& ratio) const {
   std::array<double, lanes> out{};
   for (std::size_t i = 0; i < absolute_.size(); i += lanes) {
     for (std::size_t j = 0; j < lanes; ++j) {
@@ -114,15 +115,17 @@ double ErrorNorm::typical(std::size_t i) const {
   return absolute_[i] / relative_;
 }
 
-bool all_finite(const double* values, std::size_t size) {
+SEACRANE_WIDE_LOOP bool all_finite(const double* values, std::size_t size) {
   // 0 * x is 0 for finite x and NaN otherwise; independent sums let the compiler use vector registers.
-  double sum[4] = {0.0, 0.0, 0.0, 0.0};
+  constexpr std::size_t sums = 16;
+  double sum[sums] = {}, total = 0.0;
   std::size_t i = 0;
-  for (; i + 4 <= size; i += 4) {
-    for (std::size_t j = 0; j < 4; ++j) sum[j] += 0.0 * values[i + j];
+  for (; i + sums <= size; i += sums) {
+    for (std::size_t j = 0; j < sums; ++j) sum[j] += 0.0 * values[i + j];
   }
-  for (; i < size; ++i) sum[0] += 0.0 * values[i];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0.0;
+  for (; i < size; ++i) total += 0.0 * values[i];
+  for (const double one : sum) total += one;
+  return total == 0.0;
 }
 
 std::size_t first_non_finite(const double* values, std::size_t size) {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "seacrane/integrate/wide_loop.hpp"
+
 namespace seacrane {
 
 /// y + h sum_j weight_j k_j over whole vectors in one loop. `Weights::at(j)` are constants: the zero ones
@@ -32,7 +34,8 @@ class LinearCombination {
  public:
   /// z = y + h sum, for n components; z overlaps nothing.
   template <class Slopes>
-  static void add(std::size_t n, const double* y, double h, const Slopes& k, double* __restrict z) {
+  SEACRANE_WIDE_LOOP static void add(std::size_t n, const double* y, double h, const Slopes& k,
+                                     double* __restrict z) {
     for (std::size_t i = 0; i < n; ++i) z[i] = y[i] + h * slope(k, i);
   }
   /// The sum for component i.
