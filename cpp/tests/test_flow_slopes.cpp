@@ -5,7 +5,6 @@
 
 #include "count_allocations.hpp"
 #include "random_sea.hpp"
-#include "seacrane/sea/realisation.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
 using namespace seacrane;
@@ -91,16 +90,6 @@ bool agree(const SeaView& view, int stencil, int n, double t, const Moving& row,
   return true;
 }
 
-std::shared_ptr<const SeaField> sea_of(RandomSea& random, double depth, const Current& current) {
-  RealisationOptions o;
-  o.direction = random.number(-3.1, 3.1);
-  o.seed = random.engine();
-  o.depth = depth;
-  const WaveComponents w = realise(Spectrum::jonswap(2.0, random.number(5.0, 13.0)), o);
-  return std::make_shared<const SeaField>(
-      WaveComponents(w.omega(), w.amplitude(), w.phase(), w.direction(), depth, standard_gravity, current));
-}
-
 constexpr double kDeep = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -114,7 +103,7 @@ TEST_CASE("slopes are those of the few components, in 60 seas, at all depths, in
   for (int trial = 0; trial < 60; ++trial) {
     CAPTURE(trial);
     const double depth = trial % 2 ? kDeep : random.number(30.0, 90.0), t = random.number(0.0, 9e3);
-    const auto sea = sea_of(random, depth, trial % 3 ? Current() : test::shear());
+    const auto sea = random.long_crested(depth, trial % 3 ? Current() : test::shear());
     const auto near = NearSea::of(sea, stencils);
     REQUIRE(near);
     const SeaView view(sea, stencils, near);
@@ -156,7 +145,7 @@ TEST_CASE("slopes of all components: short-crested, wide, deep below the waves, 
 
 TEST_CASE("slopes of a row are summed once, whatever was asked before, and allocate nothing") {
   RandomSea random{std::mt19937_64(43)};
-  const auto sea = sea_of(random, kDeep, {});
+  const auto sea = random.long_crested(kDeep, {});
   const std::vector<FlowStencil> stencils = {{.name = "row", .count = 9, .reach = 6.0, .width = 3.0}};
   const SeaView view(sea, stencils, NearSea::of(sea, stencils)),
       other(sea, stencils, NearSea::of(sea, stencils));
