@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include "seacrane/math/dual.hpp"
+#include "seacrane/sea/realisation.hpp"
 #include "seacrane/sea/sea_field.hpp"
 
 namespace seacrane::test {
@@ -24,6 +26,16 @@ struct RandomSea {
       direction.push_back(number(-3.1, 3.1));
     }
     return {omega, amplitude, phase, direction, depth, standard_gravity, current};
+  }
+  /// A long-crested sea of 200 components.
+  std::shared_ptr<const SeaField> long_crested(double depth, const Current& current) {
+    RealisationOptions o;
+    o.direction = number(-3.1, 3.1);
+    o.seed = engine();
+    o.depth = depth;
+    const WaveComponents w = realise(Spectrum::jonswap(2.0, number(5.0, 13.0)), o);
+    return std::make_shared<const SeaField>(
+        WaveComponents(w.omega(), w.amplitude(), w.phase(), w.direction(), depth, standard_gravity, current));
   }
 };
 

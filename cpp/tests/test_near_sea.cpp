@@ -6,7 +6,6 @@
 
 #include "count_allocations.hpp"
 #include "random_sea.hpp"
-#include "seacrane/sea/realisation.hpp"
 #include "seacrane/sea/sea_view.hpp"
 
 using namespace seacrane;
@@ -14,22 +13,12 @@ using test::RandomSea;
 
 static const std::vector<FlowStencil> row = {{.name = "row", .count = 9, .reach = 6.0, .width = 3.0}};
 
-static std::shared_ptr<const SeaField> sea_of(RandomSea& random, double depth, const Current& current) {
-  RealisationOptions o;
-  o.direction = random.number(-3.1, 3.1);
-  o.seed = random.engine();
-  o.depth = depth;
-  const WaveComponents w = realise(Spectrum::jonswap(2.0, random.number(5.0, 13.0)), o);
-  return std::make_shared<const SeaField>(
-      WaveComponents(w.omega(), w.amplitude(), w.phase(), w.direction(), depth, standard_gravity, current));
-}
-
 TEST_CASE("few components are the sea in 40 seas and regions, whatever was asked before") {
   RandomSea random{std::mt19937_64(31)};
   for (int trial = 0; trial < 40; ++trial) {
     const double depth = trial % 2 ? std::numeric_limits<double>::infinity() : random.number(12.0, 60.0),
                  t = random.number(0.0, 9e3);
-    const auto sea = sea_of(random, depth, trial % 3 ? Current() : test::shear());
+    const auto sea = random.long_crested(depth, trial % 3 ? Current() : test::shear());
     REQUIRE(NearSea::of(sea, row));
     const SeaView view(sea, row, NearSea::of(sea, row)), other(sea, row, NearSea::of(sea, row));
     const Vec3d step = 1.1 * random.vector(1.0).normalized(), wide = random.vector(1.0);
@@ -53,7 +42,7 @@ TEST_CASE("few components are the sea in 40 seas and regions, whatever was asked
 
 TEST_CASE("from region to region the sea has two derivatives, and nothing is allocated") {
   RandomSea random{std::mt19937_64(32)};
-  const auto sea = sea_of(random, std::numeric_limits<double>::infinity(), {});
+  const auto sea = random.long_crested(std::numeric_limits<double>::infinity(), {});
   const auto near = NearSea::of(sea, row);
   const SeaView view(sea, row, near);
   const double middle = 0.5 * near->spacing(), h = middle * NearSea::overlap / 100.0;

@@ -75,7 +75,8 @@ FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil 
                        : std::make_shared<sea::FlowScratch>(field_ ? field_->padded() : 0)),
       near_(std::move(near)),
       summed_(field_.get()),
-      flow_(stencil_.count) {
+      flow_(stencil_.count),
+      slopes_(stencil_.count) {
   sea::require(stencil_.count > 0, stencil_.name, "number of points", stencil_.count, "give at least one");
   sea::require(stencil_.waves >= 0.0 && stencil_.waves <= 100.0, stencil_.name, "waves", stencil_.waves,
                "give 0 to 100 times those of the sea");
@@ -111,14 +112,20 @@ void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>&
 }
 
 void FlowEvaluator::take(std::size_t count, double z, double height, LocalFlow<double>& out) {
-  const WetHeight<double> wet = wet_height(z, height, out.elevation);
-  const double level = field_->level(wet.middle, out.elevation);
+  const Depth at = sink(count, z, height, out.elevation, false);
+  interior(at.reached, at.level, out);
+}
+
+FlowEvaluator::Depth FlowEvaluator::sink(std::size_t count, double z, double height, double elevation,
+                                         bool calm) {
+  const WetHeight<double> wet = calm ? WetHeight<double>{z, height} : wet_height(z, height, elevation);
+  const double level = calm ? z : field_->level(wet.middle, elevation);
   const double top = std::min(level + 0.5 * wet.height, 0.0);
   const double cut = scratch_->split ? few_cut : stencil_.cut;
   const std::size_t reached = std::min(count, summed_->reach(top, cut));
   scratch_->images = summed_->images(level - 0.5 * wet.height, cut);
   sea::set_decays(*summed_, reached, level, wet.height, *scratch_);
-  interior(reached, level, out);
+  return {level, reached};
 }
 
 std::size_t FlowEvaluator::feel(const FlowPoint& at, std::size_t most) {
@@ -149,7 +156,7 @@ void FlowEvaluator::write_calm(double t, const FlowPoint& at, std::size_t most, 
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::cloud(double t, std::span<const FlowPoint> points) {
-  time_ = std::numeric_limits<double>::quiet_NaN();
+  row_ = {};
   for (std::size_t n = 0; n < flow_.size(); ++n) {
     LocalFlow<double>& out = flow_[n] = {};
     if (!field_) continue;
@@ -173,50 +180,106 @@ void FlowEvaluator::add_row(std::size_t count, const FlowPoint& first, const Vec
   }
 }
 
+NearWaves::Met FlowEvaluator::meet_few(double t, const FlowPoint& first, const Vec3d& step, bool sloped) {
+  const SeaField& few = near_->sea().few();
+  const Vec3d middle = first.position + 0.5 * static_cast<double>(flow_.size() - 1) * step;
+  const double s = few.arrays().x[0] * middle.x() + few.arrays().y[0] * middle.y();
+  const NearWaves::Met met = near_->at(t, s, *scratch_, sloped);
+  summed_ = &few;
+  scratch_->split = true;
+  return met;
+}
+
+void FlowEvaluator::leave_few() {
+  summed_ = field_.get();
+  scratch_->split = false;
+}
+
 void FlowEvaluator::write_near(double t, const FlowPoint& first, const Vec3d& step) {
   const SeaField& few = near_->sea().few();
   const double x = few.arrays().x[0], y = few.arrays().y[0];
-  const Vec3d middle = first.position + 0.5 * static_cast<double>(flow_.size() - 1) * step;
-  const NearWaves::Met met = near_->at(t, x * middle.x() + y * middle.y(), *scratch_);
-  summed_ = &few;
-  scratch_->split = true;
+  const NearWaves::Met met = meet_few(t, first, step, false);
   const std::size_t count = feel(first, few.padded());
   sea::set_phasors(few, count, 0.0, first.position.x() - met.s * x, first.position.y() - met.s * y,
                    *scratch_);
   sea::take_amplitudes(met.amplitudes, few.padded(), count, *scratch_);
   add_row(count, first, step);
-  summed_ = field_.get();
-  scratch_->split = false;
+  leave_few();
+}
+
+FlowEvaluator::Sum FlowEvaluator::sum(double t, const FlowPoint& first, const Vec3d& step) const {
+  const double z = first.position.z(), top = z + 0.5 * first.height;
+  require_above_floor(std::min(z, z + static_cast<double>(flow_.size() - 1) * step.z()));
+  const bool calm = top < calm_;
+  const std::size_t most = calm ? field_->reach(std::min(top, 0.0), stencil_.cut) : field_->padded();
+  const bool few =
+      near_ && most > near_->sea().few().padded() && is_numbered(near_->sea(), t, first.position + step);
+  return {most, few, calm && !few};
 }
 
 void FlowEvaluator::write_row(double t, const FlowPoint& first, const Vec3d& step) {
-  const double z = first.position.z();
-  require_above_floor(std::min(z, z + static_cast<double>(flow_.size() - 1) * step.z()));
-  const bool calm = z + 0.5 * first.height < calm_;
-  const std::size_t most =
-      calm ? field_->reach(std::min(z + 0.5 * first.height, 0.0), stencil_.cut) : field_->padded();
-  if (near_ && most > near_->sea().few().padded() && is_numbered(near_->sea(), t, first.position + step))
-    return write_near(t, first, step);
-  if (calm) return write_calm(t, first, most, flow_.front());
-  const std::size_t count = feel(first, most);
+  const Sum sum = this->sum(t, first, step);
+  if (sum.few) return write_near(t, first, step);
+  if (sum.calm) return write_calm(t, first, sum.most, flow_.front());
+  const std::size_t count = feel(first, sum.most);
   sea::set_phasors(*field_, count, t, first.position.x(), first.position.y(), *scratch_);
   add_row(count, first, step);
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::row(double t, const FlowPoint& first, const Vec3d& step) {
-  if (t == time_ && first == first_ && step == step_) return flow_;
-  time_ = std::numeric_limits<double>::quiet_NaN();
+  const Row asked{t, first, step};
+  if (asked == row_) return flow_;
+  row_ = {};
   std::ranges::fill(flow_, LocalFlow<double>());
   if (field_) write_row(t, first, step);
-  time_ = t;
-  first_ = first;
-  step_ = step;
+  row_ = asked;
   return flow_;
+}
+
+void FlowEvaluator::write_slopes(double t, const FlowPoint& first, const Vec3d& step) {
+  const Sum sum = this->sum(t, first, step);
+  const NearWaves::Met met = sum.few ? meet_few(t, first, step, true) : NearWaves::Met{0.0, nullptr};
+  const SeaField& field = *summed_;
+  const std::size_t count = sum.few ? field.padded() : sum.most;
+  meet_waves(count);
+  sea::set_filters(field, count, first.extents, skew<double>(first.turning) * first.extents, *scratch_);
+  for (std::size_t n = 0; n < slopes_.size(); ++n) {
+    const Vec3d at = first.position + static_cast<double>(n) * step;
+    const auto add_waves = [&](const double* amplitudes, FlowSlopes& out) {
+      sea::set_phasors(field, count, sum.few ? 0.0 : t, at.x() - met.s * field.arrays().x[0],
+                       at.y() - met.s * field.arrays().y[0], *scratch_);
+      if (amplitudes) sea::take_amplitudes(amplitudes, count, count, *scratch_);
+      if (!sum.calm) sea::add_surface_slopes(field, count, *scratch_, out);
+    };
+    FlowSlopes& out = slopes_[n] = {};
+    out.wide = !first.extents.isZero(0.0);
+    out.calm = sum.calm;
+    out.blended = met.slopes != nullptr;
+    add_waves(met.amplitudes, out);
+    sea::forget_decays(*scratch_);
+    const Depth depth = sink(count, at.z(), first.height, out.value.elevation, sum.calm);
+    sea::add_interior_slopes(field, depth.reached, *scratch_, out);
+    if (!out.blended) continue;
+    FlowSlopes by_place;
+    add_waves(met.slopes, by_place);
+    sea::add_interior_slopes(field, depth.reached, *scratch_, by_place);
+    out.place = by_place.value;
+  }
+  leave_few();
+}
+
+std::span<const FlowSlopes> FlowEvaluator::slopes(double t, const FlowPoint& first, const Vec3d& step) {
+  const Row asked{t, first, step};
+  if (asked == sloped_) return slopes_;
+  sloped_ = {};
+  write_slopes(t, first, step);
+  sloped_ = asked;
+  return slopes_;
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::line(double t, const Vec3d& first, const Vec3d& step,
                                                        bool whole) {
-  time_ = std::numeric_limits<double>::quiet_NaN();
+  row_ = {};
   std::ranges::fill(flow_, LocalFlow<double>());
   if (!field_) return flow_;
   const Descent way(first, step, flow_.size() - 1);

@@ -6,27 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "seacrane/sea/flow_kernel.hpp"
+#include "seacrane/sea/flow_slopes.hpp"
 #include "seacrane/sea/flow_stencil.hpp"
 #include "seacrane/sea/near_waves.hpp"
 #include "seacrane/sea/sea_field.hpp"
 
 namespace seacrane {
-
-/// A point, as the middle of an element that is as wide as its extents.
-template <class T>
-struct FlowPlace {
-  Vec3<T> position = Vec3<T>::Zero();  // m, inertial frame
-  Mat3<T> extents = Mat3<T>::Zero();   // m, inertial frame: of the element along three axes, in columns
-  Vec3<T> turning = Vec3<T>::Zero();   // rad/s, of the element
-  T height = T(0);                     // m, of the element: the flow is averaged over what of it is wet
-
-  bool operator==(const FlowPlace& other) const {
-    return position == other.position && extents == other.extents && turning == other.turning &&
-           height == other.height;
-  }
-};
-using FlowPoint = FlowPlace<double>;
 
 /// The sea at a stencil of points, and its scratch; one for each run. Without a field the water is still and
 /// at rest. Results depend on the arguments alone, whatever was evaluated before.
@@ -47,19 +32,47 @@ class FlowEvaluator {
   /// At elements that differ from the first by equal steps. Asked again for the same, they are not evaluated
   /// again.
   std::span<const LocalFlow<double>> row(double t, const FlowPoint& first, const Vec3d& step);
+  /// The flow of the row at an element, with slopes: those of the very sums that row() takes.
+  template <int N>
+  LocalFlow<Dual<N>> in_row(int index, double t, const FlowPlace<Dual<N>>& first, const Vec3<Dual<N>>& step) {
+    const FlowSlopes& at =
+        slopes(t, first.values(), step.unaryExpr([](const Dual<N>& x) { return x.value; }))[idx(index)];
+    return in_directions(at, *field_, first, step, index, 0.5 * static_cast<double>(stencil_.count - 1));
+  }
 
   const FlowStencil& stencil() const { return stencil_; }
   /// Of each number of a flow against SeaField::at: what `cut` leaves out, rounding, and what the few miss.
   LocalFlow<double> error_bound(double t, double x, double y) const;
 
  private:
+  /// What of the waves a row is summed of.
+  struct Sum {
+    std::size_t most;  // of the components of the field
+    bool few, calm;    // the few in their place; without its surface
+  };
+  struct Row {
+    double t = std::numeric_limits<double>::quiet_NaN();
+    FlowPoint first;
+    Vec3d step = Vec3d::Zero();
+    bool operator==(const Row&) const = default;
+  };
+  /// Where the decays of an element are.
+  struct Depth {
+    double level;
+    std::size_t reached;  // as many of the components
+  };
+
   void require_above_floor(double z) const;
+  Sum sum(double t, const FlowPoint& first, const Vec3d& step) const;
   /// Amplitudes of the first waves, before an element takes its mean of them.
   void meet_waves(std::size_t count);
   /// Amplitudes that an element feels of the first waves, and how many components are felt at all.
   std::size_t feel(const FlowPoint& at, std::size_t most);
   /// The row from the phasors of its first element, `count` of them felt.
   void add_row(std::size_t count, const FlowPoint& first, const Vec3d& step);
+  /// From here on sums are those over the few, until leave_few().
+  NearWaves::Met meet_few(double t, const FlowPoint& first, const Vec3d& step, bool sloped);
+  void leave_few();
   void write_near(double t, const FlowPoint& first, const Vec3d& step);
   void write_row(double t, const FlowPoint& first, const Vec3d& step);
   /// The flow at a point that feels `most` waves, without its surface.
@@ -69,6 +82,10 @@ class FlowEvaluator {
   /// From the phasors of a point to its flow; `count` components are felt at all.
   void take(std::size_t count, double z, double height, LocalFlow<double>& out);
   void interior(std::size_t count, double level, LocalFlow<double>& out);
+  /// Of an element under a surface; in `calm` water it is all wet.
+  Depth sink(std::size_t count, double z, double height, double elevation, bool calm);
+  std::span<const FlowSlopes> slopes(double t, const FlowPoint& first, const Vec3d& step);
+  void write_slopes(double t, const FlowPoint& first, const Vec3d& step);
 
   std::shared_ptr<const SeaField> field_;
   FlowStencil stencil_;
@@ -76,9 +93,8 @@ class FlowEvaluator {
   std::shared_ptr<NearWaves> near_;
   const SeaField* summed_;  // the field, or the few of it
   std::vector<LocalFlow<double>> flow_;
-  double time_ = std::numeric_limits<double>::quiet_NaN();  // of the last row; none
-  FlowPoint first_;
-  Vec3d step_ = Vec3d::Zero();
+  std::vector<FlowSlopes> slopes_;
+  Row row_, sloped_;                                        // the last ones; none
   double calm_ = -std::numeric_limits<double>::infinity();  // z below which the surface is not asked for
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -21,6 +22,13 @@ struct Phasors {
   std::vector<double> cosine, sine;
 };
 
+/// Of what an element feels of a component: its share and its rate, and slopes, see set_filters.
+struct Filters {
+  std::vector<double> share, rate;
+  std::array<std::vector<double>, 3> over, rate_over;
+  std::vector<double> stretch;  // of the mean over a height, over that height and over the mean, 1/m
+};
+
 /// What one stencil keeps for each component, at the point that it is at.
 struct FlowScratch {
   std::vector<double> amplitude, angle;        // what the element feels of it; of its phase
@@ -32,13 +40,37 @@ struct FlowScratch {
   /// Of a NearSea the phasors of the velocity and of the elevation's rate are others than those of the rest.
   bool split = false;
   Phasors flow, rise;
+  Filters filters;  // of slopes
 
   std::size_t images = 0;  // how many of the first have an image, whole packs
 
   explicit FlowScratch(std::size_t padded) {
-    for (auto* array : {&amplitude, &angle, &gain, &cosine, &sine, &turn_cosine, &turn_sine, &decay.low,
-                        &decay.sum, &decay.step, &image.low, &image.sum, &image.step, &flow.cosine,
-                        &flow.sine, &rise.cosine, &rise.sine}) {
+    for (auto* array : {&amplitude,
+                        &angle,
+                        &gain,
+                        &cosine,
+                        &sine,
+                        &turn_cosine,
+                        &turn_sine,
+                        &decay.low,
+                        &decay.sum,
+                        &decay.step,
+                        &image.low,
+                        &image.sum,
+                        &image.step,
+                        &flow.cosine,
+                        &flow.sine,
+                        &rise.cosine,
+                        &rise.sine,
+                        &filters.share,
+                        &filters.rate,
+                        &filters.over[0],
+                        &filters.over[1],
+                        &filters.over[2],
+                        &filters.rate_over[0],
+                        &filters.rate_over[1],
+                        &filters.rate_over[2],
+                        &filters.stretch}) {
       array->assign(padded, 0.0);
     }
   }

@@ -33,9 +33,10 @@ NearWaves::NearWaves(std::shared_ptr<const NearSea> sea, std::size_t stencils)
   held_.resize(regions_);
   for (Held& one : held_) one.amplitudes.resize(size);
   blended_.resize(size);
+  slopes_.resize(size);
 }
 
-NearWaves::Met NearWaves::at(double t, double s, sea::FlowScratch& scratch) {
+NearWaves::Met NearWaves::at(double t, double s, sea::FlowScratch& scratch, bool sloped) {
   const double spacing = sea_->spacing(), place = std::floor(s / spacing);
   const double from = 0.5 * (1.0 - NearSea::overlap);
   const double part = std::clamp((s / spacing - place - from) / NearSea::overlap, 0.0, 1.0);
@@ -45,14 +46,20 @@ NearWaves::Met NearWaves::at(double t, double s, sea::FlowScratch& scratch) {
   const std::vector<double>& next = amplitudes(region + 1, t, scratch);
   if (share == 1.0) return {(place + 1.0) * spacing, next.data()};
   const std::vector<double>& here = amplitudes(region, t, scratch);
-  for (std::size_t set = 0; set < 2 * NearSea::sums * few_; set += 2 * few_) {
-    for (std::size_t j = 0; j < few_; ++j) {
-      const std::size_t c = set + j, q = c + few_;
-      blended_[c] = (1.0 - share) * here[c] + share * (next[c] * turn_cosine_[j] - next[q] * turn_sine_[j]);
-      blended_[q] = (1.0 - share) * here[q] + share * (next[q] * turn_cosine_[j] + next[c] * turn_sine_[j]);
+  const auto blend = [&](double of_here, double of_next, double* out) {
+    for (std::size_t set = 0; set < 2 * NearSea::sums * few_; set += 2 * few_) {
+      for (std::size_t j = 0; j < few_; ++j) {
+        const std::size_t c = set + j, q = c + few_;
+        out[c] = of_here * here[c] + of_next * (next[c] * turn_cosine_[j] - next[q] * turn_sine_[j]);
+        out[q] = of_here * here[q] + of_next * (next[q] * turn_cosine_[j] + next[c] * turn_sine_[j]);
+      }
     }
-  }
-  return {place * spacing, blended_.data()};
+  };
+  blend(1.0 - share, share, blended_.data());
+  if (!sloped) return {place * spacing, blended_.data()};
+  const double rest = part * (1.0 - part), slope = 30.0 * rest * rest / (NearSea::overlap * spacing);
+  blend(-slope, slope, slopes_.data());
+  return {place * spacing, blended_.data(), slopes_.data()};
 }
 
 const std::vector<double>& NearWaves::amplitudes(std::int64_t region, double t, sea::FlowScratch& scratch) {

@@ -25,9 +25,11 @@ class NearWaves {
   struct Met {
     double s;
     const double* amplitudes;  // for each of NearSea::sums all cosines, then all sines
+    const double* slopes =
+        nullptr;  // of the amplitudes over s; where they have none, or if not `sloped`, null
   };
   /// Until the next call. The scratch is that of the sums over all components.
-  Met at(double t, double s, sea::FlowScratch& scratch);
+  Met at(double t, double s, sea::FlowScratch& scratch, bool sloped = false);
   const NearSea& sea() const { return *sea_; }
 
  private:
@@ -51,7 +53,7 @@ class NearWaves {
   std::vector<double> harmonics_;                // what a knot sums, one number of all components by another
   std::vector<Knot> knots_;
   std::vector<Held> held_;
-  std::vector<double> blended_;
+  std::vector<double> blended_, slopes_;
 };
 
 }  // namespace seacrane

@@ -39,19 +39,6 @@ struct LocalFlow {
   }
 };
 
-/// A flow with slopes over x, y and z, where the point itself has slopes.
-template <int N>
-LocalFlow<Dual<N>> along(const LocalFlow<Dual<3>>& flow, const Vec3<Dual<N>>& point) {
-  LocalFlow<Dual<N>> out;
-  LocalFlow<Dual<N>>::each(flow, out, [&](const Dual<3>& from, Dual<N>& to) {
-    to = Dual<N>(from.value);
-    for (std::size_t n = 0; n < N; ++n) {
-      for (int i = 0; i < 3; ++i) to.slope[n] += from.slope[idx(i)] * point[i].slope[n];
-    }
-  });
-  return out;
-}
-
 /// What is below the surface of an upright element.
 template <class T>
 struct WetHeight {

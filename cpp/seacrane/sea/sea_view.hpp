@@ -45,23 +45,13 @@ class SeaView {
       return evaluators_[idx(stencil)].row(t, first, step)[idx(index)];
     } else {
       if (!field_) return {};
-      const Vec3<T> point = first.position + step * T(static_cast<double>(index));
-      return field_->at<T>(t, point, first.extents, first.height, first.turning, waves(stencil));
+      return evaluators_[idx(stencil)].in_row(index, t, first, step);
     }
   }
   /// The flow at the one point of a stencil, likewise.
   template <class T>
   LocalFlow<T> at_point(int stencil, double t, const Vec3<T>& point) const {
-    if constexpr (std::is_same_v<T, double>) {
-      return in_row<double>(stencil, 0, t, {point}, Vec3d::Zero());
-    } else {
-      if (!field_) return {};
-      using Place = Dual<3>;  // slopes in space cost less than those of all variables
-      Vec3<Place> here;
-      for (int i = 0; i < 3; ++i) here[i] = Place::variable(point[i].value, i);
-      const Mat3<Place> none = Mat3<Place>::Zero();
-      return along(field_->at<Place>(t, here, none, Place(0), Vec3<Place>::Zero(), waves(stencil)), point);
-    }
+    return in_row<T>(stencil, 0, t, {point}, Vec3<T>::Zero());
   }
   /// No crest is higher at a stencil, m.
   double crest(int stencil) const { return field_ ? waves(stencil) * field_->crest() : 0.0; }
