@@ -2,12 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/math/dense.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
+namespace {
+
+using SymmetricEigen = Eigen::SelfAdjointEigenSolver<MatXd>;
+
+/// Runs of a scene, in any sea, end with the matrix of the pose where they begin: each thread keeps the last.
+const SymmetricEigen& eigen_of(const MatXd& matrix) {
+  thread_local MatXd last;
+  thread_local SymmetricEigen found;
+  const auto bytes = sizeof(double) * static_cast<std::size_t>(matrix.size());
+  if (last.size() != matrix.size() || std::memcmp(last.data(), matrix.data(), bytes) != 0) {
+    last.resize(0, 0);  // where memory runs out, nothing is known
+    found.compute(matrix);
+    last = matrix;
+  }
+  return found;
+}
+
+}  // namespace
 
 DenseKkt::DenseKkt(int bodies, int rows)
     : velocities_(6 * bodies),
@@ -104,8 +123,7 @@ int RowSpace::factor(const std::vector<ElementModel>& elements, const RowBlock<d
   });
   const MatXd g = over_shape_ * d_.transpose();
   const VecXd scale = g.diagonal().array().max(1e-300).sqrt().inverse();
-  const MatXd scaled = scale.asDiagonal() * g * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatXd> eigen(scaled);
+  const SymmetricEigen& eigen = eigen_of(scale.asDiagonal() * g * scale.asDiagonal());
   const double limit = cut * cut * eigen.eigenvalues()[rows_ - 1];
   singular_values_ = (eigen.eigenvalues() / eigen.eigenvalues()[rows_ - 1]).cwiseMax(0.0).cwiseSqrt();
   combinations_ = eigen.eigenvectors();
