@@ -155,6 +155,7 @@ AGAIN = '{ channels = ["line_tension[wire]"], constant = 1, slope = 3 }'
 SIMULATED = '"slack_margin[wire].max"'
 
 
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.NotFiniteWarning")
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
