@@ -168,6 +168,7 @@ SEA = "[vessel]\ndatabase = 'hull_115'\nmotion = 'raos'\n[sea]\ntp_s = 6\ndirect
 SIMULATED = '"slack_margin[wire].max"'
 
 
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.NotFiniteWarning")
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

@@ -12,6 +12,7 @@ from seacrane import Curve, FileFormatError, Lift, Move, Result, Scene, Stage, U
 from seacrane.cli import main
 from seacrane.hydro import shipped_database
 from seacrane.scene import Tank
+from seacrane.warnings import StartTransientWarning
 
 STAGES = (
     Stage(name="hold", duration=1.05),
@@ -140,3 +141,42 @@ def test_tanks_are_filled_as_by_calls(tmp_path: Path) -> None:
     ):
         with pytest.raises(FileFormatError, match=words):
             lift_of(text, tmp_path).scene()
+
+
+@pytest.mark.parametrize(
+    ("wait", "ramp", "told"), [(5, 20, True), (20, 20, False), (0, 0, False), (0, 5, True)]
+)
+def test_what_begins_while_a_given_ship_hardly_moves_is_told(
+    wait: int, ramp: int, told: bool, tmp_path: Path, recwarn: pytest.WarningsRecorder
+) -> None:
+    """An example that lifted off a barge within its ramp told of no hits, and of half the accelerations."""
+    text = (
+        HEAD
+        + f"""
+[vessel]
+database = "hull_115"
+motion = "raos"
+ramp_s = {ramp}
+duration_s = 60
+[sea]
+hs_m = 1
+tp_s = 8
+count = 6
+[crane]
+held = true
+[hoist]
+mass_t = 50
+size_m = [4, 4, 4]
+length_m = 20
+EA_N = 6e7
+winch = {{}}
+"""
+    )
+    stages = f'[[stage]]\nname = "wait"\nduration_s = {wait}\n' if wait else ""
+    stages += '[[stage]]\nname = "lift"\nduration_s = 9\n'
+    stages += 'commands = [{ name = "hoist.rate", value_m_per_s = -0.1 }]\n'
+    lift_of(text + stages, tmp_path).scene()
+    found = [str(one.message) for one in recwarn if one.category is StartTransientWarning]
+    assert len(found) == told and all(
+        f"grows over {ramp} s, and what the stages do begins after {wait} s" in one for one in found
+    )

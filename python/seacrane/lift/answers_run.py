@@ -111,7 +111,11 @@ def _run_of(lift: Lift, scene: Scene, path: Path, *, progress: bool) -> Result |
         done = simulate(scene, span, to=path, overwrite=True, **how)
     if done.interrupted:
         raise KeyboardInterrupt
-    return done.load()
+    try:
+        result = done.load()
+    except FileFormatError:  # a channel is no number, which its file is not read with, and answers tell
+        result = simulate(scene, span, **how)
+    return result
 
 
 def _of_seeds(

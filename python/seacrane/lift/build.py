@@ -16,7 +16,7 @@ from seacrane.description.description import coordinate_of
 from seacrane.description.holding import with_holds
 from seacrane.description.places import ANGLES
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.caller import untold
+from seacrane.inputs.caller import untold, warn_caller
 from seacrane.lift.calls import Caller, Keywords, by_name, keywords, require_unit_of_channel
 from seacrane.lift.check_keys import Entry, only, plain, titled
 from seacrane.lift.document import Place
@@ -27,6 +27,7 @@ from seacrane.run.commands import HOLE, Command, Move, targets
 from seacrane.run.plan import checked_stages
 from seacrane.run.stage import Condition, Stage, Until
 from seacrane.scene.scene import Scene
+from seacrane.warnings import StartTransientWarning
 
 NO_CALLS = ("scene", "balance", "control", *ASIDE)
 LATER = ("command", "heave_compensation", "ballast", "notes")  # in this order, after what they act on
@@ -251,6 +252,22 @@ def check_stages(entries: Sequence[Entry], scene: Scene, stages: Any) -> None:
     except SceneError as error:
         tables = _tables(entries)
         next((one for one in tables if one.values["name"] == error.name), tables[0]).fail(str(error))
+    _warn_of_ramps(scene, stages)
+
+
+def _warn_of_ramps(scene: Scene, stages: Sequence[Stage]) -> None:
+    """Warn where something is done before the given motion of a ship has grown to that of its sea."""
+    acts = [bool(one.commands or one.connect or one.release) for one in stages]
+    before = stages[: acts.index(True)] if any(acts) else stages
+    wait = sum(float(one.duration or one.maximum_duration or 0.0) for one in before)
+    for name, told in scene.provenance.items():
+        if told.ramp and wait < told.ramp:
+            warn_caller(
+                f"vessel {name!r}: its motion grows over {told.ramp:g} s, and what the stages do begins "
+                f"after {wait:g} s, on a ship that hardly moves yet. Wait longer in a first stage, or give "
+                "a shorter ramp",
+                StartTransientWarning,
+            )
 
 
 def _tables(entries: Iterable[Entry]) -> list[Entry]:
