@@ -190,6 +190,8 @@ class Integrator : public LastStep {
 
   /// Goes on from a new state: drops what is kept of the derivative's past.
   virtual void reset(double t, const double* y) = 0;
+  /// As reset() at time(), of a system that is the same there: of an unchanged state the derivative is known.
+  virtual void begin_stretch(const double* y) { reset(time(), y); }
   virtual Counters counters() const = 0;
   /// Longest step that step() would take now (s); infinity where it is not chosen yet.
   virtual double step_in_use() const = 0;

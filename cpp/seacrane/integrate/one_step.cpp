@@ -51,6 +51,13 @@ void OneStepIntegrator::reset(double t, const double* y) {
   ++counters_.restarts;
 }
 
+void OneStepIntegrator::begin_stretch(const double* y) {
+  const NextStart next = next_start_;
+  const bool known = next_is_exact() && std::equal(state_.begin(), state_.end(), y);
+  reset(time_, y);
+  if (known) next_start_ = next;
+}
+
 void OneStepIntegrator::evaluate(double t, const double* y, double* ydot) const {
   ++counters_.evaluations;
   system_.derivative(t, y, ydot);

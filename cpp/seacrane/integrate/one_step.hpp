@@ -24,6 +24,7 @@ class OneStepIntegrator : public Integrator {
 
   void init(double t0, const double* y0) override;
   void reset(double t, const double* y) override;
+  void begin_stretch(const double* y) override;
   Counters counters() const override { return counters_; }
   std::vector<double> save() const final;
   void load(std::span<const double> saved) final;

@@ -216,9 +216,10 @@ void Simulation::check_turning() const {
 
 /// After a step without an event. An output at a sample of histories comes after it, as in a run that
 /// continues from there.
-void Simulation::finish_step(double now, double stop) {
+void Simulation::finish_step(double now, double smooth_until) {
   // The memory's load is smooth over a sample: no derivative is thrown away.
-  if (now >= stepper().system.terms().histories().next_sample()) {
+  const bool samples = now >= stepper().system.terms().histories().next_sample();
+  if (samples) {
     record_until(std::nextafter(now, -kNever));
     write_bodies(bodies_.data());
     stepper().bodies.sample_histories(now, bodies_.data());
@@ -227,15 +228,23 @@ void Simulation::finish_step(double now, double stop) {
   take_step(now);
   const double strike =
       switches_ && is_adaptive() ? switches_->end_of_strike(now, integrator().step_in_use()) : kNever;
-  if (now < stop && strike == kNever && !(switches_ && switches_->has_jumped())) return;
-  // A curve or a load has a kink here: the next step starts on its other side, with a fresh derivative.
+  if (now < std::min(smooth_until, switch_at_) && strike == kNever &&
+      !(switches_ && switches_->has_jumped())) {
+    return;
+  }
+  // A curve or a load has a kink here: the next step starts on its other side, behind that of a curve or what
+  // jumped with a fresh derivative.
   switch_at_ = strike;
   outputs_.end_stretch();
   end_of_smooth_stretch(now);
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
   stepper().stepped.project(now, state_.data(), false);
   settle(now);
-  integrator().reset(now, state_.data());
+  if (now < smooth_until && !samples) {
+    integrator().begin_stretch(state_.data());
+  } else {
+    integrator().reset(now, state_.data());
+  }
   if (switches_) switches_->watch(stepper(), now, state_.data());
 }
 
@@ -253,12 +262,12 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
   auto asked = Clock::now();
   bool going = true;
   while (going && time() < t_end) {
-    const double stop = std::min(end_of_smooth_stretch(time()), switch_at_);
-    step(std::min({stop, stepper().system.terms().histories().next_sample(), t_end}));
+    const double smooth_until = end_of_smooth_stretch(time());
+    step(std::min({smooth_until, switch_at_, stepper().system.terms().histories().next_sample(), t_end}));
     const double now = time();
     if (retake_to_switch()) continue;  // asked after its step: a State does not hold the sides passed
     if (!is_adaptive()) check_turning();
-    if (!carry_out_event()) finish_step(now, stop);
+    if (!carry_out_event()) finish_step(now, smooth_until);
     if (Clock::now() - asked >= options_.ask_every) {
       wall_seconds_ += seconds_since(asked);
       going = !keep_going || keep_going(time());

@@ -118,7 +118,7 @@ class Simulation {
   bool retake_to_switch();
   bool carry_out_event();
   void settle(double t);
-  void finish_step(double now, double stop);
+  void finish_step(double now, double smooth_until);
   void step_from(double t, ClosedSet closed);
   void reset_integrator();
   void watch_limits(bool goes_on = false);
