@@ -9,7 +9,7 @@
 #include "seacrane/integrate/adaptive_step.hpp"
 #include "seacrane/integrate/linear_combination.hpp"
 #include "seacrane/integrate/stability_polynomial.hpp"
-#include "seacrane/integrate/wide_loop.hpp"
+#include "seacrane/math/clones.hpp"
 
 namespace seacrane {
 
@@ -119,8 +119,8 @@ class EmbeddedPair final : public AdaptiveStep {
   }
   template <std::size_t lanes>
   std::array<double, lanes> errors(double h, const Slopes& k) const;
-  SEACRANE_WIDE_LOOP static void add_product(std::size_t n, double factor, const double* k,
-                                             double* __restrict y) {
+  SEACRANE_CLONES("avx2")
+  static void add_product(std::size_t n, double factor, const double* k, double* __restrict y) {
     for (std::size_t i = 0; i < n; ++i) y[i] += factor * k[i];
   }
   bool try_step(double h, double t_end) override;
@@ -147,8 +147,8 @@ bool EmbeddedPair<Tableau>::try_step(double h, double t_end) {
 
 template <class Tableau>
 template <std::size_t lanes>
-SEACRANE_WIDE_LOOP auto EmbeddedPair<Tableau>::errors(double h, const Slopes& k) const
-    -> std::array<double, lanes> {
+SEACRANE_CLONES("avx2")
+auto EmbeddedPair<Tableau>::errors(double h, const Slopes& k) const -> std::array<double, lanes> {
   const auto tolerance = [&](std::size_t i) {
     return norm_.tolerance(i, std::max(std::abs(state_[i]), std::abs(end_state_[i])));
   };

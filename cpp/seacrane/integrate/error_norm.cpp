@@ -5,7 +5,7 @@
 #include <string>
 
 #include "seacrane/integrate/integrator.hpp"
-#include "seacrane/integrate/wide_loop.hpp"
+#include "seacrane/math/clones.hpp"
 
 namespace seacrane {
 namespace {
@@ -56,7 +56,8 @@ ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
 
 /// Sums the squared ratios of all components, by lane.
 template <std::size_t lanes, class Ratio>
-SEACRANE_WIDE_LOOP std::array<double, lanes> ErrorNorm::sums(const Ratio& ratio) const {
+SEACRANE_CLONES("avx2")
+std::array<double, lanes> ErrorNorm::sums(const Ratio& ratio) const {
   std::array<double, lanes> out{};
   for (std::size_t i = 0; i < absolute_.size(); i += lanes) {
     for (std::size_t j = 0; j < lanes; ++j) {
@@ -115,7 +116,7 @@ double ErrorNorm::typical(std::size_t i) const {
   return absolute_[i] / relative_;
 }
 
-SEACRANE_WIDE_LOOP bool all_finite(const double* values, std::size_t size) {
+SEACRANE_CLONES("avx2") bool all_finite(const double* values, std::size_t size) {
   // 0 * x is 0 for finite x and NaN otherwise; independent sums let the compiler use vector registers.
   constexpr std::size_t sums = 16;
   double sum[sums] = {}, total = 0.0;

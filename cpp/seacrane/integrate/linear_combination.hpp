@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "seacrane/integrate/wide_loop.hpp"
+#include "seacrane/math/clones.hpp"
 
 namespace seacrane {
 
@@ -34,8 +34,8 @@ class LinearCombination {
  public:
   /// z = y + h sum, for n components; z overlaps nothing.
   template <class Slopes>
-  SEACRANE_WIDE_LOOP static void add(std::size_t n, const double* y, double h, const Slopes& k,
-                                     double* __restrict z) {
+  SEACRANE_CLONES("avx2")
+  static void add(std::size_t n, const double* y, double h, const Slopes& k, double* __restrict z) {
     for (std::size_t i = 0; i < n; ++i) z[i] = y[i] + h * slope(k, i);
   }
   /// The sum for component i.

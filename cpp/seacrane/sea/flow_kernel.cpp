@@ -13,23 +13,24 @@ namespace seacrane::sea {
 namespace {
 
 /// amplitude (cos, sin) of omega t + phase - (kx x + ky y), none of them above `largest`.
-SEACRANE_FLOW_LOOP void write_phasors(Read omega, Read phase, Read kx, Read ky, Read amplitude,
-                                      std::size_t count, double t, double x, double y, double largest,
-                                      Write angle, Write cosine, Write sine) {
+SEACRANE_CLONES("avx512f", "avx2")
+void write_phasors(Read omega, Read phase, Read kx, Read ky, Read amplitude, std::size_t count, double t,
+                   double x, double y, double largest, Write angle, Write cosine, Write sine) {
   for (std::size_t i = 0; i < count; ++i) angle[i] = omega[i] * t + (phase[i] - (kx[i] * x + ky[i] * y));
   sincos_each(angle, count, largest, sine, cosine);
   for (std::size_t i = 0; i < count; ++i) cosine[i] *= amplitude[i];
   for (std::size_t i = 0; i < count; ++i) sine[i] *= amplitude[i];
 }
 
-SEACRANE_FLOW_LOOP void write_turns(Read kx, Read ky, std::size_t count, double dx, double dy, double largest,
-                                    Write angle, Write cosine, Write sine) {
+SEACRANE_CLONES("avx512f", "avx2")
+void write_turns(Read kx, Read ky, std::size_t count, double dx, double dy, double largest, Write angle,
+                 Write cosine, Write sine) {
   for (std::size_t i = 0; i < count; ++i) angle[i] = -(kx[i] * dx + ky[i] * dy);
   sincos_each(angle, count, largest, sine, cosine);
 }
 
-SEACRANE_FLOW_LOOP void write_filtered(Read kx, Read ky, std::size_t count, double x, double y,
-                                       Write amplitude) {
+SEACRANE_CLONES("avx512f", "avx2")
+void write_filtered(Read kx, Read ky, std::size_t count, double x, double y, Write amplitude) {
   for (std::size_t i = 0; i < count; ++i) {
     const double half = 0.5 * (kx[i] * x + ky[i] * y), square = half * half;
     double sinc;
@@ -38,8 +39,9 @@ SEACRANE_FLOW_LOOP void write_filtered(Read kx, Read ky, std::size_t count, doub
   }
 }
 
-SEACRANE_FLOW_LOOP void write_turning(Read kx, Read ky, std::size_t count, double x, double y, double x_rate,
-                                      double y_rate, Write amplitude, Write gain) {
+SEACRANE_CLONES("avx512f", "avx2")
+void write_turning(Read kx, Read ky, std::size_t count, double x, double y, double x_rate, double y_rate,
+                   Write amplitude, Write gain) {
   for (std::size_t i = 0; i < count; ++i) {
     const double half = 0.5 * (kx[i] * x + ky[i] * y), square = half * half;
     const double rate = half * (kx[i] * x_rate + ky[i] * y_rate);  // of the square
@@ -53,17 +55,17 @@ SEACRANE_FLOW_LOOP void write_turning(Read kx, Read ky, std::size_t count, doubl
 }
 
 /// Of amplitudes that are not felt, none.
-SEACRANE_FLOW_LOOP void write_quotients(Read amplitude, std::size_t count, Write gain) {
+SEACRANE_CLONES("avx512f", "avx2") void write_quotients(Read amplitude, std::size_t count, Write gain) {
   for (std::size_t i = 0; i < count; ++i) gain[i] /= amplitude[i] + 1e-300;
 }
 
-SEACRANE_FLOW_LOOP void write_exponentials(Read k, std::size_t count, double z, Write out) {
+SEACRANE_CLONES("avx512f", "avx2") void write_exponentials(Read k, std::size_t count, double z, Write out) {
   for (std::size_t i = 0; i < count; ++i) exp_lane<double, std::uint64_t>(k[i] * z, out[i]);
 }
 
 /// From exp(k z) in the middle of a height to its integral: times height sinh x / x with x = k height / 2, as
 /// sin x / x of an imaginary x. Where k height is far above 2 pi it comes out too small, never too large.
-SEACRANE_FLOW_LOOP void write_integrals(Read k, std::size_t count, double height, Write sum) {
+SEACRANE_CLONES("avx512f", "avx2") void write_integrals(Read k, std::size_t count, double height, Write sum) {
   for (std::size_t i = 0; i < count; ++i) {
     const double half = 0.5 * k[i] * height;
     double mean;
@@ -89,7 +91,8 @@ inline double growth(double x) {
 }
 
 /// The height goes up, as the decay sees it, as it is.
-SEACRANE_FLOW_LOOP void write_risen(Read k, std::size_t count, double up, Write low, Write sum) {
+SEACRANE_CLONES("avx512f", "avx2")
+void write_risen(Read k, std::size_t count, double up, Write low, Write sum) {
   for (std::size_t i = 0; i < count; ++i) {
     const double x = k[i] * up, factor = 1.0 + x * growth(x);
     low[i] *= factor;
@@ -98,7 +101,8 @@ SEACRANE_FLOW_LOOP void write_risen(Read k, std::size_t count, double up, Write 
 }
 
 /// Its bottom alone goes up, as the decay sees it, and as much of the height is lost as `lost` says.
-SEACRANE_FLOW_LOOP void write_cut(Read k, std::size_t count, double up, double lost, Write low, Write sum) {
+SEACRANE_CLONES("avx512f", "avx2")
+void write_cut(Read k, std::size_t count, double up, double lost, Write low, Write sum) {
   for (std::size_t i = 0; i < count; ++i) {
     const double x = k[i] * up, part = low[i] * growth(x);
     low[i] += x * part;
@@ -106,7 +110,7 @@ SEACRANE_FLOW_LOOP void write_cut(Read k, std::size_t count, double up, double l
   }
 }
 
-SEACRANE_FLOW_LOOP void write_products(Read factor, std::size_t count, Write out) {
+SEACRANE_CLONES("avx512f", "avx2") void write_products(Read factor, std::size_t count, Write out) {
   for (std::size_t i = 0; i < count; ++i) out[i] *= factor[i];
 }
 
@@ -260,8 +264,8 @@ inline void add_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowS
 
 }  // namespace
 
-SEACRANE_FLOW_LOOP void add_surface(const SeaField& field, std::size_t count, FlowScratch& s,
-                                    LocalFlow<double>& out) {
+SEACRANE_CLONES("avx512f", "avx2")
+void add_surface(const SeaField& field, std::size_t count, FlowScratch& s, LocalFlow<double>& out) {
   if (s.split) {
     add_surface_sums<false, true>(field.arrays(), count, s, out);
   } else {
@@ -269,8 +273,8 @@ SEACRANE_FLOW_LOOP void add_surface(const SeaField& field, std::size_t count, Fl
   }
 }
 
-SEACRANE_FLOW_LOOP void add_next_surface(const SeaField& field, std::size_t count, FlowScratch& s,
-                                         LocalFlow<double>& out) {
+SEACRANE_CLONES("avx512f", "avx2")
+void add_next_surface(const SeaField& field, std::size_t count, FlowScratch& s, LocalFlow<double>& out) {
   if (s.split) {
     add_surface_sums<true, true>(field.arrays(), count, s, out);
   } else {
@@ -316,8 +320,8 @@ inline void sum_interior(const SeaField::Arrays& f, std::size_t from, std::size_
 
 }  // namespace
 
-SEACRANE_FLOW_LOOP void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s,
-                                     LocalFlow<double>& out) {
+SEACRANE_CLONES("avx512f", "avx2")
+void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out) {
   InteriorSums sum;
   const std::size_t floor = std::min(count, s.images);
   const bool mean = s.height > 0.0;
@@ -336,8 +340,8 @@ SEACRANE_FLOW_LOOP void add_interior(const SeaField& field, std::size_t count, c
   out.pressure += share * total(sum.p);
 }
 
-SEACRANE_FLOW_LOOP void take_amplitudes(const double* amplitudes, std::size_t few, std::size_t count,
-                                        FlowScratch& s) {
+SEACRANE_CLONES("avx512f", "avx2")
+void take_amplitudes(const double* amplitudes, std::size_t few, std::size_t count, FlowScratch& s) {
   for (std::size_t i = 0; i < count; ++i) {
     const double c = s.cosine[i], q = s.sine[i];
     const auto times = [&](std::size_t sum, double& cosine, double& sine) {
@@ -351,13 +355,15 @@ SEACRANE_FLOW_LOOP void take_amplitudes(const double* amplitudes, std::size_t fe
   }
 }
 
-SEACRANE_FLOW_LOOP void add_weighed(Read value, Read rate, Read acceleration, std::size_t count, double a,
-                                    double b, double c, Write out) {
+SEACRANE_CLONES("avx512f", "avx2")
+void add_weighed(Read value, Read rate, Read acceleration, std::size_t count, double a, double b, double c,
+                 Write out) {
   for (std::size_t i = 0; i < count; ++i) out[i] += a * value[i] + b * rate[i] + c * acceleration[i];
 }
 
-SEACRANE_FLOW_LOOP void sum_shares(Read shares, Read harmonics, std::size_t count, std::size_t few,
-                                   Write value, Write rate, Write acceleration) {
+SEACRANE_CLONES("avx512f", "avx2")
+void sum_shares(Read shares, Read harmonics, std::size_t count, std::size_t few, Write value, Write rate,
+                Write acceleration) {
   constexpr std::size_t rows = 6;
   double* const out[rows] = {value, value + few, rate, rate + few, acceleration, acceleration + few};
   for (std::size_t j = 0; j < few; j += wide) {

@@ -7,16 +7,6 @@
 
 #include "seacrane/sea/sea_field.hpp"
 
-// GCC compiles these loops again for registers of four and of eight doubles, and chooses when the program
-// starts. No form fuses products and sums (cpp/CMakeLists.txt), so that all give the same bits. All that they
-// call is within them.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__gnu_linux__) && \
-    !defined(__AVX2__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define SEACRANE_FLOW_LOOP __attribute__((target_clones("avx512f", "avx2", "default"), flatten))
-#else
-#define SEACRANE_FLOW_LOOP
-#endif
-
 /// Components side by side, for the files of the sums over them alone.
 namespace seacrane::sea {
 namespace {

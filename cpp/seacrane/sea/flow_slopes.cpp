@@ -8,8 +8,9 @@ namespace {
 
 /// Products over the extents of f = sin u / u, u half the phase between their ends: f' = 2 u df/du^2, and
 /// f'' = -f - 4 df/du^2, as u f'' + 2 f' + u f = 0.
-SEACRANE_FLOW_LOOP void write_filters(Read kx, Read ky, std::size_t count, const Mat3d& extents,
-                                      const Mat3d& rates, Filters& to) {
+SEACRANE_CLONES("avx512f", "avx2")
+void write_filters(Read kx, Read ky, std::size_t count, const Mat3d& extents, const Mat3d& rates,
+                   Filters& to) {
   for (std::size_t i = 0; i < count; ++i) {
     double f[3], first[3], second[3], turn[3];
     for (int m = 0; m < 3; ++m) {
@@ -191,8 +192,8 @@ void set_filters(const SeaField& field, std::size_t count, const Mat3d& extents,
   write_filters(field.arrays().kx.data(), field.arrays().ky.data(), count, extents, rates, s.filters);
 }
 
-SEACRANE_FLOW_LOOP void add_surface_slopes(const SeaField& field, std::size_t count, const FlowScratch& s,
-                                           FlowSlopes& out) {
+SEACRANE_CLONES("avx512f", "avx2")
+void add_surface_slopes(const SeaField& field, std::size_t count, const FlowScratch& s, FlowSlopes& out) {
   if (out.wide) {
     sum_surface<true>(field.arrays(), count, s, out);
   } else {
@@ -200,8 +201,8 @@ SEACRANE_FLOW_LOOP void add_surface_slopes(const SeaField& field, std::size_t co
   }
 }
 
-SEACRANE_FLOW_LOOP void add_interior_slopes(const SeaField& field, std::size_t count, FlowScratch& s,
-                                            FlowSlopes& out) {
+SEACRANE_CLONES("avx512f", "avx2")
+void add_interior_slopes(const SeaField& field, std::size_t count, FlowScratch& s, FlowSlopes& out) {
   if (s.height > 0.0) write_stretches(field.arrays().k.data(), count, s.height, s.filters.stretch.data());
   if (out.wide) {
     sum_interior<true>(field.arrays(), count, s, out);
