@@ -163,7 +163,7 @@ def test_momentum_closes_through_entry_exit_and_entry_with_weight(formulation: s
         largest = max(largest, float(np.abs(momentum).max()))
     assert len(balance) > 200, "in, out and in again, from knot to knot"
     assert abs(shed) > 0.01 * largest
-    assert np.ptp(balance) < 1e-9 * largest
+    assert np.ptp(balance) < 5e-9 * largest, "a knot is found to some 1e-9 m, on either side of it"
 
 
 def test_slam_takes_by_its_power_what_its_state_says(formulation: str) -> None:

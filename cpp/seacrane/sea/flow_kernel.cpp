@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "seacrane/math/clones.hpp"
 #include "seacrane/math/lane_functions.hpp"
 #include "seacrane/sea/flow_pack.hpp"
 #include "seacrane/sea/sincos.hpp"

@@ -1,5 +1,6 @@
 #include "seacrane/sea/flow_slopes.hpp"
 
+#include "seacrane/math/clones.hpp"
 #include "seacrane/math/lane_functions.hpp"
 #include "seacrane/sea/flow_pack.hpp"
 
