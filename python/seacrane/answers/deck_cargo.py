@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.answers.fatigue import hides_peaks
 from seacrane.arrays import Array
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
@@ -23,7 +24,6 @@ from seacrane.warnings import MassUnitWarning
 
 AXES = ("x", "y", "z")
 STILL = 0.02  # rad, by which what stands on a deck may turn against it
-HIDDEN = 0.05  # of the range of the steps, which the outputs may leave out
 LIGHTEST = 2.0  # kg/m3 within the fastenings, twice as high as the centre: of tonnes taken for kg
 
 
@@ -219,8 +219,8 @@ def deck_cargo(
     coarse = []
     for name, values in moved.items():
         least, largest = result.reached("point_acceleration", part=part, point=name)
-        every = largest.max(axis=0) - least.min(axis=0)
-        coarse += [name] * bool(np.any(np.ptp(values, axis=0) < (1.0 - HIDDEN) * every))
+        along_axes = zip(values.T, least.T, largest.T, strict=True)
+        coarse += [name] * any(hides_peaks(*one) for one in along_axes)
     return DeckCargo(
         time=np.asarray(result.time)[part], accelerations=felt, forces=forces, coarse=tuple(coarse)
     )

@@ -268,12 +268,16 @@ def fatigue(result: Result, *, curves: Mapping[str, FatigueCurve], after: float 
         rows.append(replace(row, name=name, unit=unit, zero=float(np.mean(values == 0.0))))
         told += _slip(rows[-1], curve)
         least, largest = result.reached(name, part=part)
-        hidden = np.ptp(values) < (1.0 - HIDDEN) * (largest.max() - least.min())
-        if hidden or time.size < FEW * rate * duration:
+        if hides_peaks(values, least, largest) or time.size < FEW * rate * duration:
             coarse.append(name)
         elif not rate:
             told.append(f"{name} is {values[0]:g} {unit} throughout: it does not wear")
     return Fatigue(rows=tuple(rows), duration=duration, coarse=tuple(coarse), told=tuple(told))
+
+
+def hides_peaks(values: Array, least: Array, largest: Array) -> bool:
+    """Whether outputs leave out more of the range of the steps between them than they may."""
+    return bool(np.ptp(values) < (1.0 - HIDDEN) * (largest.max() - least.min()))
 
 
 def _inverse(damage: float) -> float:
