@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -90,7 +89,7 @@ class PackedSystem final : public LaneSystem {
   }
 
   void derivative(double t, const double* y, double* ydot) override {
-    std::memcpy(state_.data(), y, size() * sizeof(double));
+    read(y);
     const T *const q = state_.data(), *const u = q + speeds_;
     if (driven_.any()) read_drivers(t);
     factor(t);
@@ -103,7 +102,7 @@ class PackedSystem final : public LaneSystem {
     articulated_.kinematics().position_rates(q, u, bodies_.data(), rate_.data());
     rate_[idx(work_)] = sum.power;
     rate_[idx(work_) + 1] = sum.absolute_power;
-    std::memcpy(ydot, rate_.data(), size() * sizeof(double));
+    write(rate_, ydot);
     for (const std::size_t lane : frozen_) {
       for (std::size_t i = 0; i < rate_.size(); ++i) ydot[L * i + lane] = 0.0;
     }
@@ -126,6 +125,15 @@ class PackedSystem final : public LaneSystem {
   }
 
  private:
+  /// Pack by pack: what the C library does with some thousand bytes (rep movsb) takes some processors a
+  /// microsecond, at addresses that are chance.
+  void read(const double* y) {
+    for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = T::load(y + L * i);
+  }
+  static void write(const std::vector<T>& from, double* to) {
+    for (std::size_t i = 0; i < from.size(); ++i) from[i].store(to + L * i);
+  }
+
   /// Of the bodies, which lanes may have each for itself.
   static std::vector<TurningMass<T>> masses_of(const LaneModels& models) {
     const std::vector<BodyModel>& first = models.front()->stepped().bodies;
@@ -236,7 +244,7 @@ class PackedSystem final : public LaneSystem {
 
   /// Takes over what drivers prescribe, and its impulse where it jumps in rate.
   void take_drivers(double t, double* y) {
-    std::memcpy(state_.data(), y, size() * sizeof(double));
+    read(y);
     read_leading();
     const bool jumps = driven_.jump(t, curve_limit_, positions_.data(), speed_.data(), own_.jump());
     follow_drivers(t);
@@ -244,7 +252,7 @@ class PackedSystem final : public LaneSystem {
       factor(t);
       own_.strike(rate_.data() + speeds_, state_.data() + speeds_);
     }
-    std::memcpy(y, state_.data(), size() * sizeof(double));
+    write(state_, y);
   }
 
   void solve_acceleration() {

@@ -29,22 +29,17 @@ class ArticulatedTree {
   ArticulatedTree(const BodyTree& tree, int bodies)
       : kinematics_(tree, bodies),
         ground_(bodies),
-        leaf_(leaves_of(tree, bodies)),
+        bodies_(idx(bodies) + 1),
         at_parent_(idx(tree.speeds), Wrench<T>::zero()),
-        inertia_(idx(bodies) + 1, SpatialInertia<T>::zero()),
-        compact_(idx(bodies), {T(0), Symmetric3<T>::zero()}),
-        force_(idx(bodies) + 1, Wrench<T>::zero()),
-        inverse_(tree.clusters.size(), Mat6<T>::Zero()),
-        free_(tree.clusters.size()),
-        torque_(tree.clusters.size(), Vec6<T>::Zero()),
-        held_(tree.clusters.size()),
-        acceleration_(idx(bodies) + 1, Twist<T>::zero()),
-        root_of_(tree.clusters.size()) {
+        joints_(tree.clusters.size()) {
+    for (const Cluster& c : tree.clusters) {
+      for (const Member& m : c.members) bodies_[idx(m.body)].leaf = m.leaf;
+    }
     for (const CoupledRoots& roots : tree.coupled) {
       const std::size_t count = roots.clusters.size();
       const std::size_t first = *std::ranges::min_element(roots.clusters);
       for (const std::size_t c : roots.clusters) {
-        root_of_[c] = {static_cast<int>(coupled_.size()), c == first};
+        joints_[c].root = {static_cast<int>(coupled_.size()), c == first};
       }
       coupled_.push_back({roots.clusters, SpdBlocks<T>(static_cast<int>(count)),
                           std::vector<Mat6<T>>(count * count, Mat6<T>::Zero()),
@@ -61,17 +56,19 @@ class ArticulatedTree {
   /// Inertia of a body about its state point, for the next factor(); of a mass matrix of a leaf only the mass
   /// and the inertia are read.
   void set_inertia(int body, const CompactInertia<T>& inertia) {
-    if (leaf_[idx(body)]) {
-      compact_[idx(body)] = inertia;
+    Body& to = bodies_[idx(body)];
+    if (to.leaf) {
+      to.compact = inertia;
     } else {
-      inertia_[idx(body)] = inertia;
+      to.inertia = inertia;
     }
   }
   void set_inertia(int body, const Mat6<T>& mass) {
-    if (leaf_[idx(body)]) {
-      compact_[idx(body)] = {mass(0, 0), Symmetric3<T>::lower(mass.template bottomRightCorner<3, 3>())};
+    Body& to = bodies_[idx(body)];
+    if (to.leaf) {
+      to.compact = {mass(0, 0), Symmetric3<T>::lower(mass.template bottomRightCorner<3, 3>())};
     } else {
-      inertia_[idx(body)] = mass;
+      to.inertia = mass;
     }
   }
   /// Mass between the roots at two places of coupled ones, the first behind the second; it stays until it is
@@ -93,7 +90,7 @@ class ArticulatedTree {
   /// cost. Allocates; for reports.
   T condition(const Mat6<T>* mass) const;
   /// What acts on a body in the next solve(): its wrench less M-independent velocity terms.
-  void set_load(int body, const Wrench<T>& load) { force_[idx(body)] = -load; }
+  void set_load(int body, const Wrench<T>& load) { bodies_[idx(body)].force = -load; }
   /// Accelerations of the bodies and of the speeds under the loads of all bodies, and `torque` on every speed
   /// (null: none; of joints with a direction held, none). Driven speeds have the rates `driven` (null: zero).
   /// Without `moving` velocities count as zero: the response to an impulse. Loads are used up: set them
@@ -103,18 +100,19 @@ class ArticulatedTree {
   /// two bodies; others keep what they have.
   void respond(const std::vector<std::size_t>& clusters, const Push& first, const Push& second, T* u_rate);
   /// At the last solve(); of the ground too.
-  const Twist<T>& acceleration(int body) const { return acceleration_[idx(body)]; }
+  const Twist<T>& acceleration(int body) const { return bodies_[idx(body)].acceleration; }
   /// What drives the speed of a driven cluster, beside the torque on it, at the last solve(): N or N m.
   T drive(std::size_t cluster) const {
     const Cluster& c = clusters()[cluster];
-    const T carried = dot(acceleration_[idx(c.parent)], at_parent_[idx(c.u)]);
-    return carried + inverse_[cluster](0, 0) * torque_[cluster][0] - torque_[cluster][1];
+    const Joint& joint = joints_[cluster];
+    const T carried = dot(acceleration(c.parent), at_parent_[idx(c.u)]);
+    return carried + joint.inverse(0, 0) * joint.torque[0] - joint.torque[1];
   }
   /// The same of a floating body: a wrench about its state point.
   Wrench<T> drive_wrench(std::size_t cluster) const {
-    const int body = clusters()[cluster].body;
-    Wrench<T> out = force_[idx(body)];
-    with_inertia(body, [&](const auto& inertia) { out += inertia * acceleration_[idx(body)]; });
+    const Body& body = bodies_[idx(clusters()[cluster].body)];
+    Wrench<T> out = body.force;
+    body.with_inertia([&](const auto& inertia) { out += inertia * body.acceleration; });
     return out;
   }
   /// Solves for loads of the bodies, and writes accelerations of the bodies, ground last.
@@ -122,7 +120,7 @@ class ArticulatedTree {
              const T* driven = nullptr) {
     for (int b = 0; b < ground_; ++b) set_load(b, Wrench<T>(load[b]));
     solve(moving, u_rate, torque, driven);
-    for (int b = 0; b <= ground_; ++b) acceleration[b] = acceleration_[idx(b)].vector();
+    for (int b = 0; b <= ground_; ++b) acceleration[b] = this->acceleration(b).vector();
   }
 
  private:
@@ -130,6 +128,26 @@ class ArticulatedTree {
   using Vec = Eigen::Matrix<T, n, 1>;
   template <int n>
   using Mat = Eigen::Matrix<T, n, n>;
+
+  /// All of a body, the ground last, side by side: the recursions go from body to body.
+  struct Body {
+    bool leaf = false;                    // compact, and carries nothing
+    Wrench<T> force = Wrench<T>::zero();  // articulated, minus the load
+    Twist<T> acceleration = Twist<T>::zero();
+    CompactInertia<T> compact{T(0), Symmetric3<T>::zero()};  // of a leaf
+    SpatialInertia<T> inertia = SpatialInertia<T>::zero();   // of another: articulated
+
+    /// Calls f(inertia) with what the articulated inertia is kept as.
+    template <class F>
+    void with_inertia(F&& f) const {
+      if (leaf) {
+        f(compact);
+      } else {
+        f(inertia);
+      }
+    }
+    SpatialInertia<T> whole() const { return leaf ? SpatialInertia<T>(compact) : inertia; }
+  };
 
   /// What a joint holds of its child: the force h along one direction (`on_child`, `on_parent` per unit of
   /// it), and the child's acceleration for it alone, I^-1 h.
@@ -139,6 +157,21 @@ class ArticulatedTree {
     T stiffness;  // 1 / (h^T I^-1 h)
   };
 
+  struct Root {
+    int coupled = -1;    // none: by itself
+    bool leads = false;  // the first of its coupled ones
+  };
+  /// Of a cluster.
+  struct Joint {
+    // (S^T I S)^-1; of one that is driven S^T I S; of a leaf that is held, of its 3 x 3.
+    Mat6<T> inverse = Mat6<T>::Zero();
+    // (S^T I S)^-1 (-S^T p); of one that is driven its rate and -S^T p; of one that is held, I^-1 p.
+    Vec6<T> torque = Vec6<T>::Zero();
+    SpdFactor<6, T> free;  // of I, where it floats or is held
+    Held held;
+    Root root;
+  };
+
   /// Roots that the water couples: a block for each.
   struct Coupled {
     std::vector<std::size_t> clusters;
@@ -146,65 +179,34 @@ class ArticulatedTree {
     std::vector<Mat6<T>> coupling;  // as set, below the diagonal
     std::vector<Vec6<T>> motion;
   };
-  struct Root {
-    int coupled = -1;    // none: by itself
-    bool leads = false;  // the first of its coupled ones
-  };
   void factor(Coupled& coupled, bool with_water);
   void solve(Coupled& coupled);
-
-  static std::vector<char> leaves_of(const BodyTree& tree, int bodies);
 
   template <class Places>
   void solve(const Places& places, bool moving, T* u_rate, const T* torque, const T* driven);
   template <int speeds>
-  void factor_cluster(std::size_t i);
+  void factor_cluster(const Cluster& c, Joint& joint);
   template <int speeds>
-  void gather(std::size_t i, bool moving, const T* torque, const T* driven);
+  void gather(const Cluster& c, Joint& joint, bool moving, const T* torque, const T* driven);
   template <int speeds>
-  void spread(std::size_t i, bool moving, T* u_rate);
+  void spread(const Cluster& c, const Joint& joint, bool moving, T* u_rate);
   template <class Branch>
-  void factor_held(std::size_t i);
-  void gather_held(std::size_t i, bool moving);
+  void factor_held(const Cluster& c, Joint& joint);
+  void gather_held(const Cluster& c, Joint& joint, bool moving);
   template <class Branch>
-  void spread_held(std::size_t i, bool moving, T* u_rate);
+  void spread_held(const Cluster& c, const Joint& joint, bool moving, T* u_rate);
 
-  /// Calls f(inertia) with what a body's articulated inertia is kept as.
-  template <class F>
-  void with_inertia(int body, F&& f) const {
-    if (leaf_[idx(body)]) {
-      f(compact_[idx(body)]);
-    } else {
-      f(inertia_[idx(body)]);
-    }
-  }
-  SpatialInertia<T> inertia(int body) const {
-    SpatialInertia<T> out;
-    with_inertia(body, [&](const auto& kept) { out = kept; });
-    return out;
-  }
   /// Acceleration of a held child under a wrench alone.
-  Twist<T> response(std::size_t i, const Wrench<T>& wrench) const;
+  Twist<T> response(const Body& child, const Joint& joint, const Wrench<T>& wrench) const;
 
   const std::vector<Cluster>& clusters() const { return kinematics_.tree().clusters; }
 
   TreeKinematics<T> kinematics_;
   int ground_;
-  std::vector<char> leaf_;                  // by body: compact, and carries nothing
-  std::vector<Wrench<T>> at_parent_;        // sum over the members of X^T I S, per speed
-  std::vector<SpatialInertia<T>> inertia_;  // articulated
-  std::vector<CompactInertia<T>> compact_;  // of leaves
-  std::vector<Wrench<T>> force_;            // articulated, minus the load
-  // (S^T I S)^-1 per cluster; of one that is driven S^T I S; of a leaf that is held, of its 3 x 3.
-  std::vector<Mat6<T>> inverse_;
-  std::vector<SpdFactor<6, T>> free_;  // of I, of clusters that float or are held
-  // (S^T I S)^-1 (-S^T p) per cluster; of one that is driven its rate and -S^T p; of one that is held, I^-1
-  // p.
-  std::vector<Vec6<T>> torque_;
-  std::vector<Held> held_;  // per cluster
-  std::vector<Twist<T>> acceleration_;
+  std::vector<Body> bodies_;
+  std::vector<Wrench<T>> at_parent_;  // sum over the members of X^T I S, per speed
+  std::vector<Joint> joints_;         // by cluster
   std::vector<Coupled> coupled_;
-  std::vector<Root> root_of_;  // by cluster
 };
 
 extern template class TreeKinematics<double>;

@@ -7,10 +7,15 @@
 
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/projection.hpp"
+#include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/dynamics/state_names.hpp"
 #include "seacrane/elements/joints/distance.hpp"
 
 namespace seacrane {
+
+template class TreeKinematics<double>;
+template class ArticulatedTree<double>;
+
 namespace {
 
 /// Angular velocity, inertial axes, of a quaternion and its rate: the vector part of 2 q' q^-1.
@@ -478,7 +483,8 @@ void RecursiveSystem::load_direction(const std::vector<Vec6d>& load, double* pow
     for (const Member& m : c->members) {
       const Wrench<double>& f = along_[idx(m.body)];
       for (int k = 0; k < c->speeds; ++k) power[layout_.speeds + c->u + k] += dot(tree.columns(m)[k], f);
-      if (c->kind != Cluster::floating) along_[idx(c->parent)].add_shifted_from(tree.reach(m.body), f);
+      if (c->kind != Cluster::floating)
+        along_[idx(c->parent)].add_shifted_from(tree.over_parent(m.body).reach, f);
     }
   }
 }

@@ -147,8 +147,8 @@ void RecursiveJacobian::spread_acceleration(const double* u_rate) {
       if (c.kind != Cluster::floating) {
         a = acceleration_[idx(c.parent)];
         const Vec3<Scalar> turning = a.angular();
-        a += kinematics_.bias(m.body);
-        a.linear() += cross<Scalar>(turning, kinematics_.reach(m.body));
+        a += kinematics_.over_parent(m.body).bias;
+        a.linear() += cross<Scalar>(turning, kinematics_.over_parent(m.body).reach);
       }
       for (int k = 0; k < c.speeds; ++k) a += Scalar(u_rate[c.u + k]) * kinematics_.columns(m)[k];
     }
@@ -191,7 +191,7 @@ void RecursiveJacobian::gather() {
         torque_[i].row(k) += Eigen::Map<const Row>(g.slope.data());
       }
       if (c.kind == Cluster::floating) continue;
-      force_[idx(c.parent)].add_shifted_from(kinematics_.reach(m.body), f);
+      force_[idx(c.parent)].add_shifted_from(kinematics_.over_parent(m.body).reach, f);
     }
   }
 }
@@ -238,7 +238,7 @@ void RecursiveJacobian::spread_torques(int k) {
     const Wrench<double> wrench(s * gram.llt().solve(torque));
     load_[idx(c.body)] += wrench.vector();
     if (c.kind != Cluster::floating) {
-      load_[idx(c.parent)] -= wrench.shifted_from(tree.reach(c.body)).vector();
+      load_[idx(c.parent)] -= wrench.shifted_from(tree.over_parent(c.body).reach).vector();
     }
   }
   load_.back().setZero();

@@ -93,15 +93,6 @@ bool with_held(const Cluster& c, F&& f) {
 }
 
 template <class T>
-std::vector<char> ArticulatedTree<T>::leaves_of(const BodyTree& tree, int bodies) {
-  std::vector<char> out(idx(bodies), 0);
-  for (const Cluster& c : tree.clusters) {
-    for (const Member& m : c.members) out[idx(m.body)] = m.leaf;
-  }
-  return out;
-}
-
-template <class T>
 void ArticulatedTree<T>::read(const BodyKinematics<T>* bodies, T* q, T* u) const {
   for (const Cluster& c : clusters()) {
     const BodyKinematics<T>& k = bodies[c.body];
@@ -121,8 +112,9 @@ template <class T>
 void ArticulatedTree<T>::factor(bool coupled) {
   for (std::size_t i = clusters().size(); i-- > 0;) {
     const Cluster& c = clusters()[i];
-    if (with_held(c, [&]<class Branch>() { factor_held<Branch>(i); })) continue;
-    with_speeds(c, [&]<int n>() { factor_cluster<n>(i); });
+    Joint& joint = joints_[i];
+    if (with_held(c, [&]<class Branch>() { factor_held<Branch>(c, joint); })) continue;
+    with_speeds(c, [&]<int n>() { factor_cluster<n>(c, joint); });
   }
   for (Coupled& roots : coupled_) factor(roots, coupled);
 }
@@ -138,17 +130,17 @@ void ArticulatedTree<T>::factor(Coupled& roots, bool with_water) {
         roots.mass.at(i, j).setZero();
       }
     }
-    roots.mass.at(i, i) = inertia(clusters()[roots.clusters[idx(i)]].body).matrix();
+    roots.mass.at(i, i) = bodies_[idx(clusters()[roots.clusters[idx(i)]].body)].whole().matrix();
   }
   roots.mass.factor();
 }
 
-/// Accelerations of the roots for the loads that gather() left in torque_.
+/// Accelerations of the roots for the loads that gather() left in their joints.
 template <class T>
 void ArticulatedTree<T>::solve(Coupled& roots) {
-  for (std::size_t i = 0; i < roots.clusters.size(); ++i) roots.motion[i] = torque_[roots.clusters[i]];
+  for (std::size_t i = 0; i < roots.clusters.size(); ++i) roots.motion[i] = joints_[roots.clusters[i]].torque;
   roots.mass.solve(roots.motion.data());
-  for (std::size_t i = 0; i < roots.clusters.size(); ++i) torque_[roots.clusters[i]] = roots.motion[i];
+  for (std::size_t i = 0; i < roots.clusters.size(); ++i) joints_[roots.clusters[i]].torque = roots.motion[i];
 }
 
 template <class T>
@@ -164,7 +156,7 @@ T ArticulatedTree<T>::condition(const Mat6<T>* mass) const {
     with_speeds(c, [&]<int n>() {
       Mat<n> gram = Mat<n>::Zero();
       for (const Member& m : c.members) {
-        const SpatialInertia<T> own = inertia(m.body);
+        const SpatialInertia<T> own = bodies_[idx(m.body)].whole();
         const Twist<T>* const column = kinematics_.columns(m);
         for (int k = 0; k < n; ++k) {
           for (int l = k; l < n; ++l) gram(l, k) += dot(column[l], own * column[k]);
@@ -178,11 +170,12 @@ T ArticulatedTree<T>::condition(const Mat6<T>* mass) const {
     });
     worst = std::max(worst, pivot);
     for (const Member& m : c.members) {
-      gross[idx(c.parent)].add_shifted_from(kinematics_.reach(m.body), inertia(m.body));
+      gross[idx(c.parent)].add_shifted_from(kinematics_.over_parent(m.body).reach,
+                                            bodies_[idx(m.body)].whole());
     }
   }
   for (int b = 0; b < ground_; ++b) {
-    const Mat6<T> inverse = spd_inverse(inertia(b).matrix());
+    const Mat6<T> inverse = spd_inverse(bodies_[idx(b)].whole().matrix());
     const T cancelled = gross[idx(b)].matrix().diagonal().cwiseProduct(inverse.diagonal()).maxCoeff();
     worst = std::max<T>(worst, pivots[idx(b)] * cancelled);
   }
@@ -191,35 +184,34 @@ T ArticulatedTree<T>::condition(const Mat6<T>* mass) const {
 
 template <class T>
 template <int n>
-void ArticulatedTree<T>::factor_cluster(std::size_t i) {
-  const Cluster& c = clusters()[i];
+void ArticulatedTree<T>::factor_cluster(const Cluster& c, Joint& joint) {
   if constexpr (n == 6) {
-    if (!c.is_driven() && root_of_[i].coupled < 0) free_[i] = SpdFactor<6, T>(inertia(c.body).matrix());
+    if (!c.is_driven() && joint.root.coupled < 0) {
+      joint.free = SpdFactor<6, T>(bodies_[idx(c.body)].whole().matrix());
+    }
     return;
   }
   Mat<n> gram = Mat<n>::Zero();
   Wrench<T>* const at_parent = at_parent_.data() + c.u;
   for (int k = 0; k < n; ++k) at_parent[k] = Wrench<T>::zero();
+  SpatialInertia<T>& to = bodies_[idx(c.parent)].inertia;
+  const bool on_ground = c.parent == ground_;
   for (const Member& m : c.members) {
     const Twist<T>* const column = kinematics_.columns(m);
-    with_inertia(m.body, [&](const auto& inertia) {
+    const Vec3<T>& reach = kinematics_.over_parent(m.body).reach;
+    bodies_[idx(m.body)].with_inertia([&](const auto& inertia) {
       for (int k = 0; k < n; ++k) {
         const Wrench<T> weighted = inertia * column[k];
         for (int l = k; l < n; ++l) gram(l, k) += dot(column[l], weighted);
-        at_parent[k].add_shifted_from(kinematics_.reach(m.body), weighted);
+        at_parent[k].add_shifted_from(reach, weighted);
       }
+      if (!on_ground) to.add_shifted_from(reach, inertia);
     });
   }
   Mat<n> inverse;
   if constexpr (n > 0) inverse = c.is_driven() ? gram : spd_inverse<n>(gram);
-  inverse_[i].template topLeftCorner<n, n>() = inverse;
-  if (c.parent == ground_) return;
-  SpatialInertia<T>& to = inertia_[idx(c.parent)];
-  for (const Member& m : c.members) {
-    with_inertia(m.body,
-                 [&](const auto& inertia) { to.add_shifted_from(kinematics_.reach(m.body), inertia); });
-  }
-  if (c.is_driven()) return;
+  joint.inverse.template topLeftCorner<n, n>() = inverse;
+  if (on_ground || c.is_driven()) return;
   for (int k = 0; k < n; ++k) {
     Wrench<T> row = inverse(0, k) * at_parent[0];
     for (int l = 1; l < n; ++l) row += inverse(l, k) * at_parent[l];
@@ -230,28 +222,27 @@ void ArticulatedTree<T>::factor_cluster(std::size_t i) {
 /// The child yields to its parent in all directions but one: seen from there its inertia is of rank one.
 template <class T>
 template <class Branch>
-void ArticulatedTree<T>::factor_held(std::size_t i) {
-  const Cluster& c = clusters()[i];
-  if (leaf_[idx(c.body)]) {
-    inverse_[i].template topLeftCorner<3, 3>() = spd_inverse<3>(compact_[idx(c.body)].turning.full());
+void ArticulatedTree<T>::factor_held(const Cluster& c, Joint& joint) {
+  const Body& child = bodies_[idx(c.body)];
+  if (child.leaf) {
+    joint.inverse.template topLeftCorner<3, 3>() = spd_inverse<3>(child.compact.turning.full());
   } else {
-    free_[i] = SpdFactor<6, T>(inertia_[idx(c.body)].matrix());
+    joint.free = SpdFactor<6, T>(child.inertia.matrix());
   }
-  Held& held = held_[i];
+  Held& held = joint.held;
   held.on_child = Branch::template held<T>(c.joint, kinematics_.columns(c.members[0]));
-  held.on_parent = held.on_child.shifted_from(kinematics_.reach(c.body));
-  held.response = response(i, held.on_child);
+  held.on_parent = held.on_child.shifted_from(kinematics_.over_parent(c.body).reach);
+  held.response = response(child, joint, held.on_child);
   held.stiffness = T(1) / dot(held.response, held.on_child);
   if (c.parent == ground_) return;
-  inertia_[idx(c.parent)].subtract_outer(held.on_parent, -(held.stiffness * held.on_parent));
+  bodies_[idx(c.parent)].inertia.subtract_outer(held.on_parent, -(held.stiffness * held.on_parent));
 }
 
 template <class T>
-Twist<T> ArticulatedTree<T>::response(std::size_t i, const Wrench<T>& wrench) const {
-  const int body = clusters()[i].body;
-  if (!leaf_[idx(body)]) return Twist<T>(free_[i].solve(wrench.vector()));
-  const Vec3<T> linear = wrench.force() / compact_[idx(body)].mass;
-  const Vec3<T> angular = inverse_[i].template topLeftCorner<3, 3>() * wrench.moment();
+Twist<T> ArticulatedTree<T>::response(const Body& child, const Joint& joint, const Wrench<T>& wrench) const {
+  if (!child.leaf) return Twist<T>(joint.free.solve(wrench.vector()));
+  const Vec3<T> linear = wrench.force() / child.compact.mass;
+  const Vec3<T> angular = joint.inverse.template topLeftCorner<3, 3>() * wrench.moment();
   return {linear, angular};
 }
 
@@ -264,10 +255,10 @@ template <class T>
 void ArticulatedTree<T>::respond(const std::vector<std::size_t>& clusters, const Push& first,
                                  const Push& second, T* u_rate) {
   for (const std::size_t i : clusters) {
-    for (const Member& m : this->clusters()[i].members) force_[idx(m.body)] = Wrench<T>::zero();
+    for (const Member& m : this->clusters()[i].members) bodies_[idx(m.body)].force = Wrench<T>::zero();
   }
   for (const Push* push : {&first, &second}) {
-    if (push->body != ground_) force_[idx(push->body)] += -push->wrench;
+    if (push->body != ground_) bodies_[idx(push->body)].force += -push->wrench;
   }
   solve(clusters, false, u_rate, nullptr, nullptr);
 }
@@ -277,116 +268,118 @@ template <class T>
 template <class Places>
 void ArticulatedTree<T>::solve(const Places& places, bool moving, T* u_rate, const T* torque,
                                const T* driven) {
-  force_[idx(ground_)] = Wrench<T>::zero();
+  Body& ground = bodies_[idx(ground_)];
+  ground.force = Wrench<T>::zero();
   for (auto at = places.end(); at != places.begin();) {
     const std::size_t i = *--at;
     const Cluster& c = clusters()[i];
-    if (with_held(c, [&]<class Branch>() { gather_held(i, moving); })) continue;
-    with_speeds(c, [&]<int n>() { gather<n>(i, moving, torque, driven); });
+    Joint& joint = joints_[i];
+    if (with_held(c, [&]<class Branch>() { gather_held(c, joint, moving); })) continue;
+    with_speeds(c, [&]<int n>() { gather<n>(c, joint, moving, torque, driven); });
   }
-  acceleration_[idx(ground_)] = Twist<T>::zero();
+  ground.acceleration = Twist<T>::zero();
   for (const std::size_t i : places) {
     const Cluster& c = clusters()[i];
-    if (root_of_[i].leads) solve(coupled_[idx(root_of_[i].coupled)]);
-    if (with_held(c, [&]<class Branch>() { spread_held<Branch>(i, moving, u_rate); })) continue;
-    with_speeds(c, [&]<int n>() { spread<n>(i, moving, u_rate); });
+    const Joint& joint = joints_[i];
+    if (joint.root.leads) solve(coupled_[idx(joint.root.coupled)]);
+    if (with_held(c, [&]<class Branch>() { spread_held<Branch>(c, joint, moving, u_rate); })) continue;
+    with_speeds(c, [&]<int n>() { spread<n>(c, joint, moving, u_rate); });
   }
 }
 
 template <class T>
 template <int n>
-void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque, const T* driven) {
-  const Cluster& c = clusters()[i];
+void ArticulatedTree<T>::gather(const Cluster& c, Joint& joint, bool moving, const T* torque,
+                                const T* driven) {
   if constexpr (n == 6) {
     if (c.is_driven()) {
-      for (int k = 0; k < 6; ++k) torque_[i][k] = driven ? driven[c.u + k] : T(0);
+      for (int k = 0; k < 6; ++k) joint.torque[k] = driven ? driven[c.u + k] : T(0);
       return;
     }
-    Vec6<T> sum = -force_[idx(c.body)].vector();
+    Vec6<T> sum = -bodies_[idx(c.body)].force.vector();
     if (torque) sum += Eigen::Map<const Vec6<T>>(torque + c.u);
-    torque_[i] = root_of_[i].coupled < 0 ? free_[i].solve(sum) : sum;
+    joint.torque = joint.root.coupled < 0 ? joint.free.solve(sum) : sum;
     return;
   }
   T sum[n + 1];  // one more than none
   for (int k = 0; k < n; ++k) sum[k] = torque ? torque[c.u + k] : T(0);
-  Wrench<T>& to = force_[idx(c.parent)];
+  Wrench<T>& to = bodies_[idx(c.parent)].force;
   for (const Member& m : c.members) {
-    Wrench<T> force = force_[idx(m.body)];
-    if (moving) {
-      with_inertia(m.body, [&](const auto& inertia) { force += inertia * kinematics_.bias(m.body); });
-    }
+    const Body& body = bodies_[idx(m.body)];
+    const auto& over = kinematics_.over_parent(m.body);
+    Wrench<T> force = body.force;
+    if (moving) body.with_inertia([&](const auto& inertia) { force += inertia * over.bias; });
     const Twist<T>* const column = kinematics_.columns(m);
     for (int k = 0; k < n; ++k) sum[k] -= dot(column[k], force);
-    to.add_shifted_from(kinematics_.reach(m.body), force);
+    to.add_shifted_from(over.reach, force);
   }
   if constexpr (n == 1) {
     if (c.is_driven()) {
       const T rate = driven ? driven[c.u] : T(0);
-      torque_[i][0] = rate;
-      torque_[i][1] = sum[0];
+      joint.torque[0] = rate;
+      joint.torque[1] = sum[0];
       to += rate * at_parent_[idx(c.u)];
       return;
     }
   }
   for (int k = 0; k < n; ++k) {
-    T rate = inverse_[i](k, 0) * sum[0];
-    for (int l = 1; l < n; ++l) rate += inverse_[i](k, l) * sum[l];
-    torque_[i][k] = rate;
+    T rate = joint.inverse(k, 0) * sum[0];
+    for (int l = 1; l < n; ++l) rate += joint.inverse(k, l) * sum[l];
+    joint.torque[k] = rate;
     to += rate * at_parent_[idx(c.u + k)];
   }
 }
 
 template <class T>
-void ArticulatedTree<T>::gather_held(std::size_t i, bool moving) {
-  const Cluster& c = clusters()[i];
-  const Held& held = held_[i];
-  const Wrench<T>& force = force_[idx(c.body)];
-  const Twist<T> yield = response(i, force);
-  torque_[i] = yield.vector();
+void ArticulatedTree<T>::gather_held(const Cluster& c, Joint& joint, bool moving) {
+  const Held& held = joint.held;
+  const Body& child = bodies_[idx(c.body)];
+  const Twist<T> yield = response(child, joint, child.force);
+  joint.torque = yield.vector();
   T along = dot(yield, held.on_child);
-  if (moving) along += dot(kinematics_.bias(c.body), held.on_child);
-  force_[idx(c.parent)] += (held.stiffness * along) * held.on_parent;
+  if (moving) along += dot(kinematics_.over_parent(c.body).bias, held.on_child);
+  bodies_[idx(c.parent)].force += (held.stiffness * along) * held.on_parent;
 }
 
 template <class T>
 template <int n>
-void ArticulatedTree<T>::spread(std::size_t i, bool moving, T* u_rate) {
-  const Cluster& c = clusters()[i];
+void ArticulatedTree<T>::spread(const Cluster& c, const Joint& joint, bool moving, T* u_rate) {
   if constexpr (n == 6) {
-    acceleration_[idx(c.body)] = Twist<T>(torque_[i]);
-    for (int k = 0; k < 6; ++k) u_rate[c.u + k] = torque_[i][k];
+    bodies_[idx(c.body)].acceleration = Twist<T>(joint.torque);
+    for (int k = 0; k < 6; ++k) u_rate[c.u + k] = joint.torque[k];
     return;
   }
-  const Twist<T>& parent = acceleration_[idx(c.parent)];
+  const Twist<T>& parent = bodies_[idx(c.parent)].acceleration;
   const Wrench<T>* const at_parent = at_parent_.data() + c.u;
   T carried[n + 1], rate[n + 1];  // one more than none
   for (int k = 0; k < n; ++k) carried[k] = dot(parent, at_parent[k]);
   for (int k = 0; k < n; ++k) {
-    rate[k] = torque_[i][k];
+    rate[k] = joint.torque[k];
     if (!c.is_driven()) {
-      for (int l = 0; l < n; ++l) rate[k] -= inverse_[i](k, l) * carried[l];
+      for (int l = 0; l < n; ++l) rate[k] -= joint.inverse(k, l) * carried[l];
     }
     u_rate[c.u + k] = rate[k];
   }
   for (const Member& m : c.members) {
-    Twist<T> a = parent.shifted_to(kinematics_.reach(m.body));
-    if (moving) a += kinematics_.bias(m.body);
+    const auto& over = kinematics_.over_parent(m.body);
+    Twist<T> a = parent.shifted_to(over.reach);
+    if (moving) a += over.bias;
     const Twist<T>* const column = kinematics_.columns(m);
     for (int k = 0; k < n; ++k) a += rate[k] * column[k];
-    acceleration_[idx(m.body)] = a;
+    bodies_[idx(m.body)].acceleration = a;
   }
 }
 
 template <class T>
 template <class Branch>
-void ArticulatedTree<T>::spread_held(std::size_t i, bool moving, T* u_rate) {
-  const Cluster& c = clusters()[i];
-  const Held& held = held_[i];
-  Twist<T> carried = acceleration_[idx(c.parent)].shifted_to(kinematics_.reach(c.body));
-  if (moving) carried += kinematics_.bias(c.body);
-  const Twist<T> yield(torque_[i]);
+void ArticulatedTree<T>::spread_held(const Cluster& c, const Joint& joint, bool moving, T* u_rate) {
+  const Held& held = joint.held;
+  const auto& over = kinematics_.over_parent(c.body);
+  Twist<T> carried = bodies_[idx(c.parent)].acceleration.shifted_to(over.reach);
+  if (moving) carried += over.bias;
+  const Twist<T> yield(joint.torque);
   const T force = held.stiffness * (dot(carried, held.on_child) + dot(yield, held.on_child));
-  Twist<T>& out = acceleration_[idx(c.body)];
+  Twist<T>& out = bodies_[idx(c.body)].acceleration;
   out = force * held.response - yield;
   Branch::template speed_rates<T>(c.joint, kinematics_.columns(c.members[0]), out - carried, u_rate + c.u);
 }

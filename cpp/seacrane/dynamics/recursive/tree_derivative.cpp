@@ -48,9 +48,6 @@ std::optional<TreeCoordinate> find_coordinate(const CoordinateData& coordinate, 
   return std::nullopt;
 }
 
-template class TreeKinematics<double>;
-template class ArticulatedTree<double>;
-
 TurningInertia::TurningInertia(const Mat3d& inertia) : inertia_(inertia) {
   const Eigen::SelfAdjointEigenSolver<Mat3d> principal(inertia);
   const Vec3d& values = principal.eigenvalues();

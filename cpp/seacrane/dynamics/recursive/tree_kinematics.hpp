@@ -16,8 +16,7 @@ class TreeKinematics {
   TreeKinematics(const BodyTree& tree, int bodies)
       : tree_(tree),
         column_(idx(tree.columns), Twist<T>::zero()),
-        reach_(idx(bodies), Vec3<T>::Zero()),
-        bias_(idx(bodies), Twist<T>::zero()),
+        over_parent_(idx(bodies), {Vec3<T>::Zero(), Twist<T>::zero()}),
         stroke_(tree.struts.size()) {}
 
   /// Poses and twists of all bodies from positions q and speeds u; `bodies` ends with the ground.
@@ -38,9 +37,12 @@ class TreeKinematics {
   const BodyTree& tree() const { return tree_; }
   /// Twists of a body per unit speed of its cluster, its parent at rest, at the last place().
   const Twist<T>* columns(const Member& m) const { return column_.data() + m.column; }
-  /// From the parent's state point to the body's, at the last place().
-  const Vec3<T>& reach(int body) const { return reach_[idx(body)]; }
-  const Twist<T>& bias(int body) const { return bias_[idx(body)]; }
+  /// Of a body over its parent, at the last place(): the way from state point to state point, and its bias.
+  struct OverParent {
+    Vec3<T> reach;
+    Twist<T> bias;
+  };
+  const OverParent& over_parent(int body) const { return over_parent_[idx(body)]; }
   /// The stroke of a strut, and its derivative in the hinge angle, at the last place().
   struct Stroke {
     T value, slope;
@@ -104,7 +106,8 @@ class TreeKinematics {
     }
     const Vec3<T>& w = parent.angular_velocity;
     const Vec3<T> reach = motion.reach + lever;
-    reach_[idx(m.body)] = reach;
+    OverParent& over = over_parent_[idx(m.body)];
+    over.reach = reach;
     body.rotation = motion.rotation;
     body.position = parent.position + reach;
     const Vec3<T> swept = cross<T>(w, reach);
@@ -112,16 +115,14 @@ class TreeKinematics {
     body.angular_velocity = w + turn;
     // Centripetal, Coriolis, and what the joint's own directions turn.
     const Vec3<T> carried = swept + T(2) * slide, swung = cross<T>(turn, lever);
-    Twist<T>& bias = bias_[idx(m.body)];
-    bias.linear() =
+    over.bias.linear() =
         cross<T>(w, carried) + motion.slide_bias + cross<T>(motion.turn_bias, lever) + cross<T>(turn, swung);
-    bias.angular() = cross<T>(w, turn) + motion.turn_bias;
+    over.bias.angular() = cross<T>(w, turn) + motion.turn_bias;
   }
 
   const BodyTree& tree_;
-  std::vector<Twist<T>> column_;  // by Member::column
-  std::vector<Vec3<T>> reach_;
-  std::vector<Twist<T>> bias_;
+  std::vector<Twist<T>> column_;         // by Member::column
+  std::vector<OverParent> over_parent_;  // by body
   std::vector<Stroke> stroke_;
 };
 
