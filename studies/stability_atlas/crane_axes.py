@@ -8,7 +8,6 @@ from seacrane import Scene, _core, cases
 from seacrane.accuracy.case import Case
 from seacrane.analysis.weight_balance import balance
 from seacrane.crane import Payload
-from stability_atlas.altered import change_actuator, change_body, scale_body
 from stability_atlas.axis import Axis
 
 T_END, DT_OUT = 10.0, 0.25  # s
@@ -22,7 +21,8 @@ def _rods(factor: float) -> Case:
     """Case 2 with the rods' mass and inertia multiplied."""
     scene = cases.case2(count=WAVES)
     for name in RODS:
-        scale_body(scene, name, factor)
+        body = scene.bodies[name]
+        scene.replace(name, kind="body", mass=body.mass * factor, inertia=np.asarray(body.inertia) * factor)
     return Case(scene=scene, t_end=T_END, dt_out=DT_OUT)
 
 
@@ -42,9 +42,14 @@ def _link(length: float) -> Case:
 def _gains(factor: float) -> Case:
     """Case 2 with stiffness and damping of every actuator multiplied."""
     scene = cases.case2(count=WAVES)
-    for name, actuator in list(scene.actuators.items()):
-        change_actuator(scene, name, stiffness=factor * actuator.stiffness, damping=factor * actuator.damping)
+    stiffened(scene, factor)
     return Case(scene=scene, t_end=T_END, dt_out=DT_OUT)
+
+
+def stiffened(scene: Scene, factor: float) -> None:
+    """Stiffness and damping of every actuator multiplied."""
+    for name, one in list(scene.actuators.items()):
+        scene.replace(name, kind="actuator", stiffness=factor * one.stiffness, damping=factor * one.damping)
 
 
 def held_crane(references: dict[str, _core.Curve] | None = None) -> Scene:
@@ -56,8 +61,8 @@ def held_crane(references: dict[str, _core.Curve] | None = None) -> Scene:
     loads = balance(scene).loads
     like = cases.case2(hs=0.0).actuators
     for name, actuator in list(scene.actuators.items()):
-        change_actuator(
-            scene, name, stiffness=like[name].stiffness, damping=like[name].damping,
+        scene.replace(
+            name, kind="actuator", stiffness=like[name].stiffness, damping=like[name].damping,
             feed_forward=_core.Curve.constant(value=loads[name]),
             reference=(references or {}).get(name, actuator.reference),
         )  # fmt: skip
@@ -75,8 +80,8 @@ def _open_start(gap: float) -> Case:
     """The crane on the ground, one of its rods described that far from where its joints want it."""
     turned = _core.Curve.quintic(start_time=0.0, end_time=5.0, start=0.0, end=1.0)
     scene = held_crane({"slew": turned})
-    rod = scene.bodies["main_rod"]
-    change_body(scene, "main_rod", position=np.asarray(rod.position) + gap * np.array([0.6, 0.0, 0.8]))
+    apart = np.asarray(scene.bodies["main_rod"].position) + gap * np.array([0.6, 0.0, 0.8])
+    scene.replace("main_rod", kind="body", position=apart)
     return Case(scene=scene, t_end=5.0, dt_out=DT_OUT)
 
 

@@ -24,8 +24,7 @@ from seacrane.accuracy.methods import method_of
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import held
 from seacrane.plotting.panel import save_table
-from stability_atlas.altered import change_actuator
-from stability_atlas.crane_axes import held_crane
+from stability_atlas.crane_axes import held_crane, stiffened
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,8 +54,7 @@ class StepLimit:
 
 def _crane(factor: float) -> Scene:
     scene = held_crane()
-    for name, actuator in list(scene.actuators.items()):
-        change_actuator(scene, name, stiffness=factor * actuator.stiffness, damping=factor * actuator.damping)
+    stiffened(scene, factor)
     return scene
 
 

@@ -10,7 +10,6 @@ from seacrane import Method, _core, cases, simulate
 from seacrane.accuracy.case import Case
 from seacrane.description.description import STANDARD_GRAVITY
 from seacrane.sea import steepness_limit
-from stability_atlas.altered import change_body, change_vessel, scaled_memory
 from stability_atlas.axis import Axis
 from stability_atlas.crane_axes import DT_OUT, WAVES
 from stability_atlas.points import POINTS, KnownCase
@@ -50,14 +49,15 @@ def _roll_damping(factor: float) -> Case:
     linear, quadratic = np.array(vessel.linear_damping), np.array(vessel.quadratic_damping)
     linear[3, 3] *= factor
     quadratic[3] *= factor
-    change_vessel(scene, "vessel", linear_damping=linear, quadratic_damping=quadratic)
+    scene.replace("vessel", kind="vessel", linear_damping=linear, quadratic_damping=quadratic)
     return Case(scene=scene, t_end=60.0, dt_out=DT_OUT)
 
 
 def _turned(axis: tuple[float, float, float], degrees: float) -> Case:
     scene = cases.vessel(hs=0.0)
     half = 0.5 * np.radians(degrees)
-    change_body(scene, "vessel", quaternion=np.append(np.cos(half), np.sin(half) * np.array(axis)))
+    turned = np.append(np.cos(half), np.sin(half) * np.array(axis))
+    scene.replace("vessel", kind="body", quaternion=turned)
     return Case(scene=scene, t_end=60.0, dt_out=0.5)
 
 
@@ -74,7 +74,13 @@ def _trim(degrees: float) -> Case:
 def _memory(factor: float) -> Case:
     """The vessel in waves, the loads of its fluid memory multiplied: below 0 the memory drives the motion."""
     scene = cases.vessel(count=WAVES, memory="by-motion")
-    change_vessel(scene, "vessel", memory=scaled_memory(scene, "vessel", factor))
+    blocks = scene.vessels["vessel"].memory
+    assert isinstance(blocks, list)
+    scaled = [
+        _core.StateSpaceBlock(**one.__getstate__() | {"c": factor * one.c, "d": factor * one.d})
+        for one in blocks
+    ]
+    scene.replace("vessel", kind="vessel", memory=scaled)
     return Case(scene=scene, t_end=300.0, dt_out=2.0)
 
 

@@ -31,11 +31,6 @@ def lattice() -> Crane:
     return load_crane("lattice_boom_100t")
 
 
-@pytest.fixture(scope="module")
-def a_frame() -> Crane:
-    return load_crane("a_frame_40t")
-
-
 def fixed(crane: Crane, payload: Payload | None = None, **coordinates: float) -> Scene:
     scene = Scene(name="fixed base")
     scene.add_crane(
@@ -92,9 +87,9 @@ def test_an_elastic_luffing_rope_takes_the_place_of_the_driver(lattice: Crane) -
     assert float(posed["rope tension boom"]) == pytest.approx(by_moment, rel=1e-9)
 
 
-def test_a_frame_cylinder_force_by_virtual_work(a_frame: Crane) -> None:
+def test_a_frame_cylinder_force_by_virtual_work() -> None:
     """F ds = dV of all weights, by central differences of the crane's own kinematics."""
-    payload = Payload(mass=20e3, size=(2.0, 2.0, 2.0), link_length=3.0)
+    a_frame, payload = load_crane("a_frame_40t"), Payload(mass=20e3, size=(2.0, 2.0, 2.0), link_length=3.0)
 
     def potential(stroke: float) -> float:
         parts = a_frame.parts(tilt=stroke)

@@ -113,18 +113,15 @@ SWAY_HEAVE = [1, 2]
 
 
 @cache
-def panel() -> HydroDatabase:
-    return shipped_database()
-
-
-@cache
 def inside() -> np.ndarray:
-    return np.flatnonzero((panel().omega > BAND[0] - 1e-9) & (panel().omega < BAND[1] + 1e-9))
+    return np.flatnonzero(
+        (shipped_database().omega > BAND[0] - 1e-9) & (shipped_database().omega < BAND[1] + 1e-9)
+    )
 
 
 @cache
 def strip() -> HydroDatabase:
-    grid = {"omega": panel().omega[inside()], "heading": panel().heading[::9]}
+    grid = {"omega": shipped_database().omega[inside()], "heading": shipped_database().heading[::9]}
     return hydro_from_hull(SHIPPED, **OF_SHIPPED, **grid)
 
 
@@ -133,12 +130,12 @@ def test_sway_and_heave_agree_at_each_frequency() -> None:
 
     A22 falls to a sixth over the band, and the absolute difference stays: 0.14 at its end. B33: 0.11.
     """
-    assert str(SHIPPED) in panel().source
-    np.testing.assert_allclose(strip().restoring, panel().restoring, rtol=1e-6, atol=1.0)
-    np.testing.assert_allclose(strip().mass_matrix, panel().mass_matrix, rtol=1e-6, atol=1e-2)
-    slow = panel().omega[inside()] < 1.12
+    assert str(SHIPPED) in shipped_database().source
+    np.testing.assert_allclose(strip().restoring, shipped_database().restoring, rtol=1e-6, atol=1.0)
+    np.testing.assert_allclose(strip().mass_matrix, shipped_database().mass_matrix, rtol=1e-6, atol=1e-2)
+    slow = shipped_database().omega[inside()] < 1.12
     for name, bounds in (("added_mass", [0.14, 0.1]), ("damping", [0.1, 0.11])):
-        one = np.asarray(getattr(panel(), name))[inside()][:, SWAY_HEAVE, SWAY_HEAVE]
+        one = np.asarray(getattr(shipped_database(), name))[inside()][:, SWAY_HEAVE, SWAY_HEAVE]
         off = np.abs(np.asarray(getattr(strip(), name))[:, SWAY_HEAVE, SWAY_HEAVE] - one)
         assert np.all(off / one.max(axis=0) < 0.1)
         assert np.all(off / one < bounds) and (off / one)[slow, 0].max() < 0.1
@@ -146,7 +143,7 @@ def test_sway_and_heave_agree_at_each_frequency() -> None:
 
 def test_wave_forces_agree_in_phase_and_size() -> None:
     """Complex, at 45, 90 and 135 deg, by the largest of the panel method over these headings."""
-    one, other = panel().force[::9][1:4, inside()], strip().force[1:4]
+    one, other = shipped_database().force[::9][1:4, inside()], strip().force[1:4]
     error = np.abs(other - one).max(axis=(0, 1)) / np.abs(one).max(axis=(0, 1))
     np.testing.assert_array_less(error[[1, 2, 3, 5]], [0.06, 0.12, 0.11, 0.18])
     # A wrong sign, heading or phase would give errors of one and more.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import runpy
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,6 @@ from seacrane.hydro import (
 )
 from seacrane.hydro.readers.load import FORMATS
 
-ROOT = Path(__file__).parents[2]
 SHARED = (
     "wamit", "wamit_fpso", "veres/supply", "aqwa/cylinder.AH1", "aqwa/cylinder.LIS", "orcaflex/testModel.yml",
 )  # fmt: skip
@@ -120,9 +118,3 @@ def test_masses_by_argument_and_by_command(
     matrix = rigid_mass_matrix(12.3e6, np.array([0.0, 0.0, 1.5]), inertia)
     assert load_database(tmp_path / "barge.nc").mass_matrix == pytest.approx(matrix)
     assert load_database(file, mass_matrix=matrix).mass_matrix == pytest.approx(matrix)
-
-
-def test_the_table_in_the_document_is_that_of_the_readers() -> None:
-    made = runpy.run_path(str(ROOT / "tools" / "reader_table.py"))
-    text = made["DOCUMENT"].read_text(encoding="utf-8")
-    assert text == made["current"](text), "run python tools/reader_table.py"

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from integrator_table import integrator_table
 from kink_scenes import sprung
 from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
 from test_integrator_orders import payload_error, run
@@ -149,8 +147,3 @@ def test_spectral_radius_is_what_a_step_leaves_of_a_motion_far_too_fast(radius: 
 def test_what_a_method_cannot_do_is_refused(scene: Scene, settings: dict[str, Any], words: str) -> None:
     with pytest.raises(SceneError, match=words):
         simulate(scene, t_end=1.0, **settings)
-
-
-def test_the_documents_table_is_that_of_the_core() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "integrators.md").read_text(encoding="utf-8")
-    assert page.count(integrator_table()) == 1, "run: python tests/scenes/integrator_table.py"

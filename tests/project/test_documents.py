@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import runpy
 import subprocess
 import sys
 from functools import lru_cache
@@ -26,6 +27,13 @@ def test_no_table_is_older_than_its_file() -> None:
     command = [sys.executable, "benchmarks/documents.py", "--check"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, f"{done.stderr}python benchmarks/documents.py fills them"
+
+
+def test_tables_of_what_is_registered_are_current() -> None:
+    made = runpy.run_path(str(ROOT / "tools" / "document_tables.py"))
+    for name in made["TABLES"]:
+        text = (ROOT / "docs" / name).read_text(encoding="utf-8")
+        assert text == made["current"](name), "run python tools/document_tables.py"
 
 
 FILE = "benchmarks/results/wave-loads.csv"

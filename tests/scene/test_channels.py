@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import runpy
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -28,8 +27,6 @@ from seacrane.scene.file import scene_digest
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
-
-TOOL = Path(__file__).parents[2] / "tools" / "channel_table.py"
 
 
 def test_every_channel_has_a_name_of_its_own_dimensions_a_unit_and_a_text() -> None:
@@ -73,12 +70,6 @@ def test_channels_recorded_alone_are_those_of_a_run_that_records_all() -> None:
         alone = simulate(scene, channels=[name], **settings)
         assert np.array_equal(alone[name], whole[name]), name
         assert alone.stats["evaluations"] == whole.stats["evaluations"], name
-
-
-def test_the_documented_table_is_current() -> None:
-    made = runpy.run_path(str(TOOL))
-    text = made["DOCUMENT"].read_text(encoding="utf-8")
-    assert text == made["current"](text), "run python tools/channel_table.py"
 
 
 def box() -> Scene:

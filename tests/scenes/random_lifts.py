@@ -9,7 +9,6 @@ import sys
 import warnings
 from collections import Counter
 from dataclasses import dataclass, replace
-from functools import cache
 from types import SimpleNamespace
 from typing import Any
 
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 
 from seacrane import Result, Run, Scene, SeacraneError, Stage, State, Until, shipped_database, simulate
 from seacrane.arrays import Array
-from seacrane.hydro import BoxPart, CylinderPart, HydroGroup, Opening, PlatePart, SpherePart, two_barges
+from seacrane.hydro import BoxPart, CylinderPart, Opening, PlatePart, SpherePart, two_barges
 from seacrane.scene import Oil, Piston
 from seacrane.sea.dispersion import wavenumber
 
@@ -67,11 +66,6 @@ VIEWS = {"mirrored": View(mirrored=True), "turned": View(turn_deg=73.0),
          "twice half": View(twice_half=True), "other": View(other=True),
          "all": View(mirrored=True, turn_deg=-141.0, shift=(-83.0, 47.0), later=3.1, cut=True,
                      twice_half=True, other=True)}  # fmt: skip
-
-
-@cache
-def barges() -> HydroGroup:
-    return two_barges(lid_damping=0.03)
 
 
 def fits(lift: SimpleNamespace, view: View) -> bool:
@@ -149,7 +143,7 @@ class Lift:
         elif lift.base == "given":
             scene.add_vessel(motion=shipped_database(), ramp=2.0, duration=90.0, **place)
         elif lift.base == "pair":
-            scene.add_vessel(barges(), **place)
+            scene.add_vessel(two_barges(lid_damping=0.03), **place)
         for vessel in {"ground": (), "pair": ("crane vessel", "feeder")}.get(lift.base, ("vessel",)):
             scene.add_sea(vessel=vessel)
         if lift.base == "ground":

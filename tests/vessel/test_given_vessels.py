@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from seacrane import (
-    HydroDatabase,
     MotionHistory,
     MotionRaos,
     Result,
@@ -29,14 +28,9 @@ PLACE: dict[str, Any] = {"position": (12.0, -7.0, 0.0), "heading_deg": 30.0}
 WAVES: dict[str, Any] = {"hs": 2.0, "tp": 8.0, "direction_deg": 100.0, "seed": 3, "count": 60}
 
 
-@pytest.fixture(scope="module")
-def database() -> HydroDatabase:
-    return shipped_database()
-
-
-def afloat(database: HydroDatabase) -> Scene:
+def afloat() -> Scene:
     scene = Scene(name="afloat")
-    scene.add_vessel(database, **PLACE)
+    scene.add_vessel(shipped_database(), **PLACE)
     scene.add_sea(**WAVES)
     return scene
 
@@ -61,9 +55,9 @@ def along_the_ship(motion: np.ndarray, heading: float) -> np.ndarray:
     return motion @ turn
 
 
-def linear_ship(database: HydroDatabase, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def linear_ship(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The linear response of the floating ship, and its standard deviation, in axes of the ship."""
-    response = response_summed(afloat(database), body="vessel")
+    response = response_summed(afloat(), body="vessel")
     motion = along_the_ship(response.at(times), np.radians(PLACE["heading_deg"]))
     amplitude = along_the_ship(response.amplitude, np.radians(PLACE["heading_deg"]))
     return motion, np.sqrt(0.5 * np.sum(np.abs(amplitude) ** 2, axis=0))
@@ -71,12 +65,12 @@ def linear_ship(database: HydroDatabase, times: np.ndarray) -> tuple[np.ndarray,
 
 @pytest.mark.warns(sometimes=["AssemblyWarning"])  # where it starts at once
 @pytest.mark.parametrize("ramp", [0.0, 15.0])
-def test_raos_move_the_ship_as_its_linear_response(ramp: float, database: HydroDatabase) -> None:
+def test_raos_move_the_ship_as_its_linear_response(ramp: float) -> None:
     """To the splines' error, 1e-6 of the root mean square; the linear model never sees the given ship."""
-    scene = given(database, ramp=ramp)
+    scene = given(shipped_database(), ramp=ramp)
     scene.add_sea(**WAVES)
     result = simulate(scene, 60.0, dt_out=0.37)
-    expected, size = linear_ship(database, result.time)
+    expected, size = linear_ship(result.time)
     full = result.time >= ramp
     assert np.all(np.abs(result["vessel_motion"] - expected)[full] < 2e-6 * size)
     if ramp:
@@ -85,27 +79,27 @@ def test_raos_move_the_ship_as_its_linear_response(ramp: float, database: HydroD
         assert not result["vessel_motion"][0].any()
 
 
-def test_a_table_of_raos_moves_the_ship_as_its_database(database: HydroDatabase) -> None:
+def test_a_table_of_raos_moves_the_ship_as_its_database() -> None:
     """The table holds what the linear model gives at the database's headings: what is left is in omega."""
     alone = Scene()
-    alone.add_vessel(database)
+    alone.add_vessel(shipped_database())
     omega = np.linspace(0.2, 2.5, 231)
-    heading = database.heading
+    heading = shipped_database().heading
     values = motion_rao(alone, omega=omega, direction=heading[:, None] + 0.0 * omega, body="vessel")
     table = MotionRaos(omega=omega, heading=heading, values=values)
     scene = given(table)
     scene.add_sea(**WAVES)
     result = simulate(scene, 60.0, dt_out=0.37)
-    expected, size = linear_ship(database, result.time)
+    expected, size = linear_ship(result.time)
     full = result.time > 20.0
     assert np.all(np.abs(result["vessel_motion"] - expected)[full] < 5e-3 * size)
 
 
 @pytest.mark.warns("RaoPhaseWarning")
-def test_a_database_with_raos_of_its_own_moves_the_ship_by_these(database: HydroDatabase) -> None:
-    own = np.zeros((database.heading.size, database.omega.size, 6), dtype=complex)
+def test_a_database_with_raos_of_its_own_moves_the_ship_by_these() -> None:
+    own = np.zeros((shipped_database().heading.size, shipped_database().omega.size, 6), dtype=complex)
     own[:, :, 2] = 0.5j
-    scene = given(replace(database, motion_rao=own))
+    scene = given(replace(shipped_database(), motion_rao=own))
     scene.add_sea(hs=2.0, tp=8.0, count=40)
     result = simulate(scene, 40.0, dt_out=0.5)
     sea = scene.waves.components()
@@ -120,13 +114,13 @@ def test_a_database_with_raos_of_its_own_moves_the_ship_by_these(database: Hydro
 
 
 @pytest.mark.filterwarnings("ignore::seacrane.warnings.MassUnitWarning")
-def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> None:
+def test_a_light_load_moves_as_on_the_floating_ship() -> None:
     """What is left is the load's own effect on the floating ship: in proportion to its mass."""
 
     def run(mass: float, history: MotionHistory | None = None) -> Result:
         scene = Scene()
         if history is None:
-            scene.add_vessel(database, memory="none")
+            scene.add_vessel(shipped_database(), memory="none")
             scene.add_sea(hs=1.0, tp=8.0, direction_deg=100.0, count=40)
         else:
             scene.add_vessel(motion=history, ramp=0.0)
@@ -180,7 +174,7 @@ humps = np.outer([0, 1, 2, 3, 2, 1, 0], np.eye(6)[2])  # the last a long time af
 
 
 @pytest.mark.warns(sometimes=["RaoPhaseWarning"])
-def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
+def test_what_would_be_a_wrong_motion_is_told() -> None:
     def raos(**changes: Any) -> MotionRaos:
         return MotionRaos(**{**LONG, "values": np.ones((3, 4, 1)) * np.eye(6)[2], **changes})
 
@@ -191,12 +185,12 @@ def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
         (lambda: MotionHistory(time=np.linspace(5, 40, 50), motion=HEAVE), "starts at 5 s"),
         (lambda: given(MotionHistory(time=[0, 1, 2, 3, 4, 5, 50], motion=humps)), "heave would reach"),
         (lambda: simulate(given(MotionHistory(time=np.linspace(0, 40, 50), motion=HEAVE)), 41.0), "at 40 s"),
-        (lambda: given(database).add_sea(hs=1.0, tp=8.0, count=20, drift=True), "drift"),
-        (lambda: response_summed(beside_another(database), body="vessel"), "'barge': its motion"),
+        (lambda: given(shipped_database()).add_sea(hs=1.0, tp=8.0, count=20, drift=True), "drift"),
+        (lambda: response_summed(beside_another(), body="vessel"), "'barge': its motion"),
         (lambda: given("rest", memory="none"), r"add_vessel\(motion=\): there is no 'memory'"),
-        (lambda: Scene().add_vessel(database, ramp=1.0), "of a HydroDatabase: there is no 'ramp'"),
+        (lambda: Scene().add_vessel(shipped_database(), ramp=1.0), "of a HydroDatabase: there is no 'ramp'"),
         (lambda: Scene().add_vessel(group, name="a"), "of a HydroGroup: there is no 'name'"),
-        (lambda: Scene().add_vessel(database, motion="rest"), "a motion and a hull"),
+        (lambda: Scene().add_vessel(shipped_database(), motion="rest"), "a motion and a hull"),
         (lambda: Scene().add_vessel(raos()), "vessel: is <MotionRaos.*motion="),
     ):
         with pytest.raises(SceneError, match=message):
@@ -205,15 +199,15 @@ def test_what_would_be_a_wrong_motion_is_told(database: HydroDatabase) -> None:
         MotionHistory(time=np.linspace(0, 40, 50), motion=HEAVE + 5.0 * np.roll(HEAVE, 1, axis=1))
 
 
-def beside_another(database: HydroDatabase) -> Scene:
+def beside_another() -> Scene:
     """A floating and a given ship."""
-    scene = afloat(database)
-    scene.add_vessel(motion=database, name="barge", position=(0, 60, 0), duration=20.0)
+    scene = afloat()
+    scene.add_vessel(motion=shipped_database(), name="barge", position=(0, 60, 0), duration=20.0)
     return scene
 
 
-def test_a_floating_ship_does_not_know_of_a_given_one(database: HydroDatabase) -> None:
-    both = beside_another(database)
+def test_a_floating_ship_does_not_know_of_a_given_one() -> None:
+    both = beside_another()
     both.add_sea(vessel="barge")
-    one, two = simulate(afloat(database), 10.0, rtol=1e-9), simulate(both, 10.0, rtol=1e-9)
+    one, two = simulate(afloat(), 10.0, rtol=1e-9), simulate(both, 10.0, rtol=1e-9)
     np.testing.assert_allclose(two.select("vessel_motion", vessel="vessel"), one["vessel_motion"], atol=1e-6)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,7 @@ from element_runs import goes_on
 from seacrane import Curve, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.analysis.hull_range import peak_frequency
 from seacrane.arrays import Array
-from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.hydro import shipped_database
 from seacrane.scene import ByHeading, HullLoads, Waves
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
@@ -23,11 +22,6 @@ pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarni
 G = 9.80665
 CUTOFF = 0.5  # rad/s, of hulls that are driven: high, so that transients are short
 TIMES = np.array([0.0, 0.4, 17.3, 99.0, 1234.5])
-
-
-@cache
-def database() -> HydroDatabase:
-    return shipped_database()
 
 
 def spread_sea(count: int = 60) -> _core.WaveComponents:
@@ -40,8 +34,8 @@ def spread_sea(count: int = 60) -> _core.WaveComponents:
 
 
 def positioned(waves: _core.WaveComponents) -> _core.PositionedWaveLoad:
-    heading, _ = database().full_circle()
-    values = database().force_at(np.array(waves.omega)[None, :], heading[:, None])
+    heading, _ = shipped_database().full_circle()
+    values = shipped_database().force_at(np.array(waves.omega)[None, :], heading[:, None])
     return _core.PositionedWaveLoad(waves, headings=heading, transfer=values)
 
 
@@ -50,7 +44,7 @@ def positioned(waves: _core.WaveComponents) -> _core.PositionedWaveLoad:
 )
 def test_a_fixed_vessel_gets_the_mean_load_of_its_place_and_heading(x: float, y: float, yaw: float) -> None:
     waves = spread_sea()
-    transfer = database().force_at(waves.omega, np.array(waves.direction) - yaw)
+    transfer = shipped_database().force_at(waves.omega, np.array(waves.direction) - yaw)
     mean = _core.ExactWaveLoad(waves, transfer=transfer, position=(x, y))
     load = positioned(waves)
     for t in TIMES:
@@ -64,7 +58,7 @@ def test_a_fixed_vessel_gets_the_mean_load_of_its_place_and_heading(x: float, y:
 def driven(*, cutoff: float = CUTOFF, phase: str | None = None, **curves: Curve) -> Scene:
     """A hull whose six coordinates are given; in a short-crested sea where a phase is asked for."""
     scene = Scene(name="driven")
-    scene.add_vessel(database(), mooring=None, memory="none")
+    scene.add_vessel(shipped_database(), mooring=None, memory="none")
     scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
     for name in ("x", "y", "z", "roll", "pitch", "yaw"):
         scene.add_driver(joint="tow", coordinate=name, curve=curves.get(name, Curve.constant(value=0.0)))
@@ -77,9 +71,10 @@ def driven(*, cutoff: float = CUTOFF, phase: str | None = None, **curves: Curve)
 @pytest.mark.parametrize(("direction_deg", "yaw"), [(180.0, 0.0), (0.0, 0.0), (130.0, 0.4)])
 def test_a_towed_vessel_meets_the_encounter_frequency(direction_deg: float, yaw: float) -> None:
     speed, omega, direction = 5.0, 0.9, np.radians(direction_deg)
-    heading, _ = database().full_circle()
-    table = ByHeading(heading=heading, values=database().force_at([[omega]], heading[:, None]))
-    loads = HullLoads(transfer=database().force_at(np.array([omega]), direction), force_by_heading=table)
+    hull = shipped_database()
+    heading, _ = hull.full_circle()
+    table = ByHeading(heading=heading, values=hull.force_at([[omega]], heading[:, None]))
+    loads = HullLoads(transfer=hull.force_at(np.array([omega]), direction), force_by_heading=table)
     scene = driven(x=steady(0.0, speed), yaw=Curve.constant(value=yaw))
     scene.waves = Waves(
         omega=np.array([omega]), amplitude=np.array([0.8]), phase=np.array([0.3]),
@@ -88,7 +83,7 @@ def test_a_towed_vessel_meets_the_encounter_frequency(direction_deg: float, yaw:
     result = simulate(scene, t_end=60.0, dt_out=0.25)
     encounter = omega - omega**2 / G * speed * np.cos(direction)
     assert abs(encounter - omega) > 0.2
-    transfer = database().force_at(omega, direction - yaw)
+    transfer = shipped_database().force_at(omega, direction - yaw)
     wave = 0.8 * np.exp(1j * (encounter * result.time + 0.3))
     # Positions come from the driven joint, to 1e-9 m and better.
     np.testing.assert_allclose(result["wave_elevation"], wave.real, atol=1e-8)
@@ -102,7 +97,7 @@ def steady(start: float, speed: float, **more: Any) -> Curve:
 
 def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
     scene = Scene(name="actual")
-    scene.add_vessel(database(), mooring=100.0)
+    scene.add_vessel(shipped_database(), mooring=100.0)
     scene.add_sea(hs=3.0, tp=8.0, direction_deg=60.0, count=40, phase="actual")
     scene.waves = replace(scene.waves.changed(**changes), evaluation=evaluation)
     return scene
@@ -123,7 +118,7 @@ def test_a_free_vessel_feels_where_it_is_and_its_energy_balances() -> None:
 
 def test_far_beyond_the_fast_sines_the_load_is_still_right() -> None:
     waves = spread_sea()
-    transfer = database().force_at(waves.omega, waves.direction)
+    transfer = shipped_database().force_at(waves.omega, waves.direction)
     mean = _core.ExactWaveLoad(waves, transfer=transfer)
     # Phases of 6e6 rad are rounded to 1e-9.
     error = np.abs(positioned(waves).evaluate(3e6)[0] - mean.evaluate(3e6))
@@ -134,7 +129,7 @@ def test_what_makes_no_sense_is_refused_by_name() -> None:
     force = actual_scene().waves.hull().force_by_heading
     turned = actual_scene(force_by_heading=ByHeading(heading=force.heading[::-1], values=force.values))
     paper = Scene(name="paper")
-    paper.add_vessel(database(), kinematics="paper")
+    paper.add_vessel(shipped_database(), kinematics="paper")
     paper.waves = afloat("slow").waves
     for call, message in (
         (turned.compile, "45 deg"),
@@ -195,7 +190,7 @@ def test_a_steady_drift_is_followed_from_the_start_on() -> None:
 
 def afloat(phase: Any, *, memory: Any = "per-pair", **waves: Any) -> Scene:
     scene = Scene(name="afloat")
-    scene.add_vessel(database(), mooring=120.0, memory=memory)
+    scene.add_vessel(shipped_database(), mooring=120.0, memory=memory)
     scene.add_sea(phase=phase, **{"hs": 3.0, "tp": 8.0, "count": 30} | waves)
     return scene
 

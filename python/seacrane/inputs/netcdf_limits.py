@@ -41,11 +41,11 @@ def open_netcdf(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARG
 
 
 @contextlib.contextmanager
-def open_hdf5(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARGE) -> Iterator[Any]:
-    """An `h5py.File` open for reading; parameters and errors as `open_netcdf`."""
+def open_hdf5(path: Path) -> Iterator[Any]:
+    """An `h5py.File` of a database open for reading; errors as `open_netcdf`."""
     import h5py
 
-    _require_fit(path, largest, fix)
+    _require_fit(path, LARGEST_DATABASE, TOO_LARGE)
     with h5py.File(path, "r") as file:
         yield file
 

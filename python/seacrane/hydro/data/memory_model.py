@@ -15,6 +15,7 @@ from seacrane.one_thread import one_thread
 
 RADIATION = "radiation"
 MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
+AT_ONCE = 64  # frequencies
 PEAK_ALLOWANCE = 5.0  # a resonant peak may be off by this many times what a sea may
 
 
@@ -56,9 +57,19 @@ class MemoryBlock:
     @one_thread
     def transfer(self, omega: Array) -> Complex:
         """``C (i omega - A)^-1 B + D`` at ``omega`` (n,), as (n, outputs, inputs)."""
-        resolvent = 1j * omega[:, None, None] * np.eye(len(self.A)) - self.A
-        inputs = np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape))
-        return np.asarray(self.C @ np.linalg.solve(resolvent, inputs) + self.D)
+        return transfer(self.A, self.B, self.C, self.D, omega)
+
+
+def states_at(a: Array, b: Array, omega: Array) -> Complex:
+    """``(i omega - A)^-1 B`` (n, states, inputs) at ``omega`` (n,)."""
+    inputs = np.broadcast_to(b.astype(complex), (len(omega), *b.shape))
+    return np.asarray(np.linalg.solve(1j * omega[:, None, None] * np.eye(len(a)) - a, inputs))
+
+
+def transfer(a: Array, b: Array, c: Array, d: Array, omega: Array) -> Complex:
+    """``C (i omega - A)^-1 B + D``, a few frequencies at a time: many states take gigabytes for all."""
+    pieces = np.array_split(omega, max(1, len(omega) // AT_ONCE))
+    return np.concatenate([c @ states_at(a, b, piece) + d for piece in pieces])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -204,7 +204,7 @@ class _Group:
         idle = 0
         for _ in range(max(MOST_MASSES, 2 * len(self.group)) + 1):
             model = fit_to_motions(self.data, model)
-            error = self.told(model, limit, bar)
+            error = self.told(model, limit, bar).of(self.group)
             idle = 0 if best is None or error < (1.0 - GAIN) * best[0] else idle + 1
             if best is None or error < best[0]:
                 best = (error, model)
@@ -213,11 +213,12 @@ class _Group:
         assert best is not None
         return best[1]
 
-    def told(self, model: Oscillators, limit: float, bar: tqdm) -> float:
+    def told(self, model: Oscillators, limit: float, bar: tqdm) -> MotionError:
         """The error of a model, shown in the bar."""
-        error = self._error(model).of(self.group)
-        bar.set_postfix_str(f"{len(model.w)} masses, {100.0 * error:.2g} of {100.0 * limit:.2g} %")
-        return error
+        errors = self._error(model)
+        worst = 100.0 * errors.of(self.group)
+        bar.set_postfix_str(f"{len(model.w)} masses, {worst:.2g} of {100.0 * limit:.2g} %")
+        return errors
 
     def infinite(self, model: Oscillators) -> Array:
         """Infinite-frequency added mass (m, m) in SI units."""
@@ -293,8 +294,8 @@ class _Coupled(_Group):
         idle = 0
         problem = CoupledProblem(self.felt, masses)
         for count, model in enumerate(problem.steps(first_guess(self.felt.data, masses))):
-            errors = self._error(model)
-            error = self.told(model, limit, bar)
+            errors = self.told(model, limit, bar)
+            error = errors.of(self.group)
             idle = 0 if best is None or error < (1.0 - SMALL_GAIN) * best[0] else idle + 1
             if best is None or error < best[0]:
                 best = (error, model, emphasis)

@@ -20,9 +20,16 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.arrays import Array, Complex
+from seacrane.arrays import Array
 from seacrane.errors import PassivityError
-from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.data.memory_model import (
+    RADIATION,
+    MemoryBlock,
+    MemoryModel,
+    Passivity,
+    states_at,
+    transfer,
+)
 from seacrane.hydro.memory.identification import RationalFit
 from seacrane.one_thread import one_thread
 
@@ -133,7 +140,7 @@ def _side_by_side(blocks: Sequence[MemoryBlock]) -> tuple[Array, Array, Array, A
         d[np.ix_(block.outputs, block.inputs)] += block.D
         start += len(block.A)
     omega = np.geomspace(1e-2, 1e2, 200)
-    damping = _transfer(a, b, c, d, omega).real
+    damping = transfer(a, b, c, d, omega).real
     peak = np.sqrt(np.abs(np.diagonal(damping, axis1=1, axis2=2)).max(axis=0))
     used = np.flatnonzero(np.any(b, axis=0) | np.any(c, axis=1) | np.any(d, axis=0) | np.any(d, axis=1))
     peak[peak == 0.0] = 1.0
@@ -154,7 +161,7 @@ def _examine(a: Array, b: Array, c: Array, feed: Array) -> dict[str, Any]:
     ends = np.concatenate([[0.0], at, [1e4 * (1.0 + np.abs(np.linalg.eigvals(a)).max())]])
     middles = 0.5 * (ends[1:] + ends[:-1])
     omega = np.unique(np.concatenate([[0.0], at, middles, np.geomspace(1e-4, 1e4, 2001)]))
-    kernel = _transfer(a, b, c, 0.5 * feed, omega)
+    kernel = transfer(a, b, c, 0.5 * feed, omega)
     lowest = np.linalg.eigvalsh(0.5 * (kernel + kernel.conj().swapaxes(1, 2)))[:, 0]
     margin = float(min(lowest.min(), 0.5 * np.linalg.eigvalsh(feed)[0]))
     if margin > 0.0:
@@ -164,10 +171,6 @@ def _examine(a: Array, b: Array, c: Array, feed: Array) -> dict[str, Any]:
     crossings = tuple(float(0.5 * (omega[i] + omega[i + 1])) for i in signs)
     reason = f"its damping has a negative eigenvalue at {omega[lowest.argmin()]:.3g} rad/s"
     return {"passive": False, "margin": margin, "reason": reason, "crossings": crossings}
-
-
-def _transfer(a: Array, b: Array, c: Array, d: Array, omega: Array) -> Complex:
-    return np.asarray(c @ states_at(a, b, omega) + d)
 
 
 def smallest_damping(blocks: Sequence[MemoryBlock], damping: Array, omega: Array) -> tuple[float, float]:
@@ -243,13 +246,6 @@ def realise_pair(fit: RationalFit, j: int, k: int, cause: str) -> list[MemoryBlo
         realise(fit.numerator, fit.denominator, output=output, input=input_, cause=cause)
         for output, input_ in dict.fromkeys([(j, k), (k, j)])
     ]
-
-
-def states_at(a: Array, b: Array, omega: Array) -> Complex:
-    """``(i omega - A)^-1 B`` (n, states, inputs) at ``omega`` (n,)."""
-    resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
-    inputs = np.broadcast_to(b.astype(complex), (len(omega), *b.shape))
-    return np.asarray(np.linalg.solve(resolvent, inputs))
 
 
 @one_thread

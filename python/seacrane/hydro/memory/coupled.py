@@ -12,7 +12,7 @@ Masses are in the order of their frequencies, and share dampers with their next 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,7 +97,7 @@ class Felt:
         """Normal matrix (p, p) of the infinite-frequency added mass."""
         j, k, m = self.j, self.k, self.hold.shape[1]
         inertia = self.twice(np.abs(self.s) ** 2) * self.hold
-        whole = real_sum(_flat(inertia), _flat(self.move)).reshape(m, m, m, m)
+        whole = real_sum([_flat(inertia)], [_flat(self.move)]).reshape(m, m, m, m)
         a, b, c, d = j[:, None], k[:, None], j[None], k[None]
         pairs = whole[a, c, d, b] + whole[a, d, c, b] + whole[b, c, d, a] + whole[b, d, c, a]
         return np.asarray(pairs * self.once[:, None] * self.once)
@@ -123,10 +123,11 @@ def _flat(values: Complex) -> Complex:
     return values.reshape(len(values), -1)
 
 
-def real_sum(left: Complex, right: Complex) -> Array:
-    """``Re sum_n left[..., n, i] right[..., n, j]``."""
-    rows = np.concatenate([left.real, -left.imag], axis=-2).swapaxes(-1, -2)
-    return np.asarray(rows @ np.concatenate([right.real, right.imag], axis=-2))
+def real_sum(left: Sequence[Complex], right: Sequence[Complex]) -> Array:
+    """``Re sum_n left[..., n, i] right[..., n, j]`` of arrays that follow each other in n."""
+    rows = np.concatenate([*(one.real for one in left), *(-one.imag for one in left)], axis=-2)
+    columns = np.concatenate([*(one.real for one in right), *(one.imag for one in right)], axis=-2)
+    return np.asarray(rows.swapaxes(-1, -2) @ columns)
 
 
 class CoupledProblem(OscillatorParameters):
@@ -193,7 +194,7 @@ class _Point:
         of_mass = slice(0, n)
         sources = [(slice(2 * n, 3 * n), of_mass)]
         sources += [(slice(off, n), slice(n, 2 * n - off)) for off in range(problem.width)]
-        own = _among_sources(across, sources) + self.size_slope.T @ self.size_slope
+        own = _among_sources(across, sources, n) + self.size_slope.T @ self.size_slope
         mixed = np.concatenate([_by_vectors(held, moved, across, one, of_mass) for one in sources])
         mixed = mixed.swapaxes(1, 2).reshape(len(own), n * m)
         square = np.block([[own, mixed], [mixed.T, self._among_couplings(held, moved, across)]])
@@ -208,11 +209,11 @@ class _Point:
 
     def _among_couplings(self, held: Complex, moved: Complex, across: tuple[Complex, Complex]) -> Array:
         n, m, felt = self.problem.n, self.problem.m, self.problem.felt
-        crossed = real_sum(_flat(held[:, :n]), _flat(moved[:, :n].conj()))
+        crossed = real_sum([_flat(held[:, :n])], [_flat(moved[:, :n].conj())])
         crossed = (crossed + crossed.T).reshape(n, m, n, m).transpose(0, 3, 2, 1)
         left = [_flat(one[:, :n, :n]) for one in across]
         right = [_flat(felt.move.swapaxes(1, 2)), _flat(felt.hold)]
-        straight = real_sum(np.concatenate(left), np.concatenate(right)).reshape(n, n, m, m)
+        straight = real_sum(left, right).reshape(n, n, m, m)
         return np.asarray((crossed + straight.transpose(0, 2, 1, 3)).reshape(n * m, n * m))
 
     def _of_infinite(self, held: Complex, moved: Complex, sources: list[tuple[slice, slice]]) -> Array:
@@ -222,13 +223,10 @@ class _Point:
         felt, n, m = self.problem.felt, self.problem.n, self.problem.m
         j, k = felt.j, felt.k
         s = felt.twice(felt.s)
-        parts = []
-        for u, v in sources:
-            left = np.concatenate([s * held[:, v], s * held[:, u]]).swapaxes(0, 1)
-            parts.append(real_sum(left, np.concatenate([moved[:, u], moved[:, v]]).swapaxes(0, 1)))
-        own = np.concatenate(parts)
-        first = real_sum(_flat(s * held[:, :n]), _flat(felt.move.swapaxes(1, 2))).reshape(n, m, m, m)
-        second = real_sum(_flat(s * moved[:, :n]), _flat(felt.hold)).reshape(n, m, m, m)
+        risen, moving = (s * held).swapaxes(0, 1), moved.swapaxes(0, 1)
+        own = np.concatenate([real_sum([risen[v], risen[u]], [moving[u], moving[v]]) for u, v in sources])
+        first = real_sum([_flat(s * held[:, :n])], [_flat(felt.move.swapaxes(1, 2))]).reshape(n, m, m, m)
+        second = real_sum([_flat(s * moved[:, :n])], [_flat(felt.hold)]).reshape(n, m, m, m)
         every = first + second.transpose(0, 3, 2, 1)  # mass, j, motion of the coupling, k
         coupled = (every[:, j, :, k] + every[:, k, :, j]).reshape(len(j), n * m)
         rows = np.concatenate([(own[:, j, k] + own[:, k, j]).T, coupled], axis=1) * felt.once[:, None]
@@ -236,21 +234,35 @@ class _Point:
         return np.asarray(part.T @ part)
 
 
-def _among_sources(across: tuple[Complex, Complex], sources: list[tuple[slice, slice]]) -> Array:
-    """Products of ``u v^T + v u^T`` among each other."""
-    held, moved = across
+def _among_sources(across: tuple[Complex, Complex], sources: list[tuple[slice, slice]], n: int) -> Array:
+    """Products of ``u v^T + v u^T`` among each other.
 
-    def product(a: tuple[slice, slice], b: tuple[slice, slice]) -> Array:
-        left, right = held[:, *a], moved[:, *b]
-        real = np.einsum("nij,nij->ij", left.real, right.real)
-        return np.asarray(real - np.einsum("nij,nij->ij", left.imag, right.imag))
+    Vectors are of three kinds, n of each. What two kinds make of each other lies in one row here, and a block
+    of it is a piece of that row: its sums are one long loop, and what stands between its lines is left out.
+    """
+    planes = [one.reshape(-1, 3, n, 3, n).transpose(1, 3, 0, 2, 4) for one in across]
+    held, moved = (
+        [part.reshape(3, 3, -1, n * n) for part in (one.real.copy(), one.imag.copy())] for one in planes
+    )
+
+    def product(a: tuple[slice, slice], b: tuple[slice, slice], size: int) -> Array:
+        (i, p), (j, q), (k, r), (m, s) = (divmod(each.start, n) for each in (*a, *b))
+        left, right = slice(p * n + q, p * n + q + size), slice(r * n + s, r * n + s + size)
+        sums = (
+            np.einsum("ni,ni->i", one[i, j, :, left], other[k, m, :, right])
+            for one, other in zip(held, moved, strict=True)
+        )
+        return np.asarray(next(sums) - next(sums))
 
     rows: list[list[Array]] = []
     for i, (u, v) in enumerate(sources):
         row = [rows[k][i].T for k in range(i)]
         for c, d in sources[i:]:
-            crossed = product((v, c), (u, d)) + product((u, d), (v, c))
-            row.append(crossed + product((v, d), (u, c)) + product((u, c), (v, d)))
+            high, wide = u.stop - u.start, c.stop - c.start
+            size = (high - 1) * n + wide
+            crossed = product((v, c), (u, d), size) + product((u, d), (v, c), size)
+            whole = crossed + product((v, d), (u, c), size) + product((u, c), (v, d), size)
+            row.append(np.resize(whole, (high, n))[:, :wide])
         rows.append(row)
     return np.block(rows)
 
@@ -260,11 +272,9 @@ def _by_vectors(
 ) -> Array:
     """Products (sources, m, masses) of ``u v^T + v u^T`` with ``e z^T + z e^T``."""
     u, v = one
-    left = np.concatenate([held[:, v], moved[:, u], held[:, u], moved[:, v]])
-    right = np.concatenate(
-        [across[1][:, u, of], across[0][:, v, of], across[1][:, v, of], across[0][:, u, of]]
-    )
-    return real_sum(left.swapaxes(0, 1), right.swapaxes(0, 1))
+    left = [held[:, v], moved[:, u], held[:, u], moved[:, v]]
+    right = [across[1][:, u, of], across[0][:, v, of], across[1][:, v, of], across[0][:, u, of]]
+    return real_sum([part.swapaxes(0, 1) for part in left], [part.swapaxes(0, 1) for part in right])
 
 
 def first_guess(data: CoupledData, masses: int) -> Oscillators:
