@@ -65,6 +65,15 @@ class Study:
     stages: Stages = ()
     start_times: tuple[float, ...] = ()
 
+    @property
+    def peaks(self) -> tuple[str, ...] | None:
+        """Channels of which largest or least values are kept; None where functions may read those of any."""
+        kept = self.keep.values()
+        if not all(isinstance(what, Kept | StageTime) for what in kept):
+            return None
+        reach = (what for what in kept if isinstance(what, Kept) and what.what in ("maximum", "minimum"))
+        return tuple(what.channel for what in reach)
+
     def require_names(self, names: list[str]) -> None:
         """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""
         if not isinstance(self.source, Scene):
