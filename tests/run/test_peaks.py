@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -196,6 +197,30 @@ def test_a_line_with_mass_carries_its_load_at_the_one_end_and_itself_too_at_the_
         (told["hook load wire"].maximum, load), (told["hoist tension wire"].maximum, all_of_it),
     ):  # fmt: skip
         assert found == pytest.approx(exact, rel=1e-3)
+
+
+@pytest.mark.parametrize("stages", [(), [sc.Stage(name="a", duration=0.7), sc.Stage(name="b", duration=0.8)]])
+def test_a_study_has_the_peaks_that_it_keeps_and_no_others(stages: Any, monkeypatch: Any) -> None:
+    """A function may read those of any channel. What is kept is the same whatever is kept beside it."""
+    scene, seen, of = hung(EA=4e8, damping=0.05), list[set[str]](), Kept.of
+    scene.add_channel("twice", expression="2 * line_tension[line 1]")
+    monkeypatch.setattr(Kept, "of", lambda kept, result: seen.append({*result.extremes}) or of(kept, result))
+    given: dict[str, Any] = {"over": {"gravity": [GRAVITY]}, "dt_out": 0.5, "stages": stages}
+    given |= {} if stages else {"t_end": 1.5}
+
+    def kept(peaks: set[str], **keep: Any) -> Any:
+        seen.clear()
+        found = sc.ensemble(scene, keep={"z": "position[mass 1, z]", "mean": "own.mean", **keep}, **given)
+        assert seen and all(one == peaks for one in seen)
+        return found.dataset
+
+    none, some = kept(set()), kept({"hook_load", "own"}, most="hook_load.max", twice="own.min")
+    given["channels"] = ["position", "line_tension", "own"]
+    every = kept({*given["channels"]}, most=lambda result: result.reached("line_tension")[1].max())
+    for name in ("z", "mean"):
+        assert none[name].identical(some[name]) and none[name].identical(every[name])
+    assert every["most"] == some["most"] > 1.8 * WEIGHT
+    assert some["twice"] < 0.2 * WEIGHT
 
 
 def test_members_in_lanes_keep_the_peaks_of_runs_by_themselves() -> None:

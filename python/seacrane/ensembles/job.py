@@ -274,7 +274,7 @@ class Prepared:
             same = isinstance(source, Scene) and not callable(study.stages) and not given_vessels(scene)
             return StagedRun(
                 scene, stages, start=start, before=before, method=study.method, outputs=study.outputs,
-                alike=self._kept("stages alike", others, AlikeStages) if same else None,
+                peaks=study.peaks, alike=self._kept("stages alike", others, AlikeStages) if same else None,
             )  # fmt: skip
         if not sea or study.start is not None or not isinstance(source, Scene) or given_vessels(source):
             return self._begun(study.scene(values))
@@ -304,8 +304,10 @@ class Prepared:
 
     def _begun(self, scene: Scene) -> Run:
         study = self._study
-        start = study.start_of(scene)
-        return Run(scene, study.t_end, start=start, method=study.method, outputs=study.outputs)
+        return Run(
+            scene, study.t_end, start=study.start_of(scene), method=study.method, outputs=study.outputs,
+            peaks=study.peaks,
+        )  # fmt: skip
 
     def _kept(self, kind: str, values: Values, make: Callable[[], Any]) -> Any:
         """What is held of these values, made where it is not; of too many the one of longest ago goes."""

@@ -35,6 +35,7 @@ START_TIME = "start_time"  # when a lift in stages begins, s
 TIMES = ("duration", "maximum_duration")
 MOVED = ("to", "by", "over")  # of a `Move`
 Place = tuple[str, ...]  # of a value in a stage
+PEAKS = ("maximum", "minimum")  # of what is kept, those that are reached between outputs too
 SETTINGS = ("gravity", "baumgarte", "length_scale")
 
 
@@ -64,6 +65,12 @@ class Study:
     member_limit: float = math.inf
     stages: Stages = ()
     start_times: tuple[float, ...] = ()
+
+    @property
+    def peaks(self) -> tuple[str, ...] | None:
+        """Channels of which largest or least values are kept; None where functions may read those of any."""
+        curves = kept_curves(self.keep)
+        return None if curves is None else tuple(one.channel for one in curves if one.what in PEAKS)
 
     def require_names(self, names: list[str]) -> None:
         """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""
@@ -130,11 +137,17 @@ def checked_keep(keep: Any) -> Keep:
 
 def outputs_for(keep: Keep, outputs: Outputs) -> Outputs:
     """The outputs; where they name no channels and no function is kept, those that are kept."""
-    known = all(isinstance(what, Kept | StageTime) for what in keep.values())
-    if outputs.channels is not None or not known:
+    curves = kept_curves(keep)
+    if outputs.channels is not None or curves is None:
         return outputs
-    channels = dict.fromkeys(what.channel for what in keep.values() if isinstance(what, Kept))
-    return Outputs(dt_out=outputs.dt_out, channels=tuple(channels))
+    return Outputs(dt_out=outputs.dt_out, channels=tuple(dict.fromkeys(one.channel for one in curves)))
+
+
+def kept_curves(keep: Keep) -> list[Kept] | None:
+    """What is kept of channels; None where a function is kept, which may read anything of a result."""
+    every = [what for what in keep.values() if not isinstance(what, StageTime)]
+    known = [what for what in every if isinstance(what, Kept)]
+    return known if len(known) == len(every) else None
 
 
 def require_paths(

@@ -36,6 +36,15 @@ MONOTONE = (
 )  # fmt: skip
 
 
+def kept_names(scene: Description, recorded: Iterable[str], asked: Iterable[str] | None) -> set[str]:
+    """Channels of a result, of those recorded and made of them; None: the usual ones."""
+    if asked is not None:
+        return set(asked)
+    limited = limited_channels(scene)
+    derived = {name for name in DERIVED if DERIVED[name].by_default or name in limited}
+    return derived | {*recorded} - {"time"} | {*with_sources(scene, [OWN])}
+
+
 def unit_in(scene: Description | None, pick: Pick) -> str:
     """The unit of one curve; of a channel of one's own that of its expression in the scene."""
     own = None if scene is None else scene.channels.get(pick.names.get("expression", ""))
@@ -107,6 +116,13 @@ def wanted_extremes(scene: Description, recorded: Set[str], asked: tuple[str, ..
     made_of = {source for name in names if name in MONOTONE for source in sources_of(name)}
     wanted = {*names, *made_of.difference(POSE)}
     return {name for name in recorded & wanted if CHANNELS[name].has_extremes}
+
+
+def sought_peaks(asked: tuple[str, ...] | None, peaks: Iterable[str] | None) -> tuple[str, ...] | None:
+    """Channels whose peaks are wanted, of those asked for: None, of all; SceneError for an unknown one."""
+    if unknown := {*(peaks or ())} - CHANNELS.keys():
+        raise SceneError(f"peaks: there is no channel {min(unknown)!r}; name channels whose peaks are wanted")
+    return asked if peaks is None else tuple(peaks)
 
 
 def followed(scene: Description, recorded: Set[str], asked: tuple[str, ...] | None) -> dict[str, set[str]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Collection, Generator, Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -35,6 +35,7 @@ class Course:
     method: Method
     outputs: Outputs  # the channels of conditions among them
     first: float  # s, from which outputs are counted
+    peaks: Collection[str] | None
     interrupts: Interrupts
     calls: Calls
     began: Callable[[Run], None]  # told of each run that begins
@@ -48,7 +49,7 @@ class Course:
                 return self.first_run.from_there(start, t_end, capacity)
         self.first_run = Run(
             self.scene, t_end, method=self.method, outputs=self.outputs, start=start,
-            outputs_from=self.first, model=self.model, capacity=capacity,
+            outputs_from=self.first, model=self.model, capacity=capacity, peaks=self.peaks,
         )  # fmt: skip
         return self.first_run
 

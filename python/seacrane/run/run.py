@@ -34,10 +34,11 @@ from seacrane.run.carried_state import carried, changed_inputs, steered
 from seacrane.run.channel_names import (
     all_names,
     followed,
-    limited_channels,
+    kept_names,
     recorded_channels,
     require_limited_channels,
     require_names,
+    sought_peaks,
     wanted_extremes,
     with_sources,
 )
@@ -87,6 +88,8 @@ class Run:
         The compiled scene, to save compiling it again.
     controlled : bool
         Whether inputs will be set during the run, see `set_inputs`: lines with rung "auto" are then elastic.
+    peaks : collection of str, optional
+        Of which channels largest and least values between outputs are asked for; default: of all.
     **shorthand
         As `simulate`.
 
@@ -122,10 +125,11 @@ class Run:
         capacity: int | None = None,
         model: _core.Model | None = None,
         controlled: bool = False,
+        peaks: Collection[str] | None = None,
         **shorthand: Unpack[Shorthand],
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
-        self.t_end = finite_of("t_end", t_end, "s")
+        self.t_end, self._peaks = finite_of("t_end", t_end, "s"), peaks
         scene = with_holds(scene)
         given = self._given = scene.copy() if automatic(scene) else scene
         self._given_start, self._capacity, self._controlled = start_state(scene, start), capacity, controlled
@@ -186,8 +190,8 @@ class Run:
         given = self._given.copy(waves=waves)
         if self.rungs:  # which depend on the sea
             return Run(
-                given, self.t_end, method=self.method, outputs=self.outputs, start=self._given_start,
-                outputs_from=self.first, capacity=self._capacity, controlled=self._controlled,
+                given, self.t_end, method=self.method, start=self._given_start, controlled=self._controlled,
+                outputs=self.outputs, outputs_from=self.first, capacity=self._capacity, peaks=self._peaks,
             )  # fmt: skip
         out = copy(self)
         out.scene = given if self.scene is self._given else self.scene.copy(waves=waves)
@@ -229,7 +233,8 @@ class Run:
         scene, model, outputs = self.scene, self.model, self.outputs
         asked = None if outputs.channels is None else tuple(outputs.channels)
         channels = recorded_channels(scene, model, asked)
-        self._followed = followed(scene, channels, asked)  # made anew at every step, of what
+        sought = sought_peaks(asked, self._peaks)
+        self._followed = followed(scene, channels, sought)  # made anew at every step, of what
         self._steered = frozenset(steered(scene, model, self.start.inputs))
         times = output_times(
             self.start.time, self.t_end, outputs.dt_out, first=self.first,
@@ -237,7 +242,7 @@ class Run:
         )  # fmt: skip
         self._options = core_options(
             self.method, self.formulation, channels=channels, output_times=times,
-            extremes=wanted_extremes(scene, channels, asked), trail=set().union(*self._followed.values()),
+            extremes=wanted_extremes(scene, channels, sought), trail=set().union(*self._followed.values()),
             capacity=self._capacity,
         )  # fmt: skip
 
@@ -312,12 +317,7 @@ class Run:
         asked = self.outputs.channels
         if asked is not None and not DERIVED.keys() & set(asked):
             return {name: values for name, values in arrays.items() if name in asked}
-        if asked is None:
-            limited = limited_channels(self.scene)
-            kept = {name for name in DERIVED if DERIVED[name].by_default or name in limited}
-            kept |= {*arrays.keys() - {"time"}, *with_sources(self.scene, [OWN])}
-        else:
-            kept = set(asked)
+        kept = kept_names(self.scene, arrays, asked)
         return {name: one for name, one in self.named(arrays, kept, falls).items() if name in kept}
 
     def set_inputs(self, values: Mapping[str, Any]) -> None:

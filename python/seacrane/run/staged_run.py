@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
@@ -71,8 +71,8 @@ class StagedRun:
     stages : sequence of Stage
     start, first, method, outputs, controllers, **shorthand
         As `simulate`.
-    outputs_from : float, optional
-        As of `Run`: time from which output times are counted, s; default: the start.
+    outputs_from, peaks
+        As of `Run`: the time from which output times are counted, s, and whose peaks are asked for.
     before : sequence of (warning, str)
         What was out of range before the start; it is told with what is in the stages.
     alike : AlikeStages, optional
@@ -98,6 +98,7 @@ class StagedRun:
         start: Start = None,
         first: str | None = None,
         outputs_from: float | None = None,
+        peaks: Collection[str] | None = None,
         before: Sequence[Finding] = (),
         alike: AlikeStages | None = None,
         method: Method | None = None,
@@ -145,6 +146,7 @@ class StagedRun:
         self._calls = Calls(
             checked_controllers(controllers), self._first, start=self.state.time, kept=self._kept
         )
+        self._peaks = peaks
         self._pieces: list[Piece] = []
         self._changes: list[Event] = []
         self._open: tuple[Run, dict[str, Any]] | None = None
@@ -342,11 +344,10 @@ class StagedRun:
         if wanted is not None:
             looked_at = [c.channel for c in stage.conditions if isinstance(c, Level)]
             wanted = [*wanted, *(name for name in looked_at if name not in wanted)]
-        outputs = Outputs(dt_out=self.outputs.dt_out, channels=wanted)
         course = Course(
-            scene=self.scene, model=self.model, method=self.method, outputs=outputs, first=self._first,
+            scene=self.scene, model=self.model, method=self.method, first=self._first, peaks=self._peaks,
+            outputs=Outputs(dt_out=self.outputs.dt_out, channels=wanted), first_run=like,
             interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
-            first_run=like,
         )  # fmt: skip
         if self._shares and like is None and len(self._alike.runs) < MOST_RUNS:
             longest = stage.duration or stage.maximum_duration or 0.0
@@ -374,8 +375,7 @@ class StagedRun:
             still = self._still(self.scene, self.model, self.state)
             names = still.model.channel_names(defaults_only=False)
             known[absent] = {*still.named(still.core.snapshot()), OWN, *names}
-        there = known[absent]
-        return [name for name in self.outputs.channels if name in there]
+        return [name for name in self.outputs.channels if name in known[absent]]
 
     def _began(self, run: Run) -> None:
         run.described = self._described and not self._pieces
