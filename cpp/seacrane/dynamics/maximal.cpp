@@ -1,6 +1,7 @@
 #include "seacrane/dynamics/maximal.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
@@ -26,6 +27,33 @@ MaximalSystem::MaximalSystem(std::shared_ptr<Terms> terms)
     values->assign(idx(model_.rows()), 0.0);
   }
   inertial_multipliers_ = MatXd::Zero(model_.rows(), tensions_.count());
+  find_joined();
+}
+
+/// A tension moves what joints, and the water between hulls, join to the bodies that it acts on.
+void MaximalSystem::find_joined() {
+  const int ground = model_.body_count();
+  std::vector<int> group(idx(ground) + 1);
+  std::iota(group.begin(), group.end(), 0);
+  std::vector<char> joined(group.size());
+  const auto join = [&](int first, int second) {
+    joined[idx(first)] = joined[idx(second)] = true;
+    if (first == ground || second == ground) return;
+    const int from = group[idx(first)], to = group[idx(second)];
+    std::ranges::replace(group, from, to);
+  };
+  for (const ElementModel& e : model_.elements) join(e.first, e.second);
+  for (const MassCoupling& c : terms_->couplings()) join(c.first, c.second);
+  std::vector<std::vector<int>> moved(idx(tensions_.count()));
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const std::vector<int>& on = tensions_.bodies(static_cast<Eigen::Index>(i));
+    alone_.push_back(std::ranges::none_of(on, [&](int b) { return joined[idx(b)]; }));
+    for (int b = 0; b < ground; ++b) {
+      const bool moves = std::ranges::any_of(on, [&](int c) { return group[idx(b)] == group[idx(c)]; });
+      if (moves) moved[i].push_back(b);
+    }
+  }
+  tensions_.confine(std::move(moved));
 }
 
 double MaximalSystem::tension(int element) const {
@@ -70,7 +98,14 @@ void MaximalSystem::solve_acceleration() {
 void MaximalSystem::add_inertial_tensions(double t, const double* memory) {
   tensions_.start(*terms_, t, memory, acceleration_.data());
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
-    load_response(tensions_.unit(i), tensions_.response(i));
+    const std::vector<Vec6d>& unit = tensions_.unit(i);
+    std::vector<Vec6d>& response = tensions_.response(i);
+    if (alone_[idx(i)]) {
+      for (const int b : tensions_.bodies(i))
+        response[idx(b)] = solve_inertia(terms_->inertia(b), unit[idx(b)]);
+      continue;
+    }
+    load_response(unit, response);
     inertial_multipliers_.col(i) = Eigen::Map<const VecXd>(response_multipliers_.data(), model_.rows());
   }
   const VecXd& tension = tensions_.finish(*terms_);

@@ -84,6 +84,7 @@ class MaximalSystem final : public Formulation {
   friend std::vector<std::pair<std::string, double>> time_parts(MaximalSystem& system, double t,
                                                                 const double* y, long count);
 
+  void find_joined();
   void solve_acceleration();
   void add_inertial_tensions(double t, const double* memory);
   void write_rates(const double* y, double* ydot);
@@ -95,6 +96,7 @@ class MaximalSystem final : public Formulation {
   ConstraintSolver solver_;
   PoseMap positions_;
   InertialTensions tensions_;
+  std::vector<char> alone_;  // tensions that act on bodies that nothing joins
   std::vector<Vec6d> acceleration_, correction_, direction_;
   std::vector<double> lambda_, gamma_, residual_;
   std::vector<double> no_right_, response_multipliers_;  // of load_response()
