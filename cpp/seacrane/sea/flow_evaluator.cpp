@@ -227,12 +227,11 @@ void FlowEvaluator::write_row(double t, const FlowPoint& first, const Vec3d& ste
 }
 
 std::span<const LocalFlow<double>> FlowEvaluator::row(double t, const FlowPoint& first, const Vec3d& step) {
-  const Row asked{t, first, step};
-  if (asked == row_) return flow_;
+  if (t == row_.t && first == row_.first && step == row_.step) return flow_;
   row_ = {};
   std::ranges::fill(flow_, LocalFlow<double>());
   if (field_) write_row(t, first, step);
-  row_ = asked;
+  row_ = {t, first, step};
   return flow_;
 }
 

@@ -122,18 +122,22 @@ struct ImmersedSpan {
 
   template <class T>
   void add_inertia(const LoadInput<T>& in, Mat6<T>* mass) const {
-    const Place<T> at = place(in);
+    const Place<T> at = place<false>(in);
     const Mat3<T> across_span = Mat3<T>::Identity() - at.direction * at.direction.transpose();
     for (const End<T>& end : at.ends) {
       if (!(end.wet > T(0))) continue;
       const Mat3<T> own = across_span * (T(added) * end.wet);
-      add_mass_at<T>(end.lever, own, mass[end.body]);
+      if (end.at_state) {
+        mass[end.body].template topLeftCorner<3, 3>() += own;
+      } else {
+        add_mass_at<T>(end.lever, own, mass[end.body]);
+      }
     }
   }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
-    const Place<T> at = place(in);
+    const Place<T> at = place<true>(in);
     if (!(at.ends[0].wet > T(0)) && !(at.ends[1].wet > T(0))) return;
     const Vec3<T> couple = this->couple(at);
     for (const End<T>& end : at.ends) {
@@ -148,7 +152,7 @@ struct ImmersedSpan {
   /// Its powers by cause: buoyancy is one here, and added mass is that of a span that grows.
   WaterByCause by_cause(const LoadInput<double>& in) const {
     using Cause = WaterCause;
-    const Place<double> at = place(in);
+    const Place<double> at = place<true>(in);
     WaterByCause out;
     if (!(at.ends[0].wet > 0.0) && !(at.ends[1].wet > 0.0)) return out;
     const Vec3d couple = this->couple(at);
@@ -176,10 +180,11 @@ struct ImmersedSpan {
   struct End {
     int body = 0;
     bool second = false;
-    Vec3<T> lever, point;  // from the state point, and its place
-    Vec3<T> own, swept;    // its velocity; its acceleration by turning of the body
-    Vec3<T> velocity;      // over the water
-    Vec3<T> water;         // acceleration of that, Du/Dt
+    bool at_state = false;  // without a lever, as at every node of a line with mass
+    Vec3<T> lever, point;   // from the state point, and its place
+    Vec3<T> own, swept;     // its velocity; its acceleration by turning of the body
+    Vec3<T> velocity;       // over the water
+    Vec3<T> water;          // acceleration of that, Du/Dt
     // m of the span below the surface, if both halves were as this one; and how fast that grows as it dips
     // in, and as the span itself does.
     T wet{0}, dips{0}, grows{0};
@@ -204,60 +209,70 @@ struct ImmersedSpan {
     return {.name = name + " of '" + body + "'", .surface = false, .reach = 0.0};
   }
 
-  template <class T>
+  /// Of its added mass, which `moves` not, only what is below the surface.
+  template <bool moves, class T>
   Place<T> place(const LoadInput<T>& in) const {
     using std::sqrt;
-    const SpanPlace<T> at = span.place(in);
     Place<T> out;
-    out.ends = {end_at(in, span.first, at.lever_first), end_at(in, span.second, at.lever_second)};
+    out.ends = {end_at(in, span.first, span.first_point), end_at(in, span.second, span.second_point)};
     out.ends[1].second = true;
-    if (!at.has_direction()) return out;  // no water on a wire without one
-    out.length = sqrt(at.square);
-    out.direction = at.apart / out.length;
+    const Vec3<T> apart = out.ends[1].point - out.ends[0].point;
+    const T square = apart.dot(apart);
+    if (!(square > T(0))) return out;  // no water on a wire without a direction
+    out.length = sqrt(square);
+    out.direction = apart / out.length;
     const Vec3<T> rate = out.ends[1].own - out.ends[0].own;
-    out.turning = out.across(rate) / out.length;
-    const T half = T(0.5) * at.apart.z(), half_rate = T(0.5) * rate.z();
-    dip(in, stencils[0], half, half_rate, out.ends[0]);
-    dip(in, stencils[1], T(-half), T(-half_rate), out.ends[1]);
+    if constexpr (moves) out.turning = out.across(rate) / out.length;
+    const PaidOut::Length<T> wire = paid_out.length(in);
+    const T half = T(0.5) * apart.z(), half_rate = T(0.5) * rate.z();
+    dip<moves>(in, stencils[0], half, half_rate, wire, out.ends[0]);
+    dip<moves>(in, stencils[1], T(-half), T(-half_rate), wire, out.ends[1]);
     return out;
   }
 
   template <class T>
-  static End<T> end_at(const LoadInput<T>& in, int body, const Vec3<T>& lever) {
+  static End<T> end_at(const LoadInput<T>& in, int body, const Vec3d& point) {
     const auto& k = in.bodies[body];
-    const Vec3<T> around = cross<T>(k.angular_velocity, lever);
     End<T> out;
     out.body = body;
-    out.lever = lever;
-    out.point = k.position + lever;
-    out.own = k.velocity + around;
-    out.swept = cross<T>(k.angular_velocity, around);
+    out.at_state = point.isZero(0.0);
+    out.lever = out.swept = out.water = Vec3<T>::Zero();
+    out.point = k.position;
+    out.own = k.velocity;
+    if (!out.at_state) {
+      out.lever = k.rotation * point.template cast<T>();
+      const Vec3<T> around = cross<T>(k.angular_velocity, out.lever);
+      out.point += out.lever;
+      out.own += around;
+      out.swept = cross<T>(k.angular_velocity, around);
+    }
     out.velocity = out.own;
-    out.water = Vec3<T>::Zero();
     return out;
   }
 
   /// The sea at an end whose half of the span rises by `height`. Its share below the surface is smooth up to
   /// the second derivative: it dips in over its height, and no less than the diameter.
-  template <class T>
-  void dip(const LoadInput<T>& in, int stencil, const T& height, const T& height_rate, End<T>& end) const {
+  template <bool moves, class T>
+  void dip(const LoadInput<T>& in, int stencil, const T& height, const T& height_rate,
+           const PaidOut::Length<T>& wire, End<T>& end) const {
     using std::sqrt;
     const T over = sqrt(height * height + T(d.diameter * d.diameter));
     const T middle = end.point.z() + T(0.5) * height;
     if (!(middle - T(0.5) * over < T(in.sea->crest(stencil)))) return;  // above all crests
     const LocalFlow<T> flow = in.sea->template at_point<T>(stencil, in.time, end.point);
+    const T depth = flow.elevation - middle;
+    const T part = clamped(T(T(0.5) + depth / over), T(0), T(1)), dry = T(1) - part;
+    const T share = part * part * part * (T(10) + part * (T(6) * part - T(15)));
+    end.wet = share * wire.value;
+    if constexpr (!moves) return;
     end.velocity = end.own - flow.velocity;
     end.water = flow.acceleration;
-    const T depth = flow.elevation - middle;
+    end.grows = share * wire.rate;
+    if (!(part < T(1))) return;
     const T rise = flow.elevation_rate + flow.slope[0] * end.own.x() + flow.slope[1] * end.own.y();
     const T sinks = rise - end.own.z() - T(0.5) * height_rate;
-    const T part = clamped(T(T(0.5) + depth / over), T(0), T(1)), dry = T(1) - part;
-    const PaidOut::Length<T> length = paid_out.length(in);
-    const T share = part * part * part * (T(10) + part * (T(6) * part - T(15)));
     const T part_rate = (sinks - depth * height * height_rate / (over * over)) / over;
-    end.wet = share * length.value;
-    end.dips = T(30) * part * part * dry * dry * part_rate * length.value;
-    end.grows = share * length.rate;
+    end.dips = T(30) * part * part * dry * dry * part_rate * wire.value;
   }
 
   /// Buoyancy, and the force of the undisturbed flow.

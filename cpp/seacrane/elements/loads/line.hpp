@@ -46,6 +46,7 @@ struct Line {
     T inertial, kinetic;  // N: of a quasi-static stretch, in the tension; stored for each metre
     T stored;             // J for each metre, by strain
     T share, lost;        // for 1 N: tension of the first section, and what sheaves take, W
+    PathSection<T> only;  // of a path between two points, which is laid once for all that asks for it
     T stretch() const { return length - unstretched; }
     /// Rate of the stretch that strain alone would make: e' l0.
     T straining() const { return rate - unstretched_rate * length / unstretched; }
@@ -274,7 +275,7 @@ struct Line {
   template <class T, class F>
   void for_each_tension(const LoadInput<T>& in, const Motion<T>& now, F&& f) const {
     SheaveFriction<T> friction = friction_of(now);
-    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t i) {
+    for_each_section<T>(in, now, [&](const Section<T>& s, std::size_t i) {
       const T tension = now.tension * now.share * friction.share();
       if (has_friction) friction.pass(s, path.points()[i]);
       f(s, tension, friction, i);
@@ -285,7 +286,7 @@ struct Line {
   template <class T>
   T inertial_tension(const LoadInput<T>& in, const Motion<T>& now, const Vec6d* acceleration) const {
     T bend(0);  // l''
-    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t i) {
+    for_each_section<T>(in, now, [&](const Section<T>& s, std::size_t i) {
       bend += s.rate_change(point_acceleration<T>(in, s.first, s.lever_first, acceleration),
                             point_acceleration<T>(in, s.second, s.lever_second, acceleration),
                             acceleration[s.first].template tail<3>().template cast<T>(),
@@ -347,7 +348,7 @@ struct Line {
       winch->add_margins(in, now.elastic, now.first(), out);
     }
     if (!has_sheaves) return out;
-    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t i) {
+    for_each_section<double>(in, now, [&](const Section<double>& s, std::size_t i) {
       if (i + 1 < path.points().size()) out.add({nullptr, path.points()[i].radius == 0.0 ? 1.0 : s.hold});
     });
     return out;
@@ -370,6 +371,13 @@ struct Line {
 
   template <class T>
   using Section = PathSection<T>;
+
+  /// As LinePath does, of a motion.
+  template <class T, class F>
+  void for_each_section(const LoadInput<T>& in, const Motion<T>& now, F&& f) const {
+    if (path.is_one_section()) return f(now.only, std::size_t{1});
+    path.for_each_section<T>(in, f);
+  }
 
   template <class Context>
   void wind(Context& context) {
@@ -414,6 +422,7 @@ struct Line {
     path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t) {
       out.length += s.length;
       out.rate += s.rate;
+      if (path.is_one_section()) out.only = s;
     });
     const CurveValue given = d.length.at(in.time, in.curve_limit);
     const Winch* const by = paying_out();
@@ -423,8 +432,8 @@ struct Line {
     out.share = T(1);
     if (!has_friction) return out;
     SheaveFriction<T> friction = friction_of(out);
-    path.for_each_section<T>(in,
-                             [&](const Section<T>& s, std::size_t i) { friction.pass(s, path.points()[i]); });
+    for_each_section<T>(in, out,
+                        [&](const Section<T>& s, std::size_t i) { friction.pass(s, path.points()[i]); });
     out.share = out.length / friction.weight();
     out.lost = out.share * friction.lost();
     return out;

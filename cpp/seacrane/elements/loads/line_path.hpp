@@ -24,6 +24,8 @@ struct PathPoint {
   double turned = 0.0;            // rad: whole turns on it besides
   double grip = 0.0, drag = 0.0;  // mu, and -log(efficiency)
 
+  bool at_state = false;  // no sheave, and its body's own, as every node of a line with mass
+
   bool rubs() const { return grip > 0.0 || drag > 0.0; }
   bool turns_line() const { return radius > 0.0 || rubs(); }
 };
@@ -81,12 +83,14 @@ class LinePath {
 
   LinePath() = default;
   explicit LinePath(std::vector<PathPoint> points) : points_(std::move(points)) {
+    for (PathPoint& p : points_) p.at_state = p.radius == 0.0 && p.point.isZero(0.0);
     for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
       rigid_.push_back(rigid(points_[i], points_[i + 1]));
     }
   }
 
   const std::vector<PathPoint>& points() const { return points_; }
+  bool is_one_section() const { return points_.size() == 2; }
   bool has_friction() const {
     return std::any_of(points_.begin(), points_.end(), [](const PathPoint& p) { return p.rubs(); });
   }
@@ -163,6 +167,12 @@ class LinePath {
   template <class T>
   static void place(const LoadInput<T>& in, const PathPoint& p, Place<T>& out) {
     const BodyKinematics<T>& k = in.bodies[p.body];
+    if (p.at_state) {
+      out.lever.setZero();
+      out.center = k.position;
+      out.rate = k.velocity;
+      return;
+    }
     out.lever = k.rotation * p.point.template cast<T>();
     out.center = k.position + out.lever;
     out.rate = k.velocity + cross<T>(k.angular_velocity, out.lever);
