@@ -65,6 +65,7 @@ class RosenbrockW final : public AdaptiveStep {
   double error(double h) const override;
   std::size_t dominant_component(double h) const override;
   bool has_leapt(double h) override;
+  bool is_misled(double h, const double* change);
   double preferred_step(double h, double wish) const override {
     return wish >= h && wish < least_growth_rosenbrock * h ? h : wish;
   }
@@ -87,8 +88,8 @@ class RosenbrockW final : public AdaptiveStep {
   SparseLu lu_;
   int age_ = steps_per_jacobian;
   double factored_step_ = 0.0;
-  /// Start of the last try: a second one from the same state has been rejected.
-  double tried_time_ = 0.0;
+  /// Start and end of the last try: a second one from the same state has been rejected.
+  double tried_time_ = 0.0, end_time_ = 0.0;
   bool tried_ = false;
 };
 
@@ -127,6 +128,7 @@ bool RosenbrockW::try_step(double h, double t_end) {
   const bool again = tried_ && tried_time_ == time_;
   tried_ = true;
   tried_time_ = time_;
+  end_time_ = t_end;
   if (!again) ++age_;
   const bool stale = age_ > steps_per_jacobian || (again && age_ > 0);
   if (stale && !refresh_jacobian(h)) return false;
@@ -167,24 +169,41 @@ bool RosenbrockW::try_step(double h, double t_end) {
 /// A Jacobian that is too stiff, of a stop that the body has left, holds all stages still: the error estimate
 /// is small, and so is the motion. What the state's change did to the derivative tells, against what J says
 /// of it.
+///
+/// Where the scene is as stiff as J says, the least curvature of the motion sets them apart as well: a line
+/// that turns stretches by the square of its way. So the derivative is asked again, over the correction that
+/// J makes of what it missed. Where J is right, it answers as J says.
 bool RosenbrockW::has_leapt(double h) {
   if (AdaptiveStep::has_leapt(h)) return true;
   const std::size_t n = size();
-  double* const seen = slope_.data();
-  double* const predicted = sum_.data();
-  double* const apart = stage_state_.data();
-  std::fill_n(predicted, n, 0.0);
-  for (std::size_t j = 0; j < n; ++j) {
-    const double change = end_state_[j] - state_[j];
-    const double* const column = jacobian_.data() + j * n;
-    for (std::size_t i = 0; i < n; ++i) predicted[i] += column[i] * change;
-  }
+  double* const change = stage_state_.data();
   for (std::size_t i = 0; i < n; ++i) {
-    seen[i] = end_derivative_[i] - seen[i];
-    apart[i] = seen[i] - predicted[i];
+    change[i] = end_state_[i] - state_[i];
+    slope_[i] = end_derivative_[i] - slope_[i];
   }
-  const auto size_of = [this](const double* slope) { return norm_.norm(slope, state_.data()); };
-  return h * size_of(apart) > 1.0 && size_of(apart) > misled * (size_of(seen) + size_of(predicted));
+  if (!is_misled(h, change)) return false;
+  for (std::size_t i = 0; i < n; ++i) change[i] = h * slope_[i];
+  lu_.solve(change);
+  for (std::size_t i = 0; i < n; ++i) sum_[i] = end_state_[i] + change[i];
+  if (!stage(end_time_, sum_.data(), slope_.data())) return true;
+  for (std::size_t i = 0; i < n; ++i) slope_[i] -= end_derivative_[i];
+  return is_misled(h, change);
+}
+
+/// Whether J does not tell how a change of the state changed the derivative, slope_. Leaves in slope_ what J
+/// missed.
+bool RosenbrockW::is_misled(double h, const double* change) {
+  const std::size_t n = size();
+  std::fill(sum_.begin(), sum_.end(), 0.0);
+  for (std::size_t j = 0; j < n; ++j) {
+    const double* const column = jacobian_.data() + j * n;
+    for (std::size_t i = 0; i < n; ++i) sum_[i] += column[i] * change[j];
+  }
+  const auto size_of = [this](const std::vector<double>& s) { return norm_.norm(s.data(), state_.data()); };
+  const double both = size_of(slope_) + size_of(sum_);
+  for (std::size_t i = 0; i < n; ++i) slope_[i] -= sum_[i];
+  const double apart = size_of(slope_);
+  return h * apart > 1.0 && apart > misled * both;
 }
 
 double RosenbrockW::error_slope(std::size_t i) const {

@@ -115,9 +115,9 @@ def stiffness(
         return []
     step = float(stats["simulated_s"]) / steps
     mode, body, at = modes.fastest
-    longer = "'rosenbrock' or 'cvode-bdf'"
+    longer = "'rosenbrock'"
     if any_stiff(loads) and integrator != "dopri5-stiff":
-        longer = f"'dopri5-stiff', {longer}"
+        longer = f"'dopri5-stiff' or {longer}"
     shown = mode * float(settings["dt_out"]) < near * UNSEEN
     if mode * step < near * NEAR_THE_LIMIT or shown:
         return []
