@@ -82,7 +82,7 @@ TEST_CASE("every branch: twist is the rate of the pose, bias that of the twist, 
       tree.solve(load.data(), true, acceleration.data(), u_rate.data());
       const Cluster& c = scene.tree.clusters[1];
       Vec6d bias = acceleration[1] - acceleration[0];
-      bias.head<3>() -= acceleration[0].tail<3>().cross(tree.kinematics().reach(1));
+      bias.head<3>() -= acceleration[0].tail<3>().cross(tree.kinematics().over_parent(1).reach);
       for (int k = 0; k < c.speeds; ++k) {
         bias -= u_rate[idx(c.u + k)] * tree.kinematics().columns(c.members[0])[k].vector();
       }
