@@ -187,7 +187,8 @@ bool RosenbrockW::has_leapt(double h) {
   for (std::size_t i = 0; i < n; ++i) sum_[i] = end_state_[i] + change[i];
   if (!stage(end_time_, sum_.data(), slope_.data())) return true;
   for (std::size_t i = 0; i < n; ++i) slope_[i] -= end_derivative_[i];
-  return is_misled(h, change);
+  // Projection starts from what was evaluated last: that is the end again.
+  return is_misled(h, change) || !stage(end_time_, end_state_.data(), end_derivative_.data());
 }
 
 /// Whether J does not tell how a change of the state changed the derivative, slope_. Leaves in slope_ what J
