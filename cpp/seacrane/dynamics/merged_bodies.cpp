@@ -41,10 +41,10 @@ Vec3d reach(const Model& full, const Model& merged, int body) {
   return p.body < merged.body_count() ? Vec3d(point - merged.bodies[idx(p.body)].state_point) : point;
 }
 
-BodyKinematics<double> carried(const Model& full, const Model& merged, int body,
+BodyKinematics<double> carried(const Placement& place, const Vec3d& reach,
                                const BodyKinematics<double>& carrier) {
-  BodyKinematics<double> k = at_lever(carrier, carrier.rotation * reach(full, merged, body));
-  k.rotation = carrier.rotation * merged.merge.places[idx(body)].axes;
+  BodyKinematics<double> k = at_lever(carrier, carrier.rotation * reach);
+  k.rotation = carrier.rotation * place.axes;
   return k;
 }
 
@@ -54,11 +54,15 @@ void copy_rest(const Model& from, const double* x, const Model& to, double* y) {
 
 }  // namespace
 
+MergedBodies::MergedBodies(const Model& full, const Model& merged) : full_(full), merged_(merged) {
+  for (int b = 0; b < full.body_count(); ++b) reach_.push_back(reach(full, merged, b));
+}
+
 void MergedBodies::merge(const double* bodies, double* y) const {
   for (int b = 0; b < merged_.body_count(); ++b) {
     const int carrier = merged_.merge.carriers[idx(b)];
     const BodyKinematics<double> k = read(full_, carrier, bodies);
-    write(merged_, b, at_lever(k, -(k.rotation * reach(full_, merged_, carrier))), y);
+    write(merged_, b, at_lever(k, -(k.rotation * reach_[idx(carrier)])), y);
   }
   copy_rest(full_, bodies, merged_, y);
 }
@@ -68,7 +72,7 @@ void MergedBodies::spread(const double* y, double* bodies) const {
     const int on = merged_.merge.places[idx(b)].body;
     const bool fixed = on == merged_.body_count();
     const auto carrier = fixed ? BodyKinematics<double>::ground() : read(merged_, on, y);
-    write(full_, b, carried(full_, merged_, b, carrier), bodies);
+    write(full_, b, carried(merged_.merge.places[idx(b)], reach_[idx(b)], carrier), bodies);
   }
   copy_rest(merged_, y, full_, bodies);
 }
@@ -76,7 +80,8 @@ void MergedBodies::spread(const double* y, double* bodies) const {
 void MergedBodies::spread_kinematics(const BodyKinematics<double>* merged,
                                      BodyKinematics<double>* described) const {
   for (int b = 0; b < full_.body_count(); ++b) {
-    described[b] = carried(full_, merged_, b, merged[merged_.merge.places[idx(b)].body]);
+    const Placement& place = merged_.merge.places[idx(b)];
+    described[b] = carried(place, reach_[idx(b)], merged[place.body]);
   }
 }
 
@@ -85,7 +90,7 @@ void MergedBodies::spread_accelerations(const Terms& terms, const std::vector<Ve
   for (int b = 0; b < full_.body_count(); ++b) {
     const int on = merged_.merge.places[idx(b)].body;
     const BodyKinematics<double>& k = terms.bodies()[idx(on)];
-    const Vec3d lever = k.rotation * reach(full_, merged_, b), w = k.angular_velocity;
+    const Vec3d lever = k.rotation * reach_[idx(b)], w = k.angular_velocity;
     Vec6d& a = described[idx(b)];
     a = on < merged_.body_count() ? merged[idx(on)] : Vec6d(Vec6d::Zero());
     const Vec3d turning = a.tail<3>();

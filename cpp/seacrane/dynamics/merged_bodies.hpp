@@ -10,7 +10,7 @@ namespace seacrane {
 /// move between the state points, all else is the same.
 class MergedBodies {
  public:
-  MergedBodies(const Model& full, const Model& merged) : full_(full), merged_(merged) {}
+  MergedBodies(const Model& full, const Model& merged);
 
   /// The state of the merged bodies from that of the described ones.
   void merge(const double* bodies, double* y) const;
@@ -25,6 +25,8 @@ class MergedBodies {
  private:
   const Model& full_;
   const Model& merged_;
+  std::vector<Vec3d>
+      reach_;  // to the state point of each described body from its carrier's, in the carrier's axes
 };
 
 }  // namespace seacrane

@@ -166,6 +166,9 @@ class Terms {
   /// Tensions that have been solved for with the accelerations, what each newton of them takes from a winch,
   /// and what they put on the bodies.
   void add_inertial(const VecXd& tension, const VecXd& winding, const std::vector<Vec6d>& load);
+  const VecXd& inertial() const { return inertial_; }
+  /// Those of the same lines, solved for elsewhere: what loads tell of themselves, and nothing else.
+  void set_inertial(const VecXd& tension) { inertial_ = tension; }
 
  private:
   /// The first load that is not finite at (t, y), by name and value; empty: all are. Evaluates them one by

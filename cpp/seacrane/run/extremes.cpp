@@ -4,14 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "seacrane/elements/joints/distance.hpp"
-
 namespace seacrane {
-namespace {
-
-constexpr int kLoose = -1, kNotKnown = -2;
-
-}  // namespace
 
 void Extremes::Group::begin() {
   for (const RecordedChannel* c : channels) {
@@ -39,12 +32,13 @@ Extremes::Extremes(const Model& model, Recording& recording, const std::set<std:
       needs_coordinates_ |= c.channel->needs.coordinates;
     } else if (peaks == Peaks::of_ends) {
       ends_.channels.push_back(&c);
-      needs_of_ends_ |= c.channel->needs;
+      needs_of_ends_ |= needs_of(*c.channel, model);
     } else if (peaks == Peaks::of_limits) {
       limits_.channels.push_back(&c);
     } else {
       evaluations_.channels.push_back(&c);
       has_accelerations_ |= peaks == Peaks::of_accelerations;
+      has_held_ |= peaks == Peaks::of_held;
     }
   }
   std::ranges::stable_partition(evaluations_.channels, [](const RecordedChannel* c) {
@@ -59,36 +53,8 @@ Extremes::Extremes(const Model& model, Recording& recording, const std::set<std:
   evaluation_.resize(evaluations_.curves.size());
 }
 
-/// The elements of the links among those that are stepped, in the order of the channel.
-void Extremes::find_links(const Stepper& at) {
-  if (links_of_ == &at) return;
-  links_of_ = &at;
-  links_.clear();
-  const std::vector<ElementModel>& elements = at.stepped_model()->elements;
-  const auto add = [&](const ElementModel& described) {
-    const auto found = std::ranges::find_if(elements, [&](const ElementModel& e) {
-      return e.name == described.name && e.driver == described.driver;
-    });
-    const bool is_there = found != elements.end();
-    const int place = is_there ? static_cast<int>(found - elements.begin()) : kNotKnown;
-    links_.push_back(is_there && found->rows == 0 ? kLoose : place);
-  };
-  for (const ElementModel& described : at.model->elements) {
-    if (described.kind == Distance::kind && !described.driver) add(described);
-  }
-  const SceneDescription& scene = at.model->description;
-  for (std::size_t d = 0; d < scene.drivers.size(); ++d) add(at.model->elements[scene.joints.size() + d]);
-}
-
-/// Of links, and behind these of drivers.
-double Extremes::held_force(const Stepper& at, std::size_t i) const {
-  const int element = links_[i];
-  if (element == kLoose) return 0.0;
-  return element == kNotKnown ? std::numeric_limits<double>::quiet_NaN() : at.stepped.tension(element);
-}
-
 Output Extremes::output(Stepper& at, double t, const double* state, const Terms& terms) {
-  return {t, state, at.system, terms, accelerations_, coordinates_, one_load_, rate_.data()};
+  return {t, state, at.system, terms, accelerations_, coordinates_, held_, one_load_, rate_.data()};
 }
 
 void Extremes::read_evaluation(Stepper& at, double from, double t, const double* y) {
@@ -97,7 +63,7 @@ void Extremes::read_evaluation(Stepper& at, double from, double t, const double*
     rate_.resize(at.stepped.size());
     at.stepped.derivative(t, y, rate_.data());
   }
-  find_links(at);
+  if (has_held_) held_.read_stepped(at);
   const Terms& terms = at.loads;
   stepped_.resize(idx(terms.model().layout.size));
   const std::size_t memory = idx(terms.model().layout.size - terms.model().layout.memory);
@@ -108,11 +74,6 @@ void Extremes::read_evaluation(Stepper& at, double from, double t, const double*
     if (c->channel->peaks == Peaks::of_accelerations) {
       place(at, t, y);  // the last of them
       c->channel->write(output(at, t, bodies_.data(), at.system.terms()), out);
-    } else if (c->channel->peaks == Peaks::of_links) {
-      for (std::size_t i = 0; i < c->size; ++i) out[i] = held_force(at, i);
-    } else if (c->channel->peaks == Peaks::of_drivers) {
-      const std::size_t first = links_.size() - c->size;
-      for (std::size_t i = 0; i < c->size; ++i) out[i] = held_force(at, first + i);
     } else {
       c->channel->write(output(at, t, stepped_.data(), terms), out);
     }

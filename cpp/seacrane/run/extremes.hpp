@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/run/held_forces.hpp"
 #include "seacrane/run/peak_window.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/stepper.hpp"
@@ -87,8 +88,6 @@ class Extremes {
   void take_state(Stepper& at, double t, const StateAt& state_at);
   void place(Stepper& at, double t, const double* y);
   Output output(Stepper& at, double t, const double* state, const Terms& terms);
-  void find_links(const Stepper& at);
-  double held_force(const Stepper& at, std::size_t i) const;
   void add(Group& group, double t, const double* values);
   auto seeing(const Group& group) {
     return [this, &group](std::size_t k, double t, double value) {
@@ -102,12 +101,11 @@ class Extremes {
   Group states_, evaluations_, limits_, ends_;
   Needs needs_of_ends_;
   Trail trail_;
-  bool needs_coordinates_ = false, has_accelerations_ = false;
+  bool needs_coordinates_ = false, has_accelerations_ = false, has_held_ = false;
   std::vector<Vec6d> accelerations_;  // of the described bodies, at the last evaluation
   double evaluated_ = 0.0;            // time of evaluation_
   std::vector<double> evaluation_;    // of the last step
-  const Stepper* links_of_ = nullptr;
-  std::vector<int> links_;  // elements of what is stepped, of links, then of drivers
+  HeldForces held_;
   std::vector<double> row_, end_, state_, bodies_, stepped_, rate_;
   std::vector<CoordinateRow<double>> coordinates_;
   std::vector<BodyLoad<double>> one_load_;

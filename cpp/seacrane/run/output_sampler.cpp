@@ -41,6 +41,7 @@ OutputSampler::OutputSampler(const Model& model, const RunOptions& options, Rank
       extremes_(model, recording_, options.trail),
       bodies_(idx(model.layout.size), 0.0),
       rate_(idx(model.layout.size), 0.0),
+      tensions_(VecXd::Zero(model.inertial_tensions)),
       coordinates_(model.coordinates.size()),
       one_load_(idx(model.body_count() + 1)) {
   if (options.energy_limit && model.paper_kinematics) {
@@ -79,27 +80,45 @@ double OutputSampler::project(Stepper& at, double t) {
   return std::max(largest_residual_, at.stepped.take_residual_before_projection());
 }
 
+/// What is stepped has accelerations, tensions of quasi-static lines, and forces that hold: whether all that
+/// are asked for.
+bool OutputSampler::evaluate_stepped(Stepper& at, double t, const Needs& needs) {
+  stepped_rate_.resize(at.stepped.size());
+  at.stepped.derivative(t, state_.data(), stepped_rate_.data());
+  accelerations_ = at.bodies.accelerations();
+  tensions_ = at.loads.inertial();
+  if (!needs.held) return true;
+  held_.read_stepped(at);
+  return held_.known();
+}
+
 /// The described system at state_, as far as the channels need it. Where kinematics are enough, bodies_ gets
 /// no poses.
 ConstraintResidual OutputSampler::evaluate(Stepper& at, double t, const Needs& needs) {
-  if (at.stepped.closes_joints() && !(needs.residual || needs.loads || needs.energy || needs.solution)) {
-    at.bodies.place(t, state_.data());
+  const bool moves = !needs.solution && (needs.accelerations || needs.held),
+             solves = needs.solution || (moves && !evaluate_stepped(at, t, needs));
+  Terms& terms = at.system.terms();
+  if (at.stepped.closes_joints() && !(solves || needs.residual || needs.loads || needs.energy)) {
+    moves ? at.bodies.spread() : at.bodies.place(t, state_.data());
     const auto memory = bodies_.begin() + model_.layout.memory;
     std::copy(state_.end() - (bodies_.end() - memory), state_.end(), memory);
+    terms.set_inertial(tensions_);
     return {0.0, 0.0};
   }
   at.write_bodies(t, state_.data(), bodies_.data());
-  if (needs.solution) {
+  if (solves) {
     at.system.derivative(t, bodies_.data(), rate_.data());
-    if (needs.reactions) at.system.shorten_multipliers();
+    if (needs.reactions || needs.held) at.system.shorten_multipliers();
+    accelerations_ = at.system.accelerations();
+    held_.read_described(at);
     // The tree factors no constraints of its own joints.
     if (&at.stepped != &at.system) watch_rank(at, t);
-  } else if (needs.loads || needs.energy) {
-    at.system.terms().evaluate(t, bodies_.data(), rate_.data());
-  } else {
-    return constraint_residual(at.system.terms(), t, bodies_.data());
+    return constraint_residual(terms, bodies_.data());
   }
-  return constraint_residual(at.system.terms(), bodies_.data());
+  const bool loads = needs.loads || needs.energy;
+  if (loads) terms.evaluate(t, bodies_.data(), rate_.data());
+  terms.set_inertial(tensions_);
+  return loads ? constraint_residual(terms, bodies_.data()) : constraint_residual(terms, t, bodies_.data());
 }
 
 void OutputSampler::evaluate_coordinates(const Terms& terms) {
@@ -127,9 +146,9 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
   const double energy =
       needs.energy ? mechanical_energy(at.system.terms(), t, bodies_.data()) : start_energy_;
   const double balance = energy - start_energy_ - (work[0] - start_work_);
-  out.append({t, bodies_.data(), at.system, at.system.terms(), at.system.accelerations(), coordinates_,
-              one_load_, rate_.data() + model_.layout.loads, residual.position, residual.rate,
-              residual_before, balance, impact_loss});
+  out.append({t, bodies_.data(), at.system, at.system.terms(), accelerations_, coordinates_, held_, one_load_,
+              rate_.data() + model_.layout.loads, residual.position, residual.rate, residual_before, balance,
+              impact_loss});
   if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system.terms(), balance, work[1], energy);
 }
 
@@ -166,8 +185,8 @@ void OutputSampler::take_ends(Stepper& at, double from, double to, const StateAt
     at.stepped.take_residual_before_projection();  // what is interpolated is no residual of the steps
     evaluate(at, t, needs);
     if (needs.coordinates) evaluate_coordinates(at.system.terms());
-    extremes_.see_end({t, bodies_.data(), at.system, at.system.terms(), at.system.accelerations(),
-                       coordinates_, one_load_, rate_.data() + model_.layout.loads});
+    extremes_.see_end({t, bodies_.data(), at.system, at.system.terms(), accelerations_, coordinates_, held_,
+                       one_load_, rate_.data() + model_.layout.loads});
   };
   if (extremes_.begins_ends()) take(from);
   take(to);

@@ -6,6 +6,7 @@
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/run/extremes.hpp"
 #include "seacrane/run/guards.hpp"
+#include "seacrane/run/held_forces.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/restart.hpp"
 #include "seacrane/run/stepper.hpp"
@@ -61,6 +62,7 @@ class OutputSampler {
  private:
   double project(Stepper& at, double t);
   ConstraintResidual evaluate(Stepper& at, double t, const Needs& needs);
+  bool evaluate_stepped(Stepper& at, double t, const Needs& needs);
   void take_ends(Stepper& at, double from, double to, const StateAt& state_at);
   void write(Stepper& at, double t, double residual_before, double impact_loss, Recording& out);
   void evaluate_coordinates(const Terms& terms);
@@ -76,7 +78,10 @@ class OutputSampler {
   double start_energy_ = 0.0, start_work_ = 0.0;
   double largest_residual_ = 0.0;  // before projection, since the last output
   double last_time_ = std::numeric_limits<double>::quiet_NaN(), last_residual_ = 0.0;  // of the last output
-  std::vector<double> state_, bodies_, rate_;
+  std::vector<double> state_, bodies_, rate_, stepped_rate_;
+  std::vector<Vec6d> accelerations_;  // of the described bodies
+  VecXd tensions_;                    // of quasi-static lines
+  HeldForces held_;
   std::vector<CoordinateRow<double>> coordinates_;
   std::vector<BodyLoad<double>> one_load_;
 };

@@ -28,7 +28,7 @@ Recording::Recording(const Model& model, const std::set<std::string>& names, std
     for (const std::size_t n : recorded.shape) recorded.size *= n;
     width += recorded.size;
     channels_.push_back(recorded);
-    needs_ |= channel->needs;
+    needs_ |= needs_of(*channel, model);
   }
   row_.assign(width, 0.0);
   for (RecordedChannel& c : channels_) {

@@ -79,6 +79,10 @@ void SteppedBodies::write(double t, const double* y, double* bodies) {
 
 void SteppedBodies::place(double t, const double* y) {
   stepped_->place_bodies(t, y);
+  spread();
+}
+
+void SteppedBodies::spread() {
   if (map_) map_->spread_kinematics(terms_->bodies().data(), described_.terms().kinematics());
   described_.terms().follow_yaw();
 }

@@ -36,6 +36,8 @@ class SteppedBodies {
   void write(double t, const double* y, double* bodies);
   /// Kinematics of the described bodies at a state that is stepped, in their terms.
   void place(double t, const double* y);
+  /// The same where derivative() was the last to be called, at that state.
+  void spread();
   /// The state of the bodies that are stepped, merged ones as one; valid until the next call.
   const double* merged(const double* bodies);
   /// Throws std::invalid_argument where a body is not where it moves as one with what carries it.

@@ -13,6 +13,7 @@ template <class T>
 struct CoordinateRow;
 template <class T>
 struct BodyLoad;
+class HeldForces;
 class MaximalSystem;
 class Terms;
 struct Model;
@@ -32,14 +33,20 @@ struct Needs {
   bool residual = false;  // of the constraints, beyond that they are closed
   bool loads = false;
   bool energy = false;
-  bool solution = false;   // accelerations and multipliers
-  bool reactions = false;  // the shortest multipliers, where those of joints are not unique
+  bool accelerations = false;
+  bool tensions = false;   // of lines: accelerations, where these are quasi-static
+  bool held = false;       // forces of links and drivers
+  bool solution = false;   // the multipliers of all joints described: of all needs by far the dearest
+  bool reactions = false;  // the shortest of these, where those of joints are not unique
   bool coordinates = false;
 
   Needs& operator|=(const Needs& other) {
     residual |= other.residual;
     loads |= other.loads;
     energy |= other.energy;
+    accelerations |= other.accelerations;
+    tensions |= other.tensions;
+    held |= other.held;
     solution |= other.solution;
     reactions |= other.reactions;
     coordinates |= other.coordinates;
@@ -56,6 +63,7 @@ struct Output {
   const Terms& terms;
   const std::vector<Vec6d>& accelerations;  // of the described bodies' state points
   const std::vector<CoordinateRow<double>>& coordinates;
+  const HeldForces& held;
   const std::span<BodyLoad<double>> one_load;  // zeros, for all bodies and the ground; left as zeros
   double* const load_rates;                    // room for the rates of all states of loads
   double residual = 0.0, residual_rate = 0.0;  // of constraints, after projection: largest magnitudes
@@ -70,8 +78,7 @@ enum class Peaks {
   of_poses,          // none are kept; what follows from it has them
   of_states,         // the states at the ends and in the middle of every step: it follows from these
   of_lines,          // likewise; where lines are quasi-static the last evaluation of every step
-  of_links,          // the last evaluation of every step, see Formulation::tension()
-  of_drivers,        // likewise
+  of_held,           // the last evaluation of every step, see HeldForces
   of_accelerations,  // likewise, with the kinematics of its state
   of_limits,         // what the search for events has evaluated there
   of_ends,           // an evaluation at the end of every step, as at an output
@@ -89,6 +96,8 @@ struct Channel {
   /// Writes the values, the last axis fastest, over those of the output before (zeros at the first).
   void (*write)(const Output& output, double* values) = nullptr;
 };
+
+Needs needs_of(const Channel& channel, const Model& model);
 
 inline bool has_extremes(const Channel& channel) {
   return channel.peaks != Peaks::of_none && channel.peaks != Peaks::of_poses;

@@ -1,7 +1,9 @@
+#include <algorithm>
+
 #include "seacrane/dynamics/maximal.hpp"
-#include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/loads/actuator.hpp"
 #include "seacrane/run/channels/channel.hpp"
+#include "seacrane/run/held_forces.hpp"
 
 namespace seacrane {
 namespace {
@@ -23,13 +25,7 @@ void write_actuator_force(const Output& o, double* out) {
   for (const Actuator& a : o.system.model().actuators()) *out++ = a.force<double>(input);
 }
 
-/// Forces of the drivers described alone: stops that hold are drivers of the compiled model too.
-void write_driver_force(const Output& o, double* out) {
-  const Model& m = o.system.model();
-  for (std::size_t d = 0; d < m.description.drivers.size(); ++d) {
-    out[d] = o.system.multipliers()[idx(m.elements[m.description.joints.size() + d].row)];
-  }
-}
+void write_driver_force(const Output& o, double* out) { std::ranges::copy(o.held.drivers(), out); }
 
 /// Where the reaction of a joint is taken: the second body's point, or the first's where the joint slides.
 Vec3d joint_point(const ElementModel& e, const std::vector<BodyKinematics<double>>& bodies) {
@@ -70,11 +66,7 @@ void write_reaction_moment(const Output& o, double* out) {
   }
 }
 
-void write_tension(const Output& o, double* out) {
-  for (const ElementModel& e : o.system.model().elements) {
-    if (e.kind == Distance::kind) *out++ = e.rows > 0 ? -o.system.multipliers()[idx(e.row)] : 0.0;
-  }
-}
+void write_tension(const Output& o, double* out) { std::ranges::copy(o.held.links(), out); }
 
 }  // namespace
 
@@ -104,8 +96,8 @@ std::vector<Channel> joint_channels() {
        .axes = {&axes::driver},
        .unit = "N or N m",
        .text = "load of the driver along its coordinate",
-       .needs = {.solution = true},
-       .peaks = Peaks::of_drivers,
+       .needs = {.held = true},
+       .peaks = Peaks::of_held,
        .write = write_driver_force},
       {.name = "reaction_force",
        .axes = {&axes::joint, &axes::xyz},
@@ -123,8 +115,8 @@ std::vector<Channel> joint_channels() {
        .axes = {&axes::link},
        .unit = "N",
        .text = "tension of the constant-distance link",
-       .needs = {.solution = true, .reactions = true},
-       .peaks = Peaks::of_links,
+       .needs = {.held = true},
+       .peaks = Peaks::of_held,
        .write = write_tension},
   };
 }

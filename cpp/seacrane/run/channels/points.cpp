@@ -53,7 +53,7 @@ std::vector<Channel> point_channels() {
        .axes = {&axes::point, &axes::xyz},
        .unit = "m/s2",
        .text = "acceleration of the named point, inertial frame",
-       .needs = {.solution = true},
+       .needs = {.accelerations = true},
        .peaks = Peaks::of_accelerations,
        .by_default = false,
        .write = write_point_acceleration},

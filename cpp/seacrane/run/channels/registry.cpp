@@ -35,6 +35,12 @@ const std::vector<Channel>& all_channels() {
   return all;
 }
 
+Needs needs_of(const Channel& channel, const Model& model) {
+  Needs out = channel.needs;
+  out.accelerations |= out.tensions && model.inertial_tensions > 0;
+  return out;
+}
+
 std::vector<std::size_t> shape_of(const Channel& channel, const Model& model) {
   std::vector<std::size_t> shape;
   for (const Axis* axis : channel.axes) {

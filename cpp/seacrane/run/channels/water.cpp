@@ -22,7 +22,7 @@ template <class F>
 void for_each_part(const Output& o, F&& f) {
   const LoadInput<double> in = input_of(o);
   for (const ImmersedPart& one : o.terms.model().loads.of<ImmersedPart>()) {
-    f(one.by_cause(in, o.system.accelerations()[idx(one.body)]));
+    f(one.by_cause(in, o.accelerations[idx(one.body)]));
   }
 }
 
@@ -61,28 +61,28 @@ std::vector<Channel> water_channels() {
        .axes = {&part, &cause, &axes::xyz},
        .unit = "N",
        .text = "force of the water on the part by cause, that of its added mass included; inertial frame",
-       .needs = {.solution = true},
+       .needs = {.accelerations = true},
        .by_default = false,
        .write = write_immersed_force},
       {.name = "immersed_momentum",
        .axes = {&part, &axes::xyz},
        .unit = "N s",
        .text = "momentum of the water that goes along with the part, inertial frame",
-       .needs = {.solution = true},
+       .needs = {.accelerations = true},
        .by_default = false,
        .write = write_vectors<&WaterByCause::momentum>},
       {.name = "immersed_shed",
        .axes = {&part, &axes::xyz},
        .unit = "N",
        .text = "momentum that stays behind in the water each second as the part leaves it, inertial frame",
-       .needs = {.solution = true},
+       .needs = {.accelerations = true},
        .by_default = false,
        .write = write_vectors<&WaterByCause::shed>},
       {.name = "water_power",
        .axes = {&wet, &cause},
        .unit = "W",
        .text = "power by cause of the water on a part or a span of a line into the energy of energy_balance",
-       .needs = {.solution = true},
+       .needs = {.accelerations = true},
        .by_default = false,
        .write = write_water_power},
   };
