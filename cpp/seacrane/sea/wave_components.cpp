@@ -45,19 +45,21 @@ void for_each_phasor(std::size_t count, const Angle& angle, const Use& use) {
 
 struct Correlation {
   double value, slope;
+  double envelope;  // no less than the value, and slower
 };
 
 Correlation correlation(const WaveComponents& waves, double lag) {
-  double value = 0.0, slope = 0.0, sum = 0.0;
+  double value = 0.0, quadrature = 0.0, slope = 0.0, sum = 0.0;
   for_each_phasor(
       waves.size(), [&](std::size_t i) { return waves.omega()[i] * lag; },
       [&](std::size_t i, double cosine, double sine) {
         const double energy = waves.amplitude()[i] * waves.amplitude()[i];
         value += energy * cosine;
+        quadrature += energy * sine;
         slope -= energy * waves.omega()[i] * sine;
         sum += energy;
       });
-  return {value / sum, slope / sum};
+  return {value / sum, slope / sum, std::hypot(value, quadrature) / sum};
 }
 
 }  // namespace
@@ -138,10 +140,12 @@ RepeatPeriod WaveComponents::repeat_period(double horizon) const {
   sea::require_positive(m0, kComponents, "energy m0", "m2: a sea at rest does not repeat");
   const double curvature = moment(2) / m0;
   const double shortest = 1e-6 / std::sqrt(curvature);
+  // The envelope, |sum of p exp(i (w - mean) lag)|, changes by no more than sum of p |w - mean| a second.
+  const double spread = std::sqrt(std::max(curvature - std::pow(moment(1) / m0, 2), 0.0));
   double lag = 0.0;
   bool decayed = false;
   while (lag < horizon) {
-    const auto [value, slope] = correlation(*this, lag);
+    const auto [value, slope, envelope] = correlation(*this, lag);
     if (!decayed) {
       decayed = value < 0.5;
       lag += 0.05 / std::sqrt(curvature);
@@ -153,7 +157,7 @@ RepeatPeriod WaveComponents::repeat_period(double horizon) const {
     const double root = std::sqrt(slope * slope + 2.0 * curvature * room);
     const double step = slope > 0.0 ? 2.0 * room / (slope + root) : (root - slope) / curvature;
     if (step < shortest) return {lag, true};
-    lag += step;
+    lag += std::max(step, (repeat_threshold - envelope) / spread);
   }
   return {horizon, false};
 }

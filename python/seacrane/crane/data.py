@@ -123,6 +123,17 @@ class JointData:
     range: tuple[float, float] | None = None
     closes: bool = False
 
+    @cached_property
+    def crossing(self) -> list[tuple[Array, Array]]:
+        """Axes at home, one on each body, that a closing joint keeps perpendicular."""
+        if self.axis is None:
+            return []
+        if self.second_axis is not None:
+            return [(self.axis, self.second_axis)]
+        across = np.eye(3)[np.argmin(np.abs(self.axis))]
+        beside = np.cross(self.axis, across) / np.linalg.norm(np.cross(self.axis, across))
+        return [(beside, self.axis), (np.cross(self.axis, beside), self.axis)]
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RopeData:

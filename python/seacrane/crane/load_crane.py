@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,16 @@ def load_crane(path: str | Path = DEFAULT) -> Crane:
         The file cannot be read, is malformed, or describes a crane that cannot work; the message names the
         item.
     """
-    file = SHIPPED / f"{path}.toml" if str(path) in shipped_cranes() else Path(path)
+    return _shipped(str(path)) if str(path) in shipped_cranes() else _read(Path(path))
+
+
+@cache
+def _shipped(name: str) -> Crane:
+    """Nearly every scene has the same one, which takes as long to read as the rest of it."""
+    return _read(SHIPPED / f"{name}.toml")
+
+
+def _read(file: Path) -> Crane:
     try:
         text = read_whole(file, LARGEST_FILE, "no crane file is").decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:

@@ -111,7 +111,10 @@ def gap_rates(data: CraneData, joints: Iterable[JointData], moved: Mapping[str, 
             rows = []
             for one in data.closing_joints:
                 sides = [body in beyond for body in (one.first, one.second)]
-                before, after = (twist if own and not all(sides) else STILL for own in sides)
+                if all(sides) or not any(sides):
+                    rows.append(np.zeros(3 + len(one.crossing)))
+                    continue
+                before, after = (twist if own else STILL for own in sides)
                 rows.append(_gap_rate(one, moved, before, after))
             columns.append(np.concatenate(rows))
     return np.array(columns).T
@@ -182,21 +185,10 @@ def turned(vector: Array) -> Array:
     return np.asarray(np.eye(3) + np.sin(angle) * across + (1.0 - np.cos(angle)) * (across @ across))
 
 
-def _crossing(joint: JointData) -> list[tuple[Array, Array]]:
-    """Axes at home, one on each body, that a closing joint keeps perpendicular."""
-    if joint.axis is None:
-        return []
-    if joint.second_axis is not None:
-        return [(joint.axis, joint.second_axis)]
-    across = np.eye(3)[np.argmin(np.abs(joint.axis))]
-    beside = np.cross(joint.axis, across) / np.linalg.norm(np.cross(joint.axis, across))
-    return [(beside, joint.axis), (np.cross(joint.axis, beside), joint.axis)]
-
-
 def _gap(joint: JointData, moved: Mapping[str, Placed]) -> Array:
     """What keeps a closing joint from fitting: m, and sines of angles."""
     first, second = moved[joint.first], moved[joint.second]
-    sines = [(first.axes @ one) @ (second.axes @ other) for one, other in _crossing(joint)]
+    sines = [(first.axes @ one) @ (second.axes @ other) for one, other in joint.crossing]
     return np.array([*(second.point(joint.point) - first.point(joint.point)), *sines])
 
 
@@ -205,5 +197,5 @@ def _gap_rate(joint: JointData, moved: Mapping[str, Placed], before: Array, afte
     first, second = moved[joint.first], moved[joint.second]
     apart = after @ [*second.point(joint.point), 1.0] - before @ [*first.point(joint.point), 1.0]
     turning = (after - before)[:, :3]
-    sines = [(first.axes @ one) @ turning @ (second.axes @ other) for one, other in _crossing(joint)]
+    sines = [(first.axes @ one) @ turning @ (second.axes @ other) for one, other in joint.crossing]
     return np.array([*apart, *sines])

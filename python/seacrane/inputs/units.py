@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from functools import cache
 from math import inf, isfinite, pi
 from types import MappingProxyType
 from typing import Any
@@ -50,6 +51,7 @@ _EXACT = {  # of a minute and an hour no decimals are exact
 }  # fmt: skip
 
 
+@cache
 def others_of(unit: str) -> tuple[str, ...]:
     """The units of another size and the same dimension, in which a person may give what is in this one."""
     if unit not in UNITS:
