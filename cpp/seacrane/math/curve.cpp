@@ -25,6 +25,11 @@ CurveValue evaluate(const Curve::Piece& p, double t) {
   return out;
 }
 
+bool is_still(const Curve::Piece& p) {
+  const auto& c = p.coefficients;
+  return p.amplitude == 0.0 && std::all_of(c.begin() + 1, c.end(), [](double x) { return x == 0.0; });
+}
+
 constexpr double kRounding = 1e-10;       // over the terms of a derivative, of which digits cancel
 constexpr double kValueRounding = 1e-13;  // over the value, per length of a piece: of a spline's coefficients
 
@@ -86,10 +91,9 @@ Curve::Curve(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
                                   std::to_string(p.start) + " s, not after the piece before it");
     }
   }
-  const Piece& only = pieces_.front();
-  is_constant_ =
-      pieces_.size() == 1 && only.amplitude == 0.0 &&
-      std::all_of(only.coefficients.begin() + 1, only.coefficients.end(), [](double c) { return c == 0.0; });
+  const Piece& last = pieces_.back();
+  if (!is_still(last)) return;
+  held_from_ = pieces_.size() > 1 ? last.start : -std::numeric_limits<double>::infinity();
 }
 
 Curve Curve::constant(double value) {
@@ -195,9 +199,7 @@ std::vector<double> Curve::breakpoints(int derivatives) const {
 std::optional<double> Curve::constant_value() const {
   const double value = pieces_.front().coefficients[0];
   for (const Piece& piece : pieces_) {
-    const auto& c = piece.coefficients;
-    const bool still = std::all_of(c.begin() + 1, c.end(), [](double x) { return x == 0.0; });
-    if (!still || piece.amplitude != 0.0 || c[0] != value) return std::nullopt;
+    if (!is_still(piece) || piece.coefficients[0] != value) return std::nullopt;
   }
   return value;
 }

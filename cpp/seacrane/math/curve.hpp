@@ -31,7 +31,7 @@ class Curve {
     double amplitude = 0.0, omega = 0.0, phase = 0.0;
   };
 
-  Curve() : pieces_(1), is_constant_(true) {}
+  Curve() : Curve(std::vector<Piece>(1)) {}
   explicit Curve(std::vector<Piece> pieces);
 
   static Curve constant(double value);
@@ -46,7 +46,7 @@ class Curve {
   /// Pieces that start at or after `before` are not used yet: a step that ends at a breakpoint sees
   /// the limit from the left in all its stages.
   CurveValue at(double t, double before = std::numeric_limits<double>::infinity()) const {
-    if (is_constant_) return {pieces_.front().coefficients[0], 0.0, 0.0};
+    if (t >= held_from_ && before > held_from_) return {pieces_.back().coefficients[0], 0.0, 0.0};
     return piece_at(t, before);
   }
   const std::vector<Piece>& pieces() const { return pieces_; }
@@ -61,7 +61,7 @@ class Curve {
   CurveValue piece_at(double t, double before) const;
 
   std::vector<Piece> pieces_;
-  bool is_constant_ = false;
+  double held_from_ = std::numeric_limits<double>::infinity();  // a value from then on
 };
 
 }  // namespace seacrane
