@@ -54,16 +54,9 @@ MOST_MASSES = 6  # beyond one per motion; a group of many motions may have two f
 PATIENCE = 3  # orders in a row without gain, after which more masses are not tried
 GAIN = 0.05  # of the error
 SOME = 64  # pairs, of which one at a time is kept after all; of more, a share
-EVEN, APART = (
-    64,
-    0.7,
-)  # frequencies over the band, of several hulls; others are less near than a share of a step
+EVEN = 64  # frequencies over the band, of several hulls
 TRIED = (1.0, 1.15, 1.3, 1.5, 1.75, 2.0)  # numbers of masses of several hulls, over the least one
-MOST_STEPS, IDLE, SMALL_GAIN = (
-    40,
-    8,
-    0.02,
-)  # of a search: steps, and those in a row that gain less of the error
+MOST_STEPS, IDLE, SMALL_GAIN = 40, 8, 0.02  # of a search: steps, those in a row that gain less of the error
 NEAR = 4.0  # times the limit: errors from which on motions are emphasised by theirs
 BEYOND_BAND = 1.3  # times its upper end: data further up are not looked at
 MOST_INERTIA = 0.1  # of the vessel's, that an additional cause may add or take at once
@@ -268,15 +261,19 @@ class _Coupled(_Group):
         )  # fmt: skip
 
     def lowest_order(self, limit: float, bar: tqdm) -> Oscillators:
-        """Of some numbers of masses, each searched from its own guess, the first that keeps the limit."""
+        """Of some numbers of masses, each searched from its own guess, the first that keeps the limit.
+
+        Of more than two hulls, a number that gains nothing over the one before is the last.
+        """
         hulls = len({motion // 6 for motion in self.group})
         least = len(self.group) * (1.2 + 0.12 * hulls)
         best: Found | None = None
         for times in TRIED:
             found = self._searched(round(times * least), limit, bar)
+            idle = hulls > 2 and best is not None and found[0] > (1.0 - GAIN) * best[0]
             if best is None or found[0] < best[0]:
                 best = found
-            if found[0] <= limit:
+            if found[0] <= limit or idle:
                 break
         assert best is not None
         self.felt.emphasise(best[2])

@@ -27,6 +27,7 @@ from seacrane.hydro.memory.oscillators import (
     OscillatorParameters,
     Oscillators,
 )
+from seacrane.one_thread import one_thread
 
 BAND = 5  # masses that share dampers: each with so many less one on either side
 DATA_WEIGHT = 0.2  # of the misfit of the data over the spreads of their diagonals, beside that of motions
@@ -152,8 +153,10 @@ class CoupledProblem(OscillatorParameters):
             while damping < MOST_DAMPING:
                 held = square.copy()
                 held.flat[:: len(square) + 1] += damping * diagonal
-                factor = cho_factor(held, lower=True, overwrite_a=True, check_finite=False)
-                tried = _Point(self, here.parameters - cho_solve(factor, right, check_finite=False))
+                with one_thread:  # SciPy came with threads of its own
+                    factor = cho_factor(held, lower=True, overwrite_a=True, check_finite=False)
+                    step = cho_solve(factor, right, check_finite=False)
+                tried = _Point(self, here.parameters - step)
                 if tried.cost < here.cost:
                     parameters, damping = tried.parameters, max(0.2 * damping, 1e-9)
                     break

@@ -19,6 +19,7 @@ GRID = 160  # frequencies over the band, beside those of the database
 ABOUT_PEAK = np.array([-3.0, -2.0, -1.2, -0.6, -0.25, 0.0, 0.25, 0.6, 1.2, 2.0, 3.0])  # half widths
 SPRING_PERIOD, SPRING_DAMPING = 200.0, 0.1  # s and share of critical, of `Scene.add_vessel`
 RESONANT = (2, 3, 4)
+MANY = 12  # motions; of more, an impedance is factored once for all headings and not for each
 FAINT = 1e-4  # share of the largest motion below which a motion is not there
 
 
@@ -119,7 +120,11 @@ class MotionJudge(_Solved):
 
     def error(self, difference: Complex) -> MotionError:
         """The error of a difference (n, 6, 6) of impedance, the model's less the data's."""
-        changed = np.linalg.solve(self.impedance + difference, self.force[..., None])[..., 0]
+        impedance = self.impedance + difference
+        if impedance.ndim == 3 and len(self.moves) > MANY:
+            changed = np.moveaxis(np.linalg.solve(impedance, np.moveaxis(self.force, 0, 2)), 2, 0)
+        else:
+            changed = np.linalg.solve(impedance, self.force[..., None])[..., 0]
         return self._of_motions(changed - self.motion)
 
     def error_of_pair(self, j: int, k: int, difference: Complex) -> MotionError:
