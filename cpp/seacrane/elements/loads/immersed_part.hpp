@@ -109,6 +109,7 @@ struct ImmersedPart {
   struct Shared {
     ImmersedAttitude<T> lie;
     Vec3<T> velocity, turning;  // of the body at its state point
+    Vec3<T> swirl;              // turning x velocity
     FlowPlace<T> first;         // of the row, and what comes from strip to strip
     Vec3<T> step;
     std::span<const LocalFlow<double>> row;  // of a double, where a wave reaches it
@@ -134,6 +135,7 @@ struct ImmersedPart {
     Shared<T> out(ImmersedAttitude<T>(shape, d.size, edge, own, k.angular_velocity));
     out.velocity = times_transposed<T>(own, k.velocity);
     out.turning = times_transposed<T>(own, k.angular_velocity);
+    out.swirl = cross<T>(out.turning, out.velocity);
     out.first = {k.position + times<T>(k.rotation, first_point), times<T>(own, widths), k.angular_velocity,
                  T(0)};
     out.first.height =
@@ -429,21 +431,20 @@ struct ImmersedPart {
     const Added<T> here = added_at(as, at.center, at.rate);
     const Vec3<T>&v = at.velocity, &own = at.own, &turning = as.turning;
     const Vec3<T> momentum = here.mass.cwiseProduct(v);
-    const Vec3<T> swept = cross<T>(turning, own - as.velocity);
-    Vec3<T> along = here.mass.cwiseProduct(swept - cross<T>(turning, v) - at.pulled);
-    const Vec3<T> turned = here.mass.cwiseProduct(swept - cross<T>(turning, own));
-    T stored = T(0);  // what the ledger's energy of A gains beside that of A a
+    const Vec3<T> passed = cross<T>(turning, own - v);  // the motion of the water, turned
+    Vec3<T> along = here.mass.cwiseProduct(passed - as.swirl - at.pulled);
+    out.power = dot<T>(passed, momentum);
     for (int i = 0; i < 3; ++i) {
       const T& gain = here.gain[i];
       const bool enters = gain > T(0);
       if (enters) along[i] += gain * v[i];
       const T power = T(0.5) * gain * v[i] * v[i];
       out.loss += enters ? power : T(-power);
-      stored += own[i] * (turned[i] + T(0.5) * gain * own[i]);
+      // The ledger's energy of A gains own (gain own / 2 - A swirl) beside that of A a.
+      out.power += own[i] * (T(0.5) * gain * own[i] - here.mass[i] * as.swirl[i] - along[i]);
     }
     out.force = -(along + cross<T>(turning, momentum));
     out.moment = -cross<T>(v, momentum);
-    out.power = dot<T>(out.force, own) + dot<T>(out.moment, turning) + stored;
     return out;
   }
 

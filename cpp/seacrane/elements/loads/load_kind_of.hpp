@@ -86,6 +86,10 @@ class LoadListOf final : public LoadsOf<Load> {
     const auto& on = load.bodies();
     this->names.push_back(name);
     this->bodies.emplace_back(on.begin(), on.end());
+    if constexpr (SharesWork<Load>) {
+      if (items.empty() || !load.shares(items.back())) groups_.push_back(items.size());
+      ++groups_.back();
+    }
     items.push_back(load);
   }
 
@@ -245,13 +249,16 @@ class LoadListOf final : public LoadsOf<Load> {
   /// Calls f(load, what it shares), and puts what each group adds up to.
   template <class Out, class F>
   void for_each_shared(const LoadInput<double>& in, Out&& out, F&& f) const {
-    for (auto load = items.begin(); load != items.end();) {
-      const auto first = load;
-      auto shared = first->template shared<double>(in);
-      for (; load != items.end() && load->shares(*first); ++load) f(*load, shared);
-      first->put(shared, out);
+    Place i = 0;
+    for (const Place end : groups_) {
+      const Load& first = items[i];
+      auto shared = first.template shared<double>(in);
+      for (; i < end; ++i) f(items[i], shared);
+      first.put(shared, out);
     }
   }
+
+  std::vector<Place> groups_;  // behind the last of each that share work
 };
 
 /// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:
