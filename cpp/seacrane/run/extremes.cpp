@@ -54,7 +54,9 @@ Extremes::Extremes(const Model& model, Recording& recording, const std::set<std:
 }
 
 Output Extremes::output(Stepper& at, double t, const double* state, const Terms& terms) {
-  return {t, state, at.system, terms, accelerations_, coordinates_, held_, one_load_, rate_.data()};
+  return {
+      t,         state,       at.system, terms, accelerations_, coordinates_, held_.links(), held_.drivers(),
+      one_load_, rate_.data()};
 }
 
 void Extremes::read_evaluation(Stepper& at, double from, double t, const double* y) {

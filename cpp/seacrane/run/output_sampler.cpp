@@ -146,9 +146,9 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
   const double energy =
       needs.energy ? mechanical_energy(at.system.terms(), t, bodies_.data()) : start_energy_;
   const double balance = energy - start_energy_ - (work[0] - start_work_);
-  out.append({t, bodies_.data(), at.system, at.system.terms(), accelerations_, coordinates_, held_, one_load_,
-              rate_.data() + model_.layout.loads, residual.position, residual.rate, residual_before, balance,
-              impact_loss});
+  out.append({t, bodies_.data(), at.system, at.system.terms(), accelerations_, coordinates_, held_.links(),
+              held_.drivers(), one_load_, rate_.data() + model_.layout.loads, residual.position,
+              residual.rate, residual_before, balance, impact_loss});
   if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system.terms(), balance, work[1], energy);
 }
 
@@ -185,8 +185,8 @@ void OutputSampler::take_ends(Stepper& at, double from, double to, const StateAt
     at.stepped.take_residual_before_projection();  // what is interpolated is no residual of the steps
     evaluate(at, t, needs);
     if (needs.coordinates) evaluate_coordinates(at.system.terms());
-    extremes_.see_end({t, bodies_.data(), at.system, at.system.terms(), accelerations_, coordinates_, held_,
-                       one_load_, rate_.data() + model_.layout.loads});
+    extremes_.see_end({t, bodies_.data(), at.system, at.system.terms(), accelerations_, coordinates_,
+                       held_.links(), held_.drivers(), one_load_, rate_.data() + model_.layout.loads});
   };
   if (extremes_.begins_ends()) take(from);
   take(to);

@@ -13,7 +13,6 @@ template <class T>
 struct CoordinateRow;
 template <class T>
 struct BodyLoad;
-class HeldForces;
 class MaximalSystem;
 class Terms;
 struct Model;
@@ -63,7 +62,7 @@ struct Output {
   const Terms& terms;
   const std::vector<Vec6d>& accelerations;  // of the described bodies' state points
   const std::vector<CoordinateRow<double>>& coordinates;
-  const HeldForces& held;
+  std::span<const double> links, drivers;      // tensions and forces of those described
   const std::span<BodyLoad<double>> one_load;  // zeros, for all bodies and the ground; left as zeros
   double* const load_rates;                    // room for the rates of all states of loads
   double residual = 0.0, residual_rate = 0.0;  // of constraints, after projection: largest magnitudes
@@ -78,7 +77,7 @@ enum class Peaks {
   of_poses,          // none are kept; what follows from it has them
   of_states,         // the states at the ends and in the middle of every step: it follows from these
   of_lines,          // likewise; where lines are quasi-static the last evaluation of every step
-  of_held,           // the last evaluation of every step, see HeldForces
+  of_held,           // the last evaluation of every step, see Formulation::tension()
   of_accelerations,  // likewise, with the kinematics of its state
   of_limits,         // what the search for events has evaluated there
   of_ends,           // an evaluation at the end of every step, as at an output

@@ -3,7 +3,6 @@
 #include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/loads/actuator.hpp"
 #include "seacrane/run/channels/channel.hpp"
-#include "seacrane/run/held_forces.hpp"
 
 namespace seacrane {
 namespace {
@@ -25,7 +24,7 @@ void write_actuator_force(const Output& o, double* out) {
   for (const Actuator& a : o.system.model().actuators()) *out++ = a.force<double>(input);
 }
 
-void write_driver_force(const Output& o, double* out) { std::ranges::copy(o.held.drivers(), out); }
+void write_driver_force(const Output& o, double* out) { std::ranges::copy(o.drivers, out); }
 
 /// Where the reaction of a joint is taken: the second body's point, or the first's where the joint slides.
 Vec3d joint_point(const ElementModel& e, const std::vector<BodyKinematics<double>>& bodies) {
@@ -66,7 +65,7 @@ void write_reaction_moment(const Output& o, double* out) {
   }
 }
 
-void write_tension(const Output& o, double* out) { std::ranges::copy(o.held.links(), out); }
+void write_tension(const Output& o, double* out) { std::ranges::copy(o.links, out); }
 
 }  // namespace
 
