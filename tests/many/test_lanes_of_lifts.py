@@ -13,18 +13,26 @@ from multibody_runs import struck
 from stage_scenes import on_deck
 from test_lanes import beside_and_alone, differences
 
-from seacrane import Kept, Move, Run, Scene, Stage, Until, _core, ensemble, shipped_database
+from seacrane import Curve, Kept, Move, Run, Scene, Stage, Until, _core, cases, ensemble, shipped_database
 from seacrane.scene import Gas, Stops
 
 pytestmark = [needs_lanes, pytest.mark.filterwarnings("ignore::UserWarning")]
 FINE = {"rtol": 1e-8, "dt_out": 0.1}
 
 
-def lift(*, seed: int = 1, mass: float = 60e3, EA: float = 4e8, rung: str = "elastic", **winch: Any) -> Scene:
+def lift(
+    *,
+    seed: int = 1,
+    mass: float = 60e3,
+    EA: float = 4e8,
+    rung: str = "elastic",
+    held: bool = True,
+    **winch: Any,
+) -> Scene:
     """The ordinary lift: shipped hull, held crane, a load on a winch's wire."""
     scene = Scene(name="ordinary")
     scene.add_vessel(shipped_database())
-    scene.add_crane(slew=-1.2, s1=1.4, s2=1.0)
+    scene.add_crane(slew=-1.2, s1=1.4, s2=1.0, held=held)
     winch = {"lag": 0.3, "maximum_rate": 1.0} | winch
     scene.add_hoist(mass=mass, size=(4.0, 4.0, 4.0), length=14.0, EA=EA, rung=rung, winch=winch)
     scene.add_sea(hs=1.5, tp=7.0, direction_deg=150.0, seed=seed, count=30)
@@ -98,6 +106,45 @@ def test_seeds_of_a_lift_run_side_by_side_as_alone(method: dict[str, Any]) -> No
     assert (beside.kept_apart == "").all()
     bound = 1e-5 if "rtol" in method else 1e-9
     assert np.abs(beside.hook - alone.hook).max() < bound * np.abs(alone.hook).max()
+
+
+def driven(*, seed: int) -> Scene:
+    """A quasi-static wire on a crane that drivers move in all its joints."""
+    scene = lift(seed=seed, rung="quasi-static", held=False)
+    for joint, way in (("A", 0.1), ("main_cylinder", 0.1), ("knuckle_cylinder", -0.05)):
+        curve = Curve.quintic(start_time=0.5, end_time=4.0, start=0.0, end=way)
+        scene.add_driver(joint=joint, curve=curve)
+    return scene
+
+
+def on_a_link(*, seed: int) -> Scene:
+    return cases.case2(seed=seed, hs=2.0, count=30)
+
+
+@pytest.mark.parametrize("method", [{"rtol": 1e-9}, {"integrator": "rk4", "dt": 0.01}])
+@pytest.mark.parametrize(
+    ("source", "channels"),
+    [(on_a_link, ["hook_load", "acceleration"]), (driven, ["hook_load", "driver_force", "acceleration"])],
+)
+def test_what_is_solved_for_has_outputs_and_peaks_as_alone(
+    source: Any, channels: list[str], method: dict[str, Any]
+) -> None:
+    keep: dict[str, Any] = {
+        f"{name}_{what}": f"{name}.{what}" for name in channels for what in ("max", "min")
+    }
+    keep |= {name: Kept(channel=name, interval=0.7) for name in channels}
+    over = {"seed": [1, 2, 3]}
+    alone, beside = in_both(source, over=over, keep=keep, t_end=4.2, dt_out=0.7, **method)
+    assert (beside.kept_apart == "").all()
+    bound = 1e-4 if "rtol" in method else 1e-9
+    for name in keep:
+        scale = np.abs(alone[name]).max()
+        assert np.abs(beside[name] - alone[name]).max() < bound * scale, name
+    for name in channels:
+        along = [dim for dim in beside[name].dims if "time" in dim]
+        above = beside[f"{name}_max"] - beside[name].max(along)
+        below = beside[name].min(along) - beside[f"{name}_min"]
+        assert min(above.min(), below.min()) >= 0.0 and max(above.max(), below.max()) > 0.0, name
 
 
 def stopped(start: float) -> Scene:

@@ -23,6 +23,10 @@ class LaneSystem : public System {
   virtual void freeze(std::size_t lane) = 0;
   /// Largest angular velocity (rad/s) of a body in a lane, where it was evaluated last.
   virtual double turning_rate(std::size_t lane) const = 0;
+  /// Time of the last derivative(); not a number before it.
+  virtual double evaluated_at() const = 0;
+  /// What was solved for there, see RecursiveSystem::take_solution(), side by side as the states are.
+  virtual void write_solution(std::vector<double>& out) const = 0;
 };
 
 /// One model for each lane, which differ in their seas alone.

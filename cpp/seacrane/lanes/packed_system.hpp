@@ -47,7 +47,7 @@ class PackedSystem final : public LaneSystem {
     const auto bodies = idx(model_->body_count());
     positions_.assign(idx(tree_.positions), 0.0);
     for (auto* values : {&speed_, &speed_rate_}) values->assign(idx(tree_.speeds), 0.0);
-    drive_response_.resize(tensions_.count());
+    force_response_.resize(tensions_.count());
     state_.assign(idx(work_ + 2), T(0.0));
     rate_ = state_;
     bodies_.assign(bodies + 1, BodyKinematics<T>::ground());
@@ -88,7 +88,26 @@ class PackedSystem final : public LaneSystem {
     return std::sqrt(square);
   }
 
+  double evaluated_at() const override { return evaluated_at_; }
+
+  void write_solution(std::vector<double>& out) const override {
+    out.resize(L * (6 * idx(model_->body_count()) + forces_.size() + tensions_.count()));
+    double* next = out.data();
+    const auto put = [&](const T& value) {
+      value.store(next);
+      next += L;
+    };
+    for (int b = 0; b < model_->body_count(); ++b) {
+      const Vec6<T> acceleration =
+          (tensions_.any() ? tensions_.acceleration(b) : articulated_.acceleration(b)).vector();
+      for (int i = 0; i < 6; ++i) put(acceleration[i]);
+    }
+    for (const T& force : forces_) put(force);
+    for (std::size_t line = 0; line < tensions_.count(); ++line) put(tensions_.tension(line));
+  }
+
   void derivative(double t, const double* y, double* ydot) override {
+    evaluated_at_ = t;
     read(y);
     const T *const q = state_.data(), *const u = q + speeds_;
     if (driven_.any()) read_drivers(t);
@@ -96,9 +115,9 @@ class PackedSystem final : public LaneSystem {
     LoadSum<T> sum{wrench_.data(), rate_.data() + loads_};
     evaluate_loads(t, sum);
     solve_acceleration();
-    own_.read_drives(drive_power_);
+    own_.read_forces(forces_);
     if (tensions_.any()) add_tensions(sum);
-    for (const T& power : drive_power_) sum.add_power(power);
+    for (std::size_t k = 0; k < driven_.count(); ++k) sum.add_power(driven_.power(k, forces_));
     articulated_.kinematics().position_rates(q, u, bodies_.data(), rate_.data());
     rate_[idx(work_)] = sum.power;
     rate_[idx(work_) + 1] = sum.absolute_power;
@@ -262,10 +281,10 @@ class PackedSystem final : public LaneSystem {
 
   void add_tensions(LoadSum<T>& sum) {
     tensions_.add(by_lane_, articulated_, rate_.data() + speeds_, sum,
-                  [&](std::size_t line) { own_.read_drives(drive_response_[line]); });
+                  [&](std::size_t line) { own_.read_forces(force_response_[line]); });
     for (std::size_t line = 0; line < tensions_.count(); ++line) {
-      for (std::size_t k = 0; k < drive_power_.size(); ++k) {
-        drive_power_[k] += tensions_.tension(line) * drive_response_[line][k];
+      for (std::size_t k = 0; k < forces_.size(); ++k) {
+        forces_[k] += tensions_.tension(line) * force_response_[line][k];
       }
     }
   }
@@ -368,13 +387,14 @@ class PackedSystem final : public LaneSystem {
   std::vector<TreeActuators> actuators_;  // by lane, or of all
   LoadsByLane<L> by_lane_;
   TensionsByLane<L> tensions_;
-  std::vector<T> drive_power_;
-  std::vector<std::vector<T>> drive_response_;          // to 1 N of each inertial tension
+  std::vector<T> forces_;                               // see TreeDerivative::read_forces
+  std::vector<std::vector<T>> force_response_;          // to 1 N of each inertial tension
   std::vector<double> positions_, speed_, speed_rate_;  // of the lane that leads drivers
   std::size_t leading_ = 0;                             // the first that is not frozen
   int speeds_, memory_, loads_, work_;                  // where they begin in the state of a lane
   std::vector<double> slots_;
   double curve_limit_ = std::numeric_limits<double>::infinity();
+  double evaluated_at_ = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::size_t> frozen_;
   std::vector<T> state_, rate_;
   std::vector<BodyKinematics<T>> bodies_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
@@ -31,6 +32,8 @@ class TensionsByLane {
         line.rates.assign(idx(speeds), T(0.0));
       }
     }
+    std::ranges::sort(lines_, {}, [](const Line& line) { return line.list[0]->inertial_place(line.at); });
+    without_.assign(idx(bodies) + 1, Twist<T>::zero());
     for (Line& line : lines_) line.response.assign(idx(bodies) + 1, Twist<T>::zero());
     matrix_.assign(lines_.size() * lines_.size(), T(0.0));
     zero_.assign(lines_.size(), 0.0);
@@ -42,8 +45,14 @@ class TensionsByLane {
   const double* none() const { return zero_.data(); }
 
   std::size_t count() const { return lines_.size(); }
-  /// Of a line, after add().
+  /// Of a line, after add(), in the order of the model.
   const T& tension(std::size_t line) const { return lines_[line].tension; }
+  /// Of a body, with the tensions, after add().
+  Twist<T> acceleration(int body) const {
+    Twist<T> out = without_[idx(body)];
+    for (const Line& line : lines_) out += line.tension * line.response[idx(body)];
+    return out;
+  }
 
   /// Right after a solution without the tensions, with `u_rate`: adds what they change to that, and to
   /// wrenches and power. Calls responded(line) while the tree holds the response to 1 N of each.
@@ -51,6 +60,7 @@ class TensionsByLane {
   void add(const LoadsByLane<L>& loads, ArticulatedTree<T>& tree, T* u_rate, LoadSum<T>& sum,
            Responded&& responded) {
     ask(loads, tree);
+    for (int b = 0; b < bodies_; ++b) without_[idx(b)] = tree.acceleration(b);
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       respond(lines_[i], tree);
       responded(i);
@@ -157,6 +167,7 @@ class TensionsByLane {
   std::vector<Line> lines_;
   std::vector<T> matrix_;
   std::vector<double> zero_;
+  std::vector<Twist<T>> without_;                            // accelerations without the tensions, by body
   std::vector<Vec6d> acceleration_, unit_lane_, path_lane_;  // of one lane, by body
 };
 

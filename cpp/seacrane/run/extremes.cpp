@@ -39,6 +39,7 @@ Extremes::Extremes(const Model& model, Recording& recording, const std::set<std:
       evaluations_.channels.push_back(&c);
       has_accelerations_ |= peaks == Peaks::of_accelerations;
       has_held_ |= peaks == Peaks::of_held;
+      has_lines_ |= of_lines;
     }
   }
   std::ranges::stable_partition(evaluations_.channels, [](const RecordedChannel* c) {
@@ -54,17 +55,12 @@ Extremes::Extremes(const Model& model, Recording& recording, const std::set<std:
 }
 
 Output Extremes::output(Stepper& at, double t, const double* state, const Terms& terms) {
-  return {
-      t,         state,       at.system, terms, accelerations_, coordinates_, held_.links(), held_.drivers(),
-      one_load_, rate_.data()};
+  return {t,         state,  at.system, terms, accelerations_, coordinates_, held_.links(), held_.drivers(),
+          one_load_, nullptr};
 }
 
-void Extremes::read_evaluation(Stepper& at, double from, double t, const double* y) {
-  if (evaluations_.curves.empty() || !(t > from)) return;
-  if (at.stepped.evaluated_at() != t) {
-    rate_.resize(at.stepped.size());
-    at.stepped.derivative(t, y, rate_.data());
-  }
+void Extremes::read_evaluation(Stepper& at, double t, const double* y, bool placed) {
+  if (!placed && (has_accelerations_ || has_lines_)) at.stepped.place_bodies(t, y);
   if (has_held_) held_.read_stepped(at);
   const Terms& terms = at.loads;
   stepped_.resize(idx(terms.model().layout.size));
@@ -85,9 +81,12 @@ void Extremes::read_evaluation(Stepper& at, double from, double t, const double*
 }
 
 void Extremes::take_end(Stepper& at, double from, double to, const StateAt& state_at) {
-  if (!(to > from) || states_.channels.empty()) return;
-  if (states_.window.empty()) take_state(at, from, state_at);
-  take_state(at, to, state_at);
+  if (!(to > from)) return;
+  if (!states_.channels.empty()) {
+    if (states_.window.empty()) take_state(at, from, state_at);
+    take_state(at, to, state_at);
+  }
+  if (has_evaluations() && evaluated_ == to) add(evaluations_, to, evaluation_.data());
 }
 
 void Extremes::take(Stepper& at, double from, double to, const StateAt& state_at, const double* forces) {
@@ -96,7 +95,6 @@ void Extremes::take(Stepper& at, double from, double to, const StateAt& state_at
   // What lies within a step of a given length costs an evaluation.
   if (!states_.channels.empty() && at.integrator->is_adaptive()) take_state(at, 0.5 * (from + to), state_at);
   take_end(at, from, to, state_at);
-  if (!evaluations_.curves.empty() && evaluated_ == to) add(evaluations_, to, evaluation_.data());
   if (!limits_.curves.empty() && forces != nullptr) {
     add(limits_, 0.5 * (from + to), forces);
     add(limits_, to, forces + limits_.curves.size());

@@ -46,8 +46,11 @@ class Extremes {
   /// of them whose values are kept at every step, as far as they follow from a state.
   Extremes(const Model& model, Recording& recording, const std::set<std::string>& trail);
 
-  /// Takes what the last evaluation tells right after a step, before anything else is evaluated.
-  void read_evaluation(Stepper& at, double from, double t, const double* y);
+  /// Whether anything is taken from the last evaluation of a step.
+  bool has_evaluations() const { return !evaluations_.curves.empty(); }
+  /// Takes what the last evaluation tells right after a step, before anything else is evaluated. `placed`:
+  /// what is stepped has its bodies there.
+  void read_evaluation(Stepper& at, double t, const double* y, bool placed);
   /// Takes a step, or its part, from a time to another. `forces`: of limits in its
   /// middle, then at its end; null: not known.
   void take(Stepper& at, double from, double to, const StateAt& state_at, const double* forces);
@@ -101,12 +104,12 @@ class Extremes {
   Group states_, evaluations_, limits_, ends_;
   Needs needs_of_ends_;
   Trail trail_;
-  bool needs_coordinates_ = false, has_accelerations_ = false, has_held_ = false;
+  bool needs_coordinates_ = false, has_accelerations_ = false, has_held_ = false, has_lines_ = false;
   std::vector<Vec6d> accelerations_;  // of the described bodies, at the last evaluation
   double evaluated_ = 0.0;            // time of evaluation_
   std::vector<double> evaluation_;    // of the last step
   HeldForces held_;
-  std::vector<double> row_, end_, state_, bodies_, stepped_, rate_;
+  std::vector<double> row_, end_, state_, bodies_, stepped_;
   std::vector<CoordinateRow<double>> coordinates_;
   std::vector<BodyLoad<double>> one_load_;
 };

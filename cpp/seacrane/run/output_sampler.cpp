@@ -82,9 +82,8 @@ double OutputSampler::project(Stepper& at, double t) {
 
 /// What is stepped has accelerations, tensions of quasi-static lines, and forces that hold: whether all that
 /// are asked for.
-bool OutputSampler::evaluate_stepped(Stepper& at, double t, const Needs& needs) {
-  stepped_rate_.resize(at.stepped.size());
-  at.stepped.derivative(t, state_.data(), stepped_rate_.data());
+bool OutputSampler::evaluate_stepped(Stepper& at, double t, const Needs& needs, const StepStates& states) {
+  if (!states.solve(t, state_.data())) at.stepped.place_bodies(t, state_.data());
   accelerations_ = at.bodies.accelerations();
   tensions_ = at.loads.inertial();
   if (!needs.held) return true;
@@ -94,9 +93,10 @@ bool OutputSampler::evaluate_stepped(Stepper& at, double t, const Needs& needs) 
 
 /// The described system at state_, as far as the channels need it. Where kinematics are enough, bodies_ gets
 /// no poses.
-ConstraintResidual OutputSampler::evaluate(Stepper& at, double t, const Needs& needs) {
+ConstraintResidual OutputSampler::evaluate(Stepper& at, double t, const Needs& needs,
+                                           const StepStates& states) {
   const bool moves = !needs.solution && (needs.accelerations || needs.held),
-             solves = needs.solution || (moves && !evaluate_stepped(at, t, needs));
+             solves = needs.solution || (moves && !evaluate_stepped(at, t, needs, states));
   Terms& terms = at.system.terms();
   if (at.stepped.closes_joints() && !(solves || needs.residual || needs.loads || needs.energy)) {
     moves ? at.bodies.spread() : at.bodies.place(t, state_.data());
@@ -136,10 +136,11 @@ void OutputSampler::watch_rank(Stepper& at, double t) {
   if (rank_.sees(found)) rank_.keep(t, found, at.model, bodies_.data());
 }
 
-void OutputSampler::write(Stepper& at, double t, double residual_before, double impact_loss, Recording& out) {
+void OutputSampler::write(Stepper& at, double t, double residual_before, double impact_loss,
+                          const StepStates& states, Recording& out) {
   Needs needs = out.needs();
   needs.energy = needs.energy || energy_.has_limit();
-  const ConstraintResidual residual = evaluate(at, t, needs);
+  const ConstraintResidual residual = evaluate(at, t, needs, states);
   if (!(residual.position <= kLargestResidual)) report_open_joint(at.system.terms(), t);
   if (needs.coordinates) evaluate_coordinates(at.system.terms());
   const double* const work = bodies_.data() + model_.layout.work;
@@ -153,37 +154,51 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
 }
 
 void OutputSampler::record_until(Stepper& at, double t, double impact_loss) {
-  record_until(at, t, impact_loss, state_of(at));
+  record_until(at, t, impact_loss, states_of(at));
 }
 
-OutputSampler::StateAt OutputSampler::state_of(const Stepper& at) {
-  return [&at](double now, double* y) {
-    if (now >= at.integrator->time()) {
+/// Those of the integrator, which are projected at the end of its step alone.
+StepStates OutputSampler::states_of(Stepper& at) {
+  const auto state = [&at](double t, double* y) {
+    if (t >= at.integrator->time()) {
       std::copy_n(at.integrator->state(), at.stepped.size(), y);
     } else {
-      at.integrator->interpolate(now, y);
+      at.integrator->interpolate(t, y);
     }
   };
+  return {state, [this, &at](double t, const double* y) {
+            stepped_rate_.resize(at.stepped.size());
+            at.stepped.derivative(t, y, stepped_rate_.data());
+            return true;
+          }};
 }
 
-void OutputSampler::take_step(Stepper& at, double from, double to, const StateAt& state_at,
-                              const double* forces) {
-  extremes_.take(at, from, to, state_at, forces);
-  take_ends(at, from, to, state_at);
+void OutputSampler::read_evaluation(Stepper& at) {
+  const Integrator& in = *at.integrator;
+  if (!extremes_.has_evaluations() || !(in.time() > in.previous_time())) return;
+  if (at.stepped.evaluated_at() != in.time()) states_of(at).solve(in.time(), in.state());
+  extremes_.read_evaluation(at, in.time(), in.state(), true);
+}
+
+void OutputSampler::take_step(Stepper& at, double to, const double* forces) {
+  const double from = at.integrator->previous_time();
+  const StepStates states = states_of(at);
+  extremes_.take(at, from, to, states.at, forces);
+  take_ends(at, from, to, states);
   if (next_ == times_.size()) extremes_.end_stretch();
 }
 
 /// What is not known without an evaluation as at outputs.
-void OutputSampler::take_ends(Stepper& at, double from, double to, const StateAt& state_at) {
+void OutputSampler::take_ends(Stepper& at, double from, double to, const StepStates& states) {
   if (!extremes_.has_ends() || !(to > from)) return;
   state_.resize(at.stepped.size());
   const Needs& needs = extremes_.needs_of_ends();
   const auto take = [&](double t) {
-    state_at(t, state_.data());
+    states.at(t, state_.data());
     take_residual(at);
     at.stepped.project(t, state_.data(), false);
     at.stepped.take_residual_before_projection();  // what is interpolated is no residual of the steps
-    evaluate(at, t, needs);
+    evaluate(at, t, needs, states);
     if (needs.coordinates) evaluate_coordinates(at.system.terms());
     extremes_.see_end({t, bodies_.data(), at.system, at.system.terms(), accelerations_, coordinates_,
                        held_.links(), held_.drivers(), one_load_, rate_.data() + model_.layout.loads});
@@ -192,21 +207,28 @@ void OutputSampler::take_ends(Stepper& at, double from, double to, const StateAt
   take(to);
 }
 
-void OutputSampler::take_step_beside(Stepper& at, double from, double to, const StateAt& state_at) {
-  extremes_.take_end(at, from, to, state_at);
-  take_ends(at, from, to, state_at);
+void OutputSampler::take_step_beside(Stepper& at, double from, double to, double impact_loss,
+                                     const StepStates& states) {
+  state_.resize(at.stepped.size());
+  if (extremes_.has_evaluations()) {
+    states.at(to, state_.data());
+    extremes_.read_evaluation(at, to, state_.data(), states.solve(to, state_.data()));
+  }
+  record_until(at, to, impact_loss, states);
+  extremes_.take_end(at, from, to, states.at);
+  take_ends(at, from, to, states);
   if (next_ == times_.size()) extremes_.end_stretch();
 }
 
-void OutputSampler::record_until(Stepper& at, double t, double impact_loss, const StateAt& state_at) {
+void OutputSampler::record_until(Stepper& at, double t, double impact_loss, const StepStates& states) {
   state_.resize(at.stepped.size());
   while (next_ < times_.size() && times_[next_] <= t) {
     const double now = times_[next_++];
-    state_at(now, state_.data());
+    states.at(now, state_.data());
     last_time_ = now;
     last_residual_ = project(at, now);
     largest_residual_ = 0.0;
-    write(at, now, last_residual_, impact_loss, recording_);
+    write(at, now, last_residual_, impact_loss, states, recording_);
   }
 }
 
@@ -216,7 +238,7 @@ Recording OutputSampler::snapshot(Stepper& at, double impact_loss) {
   const double t = at.integrator->time();
   state_.assign(at.integrator->state(), at.integrator->state() + at.stepped.size());
   take_residual(at);
-  write(at, t, project(at, t), impact_loss, out);
+  write(at, t, project(at, t), impact_loss, states_of(at), out);
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -16,6 +17,15 @@ namespace seacrane {
 /// m, rad: constraints that projection leaves open by more do not hold.
 constexpr double kLargestResidual = 1e-6;
 
+/// The states of what is stepped in the last step.
+struct StepStates {
+  /// Writes the state at a time.
+  Extremes::StateAt at;
+  /// Solves what is stepped at such a state, or takes over what was solved for elsewhere. Whether its bodies
+  /// are placed there.
+  std::function<bool(double t, const double* y)> solve;
+};
+
 /// Takes the outputs of a run at the times asked for: the state is interpolated, projected, evaluated as far
 /// as the channels need, and recorded.
 class OutputSampler {
@@ -30,21 +40,14 @@ class OutputSampler {
   /// What a run that continues at time t needs.
   RecordHistory history(double t, double impact_loss) const;
 
-  /// Writes the state of the stepped bodies at a time.
-  using StateAt = Extremes::StateAt;
   /// Records the outputs due until t. `impact_loss`: so far, J.
   void record_until(Stepper& at, double t, double impact_loss);
-  /// That of the integrator, which is projected at the end of its step alone.
-  static StateAt state_of(const Stepper& at);
-  /// Records outputs whose states come from elsewhere than the integrator.
-  void record_until(Stepper& at, double t, double impact_loss, const StateAt& state_at);
-  /// Least and largest values between outputs, see Extremes; call `take_step` behind record_until().
-  void read_evaluation(Stepper& at) {
-    const Integrator& in = *at.integrator;
-    extremes_.read_evaluation(at, in.previous_time(), in.time(), in.state());
-  }
-  void take_step(Stepper& at, double from, double to, const StateAt& state_at, const double* forces);
-  void take_step_beside(Stepper& at, double from, double to, const StateAt& state_at);
+  /// Least and largest values between outputs, see Extremes: call the first right after a step, and
+  /// `take_step` behind record_until(). `forces`: see there.
+  void read_evaluation(Stepper& at);
+  void take_step(Stepper& at, double to, const double* forces);
+  /// All three for a step that was taken elsewhere, beside others.
+  void take_step_beside(Stepper& at, double from, double to, double impact_loss, const StepStates& states);
   void end_stretch() { extremes_.end_stretch(); }
   void forget_stretch() { extremes_.forget_stretch(); }
   /// One row of all channels of the scene, at the present time.
@@ -61,10 +64,13 @@ class OutputSampler {
 
  private:
   double project(Stepper& at, double t);
-  ConstraintResidual evaluate(Stepper& at, double t, const Needs& needs);
-  bool evaluate_stepped(Stepper& at, double t, const Needs& needs);
-  void take_ends(Stepper& at, double from, double to, const StateAt& state_at);
-  void write(Stepper& at, double t, double residual_before, double impact_loss, Recording& out);
+  StepStates states_of(Stepper& at);
+  void record_until(Stepper& at, double t, double impact_loss, const StepStates& states);
+  ConstraintResidual evaluate(Stepper& at, double t, const Needs& needs, const StepStates& states);
+  bool evaluate_stepped(Stepper& at, double t, const Needs& needs, const StepStates& states);
+  void take_ends(Stepper& at, double from, double to, const StepStates& states);
+  void write(Stepper& at, double t, double residual_before, double impact_loss, const StepStates& states,
+             Recording& out);
   void evaluate_coordinates(const Terms& terms);
   void watch_rank(Stepper& at, double t);
 

@@ -8,6 +8,7 @@
 
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/dynamics/recursive/driven_stroke.hpp"
+#include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/integrate/registry.hpp"
 #include "seacrane/model/difference.hpp"
 
@@ -135,6 +136,7 @@ SideBySide::SideBySide(std::vector<Simulation*> runs, const LaneModule& module)
       all_kinks_(kinks_of(runs_)),
       kinks_(runs_.front()->options().scaled_tolerance),
       all_(states_ * lanes_),
+      rate_(all_),
       one_(states_) {
   system_->set_inputs(runs_.front()->inputs());
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
@@ -333,25 +335,42 @@ void SideBySide::record(double smooth_until) {
   known_ = 0;
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
     if (has_left(lane)) continue;
-    runs_[lane]->record_beside(integrator_->previous_time(), integrator_->time(), smooth_until,
-                               [&](double t, double* y) { take_lane(state_at(t).data(), lane, y); });
+    const StepStates states{[&](double t, double* y) { take_lane(instant(t).state.data(), lane, y); },
+                            [&](double t, const double* y) {
+                              return runs_[lane]->take_solution(t, y, {solution_at(t).data(), lane, lanes_});
+                            }};
+    runs_[lane]->record_beside(integrator_->previous_time(), integrator_->time(), smooth_until, states);
   }
 }
 
 /// The state of all lanes at a time of the last step. Other lanes with this output find it made.
-const std::vector<double>& SideBySide::state_at(double t) {
+SideBySide::Instant& SideBySide::instant(double t) {
   for (std::size_t i = 0; i < known_; ++i) {
-    if (instants_[i].time == t) return instants_[i].state;
+    if (instants_[i].time == t) return instants_[i];
   }
-  if (known_ == instants_.size()) instants_.push_back({t, std::vector<double>(all_.size())});
+  if (known_ == instants_.size()) instants_.push_back({t, std::vector<double>(all_.size()), {}, false});
   Instant& out = instants_[known_++];
   out.time = t;
+  out.solved = false;
   if (t >= integrator_->time()) {
     std::copy_n(integrator_->state(), all_.size(), out.state.data());
   } else {
     integrator_->interpolate(t, out.state.data());
   }
-  return out.state;
+  return out;
+}
+
+/// What is solved for there: by the step itself, or anew.
+const std::vector<double>& SideBySide::solution_at(double t) {
+  Instant& at = instant(t);
+  if (!at.solved && system_->evaluated_at() != t) {
+    std::ranges::copy(at.state, all_.begin());
+    system_->project(t, all_.data(), false);
+    system_->derivative(t, all_.data(), rate_.data());
+  }
+  if (!at.solved) system_->write_solution(at.solution);
+  at.solved = true;
+  return at.solution;
 }
 
 void SideBySide::take_lane(const double* all, std::size_t lane, double* y) const {

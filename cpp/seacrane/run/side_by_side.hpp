@@ -36,7 +36,9 @@ class SideBySide {
  private:
   struct Instant {
     double time;
-    std::vector<double> state;  // of all lanes
+    std::vector<double> state;     // of all lanes
+    std::vector<double> solution;  // likewise, see LaneSystem::write_solution()
+    bool solved = false;
   };
   /// The part of one lane in the last step.
   class LaneStep : public LastStep {
@@ -67,7 +69,8 @@ class SideBySide {
   bool has_left(std::size_t lane) const { return gone_[lane]; }
   void reset();
   void record(double smooth_until);
-  const std::vector<double>& state_at(double t);
+  Instant& instant(double t);
+  const std::vector<double>& solution_at(double t);
   void take_lane(const double* all, std::size_t lane, double* y) const;
   void hand_over(std::size_t lane, double t, const double* all);
   Counters counters() const;
@@ -86,9 +89,9 @@ class SideBySide {
   StallWatch stall_;
   Counters before_, counted_;  // of steps before the last beginning; handed over so far
   double wall_seconds_ = 0.0;
-  std::vector<Instant> instants_;  // outputs in the last step
-  std::size_t known_ = 0;          // of these
-  std::vector<double> all_, one_;  // scratch: all lanes, one of them
+  std::vector<Instant> instants_;         // outputs in the last step
+  std::size_t known_ = 0;                 // of these
+  std::vector<double> all_, rate_, one_;  // scratch: all lanes, one of them
 };
 
 }  // namespace seacrane

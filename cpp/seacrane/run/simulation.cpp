@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/dynamics/recursive/recursive.hpp"
 
 namespace seacrane {
 namespace {
@@ -252,8 +253,7 @@ void Simulation::finish_step(double now, double smooth_until) {
 void Simulation::take_step(double to) {
   const bool is_whole = to >= time();
   if (contacts_ && is_whole) contacts_->read_forces(stepper(), forces_.data());
-  outputs_.take_step(stepper(), integrator().previous_time(), to, OutputSampler::state_of(stepper()),
-                     contacts_ && is_whole ? forces_.data() : nullptr);
+  outputs_.take_step(stepper(), to, contacts_ && is_whole ? forces_.data() : nullptr);
   if (steps_over_kinks()) outputs_.forget_stretch();
 }
 
@@ -305,11 +305,14 @@ State Simulation::state() {
   return out;
 }
 
-void Simulation::record_beside(double from, double t, double curve_limit,
-                               const OutputSampler::StateAt& state_at) {
+void Simulation::record_beside(double from, double t, double curve_limit, const StepStates& states) {
   set_curve_limit(stepper(), curve_limit);
-  outputs_.record_until(stepper(), t, energy_lost(), state_at);
-  outputs_.take_step_beside(stepper(), from, t, state_at);
+  outputs_.take_step_beside(stepper(), from, t, energy_lost(), states);
+}
+
+bool Simulation::take_solution(double t, const double* y, const LaneOf& solution) {
+  stepper().bodies.recursive()->take_solution(t, y, solution);
+  return false;
 }
 
 void Simulation::go_on_from(double t, const double* y, const Counters& taken, double wall_seconds) {

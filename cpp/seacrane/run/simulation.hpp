@@ -20,6 +20,8 @@
 
 namespace seacrane {
 
+struct LaneOf;
+
 /// The kinks of curves over time at which steps end.
 class KinkStops {
  public:
@@ -96,7 +98,9 @@ class Simulation {
   const double* stepped_state() const { return integrator().state(); }
   /// Records the outputs due until t and the step from `from`, at states that were stepped elsewhere;
   /// `curve_limit`: see Curve::at.
-  void record_beside(double from, double t, double curve_limit, const OutputSampler::StateAt& state_at);
+  void record_beside(double from, double t, double curve_limit, const StepStates& states);
+  /// See RecursiveSystem::take_solution(). False: it places no bodies.
+  bool take_solution(double t, const double* y, const LaneOf& solution);
   /// The next step begins behind a kink.
   void end_stretch() { outputs_.end_stretch(); }
   /// Takes over what was stepped elsewhere until t.

@@ -30,7 +30,9 @@ SteppedBodies::SteppedBodies(const std::string& formulation, std::shared_ptr<con
     acceleration_.assign(idx(full.body_count()) + 1, Vec6d::Zero());
   }
   if (formulation == "recursive") {
-    own_ = std::make_unique<RecursiveSystem>(terms_);
+    auto own = std::make_unique<RecursiveSystem>(terms_);
+    recursive_ = own.get();
+    own_ = std::move(own);
     maximal_ = nullptr;
   } else if (full.merged) {
     auto own = std::make_unique<MaximalSystem>(terms_);

@@ -10,6 +10,8 @@
 
 namespace seacrane {
 
+class RecursiveSystem;
+
 /// The bodies of a model as they are described, which is what is recorded, and as they are stepped: merged
 /// where they move as one, in one of the formulations; with the way there and back.
 class SteppedBodies {
@@ -26,6 +28,8 @@ class SteppedBodies {
   Formulation& formulation() { return *stepped_; }
   /// The formulation where it has maximal coordinates; null where it has those of the tree.
   MaximalSystem* maximal() { return maximal_; }
+  /// The formulation where it has the coordinates of the tree; null where it has maximal ones.
+  RecursiveSystem* recursive() { return recursive_; }
   /// The terms that are stepped: inputs, the limit of curves and histories are set there.
   Terms& terms() { return *terms_; }
   /// Evaluations that a dense solver took.
@@ -59,6 +63,7 @@ class SteppedBodies {
   std::optional<MergedBodies> map_;
   std::unique_ptr<Formulation> own_;  // null: the described bodies are stepped
   Formulation* stepped_;
+  RecursiveSystem* recursive_ = nullptr;
   MaximalSystem* maximal_;
   std::vector<double> merged_;
   std::vector<Vec6d> acceleration_;

@@ -99,6 +99,9 @@ class ArticulatedTree {
   /// Accelerations of the bodies of some clusters, whole trees and parents first, from rest under forces on
   /// two bodies; others keep what they have.
   void respond(const std::vector<std::size_t>& clusters, const Push& first, const Push& second, T* u_rate);
+  /// The force along the direction that the joint of a cluster holds, away from the parent, at the last
+  /// solve(): N.
+  const T& held(std::size_t cluster) const { return joints_[cluster].held.force; }
   /// At the last solve(); of the ground too.
   const Twist<T>& acceleration(int body) const { return bodies_[idx(body)].acceleration; }
   /// What drives the speed of a driven cluster, beside the torque on it, at the last solve(): N or N m.
@@ -155,6 +158,7 @@ class ArticulatedTree {
     Wrench<T> on_child, on_parent;
     Twist<T> response;
     T stiffness;  // 1 / (h^T I^-1 h)
+    T force;      // at the last solve()
   };
 
   struct Root {
@@ -194,7 +198,7 @@ class ArticulatedTree {
   void factor_held(const Cluster& c, Joint& joint);
   void gather_held(const Cluster& c, Joint& joint, bool moving);
   template <class Branch>
-  void spread_held(const Cluster& c, const Joint& joint, bool moving, T* u_rate);
+  void spread_held(const Cluster& c, Joint& joint, bool moving, T* u_rate);
 
   /// Acceleration of a held child under a wrench alone.
   Twist<T> response(const Body& child, const Joint& joint, const Wrench<T>& wrench) const;

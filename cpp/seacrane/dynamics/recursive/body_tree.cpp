@@ -462,6 +462,14 @@ std::vector<double> BodyTree::scales(double length, double angle) const {
 
 BodyTree build_tree(const Model& model) { return TreeBuilder(model).run(); }
 
+std::vector<std::size_t> links_of(const BodyTree& tree) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < tree.clusters.size(); ++i) {
+    if (with_held(tree.clusters[i], []<class Branch>() {})) out.push_back(i);
+  }
+  return out;
+}
+
 std::vector<int> roots_of(const BodyTree& tree, int bodies) {
   std::vector<int> out(idx(bodies) + 1, -1);
   int count = 0;

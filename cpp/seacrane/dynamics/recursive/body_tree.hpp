@@ -73,6 +73,9 @@ BodyTree build_tree(const Model& model);
 /// one.
 std::vector<int> roots_of(const BodyTree& tree, int bodies);
 
+/// The clusters whose joints hold one direction.
+std::vector<std::size_t> links_of(const BodyTree& tree);
+
 /// Calls f(place in the positions) for every quaternion.
 template <class F>
 void for_each_quaternion(const BodyTree& tree, F&& f) {

@@ -81,11 +81,6 @@ void DrivenSpeeds::follow(double t, double curve_limit, double* q, double* u, do
   }
 }
 
-void DrivenSpeeds::read(const ArticulatedTree<double>& tree, std::vector<double>& drives) const {
-  drives.clear();
-  for (const Coordinate& one : coordinates_) drives.push_back(tree.drive(one.place));
-}
-
 double DrivenSpeeds::force(int element, const std::vector<double>& drives, double t, double curve_limit,
                            const double* q) const {
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {

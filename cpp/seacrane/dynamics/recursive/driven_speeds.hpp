@@ -75,15 +75,21 @@ class DrivenSpeeds {
   /// How speeds jump at t, from the left limit to that of `curve_limit`, where u are those before; elsewhere
   /// zero. Whether any does.
   bool jump(double t, double curve_limit, const double* q, const double* u, double* jump);
-  /// What drives each coordinate by the tree's last solve(), along the tree's own.
-  void read(const ArticulatedTree<double>& tree, std::vector<double>& drives) const;
+  /// How many drivers there are.
+  std::size_t count() const { return coordinates_.size() + 6 * bodies_.size(); }
+  /// Appends for every driver, by the tree's last solve(): of a coordinate the load along the tree's own, of
+  /// a body the power.
+  template <class T>
+  void read(const ArticulatedTree<T>& tree, std::vector<T>& drives) const;
   /// From these the load of a driver along its own coordinate, near positions q; not a number: of a driver of
   /// none of them.
   double force(int element, const std::vector<double>& drives, double t, double curve_limit,
                const double* q) const;
-  /// Calls f(power) for every driver, by the tree's last solve() at the last follow().
-  template <class T, class F>
-  void for_each_power(const ArticulatedTree<T>& tree, F&& f) const;
+  /// From these the power of a driver, at the last follow().
+  template <class T>
+  T power(std::size_t driver, const std::vector<T>& drives) const {
+    return driver < coordinates_.size() ? T(coordinates_[driver].u) * drives[driver] : drives[driver];
+  }
 
  private:
   struct Coordinate {
@@ -109,12 +115,14 @@ class DrivenSpeeds {
   std::vector<Body> bodies_;
 };
 
-template <class T, class F>
-void DrivenSpeeds::for_each_power(const ArticulatedTree<T>& tree, F&& f) const {
-  for (const Coordinate& one : coordinates_) f(T(one.u) * tree.drive(one.place));
+template <class T>
+void DrivenSpeeds::read(const ArticulatedTree<T>& tree, std::vector<T>& drives) const {
+  for (const Coordinate& one : coordinates_) drives.push_back(tree.drive(one.place));
   for (const Body& one : bodies_) {
     const Wrench<T> wrench = tree.drive_wrench(one.place);
-    for (const Twist<double>& part : one.parts) f(dot(Twist<T>(part.vector().cast<T>()), wrench));
+    for (const Twist<double>& part : one.parts) {
+      drives.push_back(dot(Twist<T>(part.vector().cast<T>()), wrench));
+    }
   }
 }
 

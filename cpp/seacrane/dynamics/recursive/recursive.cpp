@@ -9,7 +9,6 @@
 #include "seacrane/dynamics/projection.hpp"
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/dynamics/state_names.hpp"
-#include "seacrane/elements/joints/distance.hpp"
 
 namespace seacrane {
 
@@ -52,7 +51,6 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
     throw std::invalid_argument("formulation 'recursive': " + tree_.refused +
                                 "; choose formulation 'redundant'");
   }
-  find_hung();
   const auto bodies = idx(model_.body_count());
   mass_.assign(bodies, Mat6d::Zero());
   for (std::size_t b = 0; b < bodies; ++b) mass_[b].diagonal().head<3>().setConstant(model_.bodies[b].mass);
@@ -65,7 +63,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   speed_rate_.assign(idx(tree_.speeds), 0.0);
   position_rate_.assign(idx(tree_.positions), 0.0);
   inertial_speed_rates_ = MatXd::Zero(tree_.speeds, tensions_.count());
-  drive_response_.resize(static_cast<std::size_t>(tensions_.count()));
+  force_response_.resize(static_cast<std::size_t>(tensions_.count()));
   layout_.speeds = tree_.positions;
   layout_.memory = layout_.speeds + tree_.speeds;
   layout_.work = layout_.memory + model_.layout.work - model_.layout.memory;
@@ -159,11 +157,14 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
   factor(t, y);
   evaluate_wrenches(t, y, ydot, actuators_on_tree);
   solve_acceleration(ydot + layout_.speeds);
-  own_.read_drives(drive_power_);
+  own_.read_forces(forces_);
   if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
   if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
-  for (const double power : drive_power_) terms_->add_driver_power(power);
-  keep_solution();
+  for (std::size_t k = 0; k < driven_.count(); ++k) terms_->add_driver_power(driven_.power(k, forces_));
+  if (loops_.rows() > 0) {
+    kept_acceleration_ = acceleration_;
+    kept_multipliers_ = loops_.multipliers();
+  }
   articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(), ydot);
   ydot[layout_.work] = terms_->power().sum;
   ydot[layout_.work + 1] = terms_->power().absolute;
@@ -238,17 +239,17 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
     for_each_moved(i, [&](int first, int count) {
       inertial_speed_rates_.col(i).segment(first, count) = rates.segment(first, count);
     });
-    own_.read_drives(drive_response_[idx(i)]);
+    own_.read_forces(force_response_[idx(i)]);
   }
   const VecXd& tension = tensions_.finish(*terms_);
   if (loops_.rows() > 0) {  // whose multipliers the responses have overwritten
     solve_acceleration(u_rate);
-    own_.read_drives(drive_power_);
+    own_.read_forces(forces_);
     return;
   }
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
-    const std::vector<double>& response = drive_response_[idx(i)];
-    for (std::size_t k = 0; k < drive_power_.size(); ++k) drive_power_[k] += tension[i] * response[k];
+    const std::vector<double>& response = force_response_[idx(i)];
+    for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] += tension[i] * response[k];
   }
   tensions_.add_loads(tension, load_.data());
   tensions_.add_accelerations(acceleration_);
@@ -260,52 +261,31 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
   }
 }
 
-void RecursiveSystem::find_hung() {
-  hung_.resize(model_.elements.size());
-  for (std::size_t i = 0; i < tree_.clusters.size(); ++i) {
-    const Cluster& link = tree_.clusters[i];
-    if (link.element < 0 || model_.elements[idx(link.element)].kind != Distance::kind) continue;
-    std::vector<int>& hung = hung_[idx(link.element)];
-    hung.push_back(link.body);
-    for (std::size_t k = i + 1; k < tree_.clusters.size(); ++k) {  // parents first
-      const Cluster& c = tree_.clusters[k];
-      if (std::ranges::find(hung, c.parent) == hung.end()) continue;
-      for (const Member& m : c.members) hung.push_back(m.body);
-    }
-  }
-}
-
-void RecursiveSystem::keep_solution() {
-  if (driven_.any() && !tensions_.any()) driven_.read(articulated_, drives_);
-  if (loops_.rows() == 0) return;
-  kept_load_ = load_;
-  kept_acceleration_ = acceleration_;
-  kept_multipliers_ = loops_.multipliers();
-}
-
-/// Of a branch by what it must add to the loads of all that hangs on it, for these to move as they do; of a
-/// cut joint and of a driver in rows by its multiplier.
+/// Of a branch as the tree holds it; of a cut joint and of a driver in rows its multiplier.
 double RecursiveSystem::tension(int element) const {
   const ElementModel& e = model_.elements[idx(element)];
-  const std::vector<int>& hung = hung_[idx(element)];
-  const int row = hung.empty() ? loops_.row_of(element) : -1;
+  if (const auto link = own_.link(element)) {
+    return e.unique_reaction ? forces_[*link] : std::numeric_limits<double>::quiet_NaN();
+  }
+  const int row = loops_.row_of(element);
   if (row >= 0 && (e.driver || e.unique_reaction)) return (e.driver ? 1.0 : -1.0) * kept_multipliers_[row];
-  if (e.driver && !drives_.empty()) {
-    return driven_.force(element, drives_, evaluated_at_, terms_->curve_limit(), followed_.data());
-  }
-  if (hung.empty() || !e.unique_reaction) return std::numeric_limits<double>::quiet_NaN();
-  const bool has_loops = loops_.rows() > 0;
-  const std::vector<Vec6d>&acceleration = has_loops ? kept_acceleration_ : acceleration_,
-        &load = has_loops ? kept_load_ : load_;
-  Vec3d force = Vec3d::Zero();
-  for (const int b : hung) {
-    force += mass_[idx(b)].topRows<3>() * acceleration[idx(b)] - load[idx(b)].head<3>();
-  }
-  const auto& bodies = terms_->bodies();
-  const BodyKinematics<double>&first = bodies[idx(e.first)], &second = bodies[idx(e.second)];
-  const Vec3d along =
-      second.position + second.rotation * e.second_point - first.position - first.rotation * e.first_point;
-  return (hung.front() == e.second ? -1.0 : 1.0) * force.dot(along) / along.norm();
+  return driven_.force(element, forces_, evaluated_at_, terms_->curve_limit(), followed_.data());
+}
+
+void RecursiveSystem::take_solution(double t, const double* y, const LaneOf& solution) {
+  evaluated_at_ = t;
+  followed(t, y);
+  const double* next = solution.values + solution.lane;
+  const auto take = [&](double& value) {
+    value = *next;
+    next += solution.lanes;
+  };
+  for (int b = 0; b < model_.body_count(); ++b) std::ranges::for_each(acceleration_[idx(b)], take);
+  forces_.resize(own_.force_count());
+  std::ranges::for_each(forces_, take);
+  inertial_.resize(tensions_.count());
+  std::ranges::for_each(inertial_, take);
+  terms_->set_inertial(inertial_);
 }
 
 bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
@@ -317,7 +297,7 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   if (!loops_.regular()) return false;
   if (!tree_.coupled.empty()) terms_->evaluate_couplings(direction_.data());
   jacobian_->evaluate({*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(),
-                       acceleration_.data(), blocks_.data(), driven_, drive_power_},
+                       acceleration_.data(), blocks_.data(), driven_, forces_},
                       t, y, jacobian_rate_.data(), out);
   return true;
 }

@@ -16,6 +16,12 @@
 
 namespace seacrane {
 
+/// One of several beside each other: its number k is values[k x lanes + lane].
+struct LaneOf {
+  const double* values;
+  std::size_t lane, lanes;
+};
+
 /// The recursive formulation: positions and speeds of a tree of clusters, O(n); constraint rows only where
 /// the tree leaves a loop or a driver. Loads come from `terms`, whose kinematics this one sets. State:
 /// positions, speeds, memory, work, |work|. Coordinates that drivers prescribe stand in it too, but what they
@@ -46,6 +52,10 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   }
   double evaluated_at() const override { return evaluated_at_; }
   double tension(int element) const override;
+  /// Takes over what was solved for elsewhere at a state, in place of derivative(), but for kinematics and
+  /// rates: accelerations by body, forces (TreeDerivative::read_forces), inertial tensions. Not of a scene
+  /// with rows.
+  void take_solution(double t, const double* y, const LaneOf& solution);
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
   void load_direction(const std::vector<Vec6d>& load, double* power, double* rates) override;
   Terms& terms() override { return *terms_; }
@@ -83,8 +93,6 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void add_inertial_tensions(double t, const double* memory, double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
-  void find_hung();
-  void keep_solution();
 
   std::shared_ptr<Terms> terms_;
   const Model& model_;
@@ -95,11 +103,10 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   LoopClosure loops_;
   InertialTensions tensions_;
   TreeActuators actuators_;
-  std::vector<std::vector<int>> hung_;  // by element: of a link that is a branch, all bodies that hang on it
   // Of the last derivative(), where projections overwrite it.
-  std::vector<Vec6d> kept_load_, kept_acceleration_;
+  std::vector<Vec6d> kept_acceleration_;
   VecXd kept_multipliers_;
-  std::vector<double> drives_;
+  std::vector<double> forces_;  // see TreeDerivative::read_forces
   Layout layout_;
   std::vector<Mat6d> mass_;
   std::vector<Vec6d> load_, acceleration_, twist_, direction_;
@@ -108,11 +115,11 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<RowBlock<double>> blocks_;
   std::vector<double> followed_;  // a state with what drivers prescribe
   std::vector<double> speed_rate_, position_rate_;
-  std::vector<double> drive_power_;  // by driver of the tree
   // For 1 N of each inertial tension:
-  std::vector<std::vector<double>> drive_response_;
+  std::vector<std::vector<double>> force_response_;
   MatXd inertial_speed_rates_;
   std::vector<std::vector<std::size_t>> near_;  // clusters that move; empty: all may
+  VecXd inertial_;                              // tensions that were solved for elsewhere
   VecXd residual_, loop_bias_;
   std::optional<RecursiveJacobian> jacobian_;
   std::vector<double> jacobian_rate_;

@@ -333,12 +333,14 @@ void RecursiveJacobian::solve(double* column, double power, double absolute_powe
 }
 
 /// By how the drives' forces change at the last respond().
-void RecursiveJacobian::add_drive_power(double& power, double& absolute_power) const {
-  auto before = at_->drive_power.begin();
-  at_->driven.for_each_power(at_->tree, [&](double change) {
+void RecursiveJacobian::add_drive_power(double& power, double& absolute_power) {
+  drive_change_.clear();
+  at_->driven.read(at_->tree, drive_change_);
+  for (std::size_t k = 0; k < drive_change_.size(); ++k) {
+    const double change = at_->driven.power(k, drive_change_);
     power += change;
-    absolute_power += sign(*before++) * change;
-  });
+    absolute_power += sign(at_->driven.power(k, at_->forces)) * change;
+  }
 }
 
 double RecursiveJacobian::along_row(int row, const Vec6d* acceleration) const {

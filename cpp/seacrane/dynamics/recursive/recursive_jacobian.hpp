@@ -21,7 +21,7 @@ struct TreeEvaluation {
   const Vec6d* acceleration;       // by body
   const RowBlock<double>* blocks;  // by element
   const DrivenSpeeds& driven;
-  const std::vector<double>& drive_power;  // by driver of the tree
+  const std::vector<double>& forces;  // see TreeDerivative::read_forces
 };
 
 /// Exact Jacobian of dy/dt of the recursive formulation, y = (positions q, speeds u, memory, work). With the
@@ -65,7 +65,7 @@ class RecursiveJacobian {
   void write_column(int k, double* column);
   void spread_torques(int k);
   void turn_rows(int k);
-  void add_drive_power(double& power, double& absolute_power) const;
+  void add_drive_power(double& power, double& absolute_power);
   void solve(double* column, double power, double absolute_power);
   void respond(double* u_rate);
   void add_inertial_slopes(int direction);
@@ -106,8 +106,9 @@ class RecursiveJacobian {
   std::vector<Vec6d> load_, response_, given_load_;
   std::vector<Vec6d> coupled_;  // loads of masses between bodies
   VecXd right_, lambda_, given_right_;
-  VecXd own_;       // changes of inertial tensions with accelerations held
-  MatXd to_fluid_;  // responses to unit loads of the memory
+  std::vector<double> drive_change_;  // by driver of the tree
+  VecXd own_;                         // changes of inertial tensions with accelerations held
+  MatXd to_fluid_;                    // responses to unit loads of the memory
 };
 
 }  // namespace seacrane

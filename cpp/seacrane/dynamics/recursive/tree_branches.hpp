@@ -280,7 +280,7 @@ void ArticulatedTree<T>::solve(const Places& places, bool moving, T* u_rate, con
   ground.acceleration = Twist<T>::zero();
   for (const std::size_t i : places) {
     const Cluster& c = clusters()[i];
-    const Joint& joint = joints_[i];
+    Joint& joint = joints_[i];
     if (joint.root.leads) solve(coupled_[idx(joint.root.coupled)]);
     if (with_held(c, [&]<class Branch>() { spread_held<Branch>(c, joint, moving, u_rate); })) continue;
     with_speeds(c, [&]<int n>() { spread<n>(c, joint, moving, u_rate); });
@@ -372,15 +372,15 @@ void ArticulatedTree<T>::spread(const Cluster& c, const Joint& joint, bool movin
 
 template <class T>
 template <class Branch>
-void ArticulatedTree<T>::spread_held(const Cluster& c, const Joint& joint, bool moving, T* u_rate) {
-  const Held& held = joint.held;
+void ArticulatedTree<T>::spread_held(const Cluster& c, Joint& joint, bool moving, T* u_rate) {
+  Held& held = joint.held;
   const auto& over = kinematics_.over_parent(c.body);
   Twist<T> carried = bodies_[idx(c.parent)].acceleration.shifted_to(over.reach);
   if (moving) carried += over.bias;
   const Twist<T> yield(joint.torque);
-  const T force = held.stiffness * (dot(carried, held.on_child) + dot(yield, held.on_child));
+  held.force = held.stiffness * (dot(carried, held.on_child) + dot(yield, held.on_child));
   Twist<T>& out = bodies_[idx(c.body)].acceleration;
-  out = force * held.response - yield;
+  out = held.force * held.response - yield;
   Branch::template speed_rates<T>(c.joint, kinematics_.columns(c.members[0]), out - carried, u_rate + c.u);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -65,7 +66,8 @@ class TreeDerivative {
         bias_(idx(model.body_count()), Wrench<T>::zero()),
         torque_(idx(tree_.speeds), T(0)),
         driven_rate_(torque_),
-        jump_(idx(tree_.speeds), 0.0) {}
+        jump_(idx(tree_.speeds), 0.0),
+        links_(links_of(tree_)) {}
   TreeDerivative(const TreeDerivative&) = delete;  // its parts look at one another
   TreeDerivative& operator=(const TreeDerivative&) = delete;
 
@@ -120,10 +122,20 @@ class TreeDerivative {
   /// How driven speeds jump, see DrivenSpeeds.
   double* jump() { return jump_.data(); }
 
-  /// The powers of the drivers at the last solution.
-  void read_drives(std::vector<T>& power) const {
-    power.clear();
-    driven_.for_each_power(articulated_, [&](const T& one) { power.push_back(one); });
+  /// At the last solution: what DrivenSpeeds reads, then the tensions of the links that are branches, N. They
+  /// are linear in the loads.
+  void read_forces(std::vector<T>& forces) const {
+    forces.clear();
+    driven_.read(articulated_, forces);
+    for (const std::size_t link : links_) forces.push_back(-articulated_.held(link));
+  }
+  std::size_t force_count() const { return driven_.count() + links_.size(); }
+  /// The place among these of the tension of an element that is such a link.
+  std::optional<std::size_t> link(int element) const {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (tree_.clusters[links_[i]].element == element) return driven_.count() + i;
+    }
+    return std::nullopt;
   }
 
  private:
@@ -149,6 +161,7 @@ class TreeDerivative {
   std::vector<Wrench<T>> bias_;  // by body
   std::vector<T> torque_, driven_rate_;
   std::vector<double> jump_;
+  std::vector<std::size_t> links_;  // clusters
 };
 
 }  // namespace seacrane
