@@ -84,7 +84,7 @@ double OutputSampler::project(Stepper& at, double t) {
 /// are asked for.
 bool OutputSampler::evaluate_stepped(Stepper& at, double t, const Needs& needs, const StepStates& states) {
   if (!states.solve(t, state_.data())) at.stepped.place_bodies(t, state_.data());
-  accelerations_ = at.bodies.accelerations();
+  if (needs.accelerations) accelerations_ = at.bodies.accelerations();
   tensions_ = at.loads.inertial();
   if (!needs.held) return true;
   held_.read_stepped(at);

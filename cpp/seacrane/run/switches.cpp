@@ -91,18 +91,11 @@ bool Switches::any(const Model& model) {
   return found;
 }
 
-/// What loads look at; of a tree without loops from its own kinematics.
+/// What loads look at.
 LoadInput<double> Switches::read(Stepper& at, double t, const double* y) {
-  if (at.stepped.closes_joints()) {
-    const StateLayout& layout = at.model->layout;
-    at.bodies.place(t, y);
-    return at.system.terms().load_input(t, y + at.stepped.size() - idx(layout.size - layout.memory));
-  }
-  bodies_.resize(at.system.size());
-  at.write_bodies(t, y, bodies_.data());
-  Terms& terms = at.system.terms();
-  terms.read(t, bodies_.data());
-  return terms.load_input(t, bodies_.data() + at.model->layout.memory);
+  at.stepped.place_bodies(t, y);
+  const StateLayout& layout = at.loads.model().layout;
+  return at.loads.load_input(t, y + at.stepped.size() - idx(layout.size - layout.memory));
 }
 
 /// Takes the sides at the end of a step, and what is seen from there.
@@ -158,13 +151,14 @@ void Switches::begin_from(Stepper& at, double t, const double* y, LastStep* step
 /// Of a stepper. Another set of limits may leave others.
 void Switches::list_loads(const Stepper& at) {
   std::size_t count = 0;
-  for_each_switch(*at.model, [&](const LoadList&, std::size_t) { ++count; });
+  const Model& model = at.loads.model();
+  for_each_switch(model, [&](const LoadList&, std::size_t) { ++count; });
   if (watched_.size() != count) {
     is_new_ = true;
     watched_.assign(count, Watched{});
   }
   count = 0;
-  for_each_switch(*at.model, [&](const LoadList& list, std::size_t i) {
+  for_each_switch(model, [&](const LoadList& list, std::size_t i) {
     watched_[count].list = &list;
     watched_[count++].place = i;
   });

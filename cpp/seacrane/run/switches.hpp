@@ -138,8 +138,7 @@ class Switches {
   bool ends_before_ = false;                              // of a method that cannot restart where it touches
   bool leads_across_ = false;                             // the step under way, a jump: it is not taken again
   std::vector<LimitReached> reached_;
-  std::vector<double> bodies_, state_;
-  std::vector<double> rate_, late_rate_, end_rate_, scale_;  // of what is stepped
+  std::vector<double> state_, rate_, late_rate_, end_rate_, scale_;  // of what is stepped
 };
 
 }  // namespace seacrane
