@@ -142,6 +142,16 @@ struct Pack {
   }
 };
 
+template <int L, class F>
+Eigen::Matrix<Pack<L>, 3, 1> lane_by_lane(const Pack<L>& value, F&& f) {
+  Eigen::Matrix<Pack<L>, 3, 1> out;
+  for (int lane = 0; lane < L; ++lane) {
+    const Eigen::Vector3d one = f(value[lane]);
+    for (int i = 0; i < 3; ++i) out[i].set(lane, one[i]);
+  }
+  return out;
+}
+
 /// See select.hpp: what a formula does not hold for becomes NaN in its lane, and the others go on.
 template <int L, class Fail>
 Pack<L> valid_where(const Mask<L>& holds, const Pack<L>& value, Fail&& /*fail*/) {

@@ -18,6 +18,12 @@ const T& valid_where(bool holds, const T& value, Fail&& fail) {
   return value;
 }
 
+/// f of a number, which gives three; of a pack lane by lane: what looks up tables.
+template <class T, class F>
+auto lane_by_lane(const T& value, F&& f) {
+  return f(value);
+}
+
 template <class T>
 T clamped(const T& value, const T& low, const T& high) {
   return select(value < low, low, select(value > high, high, value));

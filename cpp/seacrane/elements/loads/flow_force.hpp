@@ -51,6 +51,7 @@ struct FlowForceDescription {
 /// Coefficients are periodic cubic splines of the angle.
 struct FlowForce {
   static constexpr const char* kind = "flow force";
+  static constexpr bool packs = true;
   using Description = FlowForceDescription;
 
   Description d;
@@ -152,17 +153,16 @@ struct FlowForce {
     const T u = T(d.speed.at(in.time, in.curve_limit).value);
     const T along = T(cosine) * u - velocity.x(), across = T(sine) * u - velocity.y();
     const T square = along * along + across * across;
-    if (!(square > T(0))) return;  // no direction, and no load
     const Vec3<T> ahead = k.rotation * bow.cast<T>();
-    const T flat = sqrt(ahead.x() * ahead.x() + ahead.y() * ahead.y());
-    if (!(flat > T(0))) return;  // the bow points straight up or down: the axes are not defined
-    const T c = ahead.x() / flat, s = ahead.y() / flat;
-    const SplinePlace<T> p = knots.place<T>(atan2(c * across - s * along, c * along + s * across));
-    Vec3<T> f;  // in axes that follow yaw; z holds the moment
-    for (int n = 0; n < 3; ++n) {
-      f[n] = square * (p.left * T(load[p.i][n]) + p.right * T(load[p.j][n]) +
-                       p.bend_left * T(curvature[p.i][n]) + p.bend_right * T(curvature[p.j][n]));
-    }
+    const T flat = ahead.x() * ahead.x() + ahead.y() * ahead.y();
+    // No direction, or the bow points straight up or down and the axes are not defined: no load.
+    const auto blows = [&](const T& yes, const T& no) {
+      return select(square > T(0), select(flat > T(0), yes, no), no);
+    };
+    const T length = sqrt(blows(flat, T(1))), c = ahead.x() / length, s = ahead.y() / length;
+    const T angle = atan2(blows(c * across - s * along, T(0)), blows(c * along + s * across, T(1)));
+    Vec3<T> f = lane_by_lane(angle, [this](const auto& one) { return over_square(one); });
+    for (int n = 0; n < 3; ++n) f[n] = blows(square * f[n], T(0));
     const Vec3<T> force(c * f.x() - s * f.y(), s * f.x() + c * f.y(), T(0));
     out.wrench[body].add(force, lever);
     out.wrench[body].moment += Vec3<T>(T(0), T(0), f.z());
@@ -170,6 +170,17 @@ struct FlowForce {
   }
 
  private:
+  /// The load over V^2 for an angle of the flow, in axes that follow yaw; z holds the moment.
+  template <class T>
+  Vec3<T> over_square(const T& angle) const {
+    const SplinePlace<T> p = knots.place<T>(angle);
+    Vec3<T> out;
+    for (int n = 0; n < 3; ++n) {
+      out[n] = p.left * T(load[p.i][n]) + p.right * T(load[p.j][n]) + p.bend_left * T(curvature[p.i][n]) +
+               p.bend_right * T(curvature[p.j][n]);
+    }
+    return out;
+  }
   /// Derivatives of u^2 + u (1 m/s).
   static double square(const std::array<double, 4>& u, int order) {
     if (order == 0) return u[0] * u[0] + u[0];
