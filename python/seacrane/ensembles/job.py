@@ -19,7 +19,7 @@ from seacrane.analysis.after_run import Finding, require_finite
 from seacrane.description.given import given_vessels
 from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.other_sea import other_sea
 from seacrane.ensembles.study import START_TIME, Study, Values
 from seacrane.errors import MemberLimitError, SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
@@ -280,9 +280,7 @@ class Prepared:
             return self._begun(study.scene(values))
         # The run of the scene's own sea, from which those of other seas are made, is not stepped.
         first: Run = self._kept("first", others, lambda: self._begun(study.scene(others)))
-        waves = with_sea(first.scene, sea).waves
-        assert waves is not None
-        return first.in_sea(waves)
+        return first.in_sea(other_sea(first.scene, sea))
 
     def lift(self, values: Values) -> tuple[Scene, list[Stage], _core.State | None, Sequence[Finding]]:
         """The scene and stages of a member, where it begins, and what was out of range until then."""

@@ -52,10 +52,12 @@ def _evaluate(x: Array, query: Array, value: NDArray[np.intp], curvature: Array)
     left = 1.0 - right
     bend_left = (left**3 - left) * h**2 / 6.0
     bend_right = (right**3 - right) * h**2 / 6.0
-    out, every = bend_left[:, None] * curvature[i], np.arange(len(query))
+    out, after, every = curvature[i], curvature[i + 1], np.arange(len(query))
+    out *= bend_left[:, None]
+    after *= bend_right[:, None]
     out[every, value[i]] += left
     out[every, value[i + 1]] += right
-    out += bend_right[:, None] * curvature[i + 1]
+    out += after
     return np.asarray(out)
 
 
