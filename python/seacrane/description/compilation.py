@@ -143,7 +143,7 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
     whole = magnitudes.sum(axis=0)
     share = np.divide(magnitudes, whole, out=np.zeros_like(magnitudes), where=whole > 0.0)
     largest = share.max(axis=1)
-    small = np.flatnonzero(largest <= limit)  # what is more by itself stays
+    (small,) = (largest <= limit).nonzero()  # what is more by itself stays
     order = small[np.argsort(largest[small], kind="stable")]
     left_out = np.cumsum(share[order], axis=0).max(axis=1)
     kept[order[: min(np.searchsorted(left_out, limit, side="right"), len(kept) - 1)]] = False

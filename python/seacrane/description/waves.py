@@ -38,9 +38,9 @@ class _ReadOnly:
         self._close()
 
     def other(self, **known: Any) -> Self:
-        """The same with other values, which are known to fit: unlike `replace`, nothing is checked."""
+        """The same with other values that fit: unlike `replace`, nothing is checked or copied."""
         out = object.__new__(type(self))
-        out.__setstate__(vars(self) | known)
+        vars(out).update(vars(self), **known)
         return out
 
 

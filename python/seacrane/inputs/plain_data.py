@@ -23,11 +23,14 @@ from seacrane.inputs.node import Node
 
 INFINITE = "$infinite"  # its value is the sign
 COMPLEX = ("real", "imaginary")
+PLAIN = (NoneType, str, bool, int)
 DERIVED = {"derived": True}  # metadata of a field that follows from the others, and is in no file
 
 
 def plain_data(what: str, value: Any) -> Any:
     """A value as JSON data; SceneError for what is none, which names its place."""
+    if type(value) in PLAIN or (type(value) is float and math.isfinite(value)):
+        return value
     if isinstance(value, (np.generic, np.ndarray)):
         return _plain_array(what, value)
     if isinstance(value, os.PathLike):

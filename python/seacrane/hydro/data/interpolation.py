@@ -46,7 +46,7 @@ def by_straight_lines(x: Array, table: Array, where: Array) -> Array:
 
 def _evaluate(x: Array, query: Array, value: NDArray[np.intp], curvature: Array) -> Array:
     """Piecewise cubic from the columns of the knots' values, and the rows of their second derivatives."""
-    i = np.clip(np.searchsorted(x, query, side="right") - 1, 0, len(x) - 2)
+    i = np.searchsorted(x[1:-1], query, side="right")
     h = x[i + 1] - x[i]
     right = (query - x[i]) / h
     left = 1.0 - right
