@@ -40,6 +40,7 @@ TOGETHER = 4  # members of a pack whose runs are in memory at a time
 Some = TypeVar("Some")
 P = ParamSpec("P")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
+Runs = list[Run | StagedRun | str]  # or why there is none
 MOST_HELD = 32  # of each: scenes that differ in more than their sea, runs that wait for a lift
 
 
@@ -190,7 +191,7 @@ class Job:
             for one, (before, there) in zip(outcomes, pairwise(times), strict=True)
         ]
 
-    def _begun(self, members: Pack, times: list[float], clock: Clock) -> list[Run | StagedRun | str]:
+    def _begun(self, members: Pack, times: list[float], clock: Clock) -> Runs:
         """The runs at their starts; at what processor time each was there is added to the times, s."""
         runs = []
         for _, values in members:
@@ -198,9 +199,7 @@ class Job:
             times.append(thread_time())
         return runs
 
-    def _beside(
-        self, members: Pack, begun: list[Run | StagedRun | str], clock: Clock
-    ) -> list[Run | StagedRun | str]:
+    def _beside(self, members: Pack, begun: Runs, clock: Clock) -> Runs:
         """The runs as far as they go side by side; where that fails altogether, begun anew."""
         runs = list(begun)
         try:
@@ -215,7 +214,7 @@ class Job:
             raise KeyboardInterrupt
         return runs
 
-    def _advance(self, runs: list[Run | StagedRun | str], interrupts: Interrupts) -> bool:
+    def _advance(self, runs: Runs, interrupts: Interrupts) -> bool:
         lanes = self.study.lanes
         if not self.study.stages:
             plain = [run for run in runs if isinstance(run, Run)]

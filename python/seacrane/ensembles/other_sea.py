@@ -13,7 +13,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import keeping
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.scene import Scene
-from seacrane.scene.sea import put_alike
+from seacrane.scene.sea import own_cutoff, put
 from seacrane.sea import SeaState, Spectrum, Spreading, WaveSystem, jonswap, pierson_moskowitz
 
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
@@ -37,8 +37,11 @@ def other_sea(scene: Scene, given: Mapping[str, Any]) -> Waves:
     """That sea alone; ships of the scene that follow RAOs are set moving in it."""
     old, waves = scene.waves, _realised(scene, given)
     assert old is not None
-    for body in old.hulls:
-        waves = put_alike(scene, waves, old, body)
+    for body, hull in old.hulls.items():
+        waves = put(
+            scene, waves, vessel=body, position=hull.position, heading=hull.heading, phase=hull.phase,
+            cutoff=own_cutoff(old, hull), drift=hull.drift is not None,
+        )  # fmt: skip
     return waves
 
 
@@ -76,8 +79,7 @@ def require_same_sea(scene: Scene, words: Collection[str]) -> None:
             f"over: the sea of scene {scene.name!r} is a SeaState, of which the seed can vary, and not "
             f"{', '.join(others)}; give a function that makes the scene"
         )
-    made = with_sea(scene, {}).waves
-    assert made is not None
+    made = other_sea(scene.copy(), {})
     arrays = ("omega", "amplitude", "phase", "direction")
     if not all(np.array_equal(getattr(made, name), getattr(scene.waves, name)) for name in arrays):
         raise SceneError(

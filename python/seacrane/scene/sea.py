@@ -199,30 +199,20 @@ def put(
     return waves
 
 
-def put_alike(scene: Description, waves: Waves, old: Waves, vessel: str) -> Waves:
-    """The sea with a vessel of the scene in it, as it is in an old one."""
-    hull = old.hulls[vessel]
-    return put(
-        scene, waves, vessel=vessel, position=hull.position, heading=hull.heading, phase=hull.phase,
-        cutoff=_own_cutoff(old, hull), drift=hull.drift is not None,
-    )  # fmt: skip
-
-
 def as_put(scene: Description, waves: Waves, vessel: str) -> dict[str, Any]:
     """The words of `add_sea` that put a vessel into a sea as it is in it."""
     hull = waves.hulls[vessel]
     as_at_start = hull.heading == heading_of(scene.bodies[vessel].quaternion)
     return {
-        "vessel": vessel, "position": hull.position, "phase": hull.phase, "cutoff": _own_cutoff(waves, hull),
+        "vessel": vessel, "position": hull.position, "phase": hull.phase, "cutoff": own_cutoff(waves, hull),
         "heading_deg": None if as_at_start else float(np.degrees(hull.heading)),
         "drift": hull.drift is not None,
     }  # fmt: skip
 
 
-def _own_cutoff(waves: Waves, hull: HullLoads) -> float | None:
-    """None: that of the sea."""
-    usual = not hull.cutoff or hull.cutoff == slow_below(waves, None)
-    return None if usual else hull.cutoff
+def own_cutoff(waves: Waves, hull: HullLoads) -> float | None:
+    """The cut-off that a hull was given; None where it is that of its sea."""
+    return None if not hull.cutoff or hull.cutoff == slow_below(waves, None) else hull.cutoff
 
 
 def _tell_assumed(given: dict[str, Any]) -> None:
