@@ -5,13 +5,14 @@ from __future__ import annotations
 import copy
 import pickle
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import pytest
 
 from seacrane import Curve, Scene, SceneError, cases, equilibrium, simulate
+from seacrane.crane import load_crane, shipped_cranes
 from seacrane.description.once import ANSWERS
 from seacrane.description.pick import Pick
 from seacrane.result import Result
@@ -173,6 +174,29 @@ def test_a_sea_is_not_written_into() -> None:
     assert waves.phase[0] == 0.0
     with pytest.raises(ValueError, match="read-only"):
         pickle.loads(pickle.dumps(waves)).phase[0] = 1.0
+
+
+def held_by(value: Any) -> Iterator[Any]:
+    """All within it."""
+    yield value
+    own = [*value.values()] if isinstance(value, Mapping) else [*getattr(value, "__dict__", {}).values()]
+    for one in value if isinstance(value, list | tuple) else own:
+        yield from held_by(one)
+
+
+@pytest.mark.parametrize("name", shipped_cranes())
+def test_a_crane_that_scenes_share_is_not_written_into(name: str) -> None:
+    assert load_crane(name) is load_crane(name)
+    data = load_crane(name).data
+    within = list(held_by(data))
+    arrays = [one for one in within if isinstance(one, np.ndarray)]
+    for array in arrays:
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 1.0
+    for mapping in (one for one in within if isinstance(one, Mapping)):
+        with pytest.raises(TypeError, match="read-only"):
+            mapping["slew"] = ""
+    assert len(arrays) >= 4 * len(data.bodies)
 
 
 def test_mappings_of_a_description_are_not_written_into() -> None:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 Channels = Mapping[str, Array]
 Look = Callable[["Description", Array, Channels], Iterable[Finding]]
+MOTION, COORDINATE = ("vessel_motion",), ("coordinate", "position")
 
 LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off, a righting arm 10 % and more
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
@@ -53,14 +54,19 @@ def findings(
     `described` says whether the run began in the pose that the scene describes.
     """
     found: list[Finding] = []
-    looks: Mapping[str, Look] = {
-        "heel": _heel, "hulls": hull_findings, "places in a group": relative_findings,
-        "currents": current_findings, "frequencies": _frequencies, "links": _links, "lifting": lifting,
-        "turns": _turns, "energy": _energy, "lines": partial(line_findings, described=described),
-        "ranges": _ranges, "following": partial(_following, steered=steered),
+    lines, following = partial(line_findings, described=described), partial(_following, steered=steered)
+    looks: Mapping[str, tuple[Look, tuple[str, ...]]] = {  # of which one channel must be there
+        "heel": (_heel, MOTION), "hulls": (hull_findings, MOTION),
+        "places in a group": (relative_findings, MOTION), "currents": (current_findings, ()),
+        "frequencies": (_frequencies, MOTION), "links": (_links, ("tension",)),
+        "lifting": (lifting, ("position",)), "turns": (_turns, ("coordinate",)),
+        "energy": (_energy, ("energy_balance",)),
+        "lines": (lines, ("line_unstretched_length", "sheave_fleet_angle")),
+        "ranges": (_ranges, COORDINATE), "following": (following, COORDINATE),
     }  # fmt: skip
-    for what, look in looks.items():
-        found += tried(f"looking at {what}", partial(_listed, look, scene, time, channels), [], found)
+    for what, (look, judged) in looks.items():
+        if not judged or any(name in channels for name in judged):
+            found += tried(f"looking at {what}", partial(_listed, look, scene, time, channels), [], found)
     return [*found, *_singular(stats)]
 
 
@@ -116,7 +122,7 @@ def _foreign(time: Array, motion: Array, highest: float) -> tuple[int, float]:
 
 def _links(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
     links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
-    for i, name in enumerate(links if "tension" in channels else []):
+    for i, name in enumerate(links):
         tension = channels["tension"][:, i]
         ends = {scene.joints[name].first, scene.joints[name].second} - {"ground"}
         others = [joint for other, joint in scene.joints.items() if other != name]
@@ -138,7 +144,7 @@ def _jumps(time: Array, angle: Array) -> tuple[int, float]:
 
 
 def _turns(scene: Description, time: Array, channels: Channels) -> Iterator[Finding]:
-    for i, (name, (_, kind)) in enumerate(scene.recorded.items() if "coordinate" in channels else ()):
+    for i, (name, (_, kind)) in enumerate(scene.recorded.items()):
         count, first = _jumps(time, channels["coordinate"][:, i]) if kind == "angle" else (0, 0.0)
         if count:
             yield (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, is_dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -46,6 +46,9 @@ class Crane:
     data: CraneData
 
     __repr__ = brief
+
+    def __post_init__(self) -> None:
+        _lock(self.data)
 
     @property
     def mass_properties(self) -> dict[str, MassProperties]:
@@ -153,6 +156,14 @@ class Crane:
                     )
                 found[joint.name] = (min(low - value, 0.0), max(high - value, 0.0))
         return found
+
+
+def _lock(value: Any) -> None:
+    """From now on no array in it is written into: scenes share a crane."""
+    if isinstance(value, np.ndarray):
+        value.setflags(write=False)
+    for one in value if isinstance(value, tuple) else vars(value).values() if is_dataclass(value) else ():
+        _lock(one)
 
 
 def _body(body: BodyData, foot: Array, pose: Pose) -> _core.Body:

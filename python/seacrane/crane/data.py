@@ -16,6 +16,7 @@ from seacrane.crane.mass_properties import MassProperties, Member
 from seacrane.description.roles import Areas, Capacity
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import euler_matrix
+from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 
 FREEDOMS: Mapping[str, int] = {"weld": 0, "revolute": 1, "prismatic": 1, "universal": 2, "spherical": 3}
@@ -124,15 +125,15 @@ class JointData:
     closes: bool = False
 
     @cached_property
-    def crossing(self) -> list[tuple[Array, Array]]:
+    def crossing(self) -> tuple[tuple[Array, Array], ...]:
         """Axes at home, one on each body, that a closing joint keeps perpendicular."""
         if self.axis is None:
-            return []
+            return ()
         if self.second_axis is not None:
-            return [(self.axis, self.second_axis)]
+            return ((self.axis, self.second_axis),)
         across = np.eye(3)[np.argmin(np.abs(self.axis))]
         beside = np.cross(self.axis, across) / np.linalg.norm(np.cross(self.axis, across))
-        return [(beside, self.axis), (np.cross(self.axis, beside), self.axis)]
+        return (beside, self.axis), (np.cross(self.axis, beside), self.axis)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -182,7 +183,7 @@ class CraneData:
     @cached_property
     def tree(self) -> dict[str, JointData]:
         """Joints that carry a body, by name."""
-        return {joint.name: joint for joint in self.joints if not joint.closes}
+        return ReadOnly({joint.name: joint for joint in self.joints if not joint.closes})
 
     @cached_property
     def closing_joints(self) -> tuple[JointData, ...]:

@@ -29,6 +29,7 @@ from seacrane.crane.pose import CLOSED, extent_of, pose_of
 from seacrane.crane.urdf import read_urdf
 from seacrane.description.roles import Areas
 from seacrane.errors import FileFormatError
+from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import listed, shown
 from seacrane.inputs.units import UNITS, into_si
 from seacrane.inputs.whole_file import read_whole
@@ -112,9 +113,10 @@ def parse_crane(text: str, *, source: str = "crane data", folder: Path | None = 
     roles.finish()
     areas, oil = _pistons(root, cylinders)
     data = CraneData(
-        name=name, root=stands, bodies=bodies, joints=joints + closing, slew=slew, luffs=luffs,
-        cylinders=cylinders, tip=tip, ropes=tuple(_rope(table) for table in root.tables("ropes")),
-        capacity=root.capacity(), areas=areas, hydraulics=oil,
+        name=name, root=stands, bodies=bodies, joints=joints + closing, slew=slew,
+        luffs=ReadOnly(luffs), cylinders=ReadOnly(cylinders), tip=tip,
+        ropes=tuple(_rope(table) for table in root.tables("ropes")), capacity=root.capacity(),
+        areas=ReadOnly(areas), hydraulics=ReadOnly(oil),
     ).at_joints()  # fmt: skip
     root.finish()
     _check(root, data)
@@ -218,7 +220,7 @@ def _pistons(
         if pair is None and entries is None:
             table.refuse(f"{table.where} has no areas; write full_area and rod_side_area")
         areas |= {} if pair is None else {label: pair}
-        oil |= {} if entries is None else {label: entries}
+        oil |= {} if entries is None else {label: ReadOnly(entries)}
         table.finish()
     return areas, oil
 

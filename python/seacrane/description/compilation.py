@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -28,6 +27,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.read_only import ReadOnly
 from seacrane.warnings import AssemblyWarning, RedundantJointsWarning
 
 LARGEST_MOVE = 0.01  # m times the scene's length scale: a tenth of the length that tolerances refer to
@@ -120,15 +120,15 @@ def without_negligible(waves: Waves) -> Waves:
         return waves
 
     def fewer(owner: Any, *keys: str) -> dict[str, Any]:
-        held = {key: getattr(owner, key) for key in keys if getattr(owner, key) is not None}
+        held = {key: one for key in keys if (one := getattr(owner, key)) is not None}
         return {
-            key: replace(one, values=np.asarray(one.values)[:, kept]) if isinstance(one, ByHeading)
+            key: one.other(values=np.asarray(one.values)[:, kept]) if isinstance(one, ByHeading)
             else np.asarray(one)[kept]
             for key, one in held.items()
         }  # fmt: skip
 
-    hulls = {body: replace(hull, **fewer(hull, *LOADED)) for body, hull in waves.hulls.items()}
-    return replace(waves, **fewer(waves, "omega", "amplitude", "phase", "direction"), hulls=hulls)
+    hulls = {body: hull.other(**fewer(hull, *LOADED)) for body, hull in waves.hulls.items()}
+    return waves.other(**fewer(waves, "omega", "amplitude", "phase", "direction"), hulls=ReadOnly(hulls))
 
 
 def kept_components(waves: Waves) -> NDArray[np.bool_]:
@@ -143,11 +143,10 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
     whole = magnitudes.sum(axis=0)
     share = np.divide(magnitudes, whole, out=np.zeros_like(magnitudes), where=whole > 0.0)
     largest = share.max(axis=1)
-    if largest.min() > limit:
-        return kept
-    order = np.argsort(largest, kind="stable")
+    (small,) = (largest <= limit).nonzero()  # what is more by itself stays
+    order = small[np.argsort(largest[small], kind="stable")]
     left_out = np.cumsum(share[order], axis=0).max(axis=1)
-    kept[order[: min(np.searchsorted(left_out, limit, side="right"), len(order) - 1)]] = False
+    kept[order[: min(np.searchsorted(left_out, limit, side="right"), len(kept) - 1)]] = False
     return kept
 
 

@@ -108,7 +108,7 @@ class Description:
         for key, kind in KINDS.items():  # a table belongs to one scene
             held[key] = table = Table(held[key])
             table.kind = kind
-        self.notes = deepcopy(dict(self.notes))
+        self.notes = deepcopy(dict(self.notes)) if self.notes else {}
         self.warned = dict[str, None](held.get("warned", ()))  # messages, while it was described
 
     def __repr__(self) -> str:
@@ -185,6 +185,7 @@ class Table(dict[str, Element]):
     """Elements of one kind, such as "point force", by name, in the order in which they were added; a name
     that is not there says so."""
 
+    __slots__ = ("kind",)
     kind: str
 
     def __missing__(self, name: object) -> NoReturn:

@@ -6,26 +6,26 @@ import math
 import pickle
 from collections import OrderedDict, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
+from itertools import pairwise
 from threading import Lock
 from time import thread_time
-from typing import Any, TypeVar
-
-import numpy as np
+from typing import Any, ParamSpec, TypeVar
 
 from seacrane import _core
 from seacrane.analysis.after_run import Finding, require_finite
 from seacrane.description.given import given_vessels
 from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.other_sea import other_sea
 from seacrane.ensembles.study import START_TIME, Study, Values
 from seacrane.errors import MemberLimitError, SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
 from seacrane.run.advance import ended
 from seacrane.run.carry import AlikeStages
-from seacrane.run.interrupts import Interrupts, interrupts_kept
+from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import LiftsInLanes, advance_side_by_side, note_apart
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -38,39 +38,45 @@ from seacrane.version import __version__
 
 TOGETHER = 4  # members of a pack whose runs are in memory at a time
 Some = TypeVar("Some")
+P = ParamSpec("P")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
+Runs = list[Run | StagedRun | str]  # or why there is none
 MOST_HELD = 32  # of each: scenes that differ in more than their sea, runs that wait for a lift
 
 
 class Clock(Interrupts):
-    """Takes Ctrl-C, and ends by a MemberLimitError what takes more processor time than a limit, s."""
+    """Takes Ctrl-C, and ends by a MemberLimitError what takes more processor time than a limit."""
 
-    def __init__(self, limit: float) -> None:
+    def __init__(self) -> None:
         super().__init__()
-        self._limit, self._end = limit, thread_time() + limit if limit < math.inf else None
+        self._limit = self._end = math.inf
 
-    def __exit__(self, *error: object) -> None:
-        self._end = None
-        super().__exit__(*error)
+    @contextmanager
+    def limited(self, limit: float) -> Iterator[None]:
+        """Within the block processor time has a limit, s."""
+        self._limit, self._end = limit, thread_time() + limit if limit < math.inf else math.inf
+        try:
+            yield
+        finally:
+            self._end = math.inf
 
     def take(self) -> None:
         """Do what Ctrl-C stands for, or end what takes too long."""
         super().take()
-        if self._end is not None and thread_time() > self._end:
+        if self._end < math.inf and thread_time() > self._end:
             raise MemberLimitError(
                 f"it took more than {self._limit:g} s of processor time; give a larger member_limit"
             )
 
 
-def stepped(run: Run | StagedRun, limit: float = math.inf) -> Run | StagedRun:
+def stepped(run: Run | StagedRun, clock: Clock, limit: float = math.inf) -> Run | StagedRun:
     """The run at its end; KeyboardInterrupt where Ctrl-C stopped it, MemberLimitError beyond a limit, s."""
-    with Clock(limit) as interrupts:
+    with clock.limited(limit):
         if isinstance(run, StagedRun):
-            for _ in run.runs(interrupts):
+            for _ in run.runs(clock):
                 pass
         else:
-            ended(run, (), interrupts)
-    interrupts.take()  # pressed as the run ended: the members after it are not to be run
+            ended(run, (), clock)
     if run.interrupted:
         raise KeyboardInterrupt
     return run
@@ -123,7 +129,9 @@ class Carried:
             self._scene, time, start=self._state, method=self._method, outputs=self._outputs,
             model=self._model,
         )  # fmt: skip
-        ended_run = stepped(run)
+        with Clock() as clock:
+            ended_run = stepped(run, clock)
+        clock.take()
         assert isinstance(ended_run, Run)
         known = {kind for kind, _ in self._found}
         self._found += [one for one in ended_run.judged_result()[1] if one[0] not in known]
@@ -161,49 +169,52 @@ class Job:
             )
         count = TOGETHER if self.study.lanes == 1 else self.study.lanes
         groups = [pack[first : first + count] for first in range(0, len(pack), count)]
-        return [outcome for members in groups for outcome in self._together(members)]
+        with Clock() as clock:
+            outcomes = [outcome for members in groups for outcome in self._together(members, clock)]
+        clock.take()
+        return outcomes
 
-    def _together(self, members: Pack) -> list[Outcome]:
+    def _together(self, members: Pack, clock: Clock) -> list[Outcome]:
         """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
         times = [thread_time()]
-        runs = self._begun(members, times)
+        runs = self._begun(members, times, clock)
         if self.study.lanes > 1:
-            runs = self._beside(members, runs)
+            runs = self._beside(members, runs, clock)
         runs = [
-            run if isinstance(run, str) else _tried(partial(stepped, run, self.study.member_limit))
+            run if isinstance(run, str) else _tried(clock, stepped, run, clock, self.study.member_limit)
             for run in runs
         ]
-        outcomes = [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
+        outcomes = [self._outcome(index, run, clock) for (index, _), run in zip(members, runs, strict=True)]
         share = (thread_time() - times[-1]) / len(members)
         return [
-            replace(one, begun_s=begun, stepped_s=share)
-            for one, begun in zip(outcomes, np.diff(times).tolist(), strict=True)
+            replace(one, begun_s=there - before, stepped_s=share)
+            for one, (before, there) in zip(outcomes, pairwise(times), strict=True)
         ]
 
-    def _begun(self, members: Pack, times: list[float]) -> list[Run | StagedRun | str]:
+    def _begun(self, members: Pack, times: list[float], clock: Clock) -> Runs:
         """The runs at their starts; at what processor time each was there is added to the times, s."""
         runs = []
         for _, values in members:
-            runs.append(_tried(interrupts_kept()(partial(self._prepared.run, values))))
+            runs.append(_tried(clock, self._prepared.run, values))
             times.append(thread_time())
         return runs
 
-    def _beside(self, members: Pack, begun: list[Run | StagedRun | str]) -> list[Run | StagedRun | str]:
+    def _beside(self, members: Pack, begun: Runs, clock: Clock) -> Runs:
         """The runs as far as they go side by side; where that fails altogether, begun anew."""
         runs = list(begun)
-        with Clock(self.study.member_limit * len(members)) as interrupts:
-            try:
-                reached = self._advance(runs, interrupts)
-            except (MemoryError, SeacraneError, ValueError) as error:
-                reached, runs = True, self._begun(members, [])
-                why = f"stepping it beside others failed: {type(error).__name__}: {error}"
-                note_apart([run for run in runs if isinstance(run, Run)], why)
-        interrupts.take()
+        try:
+            with clock.limited(self.study.member_limit * len(members)):
+                reached = self._advance(runs, clock)
+        except (MemoryError, SeacraneError, ValueError) as error:
+            reached, runs = True, self._begun(members, [], clock)
+            why = f"stepping it beside others failed: {type(error).__name__}: {error}"
+            note_apart([run for run in runs if isinstance(run, Run)], why)
+        clock.take()
         if not reached:
             raise KeyboardInterrupt
         return runs
 
-    def _advance(self, runs: list[Run | StagedRun | str], interrupts: Interrupts) -> bool:
+    def _advance(self, runs: Runs, interrupts: Interrupts) -> bool:
         lanes = self.study.lanes
         if not self.study.stages:
             plain = [run for run in runs if isinstance(run, Run)]
@@ -222,26 +233,28 @@ class Job:
         ]
         return LiftsInLanes(lifts, lanes, lambda _: interrupts.take()).advance()
 
-    def _outcome(self, index: int, run: Run | StagedRun | str) -> Outcome:
+    def _outcome(self, index: int, run: Run | StagedRun | str, clock: Clock) -> Outcome:
         """The outcome of a run at its end, or of why there is none."""
-        made = run if isinstance(run, str) else _tried(partial(self._ended, index, run))
+        made = run if isinstance(run, str) else _tried(clock, self._ended, index, run)
         return Outcome(index=index, failure=made) if isinstance(made, str) else made
 
-    @interrupts_kept()
     def _ended(self, index: int, run: Run | StagedRun) -> Outcome:
         result = require_finite(run.result())
         validity, apart = (str(result.stats.get(name, "")) for name in ("validity", "kept_apart"))
         return Outcome(index=index, kept=self.study.kept_of(result), validity=validity, kept_apart=apart)
 
 
-def _tried(work: Callable[[], Some]) -> Some | str:
-    """What it returns, or in words why it failed."""
+def _tried(clock: Clock, work: Callable[P, Some], *given: P.args, **named: P.kwargs) -> Some | str:
+    """What it returns, or in words why it failed; Ctrl-C that was pressed meanwhile is taken then."""
+    made: Some | str
     try:
-        return work()
+        made = work(*given, **named)
     except MemoryError:
         raise
     except Exception as error:
-        return _told(error)
+        made = _told(error)
+    clock.take()
+    return made
 
 
 def _told(error: Exception) -> str:
@@ -280,9 +293,7 @@ class Prepared:
             return self._begun(study.scene(values))
         # The run of the scene's own sea, from which those of other seas are made, is not stepped.
         first: Run = self._kept("first", others, lambda: self._begun(study.scene(others)))
-        waves = with_sea(first.scene, sea).waves
-        assert waves is not None
-        return first.in_sea(waves)
+        return first.in_sea(other_sea(first.scene, sea))
 
     def lift(self, values: Values) -> tuple[Scene, list[Stage], _core.State | None, Sequence[Finding]]:
         """The scene and stages of a member, where it begins, and what was out of range until then."""

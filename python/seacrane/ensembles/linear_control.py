@@ -21,7 +21,7 @@ from seacrane.description.crane_parts import hooks
 from seacrane.description.pick import Pick, pick_of
 from seacrane.description.wet_parts import wet_bodies
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import WORDS, require_same_sea, with_sea
+from seacrane.ensembles.other_sea import WORDS, other_sea, require_same_sea
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import heading_of, rotation_about_z
@@ -187,9 +187,7 @@ class LinearControl:
                 "control: the memory of a vessel is a convolution, whose start from rest the linear model "
                 "does not know; take a fitted one, such as memory='by-motion'"
             )
-        described = with_sea(scene, self._words).waves
-        assert described is not None
-        linear = drag_in_components(linear, described)
+        linear = drag_in_components(linear, other_sea(self._scene, self._words))
         self._parts = PartsInWaves(linear)
         self.times = times
         self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
@@ -200,8 +198,7 @@ class LinearControl:
 
     def _curves(self, seed: int) -> Array:
         """All motions in the sea of a seed, shape (motions, times)."""
-        sea = with_sea(self._scene, {**self._words, "seed": int(seed)}).waves
-        assert sea is not None
+        sea = other_sea(self._scene, {**self._words, "seed": int(seed)})
         omega, forces = component_forces(sea)
         rates: Complex = np.zeros((omega.size, self._rows.shape[1]), dtype=complex)
         for vessel, force in forces.items():

@@ -10,9 +10,10 @@ import numpy as np
 from seacrane.description.databases import database_of
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import keeping
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.scene import Scene
-from seacrane.scene.sea import as_put
+from seacrane.scene.sea import own_cutoff, put
 from seacrane.sea import SeaState, Spectrum, Spreading, WaveSystem, jonswap, pierson_moskowitz
 
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
@@ -26,12 +27,22 @@ SPECTRA: Mapping[str, Callable[..., Spectrum]] = {
 
 def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
     """A copy of the scene in another sea, all else of which is as it was; repeats are not looked for."""
-    assert scene.waves is not None
-    old = scene.waves
-    out = scene.copy(waves=_realised(scene, given))
-    for body in old.hulls:
-        out.add_sea(**as_put(out, old, body))
+    out = scene.copy()
+    with keeping(out.warned):
+        out.waves = other_sea(out, given)
     return out
+
+
+def other_sea(scene: Scene, given: Mapping[str, Any]) -> Waves:
+    """That sea alone; ships of the scene that follow RAOs are set moving in it."""
+    old, waves = scene.waves, _realised(scene, given)
+    assert old is not None
+    for body, hull in old.hulls.items():
+        waves = put(
+            scene, waves, vessel=body, position=hull.position, heading=hull.heading, phase=hull.phase,
+            cutoff=own_cutoff(old, hull), drift=hull.drift is not None,
+        )  # fmt: skip
+    return waves
 
 
 def _realised(scene: Scene, given: Mapping[str, Any]) -> Waves:
@@ -68,8 +79,7 @@ def require_same_sea(scene: Scene, words: Collection[str]) -> None:
             f"over: the sea of scene {scene.name!r} is a SeaState, of which the seed can vary, and not "
             f"{', '.join(others)}; give a function that makes the scene"
         )
-    made = with_sea(scene, {}).waves
-    assert made is not None
+    made = other_sea(scene.copy(), {})
     arrays = ("omega", "amplitude", "phase", "direction")
     if not all(np.array_equal(getattr(made, name), getattr(scene.waves, name)) for name in arrays):
         raise SceneError(

@@ -30,14 +30,14 @@ def plain_data(what: str, value: Any) -> Any:
     """A value as JSON data; SceneError for what is none, which names its place."""
     if isinstance(value, (np.generic, np.ndarray)):
         return _plain_array(what, value)
-    if isinstance(value, os.PathLike):
-        value = os.fspath(value)
     if isinstance(value, float) and math.isinf(value):
         return {INFINITE: int(math.copysign(1, value))}
     if isinstance(value, float) and math.isnan(value):
         raise SceneError(f"{what} is not a number; leave it out")
     if value is None or isinstance(value, (str, bool, int, float)):
         return value
+    if isinstance(value, os.PathLike):
+        return plain_data(what, os.fspath(value))
     if isinstance(value, Mapping):
         return {str(key): plain_data(f"{what}[{key!r}]", item) for key, item in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):

@@ -18,7 +18,7 @@ from seacrane.description.databases import without_databases
 from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.growing import Judge
-from seacrane.ensembles.job import stepped
+from seacrane.ensembles.job import Clock, stepped
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.parts import Part
 from seacrane.ensembles.price import Priced
@@ -174,7 +174,9 @@ def _numbers(scene: Scene, start: _core.State, *, t_end: float, asked: Asked) ->
     """`record_numbers` of each criterion's channel of a run, (m, 4), or why it failed."""
     try:
         how: Any = {"method": asked.method, "outputs": asked.outputs, "peaks": ()}  # curves are all it reads
-        run = stepped(Run(scene, t_end, start=start, **how))
+        with Clock() as clock:
+            run = stepped(Run(scene, t_end, start=start, **how), clock)
+        clock.take()
         result = require_finite(run.result())
         return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in asked.criteria])
     except (SeacraneError, ArithmeticError, ValueError) as error:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import json
-import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
@@ -23,6 +22,7 @@ from seacrane.scene.scene import Scene
 SETTINGS, ABOUT = "settings", "about"  # attributes of files and datasets: JSON
 VERSION = "file_version"
 Stat = str | int | float
+PLAIN = (str, int, float)
 ALWAYS_STATED = (
     "seacrane_version", "scene", "formulation", "integrator", "simulated_s", "wall_s", "evaluations", "steps",
     "rejected_steps", "states", "coordinates", "constraints", "degrees_of_freedom", "compiled_coordinates",
@@ -147,7 +147,7 @@ def checked_time(values: Any) -> Array:
     time = np.asarray(values, dtype=np.float64)
     if time.ndim != 1 or not time.size:
         raise ValueError(f"time has shape {time.shape}; a result needs a vector of at least one output time")
-    if not np.isfinite(time).all() or np.any(np.diff(time) <= 0):
+    if not (is_finite(time) and (time[1:] > time[:-1]).all()):
         raise ValueError("time must be finite and strictly increasing")
     time.setflags(write=False)
     return time
@@ -178,16 +178,19 @@ def plain_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
             raise ValueError(f"stats hold numbers and words; give {name!r} in about=About({name}=...)")
         if value is None:
             continue
-        if isinstance(value, np.generic):
-            value = value.item()
-        if isinstance(value, bool):
-            value = int(value)
-        if not isinstance(value, (str, int, float)):
-            raise ValueError(f"stat {name!r} is a {type(value).__name__}; give a string or a number")
-        if isinstance(value, float) and math.isnan(value):
+        if type(value) not in PLAIN:
+            value = _plain(name, value)
+        if value != value:
             raise ValueError(f"stat {name!r} is not a number; leave out what is not defined")
         plain[name] = value
     return plain
+
+
+def _plain(name: str, value: Any) -> Stat:
+    value = value.item() if isinstance(value, np.generic) else value
+    if not isinstance(value, PLAIN):
+        raise ValueError(f"stat {name!r} is a {type(value).__name__}; give a string or a number")
+    return int(value) if isinstance(value, bool) else value
 
 
 def added_stats(before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import pairwise
 from typing import Any
 
@@ -75,11 +75,18 @@ def derived_channels(
 
     `falls` are what `hook_loads` found in these poses.
     """
-    made = _Made(scene, arrays, falls)
     parts = {name: DERIVED[name].made_of for name in wanted}
     found = [name for name in parts if name in OF_SOME or all(part in arrays for part in parts[name])]
     missing = missing_names(scene, found)
-    values = {name: MADE[name](made) for name in found if name not in missing}
+    return _made(scene, arrays, [name for name in found if name not in missing], falls)
+
+
+def _made(
+    scene: Description, arrays: Mapping[str, Array], names: Iterable[str], falls: Falls | None
+) -> dict[str, Array]:
+    """Channels that the scene has."""
+    made = _Made(scene, arrays, falls)
+    values = {name: MADE[name](made) for name in names}
     return {name: squeezed(name, array) for name, array in values.items() if array is not None}
 
 
@@ -368,13 +375,12 @@ def derived_extremes(
     known, found = {name: values for name, values in arrays.items() if name != "time"}, {}
     falls = None if extremes.keys() & set(POSE) else falls  # else in the same poses
     ends = [
-        derived_channels(scene, known | {name: both[i] for name, both in extremes.items()}, names, falls)
-        for i in (0, 1)
+        _made(scene, known | {name: both[i] for name, both in extremes.items()}, names, falls) for i in (0, 1)
     ]
     for name in names:
         if all(name in one for one in ends):
             every = [*(one[name] for one in ends), channels[name]]
-            found[name] = (np.min(every, axis=0), np.max(every, axis=0))
+            found[name] = reduce(np.minimum, every), reduce(np.maximum, every)
     return found
 
 

@@ -18,6 +18,7 @@ from seacrane.inputs.caller import tell
 from seacrane.inputs.checked import flag_of, number_of, shaped_of, text_of
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.plausible import direction_of
+from seacrane.inputs.read_only import ReadOnly
 from seacrane.inputs.shown import shown
 from seacrane.scene.realised_sea import COMPONENTS, realised_sea
 from seacrane.scene.sea_loads import slow_below, with_actual_position, with_drift, with_shares
@@ -163,29 +164,38 @@ def add_sea(
     if vessel is None:
         scene.waves = waves
         return waves
-    given_motion = given_vessels(scene).get(vessel)
-    if database is not None:
-        require_depth(waves, database, vessel)
     place, heading = _pose(scene, vessel, position, heading_deg)
-    if given_motion is not None:
+    scene.waves = put(
+        scene, waves, vessel=vessel, position=place, heading=heading, phase=phase, cutoff=cutoff, drift=drift
+    )
+    return scene.waves
+
+
+def put(
+    scene: Description, waves: Waves, *, vessel: str, position: tuple[float, float], heading: float,
+    phase: str, cutoff: float | None, drift: bool,
+) -> Waves:  # fmt: skip
+    """The sea with a vessel of the scene in it, as `add_sea` puts it; one that follows RAOs is set moving."""
+    source = source_of(scene, vessel)
+    if source is not None:
+        require_depth(waves, source, vessel)
+    if vessel in given_vessels(scene):
         if drift or phase != "mean":
             raise SceneError(
                 f"sea: vessel {vessel!r} has a given motion, no loads; leave out drift and phase"
             )
-        scene.waves = put_into_sea(scene, waves, vessel=vessel, place=place, heading=heading)
-        return scene.waves
+        return put_into_sea(scene, waves, vessel=vessel, place=position, heading=heading)
     database = database_of(scene, vessel, "a sea")
     warn_of_long_waves(database)
     transfer = force_of_components(database, waves.omega, waves.direction - heading)
-    hull = HullLoads(transfer=transfer, position=place, heading=heading)
+    hull = HullLoads(transfer=transfer, position=position, heading=heading)
     provenance = with_shares(waves, database, vessel, hull)
-    waves = replace(waves, hulls={**waves.hulls, vessel: hull}, provenance=provenance)
+    waves = waves.other(hulls=ReadOnly({**waves.hulls, vessel: hull}), provenance=provenance)
     if drift:
         waves = with_drift(scene, waves, vessel)
     if phase != "mean":
         slow = slow_below(waves, cutoff) if phase == "slow" else 0.0
         waves = with_actual_position(scene, waves, vessel, slow)
-    scene.waves = waves
     return waves
 
 
@@ -193,13 +203,16 @@ def as_put(scene: Description, waves: Waves, vessel: str) -> dict[str, Any]:
     """The words of `add_sea` that put a vessel into a sea as it is in it."""
     hull = waves.hulls[vessel]
     as_at_start = hull.heading == heading_of(scene.bodies[vessel].quaternion)
-    usual = not hull.cutoff or hull.cutoff == slow_below(waves, None)
     return {
-        "vessel": vessel, "position": hull.position,
-        "phase": hull.phase, "cutoff": None if usual else hull.cutoff,
+        "vessel": vessel, "position": hull.position, "phase": hull.phase, "cutoff": own_cutoff(waves, hull),
         "heading_deg": None if as_at_start else float(np.degrees(hull.heading)),
         "drift": hull.drift is not None,
     }  # fmt: skip
+
+
+def own_cutoff(waves: Waves, hull: HullLoads) -> float | None:
+    """The cut-off that a hull was given; None where it is that of its sea."""
+    return None if not hull.cutoff or hull.cutoff == slow_below(waves, None) else hull.cutoff
 
 
 def _tell_assumed(given: dict[str, Any]) -> None:

@@ -207,12 +207,13 @@ class SeaState:
             RealisedSystem(name=system.name, components=slice(int(end - len(part)), int(end)), m0=part.m0)
             for system, part, end in zip(self.systems, parts, ends, strict=True)
         )
+        if len(parts) == 1:
+            return RealisedSea(waves=parts[0], systems=realised)
         arrays: dict[str, Any] = {
             name: np.concatenate([getattr(part, name) for part in parts])
             for name in ("omega", "amplitude", "phase", "direction")
         }
-        waves = parts[0] if len(parts) == 1 else _core.WaveComponents(**arrays, depth=self.depth)
-        return RealisedSea(waves=waves, systems=realised)
+        return RealisedSea(waves=_core.WaveComponents(**arrays, depth=self.depth), systems=realised)
 
     def _waves_of(self, j: int, system: WaveSystem | MeasuredWaves) -> _core.WaveComponents:
         mean = np.array(float(np.radians(system.direction_deg)))

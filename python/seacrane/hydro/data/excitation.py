@@ -119,9 +119,10 @@ def with_limits(database: HydroData, omega: Array, force: Complex) -> Complex:
     lowest, highest = database.omega[0], database.omega[-1]
     slack = 1e-9 * highest
     below = omega < lowest - slack
-    longest = np.append(np.maximum(omega[below], 1e-9 * lowest), lowest)
-    k = wavenumber(longest, g=database.g, depth=database.depth)
-    share = (k[:-1] / k[-1])[:, None]
-    out[..., below, :] = database.restoring[:, 2] * (1.0 - share) + out[..., below, :] * share
+    if below.any():
+        longest = np.append(np.maximum(omega[below], 1e-9 * lowest), lowest)
+        k = wavenumber(longest, g=database.g, depth=database.depth)
+        share = (k[:-1] / k[-1])[:, None]
+        out[..., below, :] = database.restoring[:, 2] * (1.0 - share) + out[..., below, :] * share
     out[..., omega > highest + slack, :] = 0.0
     return out

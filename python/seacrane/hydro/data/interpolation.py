@@ -46,16 +46,18 @@ def by_straight_lines(x: Array, table: Array, where: Array) -> Array:
 
 def _evaluate(x: Array, query: Array, value: NDArray[np.intp], curvature: Array) -> Array:
     """Piecewise cubic from the columns of the knots' values, and the rows of their second derivatives."""
-    i = np.clip(np.searchsorted(x, query, side="right") - 1, 0, len(x) - 2)
+    i = np.searchsorted(x[1:-1], query, side="right")
     h = x[i + 1] - x[i]
     right = (query - x[i]) / h
     left = 1.0 - right
     bend_left = (left**3 - left) * h**2 / 6.0
     bend_right = (right**3 - right) * h**2 / 6.0
-    out, every = bend_left[:, None] * curvature[i], np.arange(len(query))
+    out, after, every = curvature[i], curvature[i + 1], np.arange(len(query))
+    out *= bend_left[:, None]
+    after *= bend_right[:, None]
     out[every, value[i]] += left
     out[every, value[i + 1]] += right
-    out += bend_right[:, None] * curvature[i + 1]
+    out += after
     return np.asarray(out)
 
 
