@@ -107,6 +107,10 @@ void FlowEvaluator::add_surface(std::size_t n, std::size_t count, LocalFlow<doub
 
 void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>& out) {
   sea::add_interior(*summed_, count, *scratch_, out);
+  add_current(level, out);
+}
+
+void FlowEvaluator::add_current(double level, LocalFlow<double>& out) {
   const auto current = field_->current().at<double>(level);
   out.velocity += Vec3d(current.x, current.y, 0.0);
 }
@@ -130,7 +134,7 @@ FlowEvaluator::Depth FlowEvaluator::sink(std::size_t count, double z, double hei
 
 std::size_t FlowEvaluator::feel(const FlowPoint& at, std::size_t most) {
   const bool turns = !at.turning.isZero(0.0);
-  const Mat3d rate = skew<double>(at.turning) * at.extents;
+  const Mat3d rate = turns ? Mat3d(skew<double>(at.turning) * at.extents) : Mat3d(Mat3d::Zero());
   meet_waves(most);
   for (int j = 0; j < 3; ++j) {
     const double x = at.extents(0, j), y = at.extents(1, j);
@@ -147,6 +151,7 @@ std::size_t FlowEvaluator::feel(const FlowPoint& at, std::size_t most) {
 
 void FlowEvaluator::write_calm(double t, const FlowPoint& at, std::size_t most, LocalFlow<double>& out) {
   const double z = at.position.z();
+  if (most == 0) return add_current(z, out);
   const std::size_t count = feel(at, most);
   sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), *scratch_);
   scratch_->images = field_->images(z - 0.5 * at.height, stencil_.cut);

@@ -32,6 +32,14 @@ class FlowEvaluator {
   /// At elements that differ from the first by equal steps. Asked again for the same, they are not evaluated
   /// again.
   std::span<const LocalFlow<double>> row(double t, const FlowPoint& first, const Vec3d& step);
+  /// The same at the one point of a stencil.
+  const LocalFlow<double>& point(double t, const Vec3d& place) {
+    if (!(row_.of_point && t == row_.t && place == row_.first.position)) {
+      row(t, {place}, Vec3d::Zero());
+      row_.of_point = true;
+    }
+    return flow_.front();
+  }
   /// The flow of the row at an element, with slopes: those of the very sums that row() takes.
   template <int N>
   LocalFlow<Dual<N>> in_row(int index, double t, const FlowPlace<Dual<N>>& first, const Vec3<Dual<N>>& step) {
@@ -54,6 +62,7 @@ class FlowEvaluator {
     double t = std::numeric_limits<double>::quiet_NaN();
     FlowPoint first;
     Vec3d step = Vec3d::Zero();
+    bool of_point = false;
     bool operator==(const Row&) const = default;
   };
   /// Where the decays of an element are.
@@ -82,6 +91,7 @@ class FlowEvaluator {
   /// From the phasors of a point to its flow; `count` components are felt at all.
   void take(std::size_t count, double z, double height, LocalFlow<double>& out);
   void interior(std::size_t count, double level, LocalFlow<double>& out);
+  void add_current(double level, LocalFlow<double>& out);
   /// Of an element under a surface; in `calm` water it is all wet.
   Depth sink(std::size_t count, double z, double height, double elevation, bool calm);
   std::span<const FlowSlopes> slopes(double t, const FlowPoint& first, const Vec3d& step);
