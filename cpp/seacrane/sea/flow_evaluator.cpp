@@ -82,8 +82,18 @@ FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil 
                "give 0 to 100 times those of the sea");
   sea::require(stencil_.cut >= 1e-14 && stencil_.cut <= 1e-2, stencil_.name, "cut", stencil_.cut,
                "give 1e-14 (rounding) to 1e-2; 1e-5 is the default");
-  if (field_ && !stencil_.surface && stencil_.count == 1 && stencil_.waves == 1.0)
+  if (field_ && !stencil_.surface && stencil_.count == 1 && stencil_.waves == 1.0) {
     calm_ = field_->calm_below(stencil_.cut);
+    still_ = std::min(calm_, field_->still_below(stencil_.cut));
+  }
+}
+
+std::size_t FlowEvaluator::Reach::of(const SeaField& field, double level, double cut) {
+  if (level >= low_ && level <= high_) return count_;
+  const std::size_t found = field.reach(level, cut);
+  low_ = found == count_ ? std::min(low_, level) : level;
+  high_ = found == count_ ? std::max(high_, level) : level;
+  return count_ = found;
 }
 
 void FlowEvaluator::require_above_floor(double z) const {
@@ -125,8 +135,9 @@ FlowEvaluator::Depth FlowEvaluator::sink(std::size_t count, double z, double hei
   const WetHeight<double> wet = calm ? WetHeight<double>{z, height} : wet_height(z, height, elevation);
   const double level = calm ? z : field_->level(wet.middle, elevation);
   const double top = std::min(level + 0.5 * wet.height, 0.0);
-  const double cut = scratch_->split ? few_cut : stencil_.cut;
-  const std::size_t reached = std::min(count, summed_->reach(top, cut));
+  const bool few = scratch_->split;
+  const double cut = few ? few_cut : stencil_.cut;
+  const std::size_t reached = std::min(count, (few ? few_reach_ : reach_).of(*summed_, top, cut));
   scratch_->images = summed_->images(level - 0.5 * wet.height, cut);
   sea::set_decays(*summed_, reached, level, wet.height, *scratch_);
   return {level, reached};
@@ -212,11 +223,12 @@ void FlowEvaluator::write_near(double t, const FlowPoint& first, const Vec3d& st
   leave_few();
 }
 
-FlowEvaluator::Sum FlowEvaluator::sum(double t, const FlowPoint& first, const Vec3d& step) const {
+FlowEvaluator::Sum FlowEvaluator::sum(double t, const FlowPoint& first, const Vec3d& step) {
   const double z = first.position.z(), top = z + 0.5 * first.height;
   require_above_floor(std::min(z, z + static_cast<double>(flow_.size() - 1) * step.z()));
+  if (top < still_) return {0, false, true};
   const bool calm = top < calm_;
-  const std::size_t most = calm ? field_->reach(std::min(top, 0.0), stencil_.cut) : field_->padded();
+  const std::size_t most = calm ? reach_.of(*field_, std::min(top, 0.0), stencil_.cut) : field_->padded();
   const bool few =
       near_ && most > near_->sea().few().padded() && is_numbered(near_->sea(), t, first.position + step);
   return {most, few, calm && !few};

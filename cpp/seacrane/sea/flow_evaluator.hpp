@@ -58,6 +58,15 @@ class FlowEvaluator {
     std::size_t most;  // of the components of the field
     bool few, calm;    // the few in their place; without its surface
   };
+  /// SeaField::reach() of one field and cut, remembered between two levels that have the same.
+  class Reach {
+   public:
+    std::size_t of(const SeaField& field, double level, double cut);
+
+   private:
+    std::size_t count_ = 0;
+    double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+  };
   struct Row {
     double t = std::numeric_limits<double>::quiet_NaN();
     FlowPoint first;
@@ -72,7 +81,7 @@ class FlowEvaluator {
   };
 
   void require_above_floor(double z) const;
-  Sum sum(double t, const FlowPoint& first, const Vec3d& step) const;
+  Sum sum(double t, const FlowPoint& first, const Vec3d& step);
   /// Amplitudes of the first waves, before an element takes its mean of them.
   void meet_waves(std::size_t count);
   /// Amplitudes that an element feels of the first waves, and how many components are felt at all.
@@ -104,8 +113,10 @@ class FlowEvaluator {
   const SeaField* summed_;  // the field, or the few of it
   std::vector<LocalFlow<double>> flow_;
   std::vector<FlowSlopes> slopes_;
-  Row row_, sloped_;                                        // the last ones; none
-  double calm_ = -std::numeric_limits<double>::infinity();  // z below which the surface is not asked for
+  Row row_, sloped_;  // the last ones; none
+  Reach reach_, few_reach_;
+  // z below which the surface is not asked for, and below which no waves are.
+  double calm_ = -std::numeric_limits<double>::infinity(), still_ = calm_;
 };
 
 }  // namespace seacrane

@@ -250,9 +250,9 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
   tensions_.add_loads(tension, load_.data());
   tensions_.add_accelerations(acceleration_);
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
-    const double* const rates = inertial_speed_rates_.col(i).data();
+    const double pull = tension[i], *const rates = inertial_speed_rates_.col(i).data();
     const auto add = [&](int first, int count) {
-      for (int k = first; k < first + count; ++k) u_rate[k] += tension[i] * rates[k];
+      for (int k = first; k < first + count; ++k) u_rate[k] += pull * rates[k];
     };
     if (near_[idx(i)].empty()) add(0, tree_.speeds);
     for (const std::size_t c : near_[idx(i)]) add(tree_.clusters[c].u, tree_.clusters[c].speeds);
