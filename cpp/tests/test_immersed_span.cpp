@@ -62,6 +62,15 @@ TEST_CASE("far below, a point without its surface is the flow within twice its b
         CHECK(largest(found.acceleration - exact.acceleration) < 2.0 * cut * largest(size.acceleration));
         CHECK(std::fabs(found.pressure - exact.pressure) < 2.0 * cut * size.pressure);
       }
+      const double still = std::min(calm, sea->still_below(cut));
+      CHECK(still > -1500.0);
+      const Vec3d below(4.0, 7.0, still - 0.01);
+      const LocalFlow<double> waves = sea->at<double>(3.0, below);
+      const auto current = profile.at<double>(below.z());
+      const Vec3d carried(current.x, current.y, 0.0);
+      CHECK(view.at_point<double>(0, 3.0, below).velocity == carried);
+      CHECK(largest(waves.velocity - carried) < 0.01 * cut * largest(size.velocity));
+      CHECK(largest(waves.acceleration) < 0.01 * cut * largest(size.acceleration));
       const Vec3d above(0.0, 0.0, calm + 0.01);
       CHECK(view.at_point<double>(0, 3.0, above).elevation ==
             doctest::Approx(sea->at<double>(3.0, above).elevation));

@@ -38,3 +38,25 @@ TEST_CASE("inverse of a small positive definite matrix with units of many sizes"
   check_size<5>(random);
   check_size<6>(random);
 }
+
+TEST_CASE("factors of an inertia are those of its matrix, to the bit where moving and turning are apart") {
+  using namespace seacrane;
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Mat6d root = Mat6d::NullaryExpr([&] { return normal(random); });
+    Mat6d whole = root * root.transpose() + Mat6d::Identity(), apart = whole;
+    apart.bottomLeftCorner<3, 3>().setZero();
+    apart.topRightCorner<3, 3>().setZero();
+    Mat6d compact = apart;
+    compact.topLeftCorner<3, 3>() = 7.0 * Mat3d::Identity();
+    const Vec6d load = Vec6d::NullaryExpr([&] { return normal(random); });
+    InertiaFactor<double> factor;
+    for (const Mat6d& mass : {whole, apart}) {  // in turn, as a part dips in
+      factor.take(SpatialInertia<double>(mass));
+      CHECK(factor.solve(load) == SpdFactor<6, double>(mass).solve(load));
+    }
+    factor.take(CompactInertia<double>{7.0, Symmetric3<double>::lower(compact.bottomRightCorner<3, 3>())});
+    CHECK(factor.solve(load) == SpdFactor<6, double>(compact).solve(load));
+  }
+}

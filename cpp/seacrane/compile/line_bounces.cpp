@@ -32,7 +32,10 @@ class BounceFinder {
     if (lines_.empty() || model_.paper_kinematics) return {};
     factor();
     for (const Line& line : lines_) {
-      add([&](Vec6d* w) { line.add_path(input(), w); }, line.d.EA / line.d.length.at(0.0).value, &line);
+      const auto pull = [&](Vec6d* w) {
+        line.path.for_each_section<double>(input(), [&](const auto& s, std::size_t) { s.add_to(w, 1.0); });
+      };
+      add(pull, line.d.EA / line.d.length.at(0.0).value, &line);
     }
     if (lines_.size() > kMostCoupled) return one_by_one();
     add_others();

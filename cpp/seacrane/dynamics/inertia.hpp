@@ -47,13 +47,14 @@ struct RigidMass {
 
   /// Its mass matrix about the state point, eq (12), in inertial axes.
   Mat6<T> matrix(const Mat3<T>& rotation) const {
+    Mat6<T> m = Mat6<T>::Zero();
+    m.diagonal().template head<3>().setConstant(mass);
+    m.template bottomRightCorner<3, 3>() = (rotation * inertia) * rotation.transpose();
+    if (center_of_mass.isZero(0.0)) return m;
     const Vec3<T> c = rotation * center_of_mass.cast<T>();
     const Mat3<T> s = skew<T>(c);
-    Mat6<T> m;
-    m.template topLeftCorner<3, 3>() = mass * Mat3<T>::Identity();
     m.template topRightCorner<3, 3>() = -mass * s;
     m.template bottomLeftCorner<3, 3>() = mass * s;
-    m.template bottomRightCorner<3, 3>() = (rotation * inertia) * rotation.transpose();
     m.template bottomRightCorner<3, 3>() += (mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
     m.diagonal().template tail<3>().array() += mass * c.squaredNorm();
     return m;
@@ -80,11 +81,13 @@ Vec6<T> full_terms(const Model& model, const BodyModel& body, const RigidMass<T>
                    const BodyKinematics<T>& k, const YawFrame<T>* frames, Mat6<T>& mass) {
   mass = rigid.matrix(k.rotation);
   const Vec3<T>& w = k.angular_velocity;
-  const Vec3<T> c = k.rotation * body.center_of_mass.cast<T>();
   const Vec3<T> angular = mass.template bottomRightCorner<3, 3>() * w;
-  Vec6<T> bias;
-  bias.template head<3>() = rigid.mass * cross<T>(w, cross<T>(w, c));
+  Vec6<T> bias = Vec6<T>::Zero();
   bias.template tail<3>() = cross<T>(w, angular);
+  if (!body.center_of_mass.isZero(0.0)) {
+    const Vec3<T> c = k.rotation * body.center_of_mass.cast<T>();
+    bias.template head<3>() = rigid.mass * cross<T>(w, cross<T>(w, c));
+  }
   if (body.vessel < 0) return bias;
   const Vessel& vessel = model.vessels[idx(body.vessel)];
   const YawFrame<T>& frame = frames[body.vessel];

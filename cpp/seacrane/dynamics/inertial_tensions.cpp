@@ -36,24 +36,25 @@ void InertialTensions::confine(std::vector<std::vector<int>> moved) {
   for (int j = 0; j < count(); ++j) {
     const std::vector<int>& by_j = moved_[idx(j)];
     for (int i = 0; i < count(); ++i) {
-      const bool feels =
-          std::ranges::any_of(on_[idx(i)], [&](int b) { return std::ranges::find(by_j, b) != by_j.end(); });
-      if (!feels) continue;
-      felt_[idx(j)].push_back(i);
+      std::vector<int> at = on_[idx(i)];
+      std::erase_if(at, [&](int b) { return std::ranges::find(by_j, b) == by_j.end(); });
+      if (at.empty()) continue;
+      felt_[idx(j)].push_back({i, std::move(at)});
       band = std::max(band, std::abs(i - j));
     }
   }
   equations_ = BandLu(count(), band);
 }
 
-double InertialTensions::dot(Eigen::Index line, const Vec6d* acceleration) const {
+double InertialTensions::dot(Eigen::Index line, const std::vector<int>& bodies,
+                             const Vec6d* acceleration) const {
   double sum = 0.0;
-  for (const int b : on_[idx(line)]) sum += path_[idx(line)][idx(b)].dot(acceleration[b]);
+  for (const int b : bodies) sum += path_[idx(line)][idx(b)].dot(acceleration[b]);
   return sum;
 }
 
 double InertialTensions::along(Eigen::Index line, const Vec6d* acceleration) const {
-  return -mass_[line] * dot(line, acceleration);
+  return -mass_[line] * dot(line, on_[idx(line)], acceleration);
 }
 
 void InertialTensions::start(const Terms& terms, double t, const double* memory, const Vec6d* acceleration) {
@@ -61,10 +62,8 @@ void InertialTensions::start(const Terms& terms, double t, const double* memory,
   for (const Tensioned& one : loads_) {
     std::vector<Vec6d>&unit = unit_[idx(one.place)], &path = path_[idx(one.place)];
     for (const int b : one.list->bodies[one.at]) unit[idx(b)] = path[idx(b)] = Vec6d::Zero();
-    one.list->add_unit(one.at, 0, in, unit.data());
-    one.list->add_path(one.at, in, path.data());
+    const InertialTension now = one.list->inertial(one.at, in, acceleration, unit.data(), path.data());
     unit.back() = path.back() = Vec6d::Zero();
-    const InertialTension now = one.list->inertial(one.at, in, acceleration);
     mass_[one.place] = now.mass;
     winding_[one.place] = now.winding;
     change_[one.place] = now.tension;
@@ -73,9 +72,10 @@ void InertialTensions::start(const Terms& terms, double t, const double* memory,
 
 const VecXd& InertialTensions::finish(Terms& terms) {
   MatXd& matrix = equations_.matrix();
-  matrix.setIdentity();
+  equations_.clear();
   for (int j = 0; j < count(); ++j) {
-    for (const int i : felt_[idx(j)]) matrix(i, j) += mass_[i] * dot(i, response(j).data());
+    for (const auto& [i, at] : felt_[idx(j)]) matrix(i, j) = mass_[i] * dot(i, at, response(j).data());
+    matrix(j, j) += 1.0;
   }
   equations_.factor();
   tension_ = change_;

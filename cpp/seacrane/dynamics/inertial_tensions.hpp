@@ -51,7 +51,7 @@ class InertialTensions {
   double absolute_power(const VecXd& change) const;
 
  private:
-  double dot(Eigen::Index line, const Vec6d* acceleration) const;
+  double dot(Eigen::Index line, const std::vector<int>& bodies, const Vec6d* acceleration) const;
 
   int bodies_;
   struct Tensioned {
@@ -59,10 +59,14 @@ class InertialTensions {
     std::size_t at;
     int place;  // among the tensions
   };
+  struct Felt {
+    int by;
+    std::vector<int> at;  // bodies
+  };
   std::vector<Tensioned> loads_;
   std::vector<std::vector<int>> on_;                        // bodies of each, without the ground, by place
   std::vector<std::vector<int>> moved_;                     // bodies that it accelerates
-  std::vector<std::vector<int>> felt_;                      // tensions that act on these
+  std::vector<std::vector<Felt>> felt_;                     // tensions that act on these
   std::vector<std::vector<Vec6d>> unit_, path_, response_;  // u, v and w, by place
   std::vector<Vec6d> load_;
   VecXd mass_, winding_, tension_, change_;

@@ -98,10 +98,9 @@ class TensionsByLane {
       const LoadInput<double> in = loads.input(lane, none());
       for (Line& line : lines_) {
         for (const int b : line.touched) unit_lane_[idx(b)] = path_lane_[idx(b)] = Vec6d::Zero();
-        const LoadList& list = *line.list[idx(lane)];
-        list.add_unit(line.at, 0, in, unit_lane_.data());
-        list.add_path(line.at, in, path_lane_.data());
-        put(line, lane, list.inertial(line.at, in, acceleration_.data()));
+        put(line, lane,
+            line.list[idx(lane)]->inertial(line.at, in, acceleration_.data(), unit_lane_.data(),
+                                           path_lane_.data()));
       }
     };
     loads.for_each_lane(one, [&](int lane) {

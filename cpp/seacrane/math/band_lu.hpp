@@ -18,8 +18,15 @@ class BandLu {
   BandLu(Eigen::Index size, Eigen::Index band)
       : band_(band), matrix_(MatXd::Identity(size, size)), pivot_(static_cast<std::size_t>(size)) {}
 
-  /// To be written within the band; until factor(), which overwrites it.
+  /// To be written within the band, as a whole or after clear(); until factor(), which overwrites it.
   MatXd& matrix() { return matrix_; }
+  /// Zeros where factor() writes.
+  void clear() {
+    for (Eigen::Index j = 0; j < matrix_.cols(); ++j) {
+      const Eigen::Index first = std::max<Eigen::Index>(0, j - 2 * band_);
+      matrix_.col(j).segment(first, below(j) + 1 - first).setZero();
+    }
+  }
 
   void factor() {
     MatXd& a = matrix_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "seacrane/math/products.hpp"
 
 /// Spatial vectors of a rigid body [R. Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 2], linear
@@ -189,6 +191,14 @@ class SpatialInertia {
     return *this;
   }
   static SpatialInertia zero() { return SpatialInertia(Mat6<T>(Mat6<T>::Zero())); }
+
+  const Symmetric3<T>& moving() const { return moving_; }
+  const Symmetric3<T>& turning() const { return turning_; }
+  /// Whether it is known that neither forces turn it nor moments move it.
+  bool is_apart() const {
+    if constexpr (std::is_floating_point_v<T>) return coupling_.isZero(T(0));
+    return false;
+  }
 
   Mat6<T> matrix() const {
     const Mat3<T> moving = moving_.full(), turning = turning_.full();

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "seacrane/math/spatial.hpp"
+
 namespace seacrane {
 
 /// A small symmetric positive definite matrix, of which only the lower triangle is read, as L D L^T. Loops of
@@ -45,6 +47,40 @@ struct SpdFactor {
     }
     return x;
   }
+};
+
+/// The factors of an inertia; of one whose moving and turning are apart those of either alone, which are the
+/// same numbers.
+template <class T>
+class InertiaFactor {
+ public:
+  void take(const CompactInertia<T>& inertia) {
+    take_apart(Symmetric3<T>::diagonal(inertia.mass), inertia.turning);
+  }
+  void take(const SpatialInertia<T>& inertia) {
+    if (inertia.is_apart()) return take_apart(inertia.moving(), inertia.turning());
+    is_apart_ = false;
+    whole_ = SpdFactor<6, T>(inertia.matrix());
+  }
+
+  Vec6<T> solve(const Vec6<T>& x) const {
+    if (!is_apart_) return whole_.solve(x);
+    Vec6<T> out;
+    out.template head<3>() = moving_.solve(x.template head<3>());
+    out.template tail<3>() = turning_.solve(x.template tail<3>());
+    return out;
+  }
+
+ private:
+  void take_apart(const Symmetric3<T>& moving, const Symmetric3<T>& turning) {
+    is_apart_ = true;
+    moving_ = SpdFactor<3, T>(moving.full());
+    turning_ = SpdFactor<3, T>(turning.full());
+  }
+
+  bool is_apart_ = true;
+  SpdFactor<3, T> moving_, turning_;
+  SpdFactor<6, T> whole_;
 };
 
 /// Inverse of such a matrix: L^-T D^-1 L^-1.

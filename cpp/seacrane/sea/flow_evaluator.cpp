@@ -82,8 +82,18 @@ FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil 
                "give 0 to 100 times those of the sea");
   sea::require(stencil_.cut >= 1e-14 && stencil_.cut <= 1e-2, stencil_.name, "cut", stencil_.cut,
                "give 1e-14 (rounding) to 1e-2; 1e-5 is the default");
-  if (field_ && !stencil_.surface && stencil_.count == 1 && stencil_.waves == 1.0)
+  if (field_ && !stencil_.surface && stencil_.count == 1 && stencil_.waves == 1.0) {
     calm_ = field_->calm_below(stencil_.cut);
+    still_ = std::min(calm_, field_->still_below(stencil_.cut));
+  }
+}
+
+std::size_t FlowEvaluator::Reach::of(const SeaField& field, double level, double cut) {
+  if (level >= low_ && level <= high_) return count_;
+  const std::size_t found = field.reach(level, cut);
+  low_ = found == count_ ? std::min(low_, level) : level;
+  high_ = found == count_ ? std::max(high_, level) : level;
+  return count_ = found;
 }
 
 void FlowEvaluator::require_above_floor(double z) const {
@@ -107,6 +117,10 @@ void FlowEvaluator::add_surface(std::size_t n, std::size_t count, LocalFlow<doub
 
 void FlowEvaluator::interior(std::size_t count, double level, LocalFlow<double>& out) {
   sea::add_interior(*summed_, count, *scratch_, out);
+  add_current(level, out);
+}
+
+void FlowEvaluator::add_current(double level, LocalFlow<double>& out) {
   const auto current = field_->current().at<double>(level);
   out.velocity += Vec3d(current.x, current.y, 0.0);
 }
@@ -121,8 +135,9 @@ FlowEvaluator::Depth FlowEvaluator::sink(std::size_t count, double z, double hei
   const WetHeight<double> wet = calm ? WetHeight<double>{z, height} : wet_height(z, height, elevation);
   const double level = calm ? z : field_->level(wet.middle, elevation);
   const double top = std::min(level + 0.5 * wet.height, 0.0);
-  const double cut = scratch_->split ? few_cut : stencil_.cut;
-  const std::size_t reached = std::min(count, summed_->reach(top, cut));
+  const bool few = scratch_->split;
+  const double cut = few ? few_cut : stencil_.cut;
+  const std::size_t reached = std::min(count, (few ? few_reach_ : reach_).of(*summed_, top, cut));
   scratch_->images = summed_->images(level - 0.5 * wet.height, cut);
   sea::set_decays(*summed_, reached, level, wet.height, *scratch_);
   return {level, reached};
@@ -130,7 +145,7 @@ FlowEvaluator::Depth FlowEvaluator::sink(std::size_t count, double z, double hei
 
 std::size_t FlowEvaluator::feel(const FlowPoint& at, std::size_t most) {
   const bool turns = !at.turning.isZero(0.0);
-  const Mat3d rate = skew<double>(at.turning) * at.extents;
+  const Mat3d rate = turns ? Mat3d(skew<double>(at.turning) * at.extents) : Mat3d(Mat3d::Zero());
   meet_waves(most);
   for (int j = 0; j < 3; ++j) {
     const double x = at.extents(0, j), y = at.extents(1, j);
@@ -147,6 +162,7 @@ std::size_t FlowEvaluator::feel(const FlowPoint& at, std::size_t most) {
 
 void FlowEvaluator::write_calm(double t, const FlowPoint& at, std::size_t most, LocalFlow<double>& out) {
   const double z = at.position.z();
+  if (most == 0) return add_current(z, out);
   const std::size_t count = feel(at, most);
   sea::set_phasors(*field_, count, t, at.position.x(), at.position.y(), *scratch_);
   scratch_->images = field_->images(z - 0.5 * at.height, stencil_.cut);
@@ -207,11 +223,12 @@ void FlowEvaluator::write_near(double t, const FlowPoint& first, const Vec3d& st
   leave_few();
 }
 
-FlowEvaluator::Sum FlowEvaluator::sum(double t, const FlowPoint& first, const Vec3d& step) const {
+FlowEvaluator::Sum FlowEvaluator::sum(double t, const FlowPoint& first, const Vec3d& step) {
   const double z = first.position.z(), top = z + 0.5 * first.height;
   require_above_floor(std::min(z, z + static_cast<double>(flow_.size() - 1) * step.z()));
+  if (top < still_) return {0, false, true};
   const bool calm = top < calm_;
-  const std::size_t most = calm ? field_->reach(std::min(top, 0.0), stencil_.cut) : field_->padded();
+  const std::size_t most = calm ? reach_.of(*field_, std::min(top, 0.0), stencil_.cut) : field_->padded();
   const bool few =
       near_ && most > near_->sea().few().padded() && is_numbered(near_->sea(), t, first.position + step);
   return {most, few, calm && !few};

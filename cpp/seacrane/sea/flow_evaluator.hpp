@@ -32,6 +32,14 @@ class FlowEvaluator {
   /// At elements that differ from the first by equal steps. Asked again for the same, they are not evaluated
   /// again.
   std::span<const LocalFlow<double>> row(double t, const FlowPoint& first, const Vec3d& step);
+  /// The same at the one point of a stencil.
+  const LocalFlow<double>& point(double t, const Vec3d& place) {
+    if (!(row_.of_point && t == row_.t && place == row_.first.position)) {
+      row(t, {place}, Vec3d::Zero());
+      row_.of_point = true;
+    }
+    return flow_.front();
+  }
   /// The flow of the row at an element, with slopes: those of the very sums that row() takes.
   template <int N>
   LocalFlow<Dual<N>> in_row(int index, double t, const FlowPlace<Dual<N>>& first, const Vec3<Dual<N>>& step) {
@@ -50,10 +58,20 @@ class FlowEvaluator {
     std::size_t most;  // of the components of the field
     bool few, calm;    // the few in their place; without its surface
   };
+  /// SeaField::reach() of one field and cut, remembered between two levels that have the same.
+  class Reach {
+   public:
+    std::size_t of(const SeaField& field, double level, double cut);
+
+   private:
+    std::size_t count_ = 0;
+    double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+  };
   struct Row {
     double t = std::numeric_limits<double>::quiet_NaN();
     FlowPoint first;
     Vec3d step = Vec3d::Zero();
+    bool of_point = false;
     bool operator==(const Row&) const = default;
   };
   /// Where the decays of an element are.
@@ -63,7 +81,7 @@ class FlowEvaluator {
   };
 
   void require_above_floor(double z) const;
-  Sum sum(double t, const FlowPoint& first, const Vec3d& step) const;
+  Sum sum(double t, const FlowPoint& first, const Vec3d& step);
   /// Amplitudes of the first waves, before an element takes its mean of them.
   void meet_waves(std::size_t count);
   /// Amplitudes that an element feels of the first waves, and how many components are felt at all.
@@ -82,6 +100,7 @@ class FlowEvaluator {
   /// From the phasors of a point to its flow; `count` components are felt at all.
   void take(std::size_t count, double z, double height, LocalFlow<double>& out);
   void interior(std::size_t count, double level, LocalFlow<double>& out);
+  void add_current(double level, LocalFlow<double>& out);
   /// Of an element under a surface; in `calm` water it is all wet.
   Depth sink(std::size_t count, double z, double height, double elevation, bool calm);
   std::span<const FlowSlopes> slopes(double t, const FlowPoint& first, const Vec3d& step);
@@ -94,8 +113,10 @@ class FlowEvaluator {
   const SeaField* summed_;  // the field, or the few of it
   std::vector<LocalFlow<double>> flow_;
   std::vector<FlowSlopes> slopes_;
-  Row row_, sloped_;                                        // the last ones; none
-  double calm_ = -std::numeric_limits<double>::infinity();  // z below which the surface is not asked for
+  Row row_, sloped_;  // the last ones; none
+  Reach reach_, few_reach_;
+  // z below which the surface is not asked for, and below which no waves are.
+  double calm_ = -std::numeric_limits<double>::infinity(), still_ = calm_;
 };
 
 }  // namespace seacrane

@@ -343,16 +343,20 @@ void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s
 
 SEACRANE_CLONES("avx512f", "avx2")
 void take_amplitudes(const double* amplitudes, std::size_t few, std::size_t count, FlowScratch& s) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double c = s.cosine[i], q = s.sine[i];
-    const auto times = [&](std::size_t sum, double& cosine, double& sine) {
-      const double a = amplitudes[2 * sum * few + i], b = amplitudes[(2 * sum + 1) * few + i];
-      cosine = a * c - b * q;
-      sine = a * q + b * c;
+  for (std::size_t i = 0; i < count; i += wide) {
+    FlowPack c, q;
+    get(s.cosine.data(), i, c);
+    get(s.sine.data(), i, q);
+    const auto times = [&](std::size_t sum, std::vector<double>& cosine, std::vector<double>& sine) {
+      FlowPack a, b;
+      get(amplitudes, 2 * sum * few + i, a);
+      get(amplitudes, (2 * sum + 1) * few + i, b);
+      put(a * c - b * q, i, cosine.data());
+      put(a * q + b * c, i, sine.data());
     };
-    times(0, s.cosine[i], s.sine[i]);
-    times(1, s.flow.cosine[i], s.flow.sine[i]);
-    times(2, s.rise.cosine[i], s.rise.sine[i]);
+    times(0, s.cosine, s.sine);
+    times(1, s.flow.cosine, s.flow.sine);
+    times(2, s.rise.cosine, s.rise.sine);
   }
 }
 

@@ -101,16 +101,13 @@ SeaField SeaField::of_unit_height(const std::vector<std::size_t>& kept) const {
   return out;
 }
 
-double SeaField::calm_below(double cut) const {
-  constexpr int halvings = 40;
-  if (!(crest_ < depth_)) return -depth_;
-  if (stretching_ == Stretching::none) return -crest_;
-  const double shift = crest_ / (1.0 - crest_ / depth_);  // of the level, at most
+template <class Factor>
+double SeaField::highest_without(double cut, int halvings, Factor&& factor) const {
   const auto changes = [&](double z) {
     double speed = 0.0, pull = 0.0, push = 0.0, speeds = 0.0, pulls = 0.0, pushes = 0.0;
     for (std::size_t i = 0; i < size_; ++i) {
-      const double size = arrays_.amplitude[i] * arrays_.speed[i];
-      const double change = shift * arrays_.k[i] * std::exp(arrays_.k[i] * std::min(z + shift, 0.0)) * 2.0;
+      const double size = arrays_.amplitude[i] * arrays_.speed[i], k = arrays_.k[i];
+      const double change = factor(k) * std::exp(k * std::min(z + shift(), 0.0)) * 2.0;
       speeds += size, pulls += size * arrays_.sigma[i], pushes += size * arrays_.pressure[i];
       speed += size * change, pull += size * arrays_.sigma[i] * change;
       push += size * arrays_.pressure[i] * change;
@@ -125,7 +122,19 @@ double SeaField::calm_below(double cut) const {
       (changes(middle) ? above : below) = middle;
     }
   }
-  return std::min(below, -(current_.settled() + shift));
+  return below;
+}
+
+double SeaField::calm_below(double cut) const {
+  if (!(crest_ < depth_)) return -depth_;
+  if (stretching_ == Stretching::none) return -crest_;
+  const double least = highest_without(cut, 40, [&](double k) { return shift() * k; });
+  return std::min(least, -(current_.settled() + shift()));
+}
+
+double SeaField::still_below(double cut) const {
+  if (!(crest_ < depth_)) return -depth_;
+  return highest_without(0.01 * cut, 12, [](double /*k*/) { return 1.0; });
 }
 
 LocalFlow<double> SeaField::magnitude() const {

@@ -112,6 +112,9 @@ class SeaField {
   /// The highest z below which a flow may be taken as if its surface were at z = 0: what stretching changes
   /// is at most `cut` of magnitude(), and the current changes no more. Always below all troughs.
   double calm_below(double cut) const;
+  /// One below which it may be taken as if there were no waves: all of them together come to at most a
+  /// hundredth of `cut` of magnitude(), about as little as one component that reach() leaves out.
+  double still_below(double cut) const;
 
   /// Share of component i that an element feels whose extents (m) along three of its axes are the columns:
   /// its mean over the element, the product of sin(x) / x with x = k (extent along the wave) / 2, and nothing
@@ -151,6 +154,12 @@ class SeaField {
   LocalFlow<double> magnitude() const;
 
  private:
+  /// By how much stretching shifts a level at most, m.
+  double shift() const { return stretching_ == Stretching::none ? 0.0 : crest_ / (1.0 - crest_ / depth_); }
+  /// The highest z, as near as so many halvings come to it, below which the sums of magnitudes of all
+  /// components, each times factor(k), are at most `cut` of magnitude().
+  template <class Factor>
+  double highest_without(double cut, int halvings, Factor&& factor) const;
   /// exp(kz) and its image below the sea floor, of component i.
   template <class T>
   std::array<T, 2> decay(std::size_t i, const T& level) const {

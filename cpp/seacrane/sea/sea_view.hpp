@@ -51,7 +51,12 @@ class SeaView {
   /// The flow at the one point of a stencil, likewise.
   template <class T>
   LocalFlow<T> at_point(int stencil, double t, const Vec3<T>& point) const {
-    return in_row<T>(stencil, 0, t, {point}, Vec3<T>::Zero());
+    if (!field_) return {};
+    if constexpr (std::is_same_v<T, double>) {
+      return evaluators_[idx(stencil)].point(t, point);
+    } else {
+      return in_row<T>(stencil, 0, t, {point}, Vec3<T>::Zero());
+    }
   }
   /// No crest is higher at a stencil, m.
   double crest(int stencil) const { return field_ ? waves(stencil) * field_->crest() : 0.0; }

@@ -171,7 +171,7 @@ class ArticulatedTree {
     Mat6<T> inverse = Mat6<T>::Zero();
     // (S^T I S)^-1 (-S^T p); of one that is driven its rate and -S^T p; of one that is held, I^-1 p.
     Vec6<T> torque = Vec6<T>::Zero();
-    SpdFactor<6, T> free;  // of I, where it floats or is held
+    InertiaFactor<T> free;  // of I, where it floats or is held
     Held held;
     Root root;
   };

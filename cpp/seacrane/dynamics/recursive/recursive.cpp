@@ -210,36 +210,33 @@ void RecursiveSystem::solve_with_loops(double* u_rate) {
   solve();
 }
 
-void RecursiveSystem::respond_to_tension(Eigen::Index i) {
+/// With what speeds change; where `near` knows which, no others.
+void RecursiveSystem::respond_to_tension(Eigen::Index i, double* u_rate) {
   const std::vector<std::size_t>& near = near_[idx(i)];
-  if (near.empty()) return load_response(tensions_.unit(i), tensions_.response(i));
+  std::vector<Vec6d>& response = tensions_.response(i);
+  if (near.empty()) {
+    load_response(tensions_.unit(i), response);
+    std::ranges::copy(speed_rate_, u_rate);
+    return;
+  }
   const auto push = [&](std::size_t k) -> ArticulatedTree<double>::Push {
     const std::vector<int>& bodies = tensions_.bodies(i);
     if (k >= bodies.size()) return {model_.body_count(), Wrench<double>::zero()};
     return {bodies[k], Wrench<double>(tensions_.unit(i)[idx(bodies[k])])};
   };
-  articulated_.respond(near, push(0), push(1), speed_rate_.data());
+  articulated_.respond(near, push(0), push(1), u_rate);
   for (const std::size_t c : near) {
     for (const Member& m : tree_.clusters[c].members) {
-      tensions_.response(i)[idx(m.body)] = articulated_.acceleration(m.body).vector();
+      response[idx(m.body)] = articulated_.acceleration(m.body).vector();
     }
   }
 }
 
 void RecursiveSystem::add_inertial_tensions(double t, const double* memory, double* u_rate) {
   tensions_.start(*terms_, t, memory, acceleration_.data());
-  const Eigen::Map<const VecXd> rates(speed_rate_.data(), tree_.speeds);
-  /// Calls f(first, count) for the speeds that a tension moves.
-  const auto for_each_moved = [&](Eigen::Index i, auto&& f) {
-    if (near_[idx(i)].empty()) return f(0, tree_.speeds);
-    for (const std::size_t c : near_[idx(i)]) f(tree_.clusters[c].u, tree_.clusters[c].speeds);
-  };
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
-    respond_to_tension(i);
-    for_each_moved(i, [&](int first, int count) {
-      inertial_speed_rates_.col(i).segment(first, count) = rates.segment(first, count);
-    });
-    own_.read_forces(force_response_[idx(i)]);
+    respond_to_tension(i, inertial_speed_rates_.col(i).data());
+    own_.read_forces(force_response_[idx(i)], near_[idx(i)]);
   }
   const VecXd& tension = tensions_.finish(*terms_);
   if (loops_.rows() > 0) {  // whose multipliers the responses have overwritten
@@ -253,11 +250,13 @@ void RecursiveSystem::add_inertial_tensions(double t, const double* memory, doub
   }
   tensions_.add_loads(tension, load_.data());
   tensions_.add_accelerations(acceleration_);
-  Eigen::Map<VecXd> sum(u_rate, tree_.speeds);
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
-    for_each_moved(i, [&](int first, int count) {
-      sum.segment(first, count) += tension[i] * inertial_speed_rates_.col(i).segment(first, count);
-    });
+    const double pull = tension[i], *const rates = inertial_speed_rates_.col(i).data();
+    const auto add = [&](int first, int count) {
+      for (int k = first; k < first + count; ++k) u_rate[k] += pull * rates[k];
+    };
+    if (near_[idx(i)].empty()) add(0, tree_.speeds);
+    for (const std::size_t c : near_[idx(i)]) add(tree_.clusters[c].u, tree_.clusters[c].speeds);
   }
 }
 

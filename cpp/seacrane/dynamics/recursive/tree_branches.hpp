@@ -187,7 +187,7 @@ template <int n>
 void ArticulatedTree<T>::factor_cluster(const Cluster& c, Joint& joint) {
   if constexpr (n == 6) {
     if (!c.is_driven() && joint.root.coupled < 0) {
-      joint.free = SpdFactor<6, T>(bodies_[idx(c.body)].whole().matrix());
+      bodies_[idx(c.body)].with_inertia([&](const auto& inertia) { joint.free.take(inertia); });
     }
     return;
   }
@@ -227,7 +227,7 @@ void ArticulatedTree<T>::factor_held(const Cluster& c, Joint& joint) {
   if (child.leaf) {
     joint.inverse.template topLeftCorner<3, 3>() = spd_inverse<3>(child.compact.turning.full());
   } else {
-    joint.free = SpdFactor<6, T>(child.inertia.matrix());
+    joint.free.take(child.inertia);
   }
   Held& held = joint.held;
   held.on_child = Branch::template held<T>(c.joint, kinematics_.columns(c.members[0]));

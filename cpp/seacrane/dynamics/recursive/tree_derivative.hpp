@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -123,11 +124,14 @@ class TreeDerivative {
   double* jump() { return jump_.data(); }
 
   /// At the last solution: what DrivenSpeeds reads, then the tensions of the links that are branches, N. They
-  /// are linear in the loads.
-  void read_forces(std::vector<T>& forces) const {
+  /// are linear in the loads. `moved`: the only clusters that it was of; empty: all.
+  void read_forces(std::vector<T>& forces, const std::vector<std::size_t>& moved = {}) const {
     forces.clear();
     driven_.read(articulated_, forces);
-    for (const std::size_t link : links_) forces.push_back(-articulated_.held(link));
+    for (const std::size_t link : links_) {
+      const bool stays = !moved.empty() && std::ranges::find(moved, link) == moved.end();
+      forces.push_back(stays ? T(0) : -articulated_.held(link));
+    }
   }
   std::size_t force_count() const { return driven_.count() + links_.size(); }
   /// The place among these of the tension of an element that is such a link.

@@ -144,7 +144,11 @@ struct ImmersedSpan {
       Vec3<T> force = end.second ? couple : Vec3<T>(-couple);
       force += flow_force(end) + drag(at, end);
       const T stored = add_momentum(at, end, force);
-      out.wrench[end.body].add(force, end.lever);
+      if (end.at_state) {
+        out.wrench[end.body].force += force;
+      } else {
+        out.wrench[end.body].add(force, end.lever);
+      }
       out.add_power(force.dot(end.own) + stored);
     }
   }
@@ -162,7 +166,7 @@ struct ImmersedSpan {
       Vec3d force = flow_force(end) + braked + (end.second ? couple : Vec3d(-couple));
       const double stored = add_momentum(at, end, force);
       all += force.dot(end.own) + stored;
-      const double square = at.across(end.velocity).squaredNorm();
+      const double square = end.side.squaredNorm();
       out.power(Cause::buoyancy) += weight * end.wet * end.own.z();
       out.power(Cause::drag) += braked.dot(end.own);
       out.power(Cause::slam) -= 0.5 * added * std::abs(end.dips) * square;
@@ -184,6 +188,8 @@ struct ImmersedSpan {
     Vec3<T> lever, point;   // from the state point, and its place
     Vec3<T> own, swept;     // its velocity; its acceleration by turning of the body
     Vec3<T> velocity;       // over the water
+    Vec3<T> side;           // and across the span
+    T slide{0};             // and along it
     Vec3<T> water;          // acceleration of that, Du/Dt
     // m of the span below the surface, if both halves were as this one; and how fast that grows as it dips
     // in, and as the span itself does.
@@ -196,9 +202,9 @@ struct ImmersedSpan {
     std::array<End<T>, 2> ends;
 
     Vec3<T> across(const Vec3<T>& x) const { return x - direction * direction.dot(x); }
-    /// P' x.
-    Vec3<T> across_rate(const Vec3<T>& x) const {
-      return -(turning * direction.dot(x) + direction * turning.dot(x));
+    /// P' w.
+    Vec3<T> across_rate(const End<T>& end) const {
+      return -(turning * end.slide + direction * turning.dot(end.velocity));
     }
   };
 
@@ -214,7 +220,8 @@ struct ImmersedSpan {
   Place<T> place(const LoadInput<T>& in) const {
     using std::sqrt;
     Place<T> out;
-    out.ends = {end_at(in, span.first, span.first_point), end_at(in, span.second, span.second_point)};
+    set_end(in, span.first, span.first_point, out.ends[0]);
+    set_end(in, span.second, span.second_point, out.ends[1]);
     out.ends[1].second = true;
     const Vec3<T> apart = out.ends[1].point - out.ends[0].point;
     const T square = apart.dot(apart);
@@ -227,13 +234,17 @@ struct ImmersedSpan {
     const T half = T(0.5) * apart.z(), half_rate = T(0.5) * rate.z();
     dip<moves>(in, stencils[0], half, half_rate, wire, out.ends[0]);
     dip<moves>(in, stencils[1], T(-half), T(-half_rate), wire, out.ends[1]);
+    for (End<T>& end : out.ends) {
+      if constexpr (!moves) break;
+      end.slide = out.direction.dot(end.velocity);
+      end.side = end.velocity - out.direction * end.slide;
+    }
     return out;
   }
 
   template <class T>
-  static End<T> end_at(const LoadInput<T>& in, int body, const Vec3d& point) {
+  static void set_end(const LoadInput<T>& in, int body, const Vec3d& point, End<T>& out) {
     const auto& k = in.bodies[body];
-    End<T> out;
     out.body = body;
     out.at_state = point.isZero(0.0);
     out.lever = out.swept = out.water = Vec3<T>::Zero();
@@ -247,32 +258,44 @@ struct ImmersedSpan {
       out.swept = cross<T>(k.angular_velocity, around);
     }
     out.velocity = out.own;
-    return out;
   }
 
-  /// The sea at an end whose half of the span rises by `height`. Its share below the surface is smooth up to
-  /// the second derivative: it dips in over its height, and no less than the diameter.
+  /// The sea at an end whose half of the span rises by `height`.
   template <bool moves, class T>
   void dip(const LoadInput<T>& in, int stencil, const T& height, const T& height_rate,
            const PaidOut::Length<T>& wire, End<T>& end) const {
+    const T middle = end.point.z() + T(0.5) * height;
+    const T reach = T(0.5) * (select(height < T(0), T(-height), height) + T(d.diameter));
+    const T crest(in.sea->crest(stencil));
+    if (!(middle - reach < crest)) return;
+    const bool under = middle + reach < -crest;  // all troughs
+    end.wet = wire.value;
+    end.grows = wire.rate;
+    if (under && !moves) return;
+    const LocalFlow<T> flow = in.sea->template at_point<T>(stencil, in.time, end.point);
+    end.velocity = end.own - flow.velocity;
+    end.water = flow.acceleration;
+    if (!under) emerge<moves>(flow, middle, height, height_rate, end);
+  }
+
+  /// Leaves an end its share below the surface. That is smooth up to the second derivative: it dips in over
+  /// its height, and no less than the diameter.
+  template <bool moves, class T>
+  void emerge(const LocalFlow<T>& flow, const T& middle, const T& height, const T& height_rate,
+              End<T>& end) const {
     using std::sqrt;
     const T over = sqrt(height * height + T(d.diameter * d.diameter));
-    const T middle = end.point.z() + T(0.5) * height;
-    if (!(middle - T(0.5) * over < T(in.sea->crest(stencil)))) return;  // above all crests
-    const LocalFlow<T> flow = in.sea->template at_point<T>(stencil, in.time, end.point);
     const T depth = flow.elevation - middle;
     const T part = clamped(T(T(0.5) + depth / over), T(0), T(1)), dry = T(1) - part;
     const T share = part * part * part * (T(10) + part * (T(6) * part - T(15)));
-    end.wet = share * wire.value;
-    if constexpr (!moves) return;
-    end.velocity = end.own - flow.velocity;
-    end.water = flow.acceleration;
-    end.grows = share * wire.rate;
-    if (!(part < T(1))) return;
+    const T length = end.wet;
+    end.wet *= share;
+    end.grows *= share;
+    if (!moves || !(part < T(1))) return;
     const T rise = flow.elevation_rate + flow.slope[0] * end.own.x() + flow.slope[1] * end.own.y();
     const T sinks = rise - end.own.z() - T(0.5) * height_rate;
     const T part_rate = (sinks - depth * height * height_rate / (over * over)) / over;
-    end.dips = T(30) * part * part * dry * dry * part_rate * wire.value;
+    end.dips = T(30) * part * part * dry * dry * part_rate * length;
   }
 
   /// Buoyancy, and the force of the undisturbed flow.
@@ -286,11 +309,10 @@ struct ImmersedSpan {
   template <class T>
   Vec3<T> drag(const Place<T>& at, const End<T>& end) const {
     using std::sqrt;
-    const T slide = at.direction.dot(end.velocity);
-    const Vec3<T> side = end.velocity - at.direction * slide;
-    Vec3<T> out = at.direction * (T(-along) * end.wet * slide * select(slide < T(0), T(-slide), slide));
-    const T square = side.dot(side);
-    if (square > T(0)) out -= side * (T(across) * end.wet * sqrt(square));  // else it has no direction
+    const T speed = select(end.slide < T(0), T(-end.slide), end.slide);
+    Vec3<T> out = at.direction * (T(-along) * end.wet * end.slide * speed);
+    const T square = end.side.dot(end.side);
+    if (square > T(0)) out -= end.side * (T(across) * end.wet * sqrt(square));  // else it has no direction
     return out;
   }
 
@@ -300,8 +322,7 @@ struct ImmersedSpan {
     Vec3<T> out = Vec3<T>::Zero();
     for (const End<T>& end : at.ends) {
       if (!(end.wet > T(0))) continue;
-      const T slide = at.direction.dot(end.velocity);
-      out -= at.across(end.velocity) * (T(added) * end.wet * slide / at.length);
+      out -= end.side * (T(added) * end.wet * end.slide / at.length);
     }
     return out;
   }
@@ -312,8 +333,8 @@ struct ImmersedSpan {
   T add_momentum(const Place<T>& at, const End<T>& end, Vec3<T>& force) const {
     const T mass = T(added) * end.wet, gain = T(added) * end.dips, grown = T(added) * end.grows;
     const Vec3<T> swing = end.swept - end.water, own = at.across(end.own);
-    force -= (at.across(swing) + at.across_rate(end.velocity)) * mass;
-    force -= at.across(end.velocity) * (grown + select(gain > T(0), gain, T(0)));
+    force -= (at.across(swing) + at.across_rate(end)) * mass;
+    force -= end.side * (grown + select(gain > T(0), gain, T(0)));
     const T turned = own.dot(end.swept) - at.direction.dot(end.own) * at.turning.dot(end.own);
     return mass * turned + T(0.5) * (gain + grown) * own.dot(own);
   }

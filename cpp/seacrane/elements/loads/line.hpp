@@ -191,8 +191,9 @@ struct Line {
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
-    if (!has_friction) return add_path(in, wrenches);
-    Motion<double> now = movement(in);
+    add_unit(in, movement(in), wrenches);
+  }
+  void add_unit(const LoadInput<double>& in, Motion<double> now, Vec6d* wrenches) const {
     now.tension = 1.0;
     for_each_tension<double>(
         in, now, [&](const Section<double>& s, double tension, const SheaveFriction<double>&, std::size_t) {
@@ -200,9 +201,9 @@ struct Line {
         });
   }
   /// By how much the path gets shorter along the twists of bodies: what a unit adds without friction.
-  void add_path(const LoadInput<double>& in, Vec6d* wrenches) const {
-    path.for_each_section<double>(in,
-                                  [&](const Section<double>& s, std::size_t) { s.add_to(wrenches, 1.0); });
+  void add_path(const LoadInput<double>& in, const Motion<double>& now, Vec6d* wrenches) const {
+    for_each_section<double>(in, now,
+                             [&](const Section<double>& s, std::size_t) { s.add_to(wrenches, 1.0); });
   }
 
   /// Whether it is quasi-static and, on a side, neither taut nor free to haul in.
@@ -287,8 +288,8 @@ struct Line {
   T inertial_tension(const LoadInput<T>& in, const Motion<T>& now, const Vec6d* acceleration) const {
     T bend(0);  // l''
     for_each_section<T>(in, now, [&](const Section<T>& s, std::size_t i) {
-      bend += s.rate_change(point_acceleration<T>(in, s.first, s.lever_first, acceleration),
-                            point_acceleration<T>(in, s.second, s.lever_second, acceleration),
+      bend += s.rate_change(point_acceleration<T>(in, path.points()[i - 1], s.lever_first, acceleration),
+                            point_acceleration<T>(in, path.points()[i], s.lever_second, acceleration),
                             acceleration[s.first].template tail<3>().template cast<T>(),
                             acceleration[s.second].template tail<3>().template cast<T>());
       if (s.turns) bend += path.swing<T>(in, i);
@@ -419,10 +420,10 @@ struct Line {
   template <class T>
   Motion<T> movement(const LoadInput<T>& in) const {
     Motion<T> out{};
-    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t) {
+    if (path.is_one_section()) path.lay_only(in, out.only);
+    for_each_section<T>(in, out, [&](const Section<T>& s, std::size_t) {
       out.length += s.length;
       out.rate += s.rate;
-      if (path.is_one_section()) out.only = s;
     });
     const CurveValue given = d.length.at(in.time, in.curve_limit);
     const Winch* const by = paying_out();
@@ -454,11 +455,12 @@ struct Line {
     return T(viscous) / T(sqrt(l0));
   }
   template <class T>
-  static Vec3<T> point_acceleration(const LoadInput<T>& in, int body, const Vec3<T>& lever,
+  static Vec3<T> point_acceleration(const LoadInput<T>& in, const PathPoint& at, const Vec3<T>& lever,
                                     const Vec6d* acceleration) {
-    const Vec3<T> omega = in.bodies[body].angular_velocity;
-    const Vec6<T> a = acceleration[body].template cast<T>();
-    const Vec3<T> linear = a.template head<3>(), angular = a.template tail<3>();
+    const Vec3<T> linear = acceleration[at.body].template head<3>().template cast<T>();
+    if (at.at_state) return linear;
+    const Vec3<T> angular = acceleration[at.body].template tail<3>().template cast<T>();
+    const Vec3<T>& omega = in.bodies[at.body].angular_velocity;
     return linear + cross<T>(angular, lever) + cross<T>(omega, cross<T>(omega, lever));
   }
   template <class T>

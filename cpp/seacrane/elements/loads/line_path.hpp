@@ -115,6 +115,16 @@ class LinePath {
     f(sections[(points_.size() - 1) % 2], points_.size() - 1);
   }
 
+  /// The section of a path between two points.
+  template <class T>
+  void lay_only(const LoadInput<T>& in, PathSection<T>& section) const {
+    Place<T> from, to;
+    Radii<T> radii;
+    place<T>(in, points_[0], from);
+    place<T>(in, points_[1], to);
+    fill<T>(in, 1, from, to, section, radii);
+  }
+
   /// How the rate of section i between sheaves changes with the places alone, the velocities held.
   template <class T>
   T swing(const LoadInput<T>& in, std::size_t i) const {

@@ -101,10 +101,10 @@ class LoadList {
   // A load whose tension depends on accelerations.
   /// Its place among these tensions; -1: it has none.
   virtual int inertial_place(Place i) const = 0;
-  virtual InertialTension inertial(Place i, const LoadInput<double>& in, const Vec6d* acceleration) const = 0;
+  /// Adds what one newton puts on the bodies, with friction and without.
+  virtual InertialTension inertial(Place i, const LoadInput<double>& in, const Vec6d* acceleration,
+                                   Vec6d* unit, Vec6d* path) const = 0;
   virtual Slopes inertial(Place i, const LoadInput<Slopes>& in, const Vec6d* acceleration) const = 0;
-  /// What one newton puts on the bodies without friction.
-  virtual void add_path(Place i, const LoadInput<double>& in, Vec6d* wrenches) const = 0;
 
   // A load along a coordinate of a joint, which a tree may have.
   /// Null: it is none.
