@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import hung, settled
+from line_scenes import hung, settled, swinging
 from named import pendulum
 from numpy.testing import assert_allclose, assert_array_equal
 from test_relative_motion import hoisting, tumbling
@@ -91,6 +91,15 @@ def rod() -> Scene:
     return scene
 
 
+def beside_a_rod() -> Scene:
+    """A load on a quasi-static line, which moves nothing of another on a rod."""
+    scene = settled(swinging(), length=7.72)
+    scene.add_body("other", mass=1e3, size=(1, 1, 1), position=(30, 2, -8))
+    ends = {"point": (30, 0, 0), "second_point": (30, 2, -8)}
+    scene.add_joint("rod", kind="distance", first="ground", second="other", **ends)
+    return scene
+
+
 def ship(*, crane: bool = False, hoist: bool = False) -> Scene:
     scene = Scene(name="ship")
     scene.add_vessel(shipped_database())
@@ -132,6 +141,7 @@ SOLVED = {"reaction_force", "reaction_moment", "limit_force"}  # multipliers of 
         rod,
         hung_on_links,
         lambda: settled(hung()),
+        beside_a_rod,
     ],
 )
 def test_accelerations_and_forces_are_those_of_what_is_stepped_and_of_the_described_bodies(make: Any) -> None:
