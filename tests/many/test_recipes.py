@@ -9,6 +9,7 @@ import socket
 import subprocess
 import sys
 import textwrap
+from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -25,6 +26,14 @@ NEEDS = {"machine": (), "array": ("xargs",), "mpi": ("mpirun", "mpi4py"), "dask"
 OPEN_MPI = ("ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_rmaps_base_oversubscribe")
 
 
+def free_port() -> int:
+    """Below those that the system gives to whoever connects meanwhile."""
+    for port in range(20000, 32000):
+        with suppress(OSError), socket.create_server(("127.0.0.1", port)):
+            return port
+    raise OSError("no port is free")
+
+
 @pytest.mark.slow("processes of four kinds")
 @pytest.mark.parametrize(("folder", "recipe"), [*zip(NEEDS, RECIPES, strict=True)], ids=NEEDS)
 def test_a_recipe_gives_the_bits_of_one_process(folder: str, recipe: str, tmp_path: Path) -> None:
@@ -33,8 +42,7 @@ def test_a_recipe_gives_the_bits_of_one_process(folder: str, recipe: str, tmp_pa
         if not shutil.which(one, path=path) and not find_spec(one):
             pytest.skip(f"no {one}: pip install distributed mpi4py, and Debian's package openmpi-bin")
     (tmp_path / "my_study.toml").write_text(HEAVE_STUDY)
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        recipe = recipe.replace("8786", str(free.getsockname()[1]))
+    recipe = recipe.replace("8786", str(free_port()))
     script = f"set -e; trap 'kill $(jobs -p) 2> /dev/null || true; wait' EXIT\n{recipe}"
     given = os.environ | {"PATH": path} | {f"OMPI_{name}": "1" for name in OPEN_MPI}
     subprocess.run(["bash", "-c", script], cwd=tmp_path, env=given, timeout=300, check=True)
