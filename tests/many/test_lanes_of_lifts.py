@@ -147,6 +147,14 @@ def test_what_is_solved_for_has_outputs_and_peaks_as_alone(
         assert min(above.min(), below.min()) >= 0.0 and max(above.max(), below.max()) > 0.0, name
 
 
+def test_a_stage_that_has_the_time_of_an_output_is_not_taken_for_it() -> None:
+    # verner65 has one in the middle of a step, where every other output is.
+    method = {"integrator": "verner65", "rtol": 1e-2, "maximum_step": 0.0625, "t_end": 1.0, "dt_out": 0.03125}
+    keep = {"hook": Kept(channel="hook_load", interval=0.03125)}
+    alone, beside = in_both(on_a_link, over={"seed": [1, 2, 3]}, keep=keep, **method)
+    assert np.abs(beside.hook - alone.hook).max() < 1e-10 * np.abs(alone.hook).max()
+
+
 def stopped(start: float) -> Scene:
     scene = pendulum(start=1.0)
     scene.replace("bob", angular_velocity=(0.0, start, 0.0), velocity=(0.0, 0.0, -start))

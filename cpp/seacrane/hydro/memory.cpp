@@ -1,7 +1,10 @@
 #include "seacrane/hydro/memory.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+
+#include "seacrane/math/clones.hpp"
 
 namespace seacrane {
 namespace {
@@ -44,7 +47,7 @@ Memory::Memory(const std::vector<StateSpaceBlock>& blocks, int motions) {
     check(s, k, motions);
     const int states = static_cast<int>(s.a.rows()), outputs = static_cast<int>(s.outputs.size());
     states_ += states;
-    if (s.inputs.size() == 1 && outputs == 1 && states <= tile) {
+    if (s.inputs.size() == 1 && outputs == 1 && states <= most_alone) {
       put_alone(s, states);
       continue;
     }
@@ -68,19 +71,26 @@ void Memory::put_alone(const StateSpaceBlock& s, int states) {
 
 /// The matrix (left, right), whose right columns belong to `inputs`.
 void Memory::put_in_tiles(const MatXd& left, const MatXd& right, const std::vector<int>& inputs) {
-  in_tiles(static_cast<int>(left.rows()), [&]<int rows>(int first) {
+  for (Eigen::Index first = 0; first < left.rows(); first += tile) {
+    const Eigen::Index rows = std::min<Eigen::Index>(tile, left.rows() - first);
     for (const MatXd* part : {&left, &right}) {
       const std::size_t count = columns_.size();
       columns_.push_back(0);
       for (Eigen::Index j = 0; j < part->cols(); ++j) {
-        const auto column = part->col(j).segment<rows>(first);
-        if ((column.array() == 0.0).all()) continue;
+        Eigen::Vector<double, tile> column = Eigen::Vector<double, tile>::Zero();
+        column.head(rows) = part->col(j).segment(first, rows);
+        if (column.isZero(0.0)) continue;
         ++columns_[count];
         columns_.push_back(part == &left ? static_cast<int>(j) : inputs[static_cast<std::size_t>(j)]);
-        coefficients_.insert(coefficients_.end(), column.data(), column.data() + rows);
+        coefficients_.insert(coefficients_.end(), column.data(), column.data() + tile);
       }
     }
-  });
+  }
+}
+
+SEACRANE_CLONES("avx2")
+void Memory::evaluate_numbers(const double* u, const double* x, double* x_rate, double* mu) const {
+  evaluate_all(u, x, x_rate, mu);
 }
 
 }  // namespace seacrane

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <memory>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 #include "seacrane/math/types.hpp"
@@ -31,6 +32,27 @@ class Memory {
   /// Rates of the states under the motions u; adds to the loads mu.
   template <class T>
   void evaluate(const T* u, const T* x, T* x_rate, T* mu) const {
+    if constexpr (std::is_same_v<T, double>) {
+      evaluate_numbers(u, x, x_rate, mu);
+    } else {
+      evaluate_all(u, x, x_rate, mu);
+    }
+  }
+
+ private:
+  /// Blocks of one motion to one load that follow one another and have as many states; or one other block.
+  struct Run {
+    bool alone;
+    int states, blocks;
+    int outputs, first_output;  // of another block, in outputs_
+  };
+  struct Alone {
+    int input, output;
+  };
+
+  void evaluate_numbers(const double* u, const double* x, double* x_rate, double* mu) const;
+  template <class T>
+  void evaluate_all(const T* u, const T* x, T* x_rate, T* mu) const {
     const double* m = coefficients_.data();
     const int* column = columns_.data();
     const Alone* alone = alone_.data();
@@ -47,33 +69,36 @@ class Memory {
         });
         continue;
       }
-      in_tiles(run.states, [&]<int rows>(int first) {
-        const auto sum = next_rows<rows, T>(m, column, u, x);
-        std::copy_n(sum.data(), rows, x_rate + first);
-      });
-      in_tiles(run.outputs, [&]<int rows>(int first) {
-        const auto sum = next_rows<rows, T>(m, column, u, x);
-        const int* const output = outputs_.data() + run.first_output + first;
-        for (int i = 0; i < rows; ++i) mu[output[i]] += sum[idx(i)];
-      });
+      for (int i = 0; i < run.states; i += tile) {
+        next_tile<T>(m, column, u, x).write(std::min(tile, run.states - i), x_rate + i);
+      }
+      for (int i = 0; i < run.outputs; i += tile) {
+        const Tile<T> sum = next_tile<T>(m, column, u, x);
+        const int* const output = outputs_.data() + run.first_output + i;
+        for (int n = 0; n < std::min(tile, run.outputs - i); ++n) mu[output[n]] += sum[n];
+      }
       x += run.states;
       x_rate += run.states;
     }
   }
 
- private:
-  /// Blocks of one motion to one load that follow one another and have as many states; or one other block.
-  struct Run {
-    bool alone;
-    int states, blocks;
-    int outputs, first_output;  // of another block, in outputs_
-  };
-  struct Alone {
-    int input, output;
+  static constexpr int tile = 4;  // rows summed side by side
+  /// As many numbers, or packs.
+  template <class T>
+  struct Tile {
+    T row[tile] = {T(0), T(0), T(0), T(0)};
+    void add(const T& factor, const double* m) {
+      for (int i = 0; i < tile; ++i) row[i] += factor * T(m[i]);
+    }
+    void add(const Tile& other) {
+      for (int i = 0; i < tile; ++i) row[i] += other.row[i];
+    }
+    void write(int count, T* to) const { std::copy_n(row, count, to); }
+    T operator[](int i) const { return row[i]; }
   };
 
-  static constexpr int tile = 6;  // rows summed side by side, at most
-  /// Calls f.template operator()<count>() for up to `tile`.
+  static constexpr int most_alone = 6;  // states of a block that is laid out at compile time
+  /// Calls f.template operator()<count>() for up to as many.
   template <class F>
   static void with_count(int count, F&& f) {
     switch (count) {
@@ -90,17 +115,8 @@ class Memory {
       case 5:
         return f.template operator()<5>();
       default:
-        return f.template operator()<tile>();
+        return f.template operator()<most_alone>();
     }
-  }
-  /// Calls f.template operator()<count>(first) for rows in tiles.
-  template <class F>
-  static void in_tiles(int rows, F&& f) {
-    int first = 0;
-    for (; rows - first > tile; first += tile) f.template operator()<tile>(first);
-    with_count(rows - first, [&]<int count>() {
-      if constexpr (count > 0) f.template operator()<count>(first);
-    });
   }
   /// Of the rows of (A B; C D) for n states: an even number, so that two lie in one register.
   static constexpr int stride(int n) { return (n + 2) / 2 * 2; }
@@ -124,19 +140,25 @@ class Memory {
   void put_alone(const StateSpaceBlock& s, int states);
   void put_in_tiles(const MatXd& left, const MatXd& right, const std::vector<int>& inputs);
 
-  /// The next rows of a block times (x, u), without columns of zeros; moves on to what comes after them.
-  template <int rows, class T>
-  std::array<T, idx(rows)> next_rows(const double*& m, const int*& column, const T* u, const T* x) const {
-    return [&]<std::size_t... i>(std::index_sequence<i...>) {
-      std::array<T, idx(rows)> sum = {(static_cast<void>(i), T(0))...};
-      for (const T* const of : {x, u}) {
-        for (const int* const end = column + *column + 1; ++column != end; m += rows) {
-          ((sum[i] += of[*column] * T(m[i])), ...);
-        }
+  /// The next rows of a block times (x, u), without columns of zeros, every other one in a sum of its own,
+  /// which does not wait for the last; moves on to what comes after them.
+  template <class T>
+  static Tile<T> next_tile(const double*& m, const int*& column, const T* u, const T* x) {
+    Tile<T> sum, other;
+    const auto add = [&](const T* of) {
+      const int* const end = column + *column + 1;
+      for (++column; end - column > 1; column += 2, m += 2 * tile) {
+        sum.add(of[column[0]], m);
+        other.add(of[column[1]], m + tile);
       }
-      return sum;
-    }
-    (std::make_index_sequence<static_cast<std::size_t>(rows)>{});
+      if (column == end) return;
+      sum.add(of[*column++], m);
+      m += tile;
+    };
+    add(x);
+    add(u);
+    sum.add(other);
+    return sum;
   }
 
   std::vector<Run> runs_;
@@ -146,6 +168,27 @@ class Memory {
   std::vector<double> coefficients_;  // (A B), then (C D) per other block, in tiles of rows, by columns
   std::vector<int> columns_;  // per tile those of x that are not zero, and of u, each after their number
   int states_ = 0;
+};
+
+/// As one vector of the processor.
+template <>
+struct Memory::Tile<double> {
+  typedef double Row __attribute__((vector_size(sizeof(double) * tile)));
+  Row row{};
+  void add(double factor, const double* m) {
+    Row next;
+    std::memcpy(&next, m, sizeof next);
+    row += factor * next;
+  }
+  void add(const Tile& other) { row += other.row; }
+  void write(int count, double* to) const {
+    if (count == tile) {
+      std::memcpy(to, &row, sizeof row);
+    } else {
+      for (int i = 0; i < count; ++i) to[i] = row[i];
+    }
+  }
+  double operator[](int i) const { return row[i]; }
 };
 
 }  // namespace seacrane

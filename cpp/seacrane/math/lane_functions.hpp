@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
 
 namespace seacrane {
 
@@ -79,10 +80,10 @@ void exp_lane(const T& x, T& out) {
 }
 
 /// sin x / x from y = x^2 <= pi^2, and its derivative in y: Taylor polynomial whose first omitted term is
-/// pi^28 / 29! = 1e-17. Without branches, so that a loop over it becomes SIMD code.
-template <class T>
+/// pi^28 / 29! = 1e-17 with all terms, see sinc_terms for fewer. Without branches, so that a loop over it
+/// becomes SIMD code.
+template <class T, std::size_t count = 14>
 void sinc_lane(const T& y, T& out, T& slope) {
-  constexpr std::size_t count = 14;
   constexpr std::array<double, count> coefficient = [] {
     std::array<double, count> c{};
     double factorial = 1.0;
@@ -100,10 +101,17 @@ void sinc_lane(const T& y, T& out, T& slope) {
   out = sum;
   slope = rise;
 }
-template <class T>
+template <class T, std::size_t count = 14>
 void sinc_lane(const T& y, T& out) {
   T slope;
-  sinc_lane(y, out, slope);
+  sinc_lane<T, count>(y, out, slope);
+}
+/// f(as many terms of it as leave out less than rounding up to a size of y), the number as a type.
+template <class F>
+inline void sinc_terms(double largest, F&& f) {
+  if (largest < 0.06) return f(std::integral_constant<std::size_t, 6>());  // 0.06^6 / 13! = 8e-18
+  if (largest < 1.8) return f(std::integral_constant<std::size_t, 10>());  // 1.8^10 / 21! = 7e-18
+  f(std::integral_constant<std::size_t, 14>());
 }
 
 inline constexpr double sinc_end = std::numbers::pi * std::numbers::pi;  // of its main lobe, in x^2

@@ -363,7 +363,9 @@ SideBySide::Instant& SideBySide::instant(double t) {
 /// What is solved for there: by the step itself, or anew.
 const std::vector<double>& SideBySide::solution_at(double t) {
   Instant& at = instant(t);
-  if (!at.solved && system_->evaluated_at() != t) {
+  // A stage inside the step has the time of an output by chance, and another state.
+  const bool met = t >= integrator_->time() && system_->evaluated_at() == t;
+  if (!at.solved && !met) {
     std::ranges::copy(at.state, all_.begin());
     system_->project(t, all_.data(), false);
     system_->derivative(t, all_.data(), rate_.data());

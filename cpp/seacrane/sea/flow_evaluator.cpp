@@ -68,7 +68,8 @@ void descend(const SeaField& field, std::size_t reached, std::size_t n, const De
 }  // namespace
 
 FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil,
-                             std::shared_ptr<sea::FlowScratch> scratch, std::shared_ptr<NearWaves> near)
+                             std::shared_ptr<sea::FlowScratch> scratch, std::shared_ptr<NearWaves> near,
+                             const QuietLevels* quiet)
     : field_(std::move(field)),
       stencil_(std::move(stencil)),
       scratch_(scratch ? std::move(scratch)
@@ -82,9 +83,10 @@ FlowEvaluator::FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil 
                "give 0 to 100 times those of the sea");
   sea::require(stencil_.cut >= 1e-14 && stencil_.cut <= 1e-2, stencil_.name, "cut", stencil_.cut,
                "give 1e-14 (rounding) to 1e-2; 1e-5 is the default");
-  if (field_ && !stencil_.surface && stencil_.count == 1 && stencil_.waves == 1.0) {
-    calm_ = field_->calm_below(stencil_.cut);
-    still_ = std::min(calm_, field_->still_below(stencil_.cut));
+  if (field_ && stencil_.sinks()) {
+    const QuietLevels levels = quiet ? *quiet : QuietLevels(*field_, stencil_.cut);
+    calm_ = levels.calm;
+    still_ = levels.still;
   }
 }
 

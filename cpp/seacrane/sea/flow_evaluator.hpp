@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -13,15 +14,23 @@
 
 namespace seacrane {
 
+/// Levels of a field for a cut, see SeaField: below which the surface is not asked for, and no waves are.
+struct QuietLevels {
+  double cut, calm, still;
+
+  QuietLevels(const SeaField& field, double cut)
+      : cut(cut), calm(field.calm_below(cut)), still(std::min(calm, field.still_below(cut))) {}
+};
+
 /// The sea at a stencil of points, and its scratch; one for each run. Without a field the water is still and
 /// at rest. Results depend on the arguments alone, whatever was evaluated before.
 class FlowEvaluator {
  public:
   /// `scratch`, for those of one thread that take turns, has room for the components of the field. Rows are
-  /// sums over the few components of `near`, where there is one.
+  /// sums over the few components of `near`, where there is one. `quiet`: levels of the field, if known.
   FlowEvaluator(std::shared_ptr<const SeaField> field, FlowStencil stencil,
                 std::shared_ptr<sea::FlowScratch> scratch = nullptr,
-                std::shared_ptr<NearWaves> near = nullptr);
+                std::shared_ptr<NearWaves> near = nullptr, const QuietLevels* quiet = nullptr);
 
   /// At first + i step, i = 0 .. count - 1. With `whole`, each point is the middle of an element that is as
   /// long as the step, and feels the mean over it, see SeaField::filter. By recurrence from point to point:
@@ -115,7 +124,6 @@ class FlowEvaluator {
   std::vector<FlowSlopes> slopes_;
   Row row_, sloped_;  // the last ones; none
   Reach reach_, few_reach_;
-  // z below which the surface is not asked for, and below which no waves are.
   double calm_ = -std::numeric_limits<double>::infinity(), still_ = calm_;
 };
 

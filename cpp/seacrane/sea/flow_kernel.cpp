@@ -31,28 +31,33 @@ void write_turns(Read kx, Read ky, std::size_t count, double dx, double dy, doub
 }
 
 SEACRANE_CLONES("avx512f", "avx2")
-void write_filtered(Read kx, Read ky, std::size_t count, double x, double y, Write amplitude) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double half = 0.5 * (kx[i] * x + ky[i] * y), square = half * half;
-    double sinc;
-    sinc_lane(square, sinc);
-    amplitude[i] *= where_negative(square - sinc_end, sinc);
-  }
+void write_filtered(Read kx, Read ky, std::size_t count, double x, double y, double largest,
+                    Write amplitude) {
+  sinc_terms(largest, [&](auto terms) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double half = 0.5 * (kx[i] * x + ky[i] * y), square = half * half;
+      double sinc;
+      sinc_lane<double, terms>(square, sinc);
+      amplitude[i] *= where_negative(square - sinc_end, sinc);
+    }
+  });
 }
 
 SEACRANE_CLONES("avx512f", "avx2")
 void write_turning(Read kx, Read ky, std::size_t count, double x, double y, double x_rate, double y_rate,
-                   Write amplitude, Write gain) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double half = 0.5 * (kx[i] * x + ky[i] * y), square = half * half;
-    const double rate = half * (kx[i] * x_rate + ky[i] * y_rate);  // of the square
-    double sinc, slope;
-    sinc_lane(square, sinc, slope);
-    sinc = where_negative(square - sinc_end, sinc);
-    slope = where_negative(square - sinc_end, slope);
-    gain[i] = gain[i] * sinc + amplitude[i] * (slope * rate);
-    amplitude[i] *= sinc;
-  }
+                   double largest, Write amplitude, Write gain) {
+  sinc_terms(largest, [&](auto terms) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double half = 0.5 * (kx[i] * x + ky[i] * y), square = half * half;
+      const double rate = half * (kx[i] * x_rate + ky[i] * y_rate);  // of the square
+      double sinc, slope;
+      sinc_lane<double, terms>(square, sinc, slope);
+      sinc = where_negative(square - sinc_end, sinc);
+      slope = where_negative(square - sinc_end, slope);
+      gain[i] = gain[i] * sinc + amplitude[i] * (slope * rate);
+      amplitude[i] *= sinc;
+    }
+  });
 }
 
 /// Of amplitudes that are not felt, none.
@@ -67,19 +72,22 @@ SEACRANE_CLONES("avx512f", "avx2") void write_exponentials(Read k, std::size_t c
 /// From exp(k z) in the middle of a height to its integral: times height sinh x / x with x = k height / 2, as
 /// sin x / x of an imaginary x. Where k height is far above 2 pi it comes out too small, never too large.
 SEACRANE_CLONES("avx512f", "avx2") void write_integrals(Read k, std::size_t count, double height, Write sum) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double half = 0.5 * k[i] * height;
-    double mean;
-    sinc_lane(-half * half, mean);
-    sum[i] *= height * mean;
-  }
+  const double most = count > 0 ? 0.5 * k[count - 1] * height : 0.0;
+  sinc_terms(most * most, [&](auto terms) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double half = 0.5 * k[i] * height;
+      double mean;
+      sinc_lane<double, terms>(-half * half, mean);
+      sum[i] *= height * mean;
+    }
+  });
 }
 
 constexpr double near = 0.2;  // of k times a way
 
-/// (exp x - 1) / x for |x| <= near: Taylor polynomial whose first omitted term is near^10 / 11! = 3e-15.
+/// (exp x - 1) / x for |x| <= near: Taylor polynomial, see growth_terms.
+template <std::size_t count>
 inline double growth(double x) {
-  constexpr std::size_t count = 10;
   constexpr std::array<double, count> coefficient = [] {
     std::array<double, count> c{};
     double factorial = 1.0;
@@ -91,24 +99,36 @@ inline double growth(double x) {
   return sum;
 }
 
+/// f(as many of its terms as a size of x needs, the number as a type).
+template <class F>
+inline void growth_terms(double largest, F&& f) {
+  if (largest < 1e-3) return f(std::integral_constant<std::size_t, 5>());  // 1e-15 / 6! = 1e-18
+  if (largest < 0.02) return f(std::integral_constant<std::size_t, 7>());  // 0.02^7 / 8! = 3e-17
+  f(std::integral_constant<std::size_t, 10>());                            // near^10 / 11! = 3e-15
+}
+
 /// The height goes up, as the decay sees it, as it is.
 SEACRANE_CLONES("avx512f", "avx2")
 void write_risen(Read k, std::size_t count, double up, Write low, Write sum) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = k[i] * up, factor = 1.0 + x * growth(x);
-    low[i] *= factor;
-    sum[i] *= factor;
-  }
+  growth_terms(k[count - 1] * std::fabs(up), [&](auto terms) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = k[i] * up, factor = 1.0 + x * growth<terms>(x);
+      low[i] *= factor;
+      sum[i] *= factor;
+    }
+  });
 }
 
 /// Its bottom alone goes up, as the decay sees it, and as much of the height is lost as `lost` says.
 SEACRANE_CLONES("avx512f", "avx2")
 void write_cut(Read k, std::size_t count, double up, double lost, Write low, Write sum) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = k[i] * up, part = low[i] * growth(x);
-    low[i] += x * part;
-    sum[i] -= lost * part;
-  }
+  growth_terms(k[count - 1] * std::fabs(up), [&](auto terms) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = k[i] * up, part = low[i] * growth<terms>(x);
+      low[i] += x * part;
+      sum[i] -= lost * part;
+    }
+  });
 }
 
 SEACRANE_CLONES("avx512f", "avx2") void write_products(Read factor, std::size_t count, Write out) {
@@ -117,14 +137,25 @@ SEACRANE_CLONES("avx512f", "avx2") void write_products(Read factor, std::size_t 
 
 }  // namespace
 
+namespace {
+
+/// The largest square of half the phase between the ends of an extent.
+double largest_square(const SeaField& field, std::size_t count, double x, double y) {
+  const double k = count > 0 ? field.arrays().k[count - 1] : 0.0;
+  return 0.25 * k * k * (x * x + y * y);
+}
+
+}  // namespace
+
 void filter_amplitudes(const SeaField& field, std::size_t count, double x, double y, FlowScratch& s) {
-  write_filtered(field.arrays().kx.data(), field.arrays().ky.data(), count, x, y, s.amplitude.data());
+  write_filtered(field.arrays().kx.data(), field.arrays().ky.data(), count, x, y,
+                 largest_square(field, count, x, y), s.amplitude.data());
 }
 
 void filter_turning(const SeaField& field, std::size_t count, double x, double y, double x_rate,
                     double y_rate, FlowScratch& s) {
   write_turning(field.arrays().kx.data(), field.arrays().ky.data(), count, x, y, x_rate, y_rate,
-                s.amplitude.data(), s.gain.data());
+                largest_square(field, count, x, y), s.amplitude.data(), s.gain.data());
 }
 
 void take_quotients(std::size_t count, FlowScratch& s) {
@@ -208,17 +239,6 @@ void step_decays(std::size_t count, FlowScratch& s) {
 
 namespace {
 
-struct SurfaceSums {
-  FlowPack elevation{}, rate{}, slope_x{}, slope_y{};
-
-  void add_to(LocalFlow<double>& out) const {
-    out.elevation += total(elevation);
-    out.elevation_rate += total(rate);
-    out.slope[0] += total(slope_x);
-    out.slope[1] += total(slope_y);
-  }
-};
-
 /// Phasors (c, q), turned on to the next point first.
 template <bool turns>
 inline void next(const FlowPack& turn_c, const FlowPack& turn_q, std::size_t i, Write cosine, Write sine,
@@ -234,33 +254,57 @@ inline void next(const FlowPack& turn_c, const FlowPack& turn_q, std::size_t i, 
   }
 }
 
-template <bool turns, bool split>
+template <bool turns>
 inline void add_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowScratch& s,
                              LocalFlow<double>& out) {
-  SurfaceSums sum;
+  FlowPack elevation{}, rate{}, slope_x{}, slope_y{};
   for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack turn_c{}, turn_q{}, c, q, rise, w, g, x, y;
+    FlowPack turn_c{}, turn_q{}, c, q, w, g, x, y;
     if constexpr (turns) {
       get(s.turn_cosine.data(), i, turn_c);
       get(s.turn_sine.data(), i, turn_q);
     }
     next<turns>(turn_c, turn_q, i, s.cosine.data(), s.sine.data(), c, q);
-    rise = q;
-    if constexpr (split) {
-      FlowPack other;
-      next<turns>(turn_c, turn_q, i, s.rise.cosine.data(), s.rise.sine.data(), other, rise);
-      next<turns>(turn_c, turn_q, i, s.flow.cosine.data(), s.flow.sine.data(), other, w);
-    }
     get(f.omega.data(), i, w);
     get(s.gain.data(), i, g);
     get(f.kx.data(), i, x);
     get(f.ky.data(), i, y);
-    sum.elevation += c;
-    sum.rate += g * c - w * rise;
-    sum.slope_x += x * q;
-    sum.slope_y += y * q;
+    elevation += c;
+    rate += g * c - w * q;
+    slope_x += x * q;
+    slope_y += y * q;
   }
-  sum.add_to(out);
+  out.elevation += total(elevation);
+  out.elevation_rate += total(rate);
+  out.slope[0] += total(slope_x);
+  out.slope[1] += total(slope_y);
+}
+
+/// The same over the few of a NearSea, all of one direction, of omega = 1.
+template <bool turns>
+inline void add_few_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowScratch& s,
+                                 LocalFlow<double>& out) {
+  FlowPack elevation{}, rate{}, slope{};
+  for (std::size_t i = 0; i < count; i += wide) {
+    FlowPack turn_c{}, turn_q{}, c, q, rise, other, g, k;
+    if constexpr (turns) {
+      get(s.turn_cosine.data(), i, turn_c);
+      get(s.turn_sine.data(), i, turn_q);
+      next<turns>(turn_c, turn_q, i, s.flow.cosine.data(), s.flow.sine.data(), other, rise);
+    }
+    next<turns>(turn_c, turn_q, i, s.rise.cosine.data(), s.rise.sine.data(), other, rise);
+    next<turns>(turn_c, turn_q, i, s.cosine.data(), s.sine.data(), c, q);
+    get(s.gain.data(), i, g);
+    get(f.k.data(), i, k);
+    elevation += c;
+    rate += g * c - rise;
+    slope += k * q;
+  }
+  const double along = total(slope);
+  out.elevation += total(elevation);
+  out.elevation_rate += total(rate);
+  out.slope[0] += f.x[0] * along;
+  out.slope[1] += f.y[0] * along;
 }
 
 }  // namespace
@@ -268,18 +312,18 @@ inline void add_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowS
 SEACRANE_CLONES("avx512f", "avx2")
 void add_surface(const SeaField& field, std::size_t count, FlowScratch& s, LocalFlow<double>& out) {
   if (s.split) {
-    add_surface_sums<false, true>(field.arrays(), count, s, out);
+    add_few_surface_sums<false>(field.arrays(), count, s, out);
   } else {
-    add_surface_sums<false, false>(field.arrays(), count, s, out);
+    add_surface_sums<false>(field.arrays(), count, s, out);
   }
 }
 
 SEACRANE_CLONES("avx512f", "avx2")
 void add_next_surface(const SeaField& field, std::size_t count, FlowScratch& s, LocalFlow<double>& out) {
   if (s.split) {
-    add_surface_sums<true, true>(field.arrays(), count, s, out);
+    add_few_surface_sums<true>(field.arrays(), count, s, out);
   } else {
-    add_surface_sums<true, false>(field.arrays(), count, s, out);
+    add_surface_sums<true>(field.arrays(), count, s, out);
   }
 }
 
@@ -289,33 +333,60 @@ struct InteriorSums {
   FlowPack u{}, v{}, w{}, ax{}, ay{}, az{}, p{};
 };
 
-template <bool floor, bool split>
+template <bool floor>
+inline void get_decays(const double* decay, const double* image, std::size_t i, FlowPack& level,
+                       FlowPack& upright) {
+  FlowPack down, other{};
+  get(decay, i, down);
+  if constexpr (floor) get(image, i, other);
+  level = floor ? down + other : down;
+  upright = floor ? down - other : down;
+}
+
+template <bool floor>
 inline void sum_interior(const SeaField::Arrays& f, std::size_t from, std::size_t to, const FlowScratch& s,
                          const double* decay, const double* image, InteriorSums& sum) {
   for (std::size_t i = from; i < to; i += wide) {
-    FlowPack c, q, down, other{}, sigma, pressure, x, y;
+    FlowPack c, q, level, upright, sigma, pressure, x, y;
     get(s.cosine.data(), i, c);
     get(s.sine.data(), i, q);
-    get(decay, i, down);
-    if constexpr (floor) get(image, i, other);
+    get_decays<floor>(decay, image, i, level, upright);
     get(f.sigma.data(), i, sigma);
     get(f.pressure.data(), i, pressure);
     get(f.x.data(), i, x);
     get(f.y.data(), i, y);
-    const FlowPack level = floor ? down + other : down, upright = floor ? down - other : down;
-    const FlowPack pressed = level * c, turned = sigma * (level * q), lifted = sigma * (upright * c);
-    if constexpr (split) {
-      get(s.flow.cosine.data(), i, c);
-      get(s.flow.sine.data(), i, q);
-    }
-    const FlowPack along = split ? level * c : pressed, up = upright * q;
+    const FlowPack along = level * c, turned = sigma * (level * q);
     sum.u += x * along;
     sum.v += y * along;
-    sum.w -= up;
+    sum.w -= upright * q;
     sum.ax -= x * turned;
     sum.ay -= y * turned;
-    sum.az -= lifted;
-    sum.p += pressure * pressed;
+    sum.az -= sigma * (upright * c);
+    sum.p += pressure * along;
+  }
+}
+
+/// Of the few of a NearSea, all of one direction, of sigma = g.
+struct FewSums {
+  FlowPack along{}, up{}, turned{}, lifted{}, pressed{};
+};
+
+template <bool floor>
+inline void sum_few_interior(const SeaField::Arrays& f, std::size_t from, std::size_t to,
+                             const FlowScratch& s, const double* decay, const double* image, FewSums& sum) {
+  for (std::size_t i = from; i < to; i += wide) {
+    FlowPack c, q, flow_c, flow_q, level, upright, pressure;
+    get(s.cosine.data(), i, c);
+    get(s.sine.data(), i, q);
+    get(s.flow.cosine.data(), i, flow_c);
+    get(s.flow.sine.data(), i, flow_q);
+    get_decays<floor>(decay, image, i, level, upright);
+    get(f.pressure.data(), i, pressure);
+    sum.along += level * flow_c;
+    sum.up += upright * flow_q;
+    sum.turned += level * q;
+    sum.lifted += upright * c;
+    sum.pressed += pressure * (level * c);
   }
 }
 
@@ -323,22 +394,29 @@ inline void sum_interior(const SeaField::Arrays& f, std::size_t from, std::size_
 
 SEACRANE_CLONES("avx512f", "avx2")
 void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out) {
-  InteriorSums sum;
+  const SeaField::Arrays& f = field.arrays();
   const std::size_t floor = std::min(count, s.images);
   const bool mean = s.height > 0.0;
   const double* const decay = mean ? s.decay.sum.data() : s.decay.low.data();
   const double* const image = mean ? s.image.sum.data() : s.image.low.data();
-  if (s.split) {
-    sum_interior<true, true>(field.arrays(), 0, floor, s, decay, image, sum);
-    sum_interior<false, true>(field.arrays(), floor, count, s, decay, image, sum);
-  } else {
-    sum_interior<true, false>(field.arrays(), 0, floor, s, decay, image, sum);
-    sum_interior<false, false>(field.arrays(), floor, count, s, decay, image, sum);
-  }
   const double share = mean ? 1.0 / s.height : 1.0;
-  out.velocity += share * Vec3d(total(sum.u), total(sum.v), total(sum.w));
-  out.acceleration += share * Vec3d(total(sum.ax), total(sum.ay), total(sum.az));
-  out.pressure += share * total(sum.p);
+  if (s.split) {
+    FewSums sum;
+    sum_few_interior<true>(f, 0, floor, s, decay, image, sum);
+    sum_few_interior<false>(f, floor, count, s, decay, image, sum);
+    const double along = share * total(sum.along), pull = share * field.gravity(), x = f.x[0], y = f.y[0];
+    const double turned = pull * total(sum.turned);
+    out.velocity += Vec3d(x * along, y * along, -share * total(sum.up));
+    out.acceleration -= Vec3d(x * turned, y * turned, pull * total(sum.lifted));
+    out.pressure += share * total(sum.pressed);
+  } else {
+    InteriorSums sum;
+    sum_interior<true>(f, 0, floor, s, decay, image, sum);
+    sum_interior<false>(f, floor, count, s, decay, image, sum);
+    out.velocity += share * Vec3d(total(sum.u), total(sum.v), total(sum.w));
+    out.acceleration += share * Vec3d(total(sum.ax), total(sum.ay), total(sum.az));
+    out.pressure += share * total(sum.p);
+  }
 }
 
 SEACRANE_CLONES("avx512f", "avx2")
@@ -361,9 +439,19 @@ void take_amplitudes(const double* amplitudes, std::size_t few, std::size_t coun
 }
 
 SEACRANE_CLONES("avx512f", "avx2")
-void add_weighed(Read value, Read rate, Read acceleration, std::size_t count, double a, double b, double c,
-                 Write out) {
-  for (std::size_t i = 0; i < count; ++i) out[i] += a * value[i] + b * rate[i] + c * acceleration[i];
+void write_weighed(const std::array<std::array<const double*, 3>, 4>& knots, const HermiteWeights& by,
+                   std::size_t count, double* out) {
+  for (std::size_t i = 0; i < count; i += wide) {
+    FlowPack sum{};
+    for (std::size_t n = 0; n < knots.size(); ++n) {
+      FlowPack value, rate, acceleration;
+      get(knots[n][0], i, value);
+      get(knots[n][1], i, rate);
+      get(knots[n][2], i, acceleration);
+      sum += by.value[n] * value + by.rate[n] * rate + by.acceleration[n] * acceleration;
+    }
+    put(sum, i, out);
+  }
 }
 
 SEACRANE_CLONES("avx512f", "avx2")

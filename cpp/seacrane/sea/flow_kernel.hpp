@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "seacrane/sea/knot_table.hpp"
 #include "seacrane/sea/sea_field.hpp"
 
 /// Sums over the components of a sea, SeaField::lanes of them side by side. Every number of components is in
@@ -100,9 +101,9 @@ void step_decays(std::size_t count, FlowScratch& s);
 /// Velocity, acceleration and pressure of the waves: their means over the height of the decays.
 void add_interior(const SeaField& field, std::size_t count, const FlowScratch& s, LocalFlow<double>& out);
 
-/// out += value a + rate b + acceleration c.
-void add_weighed(const double* value, const double* rate, const double* acceleration, std::size_t count,
-                 double a, double b, double c, double* out);
+/// Between four knots of a table, of each its value, rate and acceleration, `count` of them.
+void write_weighed(const std::array<std::array<const double*, 3>, 4>& knots, const HermiteWeights& by,
+                   std::size_t count, double* out);
 /// Sums over `count` harmonics, six rows of them, of shares times each, `few` of them side by side: rows 0
 /// and 1 to `value`, and so on.
 void sum_shares(const double* shares, const double* harmonics, std::size_t count, std::size_t few,

@@ -20,6 +20,8 @@ struct FlowStencil {
   double reach = std::numeric_limits<double>::infinity();
   double width = 0.0;  // longest extent of an element, m
 
+  /// Whether it may leave out a surface that it is far below.
+  bool sinks() const { return !surface && count == 1 && waves == 1.0; }
   bool operator==(const FlowStencil&) const = default;
 };
 

@@ -1,6 +1,7 @@
 #include "seacrane/sea/near_waves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -66,14 +67,15 @@ const std::vector<double>& NearWaves::amplitudes(std::int64_t region, double t, 
   Held& out = held_[slot(region, regions_)];
   if (out.time == t && out.region == region) return out.amplitudes;
   const double place = std::floor(t / sea_->step());
-  const HermiteWeights w(t / sea_->step() - place);
   out.time = std::numeric_limits<double>::quiet_NaN();
-  std::ranges::fill(out.amplitudes, 0.0);
-  for (int n = 0; n < 4; ++n) {
-    const Knot& one = knot(region, static_cast<std::int64_t>(place) + n - 1, scratch);
-    sea::add_weighed(one.value.data(), one.rate.data(), one.acceleration.data(), out.amplitudes.size(),
-                     w.value[n], w.rate[n], w.acceleration[n], out.amplitudes.data());
+  std::array<std::array<const double*, 3>, numbers> around;
+  for (std::size_t n = 0; n < numbers; ++n) {
+    const Knot& one =
+        knot(region, static_cast<std::int64_t>(place) + static_cast<std::int64_t>(n) - 1, scratch);
+    around[n] = {one.value.data(), one.rate.data(), one.acceleration.data()};
   }
+  sea::write_weighed(around, HermiteWeights(t / sea_->step() - place), out.amplitudes.size(),
+                     out.amplitudes.data());
   out.time = t;
   out.region = region;
   return out.amplitudes;

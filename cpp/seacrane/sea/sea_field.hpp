@@ -98,7 +98,7 @@ class SeaField {
   template <class T>
   T level(const T& z, const T& elevation) const {
     const T own =
-        stretching_ == Stretching::wheeler ? T((z - elevation) / (T(1) + elevation / T(depth_))) : z;
+        stretching_ == Stretching::wheeler ? T((z - elevation) / (T(1) + elevation * T(1.0 / depth_))) : z;
     return clamped(own, T(-depth_), T(0));
   }
 

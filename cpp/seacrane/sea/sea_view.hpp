@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <span>
@@ -21,8 +22,11 @@ class SeaView {
       : field_(std::move(field)) {
     const auto scratch = std::make_shared<sea::FlowScratch>(field_ ? field_->padded() : 0);
     const auto waves = near ? std::make_shared<NearWaves>(near, stencils.size()) : nullptr;
-    for (const FlowStencil& one : stencils)
-      evaluators_.emplace_back(field_, one, scratch, near && near->serves(one) ? waves : nullptr);
+    std::vector<QuietLevels> known;
+    for (const FlowStencil& one : stencils) {
+      const QuietLevels* const quiet = field_ && one.sinks() ? &quiet_levels(one.cut, known) : nullptr;
+      evaluators_.emplace_back(field_, one, scratch, near && near->serves(one) ? waves : nullptr, quiet);
+    }
   }
   SeaView(SeaView&&) = default;  // and no copy, which would share the scratch
 
@@ -62,6 +66,10 @@ class SeaView {
   double crest(int stencil) const { return field_ ? waves(stencil) * field_->crest() : 0.0; }
 
  private:
+  const QuietLevels& quiet_levels(double cut, std::vector<QuietLevels>& known) const {
+    const auto found = std::ranges::find(known, cut, &QuietLevels::cut);
+    return found != known.end() ? *found : known.emplace_back(*field_, cut);
+  }
   double waves(int stencil) const { return evaluators_[idx(stencil)].stencil().waves; }
 
   std::shared_ptr<const SeaField> field_;

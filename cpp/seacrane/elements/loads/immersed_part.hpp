@@ -407,20 +407,22 @@ struct ImmersedPart {
     using std::sqrt;
     const Vec3<T>& v = at.velocity;
     Vec3<T> along = Vec3<T>::Zero();
-    const auto brake = [&](int first, int last) {  // by their common speed
+    const auto brake = [&](int i, const T& speed) { along[i] = T(-d.drag[i]) * (speed * wet.share) * v[i]; };
+    const auto brake_alone = [&](int i) { brake(i, v[i] > T(0) ? v[i] : -v[i]); };
+    const auto brake_from = [&](int first) {  // by their common speed
       T square = T(0);
-      for (int i = first; i <= last; ++i) square += v[i] * v[i];
+      for (int i = first; i < 3; ++i) square += v[i] * v[i];
       if (!(square > T(0))) return;
-      const T speed = sqrt(square) * wet.share;
-      for (int i = first; i <= last; ++i) along[i] = T(-d.drag[i]) * speed * v[i];
+      const T speed = sqrt(square);
+      for (int i = first; i < 3; ++i) brake(i, speed);
     };
     if (shape == Shape::sphere) {
-      brake(0, 2);
+      brake_from(0);
     } else if (shape == Shape::cylinder) {
-      brake(0, 0);
-      brake(1, 2);
+      brake_alone(0);
+      brake_from(1);
     } else {
-      for (int i = 0; i < 3; ++i) brake(i, i);
+      for (int i = 0; i < 3; ++i) brake_alone(i);
     }
     return along;
   }

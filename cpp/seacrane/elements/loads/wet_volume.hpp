@@ -68,24 +68,24 @@ WetShare<T> wet_box(const T& depth, const Vec3<T>& w) {
     out.integral = depth;
     return out;
   }
-  // Sums over the corners of a cube of what is above zero, by pairs along the last axis.
-  const auto above_zero = [](const T& x) -> T { return select(x > T(0), x, T(0)); };
-  for (const double i : {1.0, -1.0}) {
-    for (const double j : {1.0, -1.0}) {
-      const T middle = depth + T(i) * w[0] + T(j) * w[1];
-      const T high = above_zero(middle + w[2]), low = above_zero(middle - w[2]);
-      const T high_cube = high * high * high, low_cube = low * low * low;
-      const T pair = T(i * j) * (high_cube - low_cube);
-      out.share += pair;
-      out.integral += T(i * j) * (high * high_cube - low * low_cube);
-      out.over_width[0] += T(i) * pair;
-      out.over_width[1] += T(j) * pair;
-      out.over_width[2] += T(i * j) * (high_cube + low_cube);
-    }
+  // Sums over the corners of a cube of what is above zero, by pairs along the last axis: those with both of
+  // the first two, with one of them, with none.
+  T pair[4], fourth[4], both[4];
+  const T middle[4] = {depth + w[0] + w[1], depth + w[0] - w[1], depth - w[0] + w[1], depth - w[0] - w[1]};
+  for (int n = 0; n < 4; ++n) {
+    const T above = middle[n] + w[2], below = middle[n] - w[2];
+    const T high = above > T(0) ? above : T(0), low = below > T(0) ? below : T(0);
+    const T high_cube = high * high * high, low_cube = low * low * low;
+    pair[n] = high_cube - low_cube;
+    both[n] = high_cube + low_cube;
+    fourth[n] = high * high_cube - low * low_cube;
   }
   const T over = T(1.0 / 48.0) / (w[0] * w[1] * w[2]);
-  out.share *= over;
-  out.integral *= T(0.25) * over;
+  out.share = (pair[0] - pair[1] - pair[2] + pair[3]) * over;
+  out.integral = (fourth[0] - fourth[1] - fourth[2] + fourth[3]) * (T(0.25) * over);
+  out.over_width[0] = pair[0] - pair[1] + pair[2] - pair[3];
+  out.over_width[1] = pair[0] + pair[1] - pair[2] - pair[3];
+  out.over_width[2] = both[0] - both[1] - both[2] + both[3];
   for (int i = 0; i < 3; ++i) out.over_width[i] = out.over_width[i] * over - out.integral / w[i];
   return out;
 }
