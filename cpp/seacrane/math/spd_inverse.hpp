@@ -33,25 +33,15 @@ struct SpdFactor {
     }
   }
 
-  Vector solve(const Vector& x) const {
-    Vector out = forward(x);
-#pragma GCC unroll 6
-    for (int j = 0; j < n; ++j) out[j] *= over_pivot[j];
-    return backward(out);
-  }
-  /// L^-1 x.
-  Vector forward(Vector x) const {
+  Vector solve(Vector x) const {
 #pragma GCC unroll 6
     for (int j = 0; j < n; ++j) {
 #pragma GCC unroll 6
       for (int i = j + 1; i < n; ++i) x[i] -= l(i, j) * x[j];
     }
-    return x;
-  }
-  /// L^-T x.
-  Vector backward(Vector x) const {
 #pragma GCC unroll 6
     for (int j = n - 1; j >= 0; --j) {
+      x[j] *= over_pivot[j];
 #pragma GCC unroll 6
       for (int i = j + 1; i < n; ++i) x[j] -= l(i, j) * x[i];
     }

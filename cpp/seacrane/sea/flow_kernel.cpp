@@ -103,7 +103,7 @@ inline double growth(double x) {
 template <class F>
 inline void growth_terms(double largest, F&& f) {
   if (largest < 1e-3) return f(std::integral_constant<std::size_t, 5>());  // 1e-15 / 6! = 1e-18
-  if (largest < 0.02) return f(std::integral_constant<std::size_t, 7>());  // 0.02^7 / 8! = 3e-17
+  if (largest < 0.06) return f(std::integral_constant<std::size_t, 8>());  // 0.06^8 / 9! = 5e-16
   f(std::integral_constant<std::size_t, 10>());                            // near^10 / 11! = 3e-15
 }
 
