@@ -240,35 +240,51 @@ void step_decays(std::size_t count, FlowScratch& s) {
 namespace {
 
 /// Phasors (c, q), turned on to the next point first.
+/// Of a sum over components: its phasors, which it may turn on to the next point first. In locals, as writing
+/// them might change any pointer.
 template <bool turns>
-inline void next(const FlowPack& turn_c, const FlowPack& turn_q, std::size_t i, Write cosine, Write sine,
-                 FlowPack& c, FlowPack& q) {
-  get(cosine, i, c);
-  get(sine, i, q);
-  if constexpr (turns) {
-    const FlowPack before = c;
-    c = before * turn_c - q * turn_q;
-    q = q * turn_c + before * turn_q;
-    put(c, i, cosine);
-    put(q, i, sine);
+class Turning {
+ public:
+  Turning(const FlowScratch& s, std::vector<double>& cosine, std::vector<double>& sine)
+      : turn_c_(s.turn_cosine.data()),
+        turn_q_(s.turn_sine.data()),
+        cosine_(cosine.data()),
+        sine_(sine.data()) {}
+
+  void next(std::size_t i, FlowPack& c, FlowPack& q) const {
+    get(cosine_, i, c);
+    get(sine_, i, q);
+    if constexpr (turns) {
+      FlowPack turn_c, turn_q;
+      get(turn_c_, i, turn_c);
+      get(turn_q_, i, turn_q);
+      const FlowPack before = c;
+      c = before * turn_c - q * turn_q;
+      q = q * turn_c + before * turn_q;
+      put(c, i, cosine_);
+      put(q, i, sine_);
+    }
   }
-}
+
+ private:
+  const double *turn_c_, *turn_q_;
+  double *cosine_, *sine_;
+};
 
 template <bool turns>
 inline void add_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowScratch& s,
                              LocalFlow<double>& out) {
+  const Turning<turns> phasors(s, s.cosine, s.sine);
+  const double *const omega = f.omega.data(), *const gain = s.gain.data(), *const kx = f.kx.data(),
+                      *const ky = f.ky.data();
   FlowPack elevation{}, rate{}, slope_x{}, slope_y{};
   for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack turn_c{}, turn_q{}, c, q, w, g, x, y;
-    if constexpr (turns) {
-      get(s.turn_cosine.data(), i, turn_c);
-      get(s.turn_sine.data(), i, turn_q);
-    }
-    next<turns>(turn_c, turn_q, i, s.cosine.data(), s.sine.data(), c, q);
-    get(f.omega.data(), i, w);
-    get(s.gain.data(), i, g);
-    get(f.kx.data(), i, x);
-    get(f.ky.data(), i, y);
+    FlowPack c, q, w, g, x, y;
+    phasors.next(i, c, q);
+    get(omega, i, w);
+    get(gain, i, g);
+    get(kx, i, x);
+    get(ky, i, y);
     elevation += c;
     rate += g * c - w * q;
     slope_x += x * q;
@@ -284,18 +300,17 @@ inline void add_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowS
 template <bool turns>
 inline void add_few_surface_sums(const SeaField::Arrays& f, std::size_t count, FlowScratch& s,
                                  LocalFlow<double>& out) {
+  const Turning<turns> phasors(s, s.cosine, s.sine), rises(s, s.rise.cosine, s.rise.sine),
+      flows(s, s.flow.cosine, s.flow.sine);
+  const double *const gain = s.gain.data(), *const wavenumber = f.k.data();
   FlowPack elevation{}, rate{}, slope{};
   for (std::size_t i = 0; i < count; i += wide) {
-    FlowPack turn_c{}, turn_q{}, c, q, rise, other, g, k;
-    if constexpr (turns) {
-      get(s.turn_cosine.data(), i, turn_c);
-      get(s.turn_sine.data(), i, turn_q);
-      next<turns>(turn_c, turn_q, i, s.flow.cosine.data(), s.flow.sine.data(), other, rise);
-    }
-    next<turns>(turn_c, turn_q, i, s.rise.cosine.data(), s.rise.sine.data(), other, rise);
-    next<turns>(turn_c, turn_q, i, s.cosine.data(), s.sine.data(), c, q);
-    get(s.gain.data(), i, g);
-    get(f.k.data(), i, k);
+    FlowPack c, q, rise, other, g, k;
+    if constexpr (turns) flows.next(i, other, rise);
+    rises.next(i, other, rise);
+    phasors.next(i, c, q);
+    get(gain, i, g);
+    get(wavenumber, i, k);
     elevation += c;
     rate += g * c - rise;
     slope += k * q;
