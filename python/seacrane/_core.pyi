@@ -192,6 +192,16 @@ class WaveKinematics:
         """
         m/s, with the current
         """
+class WaveBins:
+    """
+    A spectrum cut into bins, of which `realise` makes what `realise_waves` makes of the spectrum. What the seeds share is worked out once.
+    """
+    def __init__(self, spectrum: Spectrum, *, count: typing.Any = 200, minimum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, maximum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, placement: str = 'jittered') -> None:
+        ...
+    def realise(self, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, system: typing.Any = 0) -> WaveComponents:
+        """
+        Arguments as of `realise_waves`.
+        """
 class WaveComponents:
     """
     Regular waves whose sum is the sea; immutable.
@@ -389,10 +399,6 @@ class ExactWaveLoad:
     def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], *, derivative: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.float64]:
         """
         Forces (N) and moments (N m) at times (s): shape times.shape + (6,). `derivative` 1 or 2 gives the time derivatives of that order.
-        """
-    def magnitude(self, order: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        sum |a X_ij| omega^order, shape (6,): no time derivative of that order exceeds it.
         """
     @property
     def waves(self) -> WaveComponents:
@@ -4085,6 +4091,14 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
 def vector_of(what: str, value: typing.Any) -> list[float]:
     """
     A list of floats from a one-dimensional array_like.
+    """
+def spline_rows(*, knot: typing.Annotated[numpy.typing.ArrayLike, numpy.int64], column: typing.Annotated[numpy.typing.ArrayLike, numpy.int64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], bend_left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], bend_right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], curvature: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Weights (q, n) of a cubic spline at places behind knots (q,), by their shares of the values and of the second derivatives at both ends; see seacrane.hydro.data.interpolation. Raises ValueError for other shapes.
+    """
+def without_smallest(magnitudes: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], limit: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.bool]:
+    """
+    Which rows of magnitudes (n, m) are left where the smallest are left out, which sum to no more than a share of all in each column; at least one.
     """
 def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], values: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128]) -> numpy.typing.NDArray[numpy.complex128]:
     """
