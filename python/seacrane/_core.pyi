@@ -4100,6 +4100,10 @@ def without_smallest(magnitudes: typing.Annotated[numpy.typing.ArrayLike, numpy.
     """
     Which rows of magnitudes (n, m) are left where the smallest are left out, which sum to no more than a share of all in each column; at least one.
     """
+def turned(quaternion: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], vector: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    A vector (3,) of a body in the inertial frame (n, 3), by its quaternions (n, 4).
+    """
 def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], values: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128]) -> numpy.typing.NDArray[numpy.complex128]:
     """
     Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
