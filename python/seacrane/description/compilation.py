@@ -119,12 +119,13 @@ def without_negligible(waves: Waves) -> Waves:
     kept = kept_components(waves)
     if kept.all():
         return waves
+    (places,) = kept.nonzero()
 
     def fewer(owner: Any, *keys: str) -> dict[str, Any]:
         held = {key: one for key in keys if (one := getattr(owner, key)) is not None}
         return {
-            key: one.other(values=np.asarray(one.values)[:, kept]) if isinstance(one, ByHeading)
-            else np.asarray(one)[kept]
+            key: one.other(values=np.asarray(one.values).take(places, axis=1)) if isinstance(one, ByHeading)
+            else np.asarray(one).take(places, axis=0)
             for key, one in held.items()
         }  # fmt: skip
 
@@ -154,7 +155,7 @@ def _magnitudes(waves: Waves) -> Array:
             columns.append(amplitude * np.abs(np.asarray(force.values)).max(axis=0))
         if drift is not None:
             columns.append(2.0 * amplitude * np.sqrt(np.abs(np.asarray(drift.values)).max(axis=0)))
-    return np.hstack(columns)
+    return np.concatenate(columns, axis=1)
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -64,7 +63,7 @@ class OtherSeeds:
         if seed is not None:
             sea = SeaState(systems=sea.systems, seed=seed, depth=sea.depth, placement=sea.placement)
         if made_from.sea is not None:
-            made_from = replace(made_from, sea=sea.description())
+            made_from = made_from.other(sea=sea.description())
         found = realised(sea, made_from, self._bins, current=self._calm.current, look_for_repeats=False)
         waves = self._calm.other(**found)
         for body, hull in self._old.hulls.items():

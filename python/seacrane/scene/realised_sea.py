@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -83,8 +82,8 @@ def realised(
     if current is not None:
         kept = _not_stopped(waves, current)
         components = {key: values[kept] for key, values in components.items()}
-    provenance = replace(
-        made_from, realised_hs_of_systems=several, seed=sea.seed, realised_hs=done.hs,
+    provenance = made_from.other(
+        realised_hs_of_systems=several, seed=sea.seed, realised_hs=done.hs,
         wave_components=len(waves),
         repeat_period_s=float(done.repeat.time) if look_for_repeats else None,
         repeat_found=int(done.repeat.found) if look_for_repeats else None,

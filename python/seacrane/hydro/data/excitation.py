@@ -127,5 +127,7 @@ def with_limits(database: HydroData, omega: Array, force: Complex) -> Complex:
         k = wavenumber(longest, g=database.g, depth=database.depth)
         share = (k[:-1] / k[-1])[:, None]
         out[..., below, :] = database.restoring[:, 2] * (1.0 - share) + out[..., below, :] * share
-    out[..., omega > highest + slack, :] = 0.0
+    above = omega > highest + slack
+    if above.any():
+        out[..., above, :] = 0.0
     return out
