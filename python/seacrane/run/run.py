@@ -401,12 +401,11 @@ class Run:
         left out."""
         with self.core, unchanged(self.scene):
             arrays, stats, _, _ = self._recorded(None)
-        gappy = str(stats.get(NOT_FINITE, "")).split(", ")
-        for name, values in arrays.items():
-            gaps = self.interrupted or channel_of(name) in gappy
-            checked_array(name, values, values.shape, gaps)
         time = arrays.pop("time")
         channels, extremes = parted(arrays)
+        gappy = str(stats.get(NOT_FINITE, "")).split(", ")
+        for name, values in as_arrays(extremes).items():
+            checked_array(name, values, values.shape, self.interrupted or channel_of(name) in gappy)
         return Record(
             time=time, channels=channels, extremes=extremes, coords=self._coords, stats=checked_stats(stats),
             interrupted=self.interrupted,
