@@ -100,6 +100,10 @@ ValueError
           py::arg("times"), "Wave elevation (m) at the elevation point, shape of `times` (s).")
       .def_property_readonly(
           "waves", [](const ExactWaveLoad& load) { return load.waves(); }, "The components (a copy).")
+      .def(
+          "magnitude",
+          [](const ExactWaveLoad& load) { return py::array_t<double>(6, load.bounds()[0].data()); },
+          "sum |a X_ij|, shape (6,): no load ever exceeds it.")
       .def("__repr__", [](const ExactWaveLoad& load) {
         return py::str("ExactWaveLoad({} components)").format(load.waves().size());
       });

@@ -400,6 +400,10 @@ class ExactWaveLoad:
         """
         Forces (N) and moments (N m) at times (s): shape times.shape + (6,). `derivative` 1 or 2 gives the time derivatives of that order.
         """
+    def magnitude(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        sum |a X_ij|, shape (6,): no load ever exceeds it.
+        """
     @property
     def waves(self) -> WaveComponents:
         """
