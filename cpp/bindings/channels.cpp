@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+
 #include "bindings.hpp"
 #include "seacrane/run/channels/channel.hpp"
 #include "seacrane/run/channels/registry.hpp"
@@ -10,6 +12,23 @@ std::vector<std::string> dims_of(const Channel& channel, bool of_several) {
   std::vector<std::string> out;
   for (const Axis* axis : channel.axes) {
     if (of_several || !axis->only_if_several) out.push_back(axis->name);
+  }
+  return out;
+}
+
+using Rows = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+Rows turned(const Rows& quaternion, const Rows& vector) {
+  if (quaternion.ndim() != 2 || quaternion.shape(1) != 4 || vector.size() != 3) {
+    throw py::value_error("turned: give quaternions (n, 4) and a vector (3,)");
+  }
+  Rows out({quaternion.shape(0), py::ssize_t{3}});
+  const Eigen::Map<const Eigen::Vector3d> v(vector.data());
+  for (py::ssize_t i = 0; i < quaternion.shape(0); ++i) {
+    const double w = *quaternion.data(i, 0);
+    const Eigen::Map<const Eigen::Vector3d> axis(quaternion.data(i, 1));
+    const Eigen::Vector3d across = axis.cross(v);
+    Eigen::Map<Eigen::Vector3d>(out.mutable_data(i, 0)) = v + 2.0 * (w * across + axis.cross(across));
   }
   return out;
 }
@@ -42,4 +61,6 @@ void bind_channels(py::module_& m) {
         return out;
       },
       "The names along each dimension of channels but time; none: those of a scene, `Model.axes`.");
+  m.def("turned", &turned, py::arg("quaternion"), py::arg("vector"),
+        "A vector (3,) of a body in the inertial frame (n, 3), by its quaternions (n, 4).");
 }

@@ -2,6 +2,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "sea_arrays.hpp"
 #include "seacrane/sea/philox.hpp"
@@ -37,24 +38,54 @@ FrequencyPlacement placement_of(const std::string& name) {
   throw py::value_error("wave realisation: placement is '" + name + "'; give 'jittered' or 'uniform'");
 }
 
+BinOptions bin_options(const py::object& count, std::optional<double> minimum_omega,
+                       std::optional<double> maximum_omega, const std::string& placement) {
+  return {static_cast<long>(whole_number(count, "count", 1, 1'000'000)), minimum_omega, maximum_omega,
+          placement_of(placement)};
+}
+
+RealisationOptions realisation_options(BinOptions bins, const py::object& seed, double direction,
+                                       double depth, double gravity, const py::object& system) {
+  return {std::move(bins),
+          direction,
+          whole_number(seed, "seed", 0, std::numeric_limits<std::uint64_t>::max()),
+          whole_number(system, "system", 0, 1'000'000),
+          depth,
+          gravity};
+}
+
+void bind_bins(py::module_& m) {
+  py::class_<WaveBins>(m, "WaveBins",
+                       "A spectrum cut into bins, of which `realise` makes what `realise_waves` makes of the "
+                       "spectrum. What the seeds share is worked out once.")
+      .def(py::init([](const Spectrum& spectrum, const py::object& count, std::optional<double> minimum_omega,
+                       std::optional<double> maximum_omega, const std::string& placement) {
+             clear_vector_state();
+             return WaveBins(spectrum, bin_options(count, minimum_omega, maximum_omega, placement));
+           }),
+           py::arg("spectrum"), py::kw_only(), py::arg("count") = 200, py::arg("minimum_omega") = py::none(),
+           py::arg("maximum_omega") = py::none(), py::arg("placement") = "jittered")
+      .def(
+          "realise",
+          [](const WaveBins& bins, const py::object& seed, double direction, double depth, double gravity,
+             const py::object& system) {
+            clear_vector_state();
+            return bins.realise(realisation_options({}, seed, direction, depth, gravity, system));
+          },
+          py::kw_only(), py::arg("seed"), py::arg("direction"), py::arg_v("depth", infinity, "float('inf')"),
+          py::arg("gravity") = standard_gravity, py::arg("system") = 0, "Arguments as of `realise_waves`.");
+}
+
 void bind_realisation(py::module_& m) {
   m.def(
       "realise_waves",
       [](const Spectrum& spectrum, const py::object& seed, double direction, const py::object& count,
          std::optional<double> minimum_omega, std::optional<double> maximum_omega, double depth,
          double gravity, const std::string& placement, const py::object& system) {
-        RealisationOptions o;
-        o.count = static_cast<long>(whole_number(count, "count", 1, 1'000'000));
-        o.omega_min = minimum_omega;
-        o.omega_max = maximum_omega;
-        o.direction = direction;
-        o.seed = whole_number(seed, "seed", 0, std::numeric_limits<std::uint64_t>::max());
-        o.placement = placement_of(placement);
-        o.system = whole_number(system, "system", 0, 1'000'000);
-        o.depth = depth;
-        o.gravity = gravity;
         clear_vector_state();
-        return realise(spectrum, o);
+        return realise(spectrum,
+                       realisation_options(bin_options(count, minimum_omega, maximum_omega, placement), seed,
+                                           direction, depth, gravity, system));
       },
       py::arg("spectrum"), py::kw_only(), py::arg("seed"), py::arg("direction"), py::arg("count") = 200,
       py::arg("minimum_omega") = py::none(), py::arg("maximum_omega") = py::none(),
@@ -117,6 +148,7 @@ void bind_sea(py::module_& m) {
   bind_current(m);
   bind_wave_components(m);
   bind_sea_field(m);
+  bind_bins(m);
   bind_realisation(m);
   bind_wave_load(m);
 }

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <complex>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sea_arrays.hpp"
+#include "seacrane/math/spline_weights.hpp"
 #include "seacrane/math/weighted_sums.hpp"
 #include "seacrane/model/description.hpp"
+#include "seacrane/sea/kept_components.hpp"
 
 using namespace seacrane;
 
@@ -98,12 +102,8 @@ ValueError
           "waves", [](const ExactWaveLoad& load) { return load.waves(); }, "The components (a copy).")
       .def(
           "magnitude",
-          [](const ExactWaveLoad& load, int order) {
-            const WaveChannels sum = load.magnitude(order);
-            return py::array_t<double>(6, sum.data());
-          },
-          py::arg("order") = 0,
-          "sum |a X_ij| omega^order, shape (6,): no time derivative of that order exceeds it.")
+          [](const ExactWaveLoad& load) { return py::array_t<double>(6, load.bounds()[0].data()); },
+          "sum |a X_ij|, shape (6,): no load ever exceeds it.")
       .def("__repr__", [](const ExactWaveLoad& load) {
         return py::str("ExactWaveLoad({} components)").format(load.waves().size());
       });
@@ -297,6 +297,43 @@ Complexes weighted_sums(const Doubles& weights, const Complexes& values) {
   return out;
 }
 
+using Places = py::array_t<std::ptrdiff_t, py::array::c_style | py::array::forcecast>;
+
+Doubles spline_rows(const Places& knot, const Places& column, const Doubles& left, const Doubles& right,
+                    const Doubles& bend_left, const Doubles& bend_right, const Doubles& curvature) {
+  const py::ssize_t places = knot.size();
+  for (const Doubles& one : {left, right, bend_left, bend_right}) {
+    if (one.size() != places) throw py::value_error("spline rows: give as many shares as knots");
+  }
+  if (curvature.ndim() != 2 || column.size() != curvature.shape(0)) {
+    throw py::value_error("spline rows: give curvature (knots, values) and a column for each knot");
+  }
+  const auto inside = [](const Places& at, py::ssize_t end) {
+    return std::all_of(at.data(), at.data() + at.size(),
+                       [end](std::ptrdiff_t i) { return i >= 0 && i < end; });
+  };
+  if (!inside(knot, curvature.shape(0) - 1) || !inside(column, curvature.shape(1))) {
+    throw py::value_error("spline rows: a knot or column is not there");
+  }
+  Doubles out({places, curvature.shape(1)});
+  const SplineWeights rows{static_cast<std::size_t>(places), static_cast<std::size_t>(curvature.shape(1)),
+                           curvature.data()};
+  rows.evaluate(knot.data(), column.data(), left.data(), right.data(), bend_left.data(), bend_right.data(),
+                out.mutable_data());
+  return out;
+}
+
+/// As `seacrane.description.compilation.kept_components` says.
+py::array_t<bool> without_smallest(const Doubles& magnitudes, double limit) {
+  if (magnitudes.ndim() != 2) throw py::value_error("magnitudes: give (components, channels)");
+  const auto n = static_cast<std::size_t>(magnitudes.shape(0));
+  const std::vector<char> kept =
+      kept_components(magnitudes.data(), n, static_cast<std::size_t>(magnitudes.shape(1)), limit);
+  py::array_t<bool> out(magnitudes.shape(0));
+  std::copy(kept.begin(), kept.end(), out.mutable_data());
+  return out;
+}
+
 }  // namespace
 
 void bind_wave_load(py::module_& m) {
@@ -305,6 +342,15 @@ void bind_wave_load(py::module_& m) {
   bind_drift(m);
   bind_positioned(m);
   bind_wave_loads(m);
+  m.def("spline_rows", &spline_rows, py::kw_only(), py::arg("knot"), py::arg("column"), py::arg("left"),
+        py::arg("right"), py::arg("bend_left"), py::arg("bend_right"), py::arg("curvature"),
+        "Weights (q, n) of a cubic spline at places behind knots (q,), by their shares of the values and of "
+        "the second derivatives at both ends; see seacrane.hydro.data.interpolation. Raises ValueError for "
+        "other shapes.");
+  m.def(
+      "without_smallest", &without_smallest, py::arg("magnitudes"), py::arg("limit"),
+      "Which rows of magnitudes (n, m) are left where the smallest are left out, which sum to no more than a "
+      "share of all in each column; at least one.");
   m.def("weighted_sums", &weighted_sums, py::arg("weights"), py::arg("values"),
         "Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their "
         "order. Raises ValueError for other shapes.");

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import types
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Contact', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'GroupHydrodynamics', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'SeabedNode', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'curve_of', 'dnv_gamma', 'finite_of', 'flag_of', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'matrix_of', 'name_of', 'not_negative_of', 'number_of', 'numbers_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'positive_of', 'realise_waves', 'require_unmasked', 'rows_of', 'section_radiation', 'shaped_of', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'text_of', 'texts_of', 'torsethaugen', 'vector_of', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Contact', 'Current', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'EntrappedWater', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowEvaluator', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'GroupHydrodynamics', 'HeaveCompensator', 'HydraulicCylinder', 'ImmersedPart', 'ImmersedSpan', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'LaneEvaluator', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'SeaField', 'SeabedNode', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveBins', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'WoundSpan', 'advance_side_by_side', 'axes', 'channels', 'compile', 'curve_of', 'dnv_gamma', 'finite_of', 'flag_of', 'has_instructions', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'kept_apart', 'lanes_differ', 'lanes_of', 'matrix_of', 'name_of', 'not_negative_of', 'number_of', 'numbers_of', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'positive_of', 'realise_waves', 'require_unmasked', 'rows_of', 'section_radiation', 'shaped_of', 'spline_rows', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'text_of', 'texts_of', 'torsethaugen', 'turned', 'vector_of', 'weighted_sums', 'without_smallest']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -356,6 +356,18 @@ class FlowEvaluator:
         """
         Flows (count, 11) at first + i step, m; with `whole` each is the mean over an element as long as the step.
         """
+class WaveBins:
+    """
+    A spectrum cut into bins, of which `realise` makes what `realise_waves` makes of the spectrum. What the seeds share is worked out once.
+    """
+    def __init__(self, spectrum: Spectrum, *, count: typing.Any = 200, minimum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, maximum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, placement: str = 'jittered') -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def realise(self, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, system: typing.Any = 0) -> WaveComponents:
+        """
+        Arguments as of `realise_waves`.
+        """
 class ExactWaveLoad:
     """
     First-order wave load of a vessel at its mean position, summed over all components; immutable.
@@ -390,9 +402,9 @@ class ExactWaveLoad:
         """
         Forces (N) and moments (N m) at times (s): shape times.shape + (6,). `derivative` 1 or 2 gives the time derivatives of that order.
         """
-    def magnitude(self, order: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.float64]:
+    def magnitude(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        sum |a X_ij| omega^order, shape (6,): no time derivative of that order exceeds it.
+        sum |a X_ij|, shape (6,): no load ever exceeds it.
         """
     @property
     def waves(self) -> WaveComponents:
@@ -3995,6 +4007,10 @@ def shaped_of(what: str, value: typing.Any, shape: collections.abc.Sequence[typi
     """
     An array of floats of one shape.
     """
+def spline_rows(*, knot: typing.Annotated[numpy.typing.ArrayLike, numpy.int64], column: typing.Annotated[numpy.typing.ArrayLike, numpy.int64], left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], bend_left: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], bend_right: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], curvature: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Weights (q, n) of a cubic spline at places behind knots (q,), by their shares of the values and of the second derivatives at both ends; see seacrane.hydro.data.interpolation. Raises ValueError for other shapes.
+    """
 def stability_polynomial(integrator: str) -> list[float]:
     """
     Coefficients of the stability polynomial of an explicit Runge-Kutta method, lowest power first: a step h of y' = lambda y multiplies y by R(h lambda). Empty for an integrator that has no tableau here.
@@ -4082,6 +4098,10 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
     quadrature instead of the fitted factor A_gamma.
     """
+def turned(quaternion: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], vector: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    A vector (3,) of a body in the inertial frame (n, 3), by its quaternions (n, 4).
+    """
 def vector_of(what: str, value: typing.Any) -> list[float]:
     """
     A list of floats from a one-dimensional array_like.
@@ -4089,5 +4109,9 @@ def vector_of(what: str, value: typing.Any) -> list[float]:
 def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], values: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128]) -> numpy.typing.NDArray[numpy.complex128]:
     """
     Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
+    """
+def without_smallest(magnitudes: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], limit: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.bool]:
+    """
+    Which rows of magnitudes (n, m) are left where the smallest are left out, which sum to no more than a share of all in each column; at least one.
     """
 LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'immersed part': ImmersedPart, 'entrapped water': EntrappedWater, 'immersed span': ImmersedSpan, 'wound span': WoundSpan, 'seabed node': SeabedNode, 'contact': Contact, 'limit': Limit}

@@ -12,10 +12,11 @@ from ensemble_studies import drifting_hull
 
 from seacrane import FlowCoefficients, Kept, Run, Scene, SceneError, _core, cases, ensemble, simulate
 from seacrane.ensembles import job
-from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.other_sea import OtherSeeds, with_sea
 from seacrane.ensembles.study import with_values
 from seacrane.hydro.data import excitation
 from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, torsethaugen
+from seacrane.warnings import SteepSeaWarning
 
 DATABASE = drifting_hull()
 PATH = {"track": Kept(channel="position", names={"body": "vessel"})}
@@ -169,3 +170,22 @@ def test_forces_of_one_heading_are_those_of_any_headings(heading: float, count: 
     assert np.array_equal(_core.weighted_sums(weights, one), sums)
     expected = np.einsum("qn,qnd->qd", weights, every)
     assert np.allclose(sums, expected, rtol=0.0, atol=1e-13 * np.abs(every).max() * np.abs(weights).sum())
+
+
+@pytest.mark.parametrize("what", ["series", "mean", "maximum"])
+def test_a_record_keeps_what_the_result_does(what: Any) -> None:
+    run = Run(cases.case2(), 3.0, rtol=1e-3)
+    run.advance(3.0)
+    kept = Kept(channel="hook_load", what=what, after=0.5)
+    record, result = kept.of(run.record()), kept.of(run.result())
+    assert record.lies_like(result)
+    assert np.array_equal(record.values, result.values)
+    assert record.attributes == result.attributes
+
+
+def test_every_seed_of_a_sea_is_warned_of_alike() -> None:
+    scene = vessel(1, count=10)
+    seeds = OtherSeeds(scene, {"hs": 9.0, "tp": 6.0})
+    for seed in (1, 2):
+        with pytest.warns(SteepSeaWarning, match="hs 9 m"):
+            seeds.sea(seed)

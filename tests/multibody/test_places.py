@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from multibody_runs import ramp
 
-from seacrane import Curve, Scene, SceneError, cases, simulate
+from seacrane import Curve, Scene, SceneError, _core, cases, simulate
 from seacrane.analysis import driven
 from seacrane.crane import FOOT, Payload, load_crane
 from seacrane.inputs.frames import rotation_matrix
@@ -25,6 +25,15 @@ def test_the_tip_of_a_crane_on_a_turned_ship_is_where_its_geometry_says() -> Non
     np.testing.assert_allclose(scene.place_of(body=body, point=point), (100.0 - y, -30.0 + x, 1.0 + z))
     np.testing.assert_array_equal(scene.place_of("tip"), scene.place_of(body=body, point=point))
     np.testing.assert_allclose(simulate(scene, 0.1, dt_out=0.1).place_of("tip")[0], scene.place_of("tip"))
+
+
+def test_vectors_are_turned_by_quaternions() -> None:
+    random = np.random.default_rng(5)
+    quaternion, vector = random.normal(size=(7, 4)), random.normal(size=3)
+    quaternion /= np.linalg.norm(quaternion, axis=1, keepdims=True)
+    np.testing.assert_allclose(
+        _core.turned(quaternion, vector), rotation_matrix(quaternion) @ vector, atol=1e-14
+    )
 
 
 def test_a_body_is_placed_below_the_tip() -> None:

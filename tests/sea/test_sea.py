@@ -55,6 +55,17 @@ def test_density_and_moments_against_scipy(hs: float, tp: float, gamma: float) -
     np.testing.assert_allclose(spectrum.density(omega), expected, rtol=1e-10)
 
 
+@pytest.mark.parametrize("placement", ["jittered", "uniform"])
+def test_bins_make_the_waves_of_any_seed(placement: str) -> None:
+    spectrum, given = _core.jonswap(hs=2.0, tp=8.0), {"count": 40, "placement": placement}
+    bins = _core.WaveBins(spectrum, **given)
+    for seed in (3, 4):
+        known = {"seed": seed, "direction": 0.5, "system": 2, "depth": 30.0}
+        made, alone = bins.realise(**known), _core.realise_waves(spectrum, **known, **given)
+        for name in ("omega", "amplitude", "phase", "direction", "wavenumber"):
+            assert np.array_equal(getattr(made, name), getattr(alone, name))
+
+
 def test_realisation_is_what_its_specification_says() -> None:
     spectrum = _core.jonswap(hs=2.0, tp=8.0)
     waves = paper_sea(seed=77)

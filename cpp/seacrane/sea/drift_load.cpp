@@ -86,7 +86,6 @@ void DriftLoad::evaluate(double t, double* value, double* rate, double* accelera
 
 /// The double sum of an even power by the binomial theorem, about the middle of the band.
 DriftLoad::Channels DriftLoad::magnitude(int order) const {
-  if (order < 0 || order % 2 != 0) throw std::logic_error("drift load: magnitude needs an even order");
   const auto [low, high] = std::minmax_element(waves_.omega().begin(), waves_.omega().end());
   const double middle = 0.5 * (*low + *high);
   const auto moment = [&](int power, auto weight) {

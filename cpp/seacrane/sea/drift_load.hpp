@@ -30,10 +30,11 @@ class DriftLoad {
   void evaluate(double t, double* value, double* rate, double* acceleration) const;
 
   const WaveComponents& waves() const { return waves_; }
-  /// sum_ik a_i a_k |D_kj| (omega_i - omega_k)^order for an even order: no derivative of it exceeds it.
-  Channels magnitude(int order) const;
+  /// sum_ik a_i a_k |D_kj| (omega_i - omega_k)^n for n = 0 and 12: no derivative of that order exceeds it.
+  std::array<Channels, 2> bounds() const { return {magnitude(0), magnitude(12)}; }
 
  private:
+  Channels magnitude(int order) const;     // an even one
   static constexpr std::size_t lanes = 8;  // the six D, one, and nothing
   using Row = std::array<double, lanes>;
   struct Sums {

@@ -44,7 +44,9 @@ ExactWaveLoad::ExactWaveLoad(WaveComponents waves, const Eigen::Ref<const Eigen:
   check(elevation_point, "elevation_point");
   for (std::size_t i = 0; i < waves_.size(); ++i) {
     const double a = waves_.amplitude()[i];
-    const std::complex<double> at_vessel = std::polar(a, waves_.phase_at(i, position.x, position.y));
+    const double phase = waves_.phase_at(i, position.x, position.y);
+    const double phase_there = waves_.phase_at(i, elevation_point.x, elevation_point.y);
+    const std::complex<double> at_vessel = std::polar(a, phase);
     Coefficients c{};
     const auto set = [&c](std::size_t channel, std::complex<double> p) {
       c.real[channel / 2][channel % 2] = p.real();
@@ -53,7 +55,7 @@ ExactWaveLoad::ExactWaveLoad(WaveComponents waves, const Eigen::Ref<const Eigen:
     for (std::size_t j = 0; j < 6; ++j) {
       set(j, at_vessel * transfer(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
     }
-    set(6, std::polar(a, waves_.phase_at(i, elevation_point.x, elevation_point.y)));
+    set(6, phase_there == phase ? at_vessel : std::polar(a, phase_there));
     coefficients_.push_back(c);
     largest_omega_ = std::max(largest_omega_, waves_.omega()[i]);
   }
@@ -141,13 +143,15 @@ void ExactWaveLoad::evaluate(double t, double* value, double* rate, double* acce
   std::copy_n(sums[2], wave_channels, acceleration);
 }
 
-WaveChannels ExactWaveLoad::magnitude(int order) const {
-  WaveChannels sum{};
+std::array<WaveChannels, 2> ExactWaveLoad::bounds() const {
+  std::array<WaveChannels, 2> sum{};
   for (std::size_t i = 0; i < coefficients_.size(); ++i) {
-    const double factor = std::pow(waves_.omega()[i], order);
+    const double factor = std::pow(waves_.omega()[i], 12);
     for (std::size_t j = 0; j < wave_channels; ++j) {
-      sum[j] +=
-          factor * std::hypot(coefficients_[i].real[j / 2][j % 2], coefficients_[i].imaginary[j / 2][j % 2]);
+      const double size =
+          std::hypot(coefficients_[i].real[j / 2][j % 2], coefficients_[i].imaginary[j / 2][j % 2]);
+      sum[0][j] += size;
+      sum[1][j] += factor * size;
     }
   }
   return sum;

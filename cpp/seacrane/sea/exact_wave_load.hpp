@@ -28,6 +28,7 @@ class ExactWaveLoad {
  public:
   static constexpr std::size_t channels = wave_channels;
   static constexpr const char* object = "wave load";
+  using Channels = WaveChannels;
 
   /// X: one row per component, six columns, N/m and N m/m, time factor exp(+i omega t). `position` is where
   /// the phase of X refers to; the elevation is that at `elevation_point`.
@@ -62,8 +63,8 @@ class ExactWaveLoad {
     const Coefficients& c = coefficients_[component];
     return {c.real[channel / 2][channel % 2], c.imaginary[channel / 2][channel % 2]};
   }
-  /// sum_i |a_i X_ij| omega_i^order per channel: no |d^order F_j / dt^order| ever exceeds it.
-  WaveChannels magnitude(int order) const;
+  /// sum_i |a_i X_ij| omega_i^n per channel for n = 0 and 12: no |d^n F_j / dt^n| ever exceeds it.
+  std::array<WaveChannels, 2> bounds() const;
 
  private:
   static constexpr std::size_t lanes = 8;  // channels, padded to whole packs

@@ -87,20 +87,25 @@ class KnotBlock {
 /// dt^12| with c = max |(s+1) s (s-1) (s-2)|^3 / 12! = 0.5625^3 / 12! (Hermite remainder, P. J. Davis,
 /// Interpolation and Approximation, 1963, theorem 3.5.1). Continuous up to the second derivative. Immutable.
 ///
-/// A Source has `channels` (8 at most), `object`, evaluate(t, value, rate, acceleration), and
-/// magnitude(order) for orders 0 and 12: a bound of the derivative of that order at any time.
+/// A Source has `channels` (8 at most), `object`, evaluate(t, value, rate, acceleration), and bounds(): of
+/// the value and of the twelfth derivative, at any time.
 template <class Source>
 class KnotTable {
  public:
-  using Channels = decltype(std::declval<const Source&>().magnitude(0));
+  using Channels = typename Source::Channels;
   static constexpr std::size_t channels = Source::channels;
   static_assert(channels <= TableKnot::lanes);
 
   /// Knots are computed when a run reaches them. The step is the largest that keeps the bound below
-  /// `relative_bound` x magnitude(0) for every channel.
+  /// `relative_bound` x the bound of the value for every channel.
   explicit KnotTable(std::shared_ptr<const Source> source, double relative_bound = 1e-9)
       : source_(std::move(source)) {
-    set_step(largest_step(source_.get(), relative_bound));
+    require(relative_bound);
+    const auto [size, twelfth] = source_->bounds();
+    step_ = largest_step(size, twelfth, relative_bound);
+    inverse_step_ = 1.0 / step_;
+    for (std::size_t j = 0; j < channels; ++j)
+      error_bound_[j] = hermite_remainder * std::pow(step_, 12) * twelfth[j];
   }
 
   KnotBlock<Source> make_block() const {
@@ -144,13 +149,15 @@ class KnotTable {
   static constexpr std::size_t slots = 64;          // a power of two
   static constexpr double largest_number = 0x1p52;  // step x number stays apart from its neighbours
 
-  static double largest_step(const Source* source, double relative_bound) {
-    if (!source) {
+  void require(double relative_bound) const {
+    if (!source_) {
       throw std::invalid_argument(std::string(Source::object) + " table: the load is absent; give one");
     }
     sea::require(relative_bound >= 1e-14 && relative_bound <= 1e-2, std::string(Source::object) + " table",
                  "relative_bound", relative_bound, "give 1e-14 (rounding) to 1e-2; 1e-9 is the default");
-    const Channels size = source->magnitude(0), twelfth = source->magnitude(12);
+  }
+
+  static double largest_step(const Channels& size, const Channels& twelfth, double relative_bound) {
     double step = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < channels; ++j) {
       if (twelfth[j] > 0.0)
@@ -158,14 +165,6 @@ class KnotTable {
             std::min(step, std::pow(relative_bound * size[j] / (hermite_remainder * twelfth[j]), 1.0 / 12.0));
     }
     return std::isfinite(step) ? step : 1.0;  // constant or no load at all: any grid is exact
-  }
-
-  void set_step(double step) {
-    step_ = step;
-    inverse_step_ = 1.0 / step;
-    const Channels twelfth = source_->magnitude(12);
-    for (std::size_t j = 0; j < channels; ++j)
-      error_bound_[j] = hermite_remainder * std::pow(step_, 12) * twelfth[j];
   }
 
   TableKnot computed(std::int64_t number, KnotBlock<Source>& block) const {

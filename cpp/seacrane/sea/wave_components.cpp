@@ -84,9 +84,10 @@ WaveComponents::WaveComponents(std::vector<double> omega, std::vector<double> am
   require_each(amplitude_, "amplitude", n, 0.0, "give an amplitude of zero or more in m");
   require_each(phase_, "phase", n, any, "give a finite phase in rad");
   require_each(direction_, "direction", n, any, "give a finite direction in rad");
-  for (const double b : direction_) {
-    direction_x_.push_back(std::cos(b));
-    direction_y_.push_back(std::sin(b));
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool again = i > 0 && direction_[i] == direction_[i - 1];  // in a long-crested sea
+    direction_x_.push_back(again ? direction_x_.back() : std::cos(direction_[i]));
+    direction_y_.push_back(again ? direction_y_.back() : std::sin(direction_[i]));
   }
   for (std::size_t i = 0; i < n; ++i) add_wavenumber(i);
 }
@@ -94,8 +95,10 @@ WaveComponents::WaveComponents(std::vector<double> omega, std::vector<double> am
 void WaveComponents::add_wavenumber(std::size_t i) {
   const double w = omega_[i], x = direction_x_[i], y = direction_y_[i];
   const double k = current_.wavenumber(w, x, y, depth_, gravity_);
-  sea::require(!std::isnan(k), kComponents, "omega[" + std::to_string(i) + "]", w,
-               "the current stops this wave, which comes against it; leave it out");
+  if (std::isnan(k)) {
+    sea::require(false, kComponents, "omega[" + std::to_string(i) + "]", w,
+                 "the current stops this wave, which comes against it; leave it out");
+  }
   wavenumber_.push_back(k);
   intrinsic_.push_back(current_.any() ? w - k * current_.carrying(k, x, y, depth_) : w);
 }

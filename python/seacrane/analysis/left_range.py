@@ -65,7 +65,7 @@ def findings(
         "ranges": (_ranges, COORDINATE), "following": (following, COORDINATE),
     }  # fmt: skip
     for what, (look, judged) in looks.items():
-        if not judged or any(name in channels for name in judged):
+        if not judged or not channels.keys().isdisjoint(judged):
             found += tried(f"looking at {what}", partial(_listed, look, scene, time, channels), [], found)
     return [*found, *_singular(stats)]
 

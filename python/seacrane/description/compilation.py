@@ -21,6 +21,7 @@ from seacrane.description.waves import ByHeading, HullLoads, Waves
 from seacrane.description.wet_parts import (
     refuse_contradictions_in_water,
     refuse_outside_parts,
+    refuse_seabeds,
     refuse_unsaid_air,
 )
 from seacrane.errors import SceneError
@@ -118,12 +119,13 @@ def without_negligible(waves: Waves) -> Waves:
     kept = kept_components(waves)
     if kept.all():
         return waves
+    (places,) = kept.nonzero()
 
     def fewer(owner: Any, *keys: str) -> dict[str, Any]:
         held = {key: one for key in keys if (one := getattr(owner, key)) is not None}
         return {
-            key: one.other(values=np.asarray(one.values)[:, kept]) if isinstance(one, ByHeading)
-            else np.asarray(one)[kept]
+            key: one.other(values=np.asarray(one.values).take(places, axis=1)) if isinstance(one, ByHeading)
+            else np.asarray(one).take(places, axis=0)
             for key, one in held.items()
         }  # fmt: skip
 
@@ -136,18 +138,7 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
     limit = number_of("negligible", waves.negligible)
     if not 0.0 <= limit <= 0.1:
         raise ValueError(f"negligible is {limit}; give a share from 0 to 0.1, such as 1e-9")
-    kept = np.ones(np.size(waves.omega), dtype=bool)
-    magnitudes = _magnitudes(waves)
-    if len(magnitudes) < 2 or not np.isfinite(magnitudes).all():
-        return kept
-    whole = magnitudes.sum(axis=0)
-    share = np.divide(magnitudes, whole, out=np.zeros_like(magnitudes), where=whole > 0.0)
-    largest = share.max(axis=1)
-    (small,) = (largest <= limit).nonzero()  # what is more by itself stays
-    order = small[np.argsort(largest[small], kind="stable")]
-    left_out = np.cumsum(share[order], axis=0).max(axis=1)
-    kept[order[: min(np.searchsorted(left_out, limit, side="right"), len(kept) - 1)]] = False
-    return kept
+    return _core.without_smallest(_magnitudes(waves), limit)
 
 
 def _magnitudes(waves: Waves) -> Array:
@@ -164,7 +155,7 @@ def _magnitudes(waves: Waves) -> Array:
             columns.append(amplitude * np.abs(np.asarray(force.values)).max(axis=0))
         if drift is not None:
             columns.append(2.0 * amplitude * np.sqrt(np.abs(np.asarray(drift.values)).max(axis=0)))
-    return np.hstack(columns)
+    return np.concatenate(columns, axis=1)
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
@@ -220,7 +211,7 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
     assert scene.waves is not None
     _, merge = model.compiled_from
     out = model.in_sea(**water_of(pruned(scene.waves, prune=merge)))
-    refuse_contradictions_in_water(scene)
+    refuse_seabeds(scene)
     out.compiled_from = (scene, merge)
     return out
 

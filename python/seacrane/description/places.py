@@ -132,10 +132,7 @@ def place_in(scene: Description, body: str) -> int:
 def _lever(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
     """From the centre of mass of a body to a point of it, inertial frame, m."""
     in_body = np.asarray(point, float) - np.asarray(scene.bodies[body].center_of_mass)
-    turn = arrays["quaternion"][:, place_in(scene, body)]
-    w, axis = turn[:, :1], turn[:, 1:]
-    across = cross(axis, in_body)
-    return np.asarray(in_body + 2.0 * (w * across + cross(axis, across)))
+    return _core.turned(arrays["quaternion"][:, place_in(scene, body)], in_body)
 
 
 def wrapped(angle: Array) -> Array:

@@ -187,10 +187,11 @@ def refuse_contradictions_in_water(scene: Description) -> None:
                 "Take it without volume for its drag and added mass alone (a box with fill=0, a table with "
                 "volumes of 0), or put what is no part of that hull on a body of its own, welded to it"
             )
-    _refuse_seabeds(scene)
+    refuse_seabeds(scene)
 
 
-def _refuse_seabeds(scene: Description) -> None:
+def refuse_seabeds(scene: Description) -> None:
+    """SceneError for a sea of another depth than a seabed."""
     waves, seabeds = scene.waves, {depth: what for what, depth in _seabeds(scene)}
     if not seabeds or waves is None or not np.any(waves.amplitude):
         return

@@ -77,6 +77,8 @@ class Progress:
 
     def add(self, outcomes: Sequence[Outcome]) -> None:
         """Members more are done: in how many lanes, or why by themselves, the bar says of all until now."""
+        if self.bar.disable:
+            return
         self._told.update(one.kept_apart for one in outcomes)
         self.bar.set_postfix_str(remark(self._lanes, self._told), refresh=False)
         self.bar.update(len(outcomes))

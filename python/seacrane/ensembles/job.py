@@ -19,10 +19,11 @@ from seacrane.analysis.after_run import Finding, require_finite
 from seacrane.description.given import given_vessels
 from seacrane.ensembles.dataset import Outcome
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.other_sea import other_sea
+from seacrane.ensembles.other_sea import OtherSeeds
 from seacrane.ensembles.study import START_TIME, Study, Values
 from seacrane.errors import MemberLimitError, SceneError, SeacraneError, WorkerVersionError
 from seacrane.one_thread import one_thread
+from seacrane.result.record import Record
 from seacrane.run.advance import ended
 from seacrane.run.carry import AlikeStages
 from seacrane.run.interrupts import Interrupts
@@ -239,7 +240,8 @@ class Job:
         return Outcome(index=index, failure=made) if isinstance(made, str) else made
 
     def _ended(self, index: int, run: Run | StagedRun) -> Outcome:
-        result = require_finite(run.result())
+        made = run.record() if isinstance(run, Run) and self.study.keeps_curves else run.result()
+        result: Record = require_finite(made)
         validity, apart = (str(result.stats.get(name, "")) for name in ("validity", "kept_apart"))
         return Outcome(index=index, kept=self.study.kept_of(result), validity=validity, kept_apart=apart)
 
@@ -293,7 +295,9 @@ class Prepared:
             return self._begun(study.scene(values))
         # The run of the scene's own sea, from which those of other seas are made, is not stepped.
         first: Run = self._kept("first", others, lambda: self._begun(study.scene(others)))
-        return first.in_sea(other_sea(first.scene, sea))
+        words = {name: value for name, value in sea.items() if name != "seed"}
+        seeds: OtherSeeds = self._kept("seeds", {**others, **words}, lambda: OtherSeeds(first.scene, words))
+        return first.in_sea(seeds.sea(sea.get("seed")))
 
     def lift(self, values: Values) -> tuple[Scene, list[Stage], _core.State | None, Sequence[Finding]]:
         """The scene and stages of a member, where it begins, and what was out of range until then."""

@@ -17,6 +17,7 @@ from seacrane.inputs.checked import finite_of, positive_of, text_of
 from seacrane.inputs.keywords import named
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
+from seacrane.result.record import Record
 
 NUMBERS: Mapping[str, tuple[Callable[..., Any], str]] = {
     "mean": (np.mean, "mean"),
@@ -121,7 +122,7 @@ class Kept:
                 f"of {interval:g} s; give a multiple"
             )
 
-    def of(self, result: Result) -> Labelled:
+    def of(self, result: Record) -> Labelled:
         """It, of a result."""
         channel = result.select(self.channel, **self.names)
         dims = tuple(dim for dim in result.dims[self.channel] if dim not in self.names)
@@ -166,7 +167,7 @@ class StageTime:
         return stage_time(result, self.stage, self.what, "kept")
 
 
-def made_by(name: str, function: Callable[[Result], Any], result: Result) -> Labelled:
+def made_by(name: str, function: Callable[[Any], Any], result: Record) -> Labelled:
     """What a user's function makes of a result, in dimensions named after it."""
     try:
         values = np.asarray(function(result), dtype=np.float64)

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from seacrane.description.databases import database_of
+from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
-from seacrane.inputs.caller import keeping
-from seacrane.scene.realised_sea import realised_sea
+from seacrane.inputs.caller import keeping, recorded, say_again, silently
+from seacrane.scene.realised_sea import COMPONENTS, described_sea, realised
 from seacrane.scene.scene import Scene
 from seacrane.scene.sea import own_cutoff, put
 from seacrane.sea import SeaState, Spectrum, Spreading, WaveSystem, jonswap, pierson_moskowitz
@@ -35,33 +36,60 @@ def with_sea(scene: Scene, given: Mapping[str, Any]) -> Scene:
 
 def other_sea(scene: Scene, given: Mapping[str, Any]) -> Waves:
     """That sea alone; ships of the scene that follow RAOs are set moving in it."""
-    old, waves = scene.waves, _realised(scene, given)
-    assert old is not None
-    for body, hull in old.hulls.items():
-        waves = put(
-            scene, waves, vessel=body, position=hull.position, heading=hull.heading, phase=hull.phase,
-            cutoff=own_cutoff(old, hull), drift=hull.drift is not None,
-        )  # fmt: skip
-    return waves
+    seeds = OtherSeeds(scene, {word: value for word, value in given.items() if word != "seed"})
+    return seeds.sea(given.get("seed"))
 
 
-def _realised(scene: Scene, given: Mapping[str, Any]) -> Waves:
-    """The sea of the scene with other words, no vessel in it yet."""
+class OtherSeeds:
+    """The seas of a scene, with other words but the seed, by seed: what these share is made once.
+
+    Threads may share it. Raises SceneError for words that make no sea; warnings are given for each seed.
+    """
+
+    def __init__(self, scene: Scene, words: Mapping[str, Any]) -> None:
+        assert scene.waves is not None
+        self._scene, self._old = scene, scene.waves
+        with silently(), recorded() as self._said:
+            self._sea, self._made_from = _described(scene, words)
+        same = {name: getattr(scene.waves, name) for name in SAME_SETTINGS}
+        same |= dict.fromkeys(COMPONENTS, np.zeros(0))
+        self._calm = Waves(hulls={}, depth=self._sea.depth, **same)
+        self._bins = self._sea.bins()
+
+    def sea(self, seed: Any = None) -> Waves:
+        """The sea of a seed, by default that of the scene; ships that follow RAOs are set moving in it."""
+        say_again(self._said)
+        sea, made_from = self._sea, self._made_from
+        if seed is not None:
+            sea = SeaState(systems=sea.systems, seed=seed, depth=sea.depth, placement=sea.placement)
+        if made_from.sea is not None:
+            made_from = made_from.other(sea=sea.description())
+        found = realised(sea, made_from, self._bins, current=self._calm.current, look_for_repeats=False)
+        waves = self._calm.other(**found)
+        for body, hull in self._old.hulls.items():
+            waves = put(
+                self._scene, waves, vessel=body, position=hull.position, heading=hull.heading,
+                phase=hull.phase, cutoff=own_cutoff(self._old, hull), drift=hull.drift is not None,
+            )  # fmt: skip
+        return waves
+
+
+def _described(scene: Scene, words: Mapping[str, Any]) -> tuple[SeaState, SeaProvenance]:
+    """The sea of the scene with other words but the seed, not realised."""
     assert scene.waves is not None
     record, depth = scene.waves.provenance.sea, scene.waves.depth
-    same = {name: getattr(scene.waves, name) for name in SAME_SETTINGS}
     if record is not None:
         sea = SeaState(
             systems=[_system(system) for system in record["systems"]],
-            seed=given.get("seed", record["seed"]),
+            seed=record["seed"],
             depth=float("inf") if record["depth"] is None else record["depth"],
             placement=record["placement"],
         )
-        return realised_sea(sea, {}, depth, look_for_repeats=False, **same)
+        return described_sea(sea, {}, depth)
     settings = _settings(scene)
-    if "gamma" not in given and settings["spectrum"] != "jonswap":
+    if "gamma" not in words and settings["spectrum"] != "jonswap":
         settings.pop("gamma")
-    return realised_sea(None, settings | dict(given), depth, look_for_repeats=False, **same)
+    return described_sea(None, settings | dict(words), depth)
 
 
 def require_same_sea(scene: Scene, words: Collection[str]) -> None:

@@ -18,6 +18,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
+from seacrane.result.record import Record
 from seacrane.run.commands import Move
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -106,8 +107,13 @@ class Study:
         """Where the run of a scene begins; None: its assembled start."""
         return self.start(scene) if callable(self.start) else self.start
 
-    def kept_of(self, result: Result) -> dict[str, Labelled]:
-        """What is kept of a result."""
+    @property
+    def keeps_curves(self) -> bool:
+        """Whether what is kept is of channels alone; a function may read anything of a result."""
+        return kept_curves(self.keep) is not None
+
+    def kept_of(self, result: Record) -> dict[str, Labelled]:
+        """What is kept of a result, or of the record of one where that `keeps_curves`."""
         return {
             name: what.of(result) if isinstance(what, Kept) else made_by(name, what, result)
             for name, what in self.keep.items()

@@ -46,7 +46,7 @@ def cross(first: Array, second: Array) -> Array:
     """Cross products (..., 3), to the bit those of `numpy.cross`, without the cost of its general axes."""
     a, b, c = first[..., 0], first[..., 1], first[..., 2]
     x, y, z = second[..., 0], second[..., 1], second[..., 2]
-    out: Array = np.empty(np.broadcast_shapes(first.shape, second.shape))
+    out: Array = np.empty(np.broadcast(first, second).shape)
     np.subtract(b * z, c * y, out=out[..., 0])
     np.subtract(c * x, a * z, out=out[..., 1])
     np.subtract(a * y, b * x, out=out[..., 2])

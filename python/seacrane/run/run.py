@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from copy import copy
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +15,7 @@ from seacrane.analysis.implausible import warn_of_description
 from seacrane.analysis.left_range import findings
 from seacrane.analysis.line_checks import bound_findings
 from seacrane.arrays import Array
-from seacrane.description.channels import CHANNELS, DERIVED, OWN
+from seacrane.description.channels import CHANNELS, DERIVED, OWN, channel_of
 from seacrane.description.compilation import compiled, compiled_in_sea
 from seacrane.description.holding import with_holds
 from seacrane.description.once import forgetting, unchanged
@@ -27,9 +26,10 @@ from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import finite_of, number_of
 from seacrane.inputs.keywords import named
-from seacrane.result.about import About, Event, plain_stats
+from seacrane.result.about import About, Event, checked_array, checked_stats, plain_stats
+from seacrane.result.record import Record
 from seacrane.result.result import Result
-from seacrane.result.traces import as_arrays
+from seacrane.result.traces import as_arrays, parted
 from seacrane.run.carried_state import carried, changed_inputs, steered
 from seacrane.run.channel_names import (
     all_names,
@@ -56,7 +56,15 @@ from seacrane.run.method import (
 )
 from seacrane.run.modes import Modes
 from seacrane.run.outputs import Outputs, output_times
-from seacrane.run.stats import about_of, event_findings, lasting_stats, ruptures, sea_settings, settings_of
+from seacrane.run.stats import (
+    about_of,
+    event_findings,
+    lasting_stats,
+    ruptures,
+    sea_settings,
+    settings_of,
+    told_of,
+)
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -157,7 +165,8 @@ class Run:
         require_names(self.scene, self.outputs.channels or ())
         self._own_modes = Modes(self.model, list(self.scene.bodies), [self.start])
         self.start_modes: Modes | None = None
-        self._coords, self._about = all_names(self.scene, self.model), about_of(self.scene)
+        self._coords = {dim: tuple(names) for dim, names in all_names(self.scene, self.model).items()}
+        self._about = about_of(self.scene)
         self._lasting = lasting_stats(self.scene, self.model, self.formulation, self.method)
         self._hold()
         self._prepare()
@@ -193,14 +202,21 @@ class Run:
                 given, self.t_end, method=self.method, start=self._given_start, controlled=self._controlled,
                 outputs=self.outputs, outputs_from=self.first, capacity=self._capacity, peaks=self._peaks,
             )  # fmt: skip
-        out = copy(self)
+        out = self._alike()
         out.scene = given if self.scene is self._given else self.scene.copy(waves=waves)
         out._given = given
         out.model = compiled_in_sea(out.scene, self.model)
         out.start = out._started()
-        out.settings = sea_settings(out.scene, self.settings)
+        if told_of(waves) != told_of(self.scene.waves):  # not its seed alone
+            out.settings = sea_settings(out.scene, self.settings)
         out.start_modes = self.start_modes or self._own_modes
         out._prepare()
+        return out
+
+    def _alike(self) -> Run:
+        """A run with the same attributes; `copy` makes it too, and takes longer."""
+        out = object.__new__(Run)
+        vars(out).update(vars(self))
         return out
 
     def from_there(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
@@ -208,7 +224,7 @@ class Run:
 
         What was checked and warned of is not checked again.
         """
-        out = copy(self)
+        out = self._alike()
         out._given_start, out._capacity = start, capacity
         out.t_end, out.described = number_of("t_end", t_end), False
         out.start = out._started()
@@ -371,30 +387,53 @@ class Run:
             No more than the first outputs, and no state.
         """
         with self.core, unchanged(self.scene):
-            every = () if most is None else (most,)
-            arrays, extremes = self.core.channels(*every), self.core.extremes(*every)
-            scene, met, stats = self.scene, self.events(), self.stats()
-            found, falls = list[Finding](), Falls()
-            recorded = {name: values for name, values in arrays.items() if name in CHANNELS}
-            channels = tried("making derived channels", lambda: self.wanted(arrays, falls), recorded, found)
-            found += findings(scene, arrays["time"], channels, stats, self.steered, described=self.described)
-            reached = [(time, name) for time, name, *_ in self.core.events()]
-            found += tried("looking at events", lambda: [*event_findings(scene, met, channels)], [], found)
-            found += tried("looking at bounds", lambda: list(bound_findings(scene, reached)), [], found)
-            found += self.slow + struck(scene, self.settled, reached, self.start.time)
-            if not self.interrupted and (wrong := not_finite(channels)):
-                stats[NOT_FINITE] = ", ".join(wrong)
-                found += wrong.values()
-            if found:
-                stats["validity"] = as_text(found)
-            reach = {**extremes, **derived_extremes(scene, arrays, extremes, channels, falls)}
-            if self._followed and len(arrays["time"]):
-                outputs = {**channels, "time": arrays["time"]}
-                reach |= followed_extremes(self.core.trail(), outputs, self._followed, self.named)
-            kept = {name: both for name, both in reach.items() if name in channels}
+            arrays, stats, met, found = self._recorded(most)
             result = Result.from_arrays(
-                time=arrays["time"], coords=self._coords, events=met, stats=stats,
-                arrays={**channels, **as_arrays(kept)}, about=self.about, interrupted=self.interrupted,
-                state=self.last_state() if most is None else None, scene=forgetting(scene.copy(notes={})),
+                time=arrays.pop("time"), coords=self._coords, events=met, stats=stats, arrays=arrays,
+                about=self.about, interrupted=self.interrupted,
+                state=self.last_state() if most is None else None,
+                scene=forgetting(self.scene.copy(notes={})),
             )  # fmt: skip
         return result, found
+
+    def record(self) -> Record:
+        """What has been recorded so far, for what reads curves and stats alone: its events and settings are
+        left out."""
+        with self.core, unchanged(self.scene):
+            arrays, stats, _, _ = self._recorded(None)
+        time = arrays.pop("time")
+        channels, extremes = parted(arrays)
+        gappy = str(stats.get(NOT_FINITE, "")).split(", ")
+        for name, values in as_arrays(extremes).items():
+            checked_array(name, values, values.shape, self.interrupted or channel_of(name) in gappy)
+        return Record(
+            time=time, channels=channels, extremes=extremes, coords=self._coords, stats=checked_stats(stats),
+            interrupted=self.interrupted,
+        )  # fmt: skip
+
+    def _recorded(
+        self, most: int | None
+    ) -> tuple[dict[str, Array], dict[str, Any], list[Event], list[Finding]]:
+        """Arrays, stats, events and what is out of range, of no more than the first outputs."""
+        every = () if most is None else (most,)
+        arrays, extremes = self.core.channels(*every), self.core.extremes(*every)
+        scene, met, stats = self.scene, self.events(), self.stats()
+        found, falls = list[Finding](), Falls()
+        recorded = {name: values for name, values in arrays.items() if name in CHANNELS}
+        channels = tried("making derived channels", lambda: self.wanted(arrays, falls), recorded, found)
+        found += findings(scene, arrays["time"], channels, stats, self.steered, described=self.described)
+        reached = [(time, name) for time, name, *_ in self.core.events()]
+        found += tried("looking at events", lambda: [*event_findings(scene, met, channels)], [], found)
+        found += tried("looking at bounds", lambda: list(bound_findings(scene, reached)), [], found)
+        found += self.slow + struck(scene, self.settled, reached, self.start.time)
+        if not self.interrupted and (wrong := not_finite(channels)):
+            stats[NOT_FINITE] = ", ".join(wrong)
+            found += wrong.values()
+        if found:
+            stats["validity"] = as_text(found)
+        reach = {**extremes, **derived_extremes(scene, arrays, extremes, channels, falls)}
+        if self._followed and len(arrays["time"]):
+            outputs = {**channels, "time": arrays["time"]}
+            reach |= followed_extremes(self.core.trail(), outputs, self._followed, self.named)
+        kept = {name: both for name, both in reach.items() if name in channels}
+        return {**channels, **as_arrays(kept), "time": arrays["time"]}, stats, met, found

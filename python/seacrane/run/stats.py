@@ -16,6 +16,7 @@ from seacrane.description.once import once
 from seacrane.description.outline import bounds_of, hung_notes, outline_of
 from seacrane.description.provenance import SEA_SETTINGS, VesselProvenance
 from seacrane.description.suspension import hung_loads, static_weights
+from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.plain_data import plain_data, plain_notes
 from seacrane.result.about import About, Event
@@ -119,8 +120,12 @@ def sea_settings(scene: Description, others: Mapping[str, Any]) -> dict[str, Any
     out = {word: value for word, value in others.items() if word not in SEA_SETTINGS}
     if scene.waves is None:
         return out
-    told = {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}
-    return out | dict(plain_data(f"scene {scene.name!r}: provenance", told))
+    return out | dict(plain_data(f"scene {scene.name!r}: provenance", told_of(scene.waves)))
+
+
+def told_of(waves: Waves) -> dict[str, Any]:
+    """What a sea was made from."""
+    return {**waves.provenance.settings(), "waves_relative_bound": waves.relative_bound}
 
 
 def event_findings(scene: Description, events: Sequence[Event], channels: Channels) -> Iterator[Finding]:

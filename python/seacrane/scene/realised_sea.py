@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -52,35 +51,48 @@ def realised_sea(
 
     Raises SceneError for arguments that make no sea.
     """
+    sea, made_from = described_sea(sea, given, depth)
+    found = realised(sea, made_from, sea.bins(), current=current, look_for_repeats=look_for_repeats)
+    return Waves(hulls={}, **settings, **found, depth=sea.depth, current=current)
+
+
+def described_sea(
+    sea: SeaState | None, given: dict[str, Any], depth: float
+) -> tuple[SeaState, SeaProvenance]:
+    """That sea, and what it was made from; raises SceneError."""
     if sea is None:
         chosen = DEFAULTS | given
         if "gamma" in given and chosen["spectrum"] != "jonswap":
             raise SceneError(f"gamma: {chosen['spectrum']!r} has no free peak enhancement; leave gamma out")
-        sea, made_from = _one_system(chosen, depth)
-    elif isinstance(sea, SeaState):
-        made_from = SeaProvenance(sea=sea.description())
-    else:
-        raise SceneError.of("sea", f"is {sea!r}; give a SeaState")
-    realised = sea.realise()
-    waves = realised.waves
-    several = {system.name: system.hs for system in realised.systems} if len(realised.systems) > 1 else None
-    kept = _not_stopped(waves, current)
-    components: dict[str, Any] = {key: np.array(getattr(waves, key))[kept] for key in COMPONENTS}
-    provenance = replace(
-        made_from, realised_hs_of_systems=several, seed=sea.seed, realised_hs=float(realised.hs),
-        wave_components=len(waves.omega),
-        repeat_period_s=float(realised.repeat.time) if look_for_repeats else None,
-        repeat_found=int(realised.repeat.found) if look_for_repeats else None,
+        return _one_system(chosen, depth)
+    if isinstance(sea, SeaState):
+        return sea, SeaProvenance(sea=sea.description())
+    raise SceneError.of("sea", f"is {sea!r}; give a SeaState")
+
+
+def realised(
+    sea: SeaState, made_from: SeaProvenance, bins: Sequence[_core.WaveBins | None], *,
+    current: Current | None = None, look_for_repeats: bool = True,
+) -> dict[str, Any]:  # fmt: skip
+    """Components and provenance of a sea; its bins may be of another seed."""
+    done = sea.realised(bins)
+    waves = done.waves
+    several = {system.name: system.hs for system in done.systems} if len(done.systems) > 1 else None
+    components: dict[str, Any] = {key: getattr(waves, key) for key in COMPONENTS}
+    if current is not None:
+        kept = _not_stopped(waves, current)
+        components = {key: values[kept] for key, values in components.items()}
+    provenance = made_from.other(
+        realised_hs_of_systems=several, seed=sea.seed, realised_hs=done.hs,
+        wave_components=len(waves),
+        repeat_period_s=float(done.repeat.time) if look_for_repeats else None,
+        repeat_found=int(done.repeat.found) if look_for_repeats else None,
     )  # fmt: skip
-    settings |= {"depth": sea.depth, "current": current, "provenance": provenance}
-    return Waves(hulls={}, **settings, **components)
+    return {**components, "provenance": provenance}
 
 
-def _not_stopped(waves: _core.WaveComponents, current: Current | None) -> NDArray[np.bool_]:
+def _not_stopped(waves: _core.WaveComponents, current: Current) -> NDArray[np.bool_]:
     """Which components travel on a current; the energy of the others is told."""
-    kept = np.ones(len(waves.omega), dtype=bool)
-    if current is None:
-        return kept
     on_current = current.core().wavenumber(
         omega=waves.omega, direction=waves.direction, depth=waves.depth, gravity=waves.gravity
     )

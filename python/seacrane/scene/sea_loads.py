@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -157,8 +156,7 @@ def with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLo
     below = float(energy[waves.omega < low].sum() / energy.sum()) if energy.any() else 0.0
     warn_of_waves_below_band(database, below, f"waves on {vessel!r}")
     known = waves.provenance
-    return replace(
-        known,
+    return known.other(
         wave_energy_without_load=max(left_out.energy, known.wave_energy_without_load or 0.0),
         load_variance_without_load=max(left_out.variance, known.load_variance_without_load or 0.0),
     )

@@ -330,4 +330,4 @@ def force_of_components(database: HydroDatabase, omega: Array, heading: Array) -
         database.force_at(omega[i : i + AT_ONCE], heading[i : i + AT_ONCE], outside="limits")
         for i in range(0, omega.size, AT_ONCE)
     ]
-    return np.concatenate(rows).astype(complex).reshape(-1, 6)
+    return np.concatenate(rows) if len(rows) > 1 else rows[0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -77,12 +78,11 @@ class WaveSystem:
         finite_of(angle, direction_of(angle, self.direction_deg), "deg")
         warn_if_breaking(what, self.spectrum)
 
-    def waves(self, *, seed: int, system: int, depth: float, placement: str) -> _core.WaveComponents:
-        """Long-crested components along the mean direction."""
-        return _core.realise_waves(
-            self.spectrum, seed=seed, system=system, direction=float(np.radians(self.direction_deg)),
-            count=self.count, minimum_omega=self.minimum_omega, maximum_omega=self.maximum_omega, depth=depth,
-            placement=placement,
+    def bins(self, placement: str) -> _core.WaveBins:
+        """Of which each seed makes long-crested components."""
+        return _core.WaveBins(
+            self.spectrum, count=self.count, minimum_omega=self.minimum_omega,
+            maximum_omega=self.maximum_omega, placement=placement,
         )  # fmt: skip
 
 
@@ -201,10 +201,22 @@ class SeaState:
         spreading at steps of the golden ratio from a random start, so that every band of frequencies holds
         the whole distribution of directions.
         """
-        parts = [self._waves_of(j, system) for j, system in enumerate(self.systems)]
-        ends = np.cumsum([len(part) for part in parts])
+        return self.realised(self.bins())
+
+    def bins(self) -> tuple[_core.WaveBins | None, ...]:
+        """What the seas of all seeds share, by system; None of measured waves."""
+        return tuple(
+            None if isinstance(system, MeasuredWaves) else system.bins(self.placement)
+            for system in self.systems
+        )
+
+    def realised(self, bins: Sequence[_core.WaveBins | None]) -> RealisedSea:
+        """As `realise`, with the bins of this sea or of the same one with another seed."""
+        systems = zip(self.systems, bins, strict=True)
+        parts = [self._waves_of(j, system, own) for j, (system, own) in enumerate(systems)]
+        ends = accumulate(len(part) for part in parts)
         realised = tuple(
-            RealisedSystem(name=system.name, components=slice(int(end - len(part)), int(end)), m0=part.m0)
+            RealisedSystem(name=system.name, components=slice(end - len(part), end), m0=part.m0)
             for system, part, end in zip(self.systems, parts, ends, strict=True)
         )
         if len(parts) == 1:
@@ -215,12 +227,15 @@ class SeaState:
         }
         return RealisedSea(waves=_core.WaveComponents(**arrays, depth=self.depth), systems=realised)
 
-    def _waves_of(self, j: int, system: WaveSystem | MeasuredWaves) -> _core.WaveComponents:
-        mean = np.array(float(np.radians(system.direction_deg)))
+    def _waves_of(
+        self, j: int, system: WaveSystem | MeasuredWaves, bins: _core.WaveBins | None
+    ) -> _core.WaveComponents:
+        mean = float(np.radians(system.direction_deg))
         if isinstance(system, MeasuredWaves):
             directions = mean + self._angles(j, system.count, system.spreading)
             return system.waves(direction=directions, depth=self.depth)
-        plain = system.waves(seed=self.seed, system=j, depth=self.depth, placement=self.placement)
+        assert bins is not None
+        plain = bins.realise(seed=self.seed, system=j, direction=mean, depth=self.depth)
         if system.spreading is None:
             return plain
         return _core.WaveComponents(

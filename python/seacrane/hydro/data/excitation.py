@@ -14,6 +14,7 @@ from seacrane.hydro.data.heading_circle import centred, heading_weights, travel,
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.hydro_group_data import Hydrodynamics
 from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.inputs.checked import is_finite
 from seacrane.one_thread import one_thread
 from seacrane.sea.dispersion import wavenumber
 
@@ -23,10 +24,12 @@ def force_at(database: HydroData, omega: ArrayLike, heading: ArrayLike, *, outsi
     """`HydroDatabase.force_at`."""
     if outside not in ("error", "limits"):
         raise SceneError(f"database {database.name!r}: outside is {outside!r}; choose 'error' or 'limits'")
-    wanted_omega, wanted_heading = np.broadcast_arrays(np.asarray(omega, float), np.asarray(heading, float))
-    shape = wanted_omega.shape
-    w, b = wanted_omega.ravel(), wanted_heading.ravel()
-    if not (np.all(np.isfinite(w)) and np.all(np.isfinite(b))):
+    w, b = np.asarray(omega, float), np.asarray(heading, float)
+    if w.shape != b.shape:
+        w, b = np.broadcast_arrays(w, b)
+    shape = w.shape
+    w, b = w.ravel(), b.ravel()
+    if not (is_finite(w) and is_finite(b)):
         raise SceneError(f"database {database.name!r}: frequencies and headings must be finite numbers")
     slack = 1e-9 * database.omega[-1]
     beyond = (w < database.omega[0] - slack) | (w > database.omega[-1] + slack)
@@ -124,5 +127,7 @@ def with_limits(database: HydroData, omega: Array, force: Complex) -> Complex:
         k = wavenumber(longest, g=database.g, depth=database.depth)
         share = (k[:-1] / k[-1])[:, None]
         out[..., below, :] = database.restoring[:, 2] * (1.0 - share) + out[..., below, :] * share
-    out[..., omega > highest + slack, :] = 0.0
+    above = omega > highest + slack
+    if above.any():
+        out[..., above, :] = 0.0
     return out

@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.arrays import Array
 from seacrane.one_thread import one_thread
 
@@ -52,13 +53,10 @@ def _evaluate(x: Array, query: Array, value: NDArray[np.intp], curvature: Array)
     left = 1.0 - right
     bend_left = (left**3 - left) * h**2 / 6.0
     bend_right = (right**3 - right) * h**2 / 6.0
-    out, after, every = curvature[i], curvature[i + 1], np.arange(len(query))
-    out *= bend_left[:, None]
-    after *= bend_right[:, None]
-    out[every, value[i]] += left
-    out[every, value[i + 1]] += right
-    out += after
-    return np.asarray(out)
+    return _core.spline_rows(
+        knot=i, column=value, left=left, right=right, bend_left=bend_left, bend_right=bend_right,
+        curvature=curvature,
+    )  # fmt: skip
 
 
 @lru_cache(maxsize=16)
