@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -121,6 +122,14 @@ def test_members_are_what_simulate_gives_in_their_sea(word: str) -> None:
             assert np.array_equal(there.dataset.track.sel(seed=seed), alone)
         with pytest.raises(SceneError, match=r"SeaState.* not hs, tp"):
             ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, **given)
+
+
+def test_what_a_scene_says_of_its_waves_holds_in_its_other_seas() -> None:
+    scene = vessel(1)
+    says = {"negligible": 1e-3, "relative_bound": 1e-7, "evaluation": "exact", "stretching": "none"}
+    scene.waves = replace(scene.waves, **says)
+    other = with_sea(scene, {"seed": 2}).waves
+    assert {name: getattr(other, name) for name in says} == says
 
 
 def test_a_sea_that_cannot_be_made_again_is_refused() -> None:

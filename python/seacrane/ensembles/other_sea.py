@@ -19,7 +19,7 @@ from seacrane.sea import SeaState, Spectrum, Spreading, WaveSystem, jonswap, pie
 
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
 SAME = 1e-9  # relative
-SAME_SETTINGS = ("current", "relative_bound", "evaluation", "stretching")
+SAME_SETTINGS = ("current", "relative_bound", "evaluation", "stretching", "negligible")
 SPECTRA: Mapping[str, Callable[..., Spectrum]] = {
     "JONSWAP": jonswap,
     "Pierson-Moskowitz": lambda *, hs, tp, gamma: pierson_moskowitz(hs=hs, tp=tp),
