@@ -126,7 +126,12 @@ def test_members_are_what_simulate_gives_in_their_sea(word: str) -> None:
 
 def test_what_a_scene_says_of_its_waves_holds_in_its_other_seas() -> None:
     scene = vessel(1)
-    says = {"negligible": 1e-3, "relative_bound": 1e-7, "evaluation": "exact", "stretching": "none"}
+    says: dict[str, Any] = {
+        "negligible": 1e-3,
+        "relative_bound": 1e-7,
+        "evaluation": "exact",
+        "stretching": "none",
+    }
     scene.waves = replace(scene.waves, **says)
     other = with_sea(scene, {"seed": 2}).waves
     assert {name: getattr(other, name) for name in says} == says
