@@ -9,7 +9,7 @@ from contextlib import nullcontext
 from typing import Any
 
 from seacrane import Kept, Run, cases, ensemble
-from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.other_sea import OtherSeeds
 
 from .section import Section
 from .sources import CRANE, LANES
@@ -45,15 +45,15 @@ def executors() -> Iterator[list[Any]]:
         run.advance(T_END)
         return run
 
-    done, waves = stepped(), with_sea(scene, {"seed": 2}).waves
-    assert waves is not None
+    done, seeds = stepped(), OtherSeeds(scene, {})
+    waves = seeds.sea(2)
     whole = best_seconds(stepped, repeats=REPEATS)
     parts: dict[str, Callable[[], object]] = {
         "describe the lift, where a function does": cases.case2,
         "prepare the run of a scene": lambda: Run(scene, T_END, **HOW),
-        "make the sea again": lambda: with_sea(scene, {"seed": 2}),
+        "make the sea again": lambda: seeds.sea(2),
         "prepare the run in it": lambda: done.in_sea(waves),
-        "end: look for what is out of range, make the result": done.result,
+        "end: look for what is out of range, make the record": done.record,
     }
     for name, call in parts.items():
         took = best_seconds(call, repeats=3 * REPEATS)
