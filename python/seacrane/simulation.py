@@ -150,6 +150,8 @@ def simulate(
         an oscillation, or water struck what hangs on a quasi-static line; also in `stats`, as "validity"
         (docs/troubleshooting.md).
     """
+    if "stages" in shorthand:
+        raise SceneError("stages are given by that name; simulate takes them in the place of `t_end`")
     end, stages = (math.nan, t_end) if _several(t_end) else (t_end, None)
     written = {"checkpoint_every": checkpoint_every, "resume": resume, "overwrite": overwrite}
     _require_use(stages, to, accuracy, first=first, **written)
@@ -193,7 +195,9 @@ def _require_use(
     stages: Sequence[Stage] | None, to: str | os.PathLike[str] | None, accuracy: Mapping[str, float] | None,
     **given: object,
 ) -> None:  # fmt: skip
-    """Refuse words that this kind of run has no use for."""
+    """Refuse words that this kind of run has no use for, and what is no path."""
+    if to is not None and not isinstance(to, (str, os.PathLike)):
+        raise SceneError(f"to is {shown(to)}; give the path of a NetCDF file")
     whole = UNWRITTEN if to is None else ""
     if to is not None and accuracy is not None:
         whole = "what an accuracy asks for is run more than once, and written at its end"

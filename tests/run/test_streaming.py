@@ -297,8 +297,12 @@ def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "word", [{"first": "lift"}, {"resume": True}, {"overwrite": True}, {"checkpoint_every": 1.0}]
-)
-def test_words_that_a_run_in_memory_has_no_use_for_are_refused(word: dict[str, Any]) -> None:
+    "word",
+    [
+        {"first": "lift"}, {"resume": True}, {"overwrite": True}, {"checkpoint_every": 1.0}, {"to": [1.0]},
+        {"stages": [sc.Stage(name="lift", duration=1.0)]},
+    ],
+)  # fmt: skip
+def test_words_that_a_run_has_no_use_for_are_refused(word: dict[str, Any]) -> None:
     with pytest.raises(sc.SceneError, match=next(iter(word))):
         sc.simulate(spinner(), 1.0, **word)
