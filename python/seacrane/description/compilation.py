@@ -25,6 +25,7 @@ from seacrane.description.wet_parts import (
     refuse_unsaid_air,
 )
 from seacrane.errors import SceneError
+from seacrane.inputs.alike import alike
 from seacrane.inputs.caller import silently, warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
 from seacrane.inputs.frames import rotation_matrix
@@ -124,13 +125,13 @@ def without_negligible(waves: Waves) -> Waves:
     def fewer(owner: Any, *keys: str) -> dict[str, Any]:
         held = {key: one for key in keys if (one := getattr(owner, key)) is not None}
         return {
-            key: one.other(values=np.asarray(one.values).take(places, axis=1)) if isinstance(one, ByHeading)
+            key: alike(one, values=np.asarray(one.values).take(places, axis=1)) if isinstance(one, ByHeading)
             else np.asarray(one).take(places, axis=0)
             for key, one in held.items()
         }  # fmt: skip
 
-    hulls = {body: hull.other(**fewer(hull, *LOADED)) for body, hull in waves.hulls.items()}
-    return waves.other(**fewer(waves, "omega", "amplitude", "phase", "direction"), hulls=ReadOnly(hulls))
+    hulls = {body: alike(hull, **fewer(hull, *LOADED)) for body, hull in waves.hulls.items()}
+    return alike(waves, **fewer(waves, "omega", "amplitude", "phase", "direction"), hulls=ReadOnly(hulls))
 
 
 def kept_components(waves: Waves) -> NDArray[np.bool_]:

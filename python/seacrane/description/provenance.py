@@ -79,12 +79,6 @@ class SeaProvenance:
     wave_energy_without_load: float | None = None
     load_variance_without_load: float | None = None
 
-    def other(self, **known: Any) -> SeaProvenance:
-        """The same with other values; as `replace`, which takes far longer."""
-        out = object.__new__(SeaProvenance)
-        vars(out).update(vars(self), **known)
-        return out
-
     def settings(self) -> dict[str, Any]:
         """What the sea was made from, as far as it is known."""
         return {name: value for name, value in self._known().items() if name in SEA_SETTINGS}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,12 +36,6 @@ class _ReadOnly:
     def __setstate__(self, state: dict[str, Any]) -> None:
         vars(self).update(state)
         self._close()
-
-    def other(self, **known: Any) -> Self:
-        """The same with other values that fit: unlike `replace`, nothing is checked or copied."""
-        out = object.__new__(type(self))
-        vars(out).update(vars(self), **known)
-        return out
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -11,6 +11,7 @@ from seacrane.description.databases import database_of
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
+from seacrane.inputs.alike import alike
 from seacrane.inputs.caller import keeping, recorded, say_again, silently
 from seacrane.scene.realised_sea import COMPONENTS, described_sea, realised
 from seacrane.scene.scene import Scene
@@ -63,9 +64,9 @@ class OtherSeeds:
         if seed is not None:
             sea = SeaState(systems=sea.systems, seed=seed, depth=sea.depth, placement=sea.placement)
         if made_from.sea is not None:
-            made_from = made_from.other(sea=sea.description())
+            made_from = alike(made_from, sea=sea.description())
         found = realised(sea, made_from, self._bins, current=self._calm.current, look_for_repeats=False)
-        waves = self._calm.other(**found)
+        waves = alike(self._calm, **found)
         for body, hull in self._old.hulls.items():
             waves = put(
                 self._scene, waves, vessel=body, position=hull.position, heading=hull.heading,

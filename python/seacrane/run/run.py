@@ -23,6 +23,7 @@ from seacrane.description.references import check_references
 from seacrane.description.rungs import QUASI_STATIC, automatic, with_rungs
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError, SeacraneError
+from seacrane.inputs.alike import alike
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import finite_of, number_of
 from seacrane.inputs.keywords import named
@@ -202,7 +203,7 @@ class Run:
                 given, self.t_end, method=self.method, start=self._given_start, controlled=self._controlled,
                 outputs=self.outputs, outputs_from=self.first, capacity=self._capacity, peaks=self._peaks,
             )  # fmt: skip
-        out = self._alike()
+        out = alike(self)
         out.scene = given if self.scene is self._given else self.scene.copy(waves=waves)
         out._given = given
         out.model = compiled_in_sea(out.scene, self.model)
@@ -213,18 +214,12 @@ class Run:
         out._prepare()
         return out
 
-    def _alike(self) -> Run:
-        """A run with the same attributes; `copy` makes it too, and takes longer."""
-        out = object.__new__(Run)
-        vars(out).update(vars(self))
-        return out
-
     def from_there(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
         """A run of the same scene from another state to another end, with outputs at the same times.
 
         What was checked and warned of is not checked again.
         """
-        out = self._alike()
+        out = alike(self)
         out._given_start, out._capacity = start, capacity
         out.t_end, out.described = number_of("t_end", t_end), False
         out.start = out._started()

@@ -17,6 +17,7 @@ from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.parts.density import SEA_WATER
+from seacrane.inputs.alike import alike
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, numbers_of, positive_of, rows_of, text_of
 from seacrane.sea import Current, SeaState, Spreading, WaveSystem, cos_2s, jonswap
@@ -82,8 +83,8 @@ def realised(
     if current is not None:
         kept = _not_stopped(waves, current)
         components = {key: values[kept] for key, values in components.items()}
-    provenance = made_from.other(
-        realised_hs_of_systems=several, seed=sea.seed, realised_hs=done.hs,
+    provenance = alike(
+        made_from, realised_hs_of_systems=several, seed=sea.seed, realised_hs=done.hs,
         wave_components=len(waves),
         repeat_period_s=float(done.repeat.time) if look_for_repeats else None,
         repeat_found=int(done.repeat.found) if look_for_repeats else None,

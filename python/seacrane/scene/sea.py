@@ -14,6 +14,7 @@ from seacrane.description.vessel_hydrodynamics import Source
 from seacrane.description.waves import STRETCHING, HullLoads, Waves, flowing_water
 from seacrane.errors import SceneError
 from seacrane.hydro.data.long_waves import warn_of_long_waves
+from seacrane.inputs.alike import alike
 from seacrane.inputs.caller import tell
 from seacrane.inputs.checked import flag_of, number_of, shaped_of, text_of
 from seacrane.inputs.frames import heading_of
@@ -190,7 +191,7 @@ def put(
     transfer = force_of_components(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=position, heading=heading)
     provenance = with_shares(waves, database, vessel, hull)
-    waves = waves.other(hulls=ReadOnly({**waves.hulls, vessel: hull}), provenance=provenance)
+    waves = alike(waves, hulls=ReadOnly({**waves.hulls, vessel: hull}), provenance=provenance)
     if drift:
         waves = with_drift(scene, waves, vessel)
     if phase != "mean":

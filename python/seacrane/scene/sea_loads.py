@@ -19,6 +19,7 @@ from seacrane.hydro.data.excitation import force_at, with_limits
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.inputs.alike import alike
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import MOTIONS
@@ -156,7 +157,8 @@ def with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLo
     below = float(energy[waves.omega < low].sum() / energy.sum()) if energy.any() else 0.0
     warn_of_waves_below_band(database, below, f"waves on {vessel!r}")
     known = waves.provenance
-    return known.other(
+    return alike(
+        known,
         wave_energy_without_load=max(left_out.energy, known.wave_energy_without_load or 0.0),
         load_variance_without_load=max(left_out.variance, known.load_variance_without_load or 0.0),
     )
