@@ -10,22 +10,32 @@
 namespace seacrane::test {
 namespace {
 
-/// A row of strips whose first points differ by rounding, and a part by itself before it and after it.
-SceneDescription with_rows() {
+ImmersedPartDescription example(const std::string& shape) {
+  ImmersedPartDescription d = ImmersedPart::example();
+  d.shape = shape;
+  if (shape == "cylinder" || shape == "disc") d.size = {7.0, 8.0, 8.0};
+  if (shape == "sphere") d.size = {8.0, 8.0, 8.0};
+  if (shape == "table") d.volumes = {0.0, 90.0, 200.0, 420.0, 480.0, 500.0};
+  return d;
+}
+
+/// A row of strips whose first points differ by rounding, and a part by itself before it and after it. They
+/// lie higher and higher by `rise` each.
+SceneDescription with_rows(const std::string& shape = "box", double height = 0.4, double rise = -0.01) {
   Random random(31);
   SceneDescription scene = pair("revolute", random);
-  ImmersedPartDescription alone = ImmersedPart::example();
+  ImmersedPartDescription alone = example(shape);
   alone.name = "alone";
   auto& parts = scene.loads.of<ImmersedPart>();
   parts.push_back(alone);
   for (int i = 0; i < 7; ++i) {
-    ImmersedPartDescription strip = ImmersedPart::example();
+    ImmersedPartDescription strip = example(shape);
     strip.name = "strip " + std::to_string(i);
     strip.row = "row";
     strip.place = i;
     strip.count = 7.0;
-    strip.step = Vec3d(11.7, 0.31, -0.07) / 7.0;
-    strip.point = Vec3d(0.3, -0.2, 0.4) + (i - 3.0) * strip.step;
+    strip.step = Vec3d(11.7 / 7.0, 0.31 / 7.0, rise);
+    strip.point = Vec3d(0.3, -0.2, height) + (i - 3.0) * strip.step;
     parts.push_back(strip);
   }
   alone.name = "other";
@@ -52,13 +62,16 @@ TEST_CASE("strips of a row agree on its first point to the last bit, and share; 
   CHECK_FALSE(parts[8].shares(parts[7]));
 }
 
-TEST_CASE("what loads share changes nothing: all of a list at once and one by one") {
+/// All of a list at once and one by one; the powers of all.
+double check_sharing(SceneDescription scene, bool waves) {
   RandomSea random{std::mt19937_64(32)};
-  SceneDescription scene = with_rows();
-  scene.sea = std::make_shared<const SeaField>(random.waves(40, 60.0, shear()));
+  if (waves) scene.sea = std::make_shared<const SeaField>(random.waves(40, 60.0, shear()));
   Terms terms(compile(scene, false));
   const Model& model = terms.model();
-  const std::vector<double>& y = model.initial_state;
+  std::vector<double> y = model.initial_state;
+  for (int b = 0; b < model.body_count(); ++b) {
+    view<6>(&y[idx(model.layout.twist(b))]) << 0.6, -0.4, 0.8, 0.05, -0.03, 0.02;
+  }
   terms.read(0.4, y.data());
   const LoadInput<double> in = terms.load_input(0.4, y.data() + model.layout.memory);
   const std::size_t bodies = idx(model.body_count()) + 1, states = model.load_states.size();
@@ -75,13 +88,29 @@ TEST_CASE("what loads share changes nothing: all of a list at once and one by on
     part.add_inertia(in, mass_sum.data());
   }
   CHECK(at_once.power == doctest::Approx(one_by_one.power).epsilon(1e-9));
+  CHECK(at_once.absolute_power == doctest::Approx(one_by_one.absolute_power).epsilon(1e-9));
   for (std::size_t b = 0; b < bodies; ++b) {
     check_alike((Vec6d() << wrench[b].force, wrench[b].moment).finished(),
                 (Vec6d() << sum[b].force, sum[b].moment).finished());
     CHECK((mass[b] - mass_sum[b]).norm() <= 1e-9 * (1.0 + mass_sum[b].norm()));
   }
-  CHECK(mass_sum[0].norm() + mass_sum[1].norm() > 1.0);
   for (std::size_t i = 0; i < states; ++i) CHECK(rates[i] == doctest::Approx(rate_sum[i]).epsilon(1e-9));
+  return at_once.absolute_power;
+}
+
+TEST_CASE("what loads share changes nothing: dry, in the surface and sunk, side by side") {
+  for (const std::string shape : {"box", "cylinder", "disc", "sphere", "table"}) {
+    CAPTURE(shape);
+    double power = 0.0;
+    for (double height = -20.0; height <= 20.0; height += 2.5) {
+      CAPTURE(height);
+      for (const bool waves : {false, true}) {
+        power += check_sharing(with_rows(shape, height, 2.9), waves);
+        power += check_sharing(with_rows(shape, height), waves);
+      }
+    }
+    CHECK(power > 1.0);
+  }
 }
 
 }  // namespace seacrane::test

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "seacrane/math/pack.hpp"
 #include "seacrane/math/types.hpp"
 
 namespace seacrane {
@@ -41,6 +42,7 @@ class MonotoneSpline {
   }
 
   const std::vector<double>& places() const { return places_; }
+  bool operator==(const MonotoneSpline&) const = default;
 
   /// From the first knot on.
   template <class T>
@@ -51,12 +53,21 @@ class MonotoneSpline {
       out.slope.setZero();
       return out;
     }
-    const std::size_t i = piece(place);
-    const T x = place - T(places_[i]);
-    const Piece& p = pieces_[i];
-    for (int k = 0; k < N; ++k) {
-      out.value[k] = T(p[0][k]) + x * (T(p[1][k]) + x * (T(p[2][k]) + x * T(p[3][k])));
-      out.slope[k] = T(p[1][k]) + x * (T(2.0 * p[2][k]) + x * T(3.0 * p[3][k]));
+    return in_piece(piece(place), place);
+  }
+  template <int L>
+  At<Pack<L>> at(const Pack<L>& place) const {
+    const std::size_t first = place[0] < places_.back() ? piece(place[0]) : 0;
+    if (all(place >= Pack<L>(places_[first]) & place < Pack<L>(places_[first + 1]))) {
+      return in_piece(first, place);
+    }
+    At<Pack<L>> out;
+    for (int lane = 0; lane < L; ++lane) {
+      const At<double> one = at(place[lane]);
+      for (int k = 0; k < N; ++k) {
+        out.value[k].set(lane, one.value[k]);
+        out.slope[k].set(lane, one.slope[k]);
+      }
     }
     return out;
   }
@@ -105,6 +116,20 @@ class MonotoneSpline {
     return out;
   }
 
+  template <int L>
+  Over<Pack<L>> over(const Pack<L>& from, const Pack<L>& to) const {
+    Over<Pack<L>> out;
+    for (int lane = 0; lane < L; ++lane) {
+      const Over<double> one = over(from[lane], to[lane]);
+      for (int k = 0; k < N; ++k) {
+        out.mean[k].set(lane, one.mean[k]);
+        out.chord[k].set(lane, one.chord[k]);
+        out.bend[k].set(lane, one.bend[k]);
+      }
+    }
+    return out;
+  }
+
   /// From the first knot to `place`.
   Row integral(double place) const {
     if (place >= places_.back()) return integral_.back() + (place - places_.back()) * last_;
@@ -139,6 +164,18 @@ class MonotoneSpline {
   Cubic cubic(std::size_t i, int k) const {
     const Piece& p = pieces_[i];
     return {p[0][k], p[1][k], p[2][k], p[3][k]};
+  }
+
+  template <class T>
+  At<T> in_piece(std::size_t i, const T& place) const {
+    At<T> out;
+    const T x = place - T(places_[i]);
+    const Piece& p = pieces_[i];
+    for (int k = 0; k < N; ++k) {
+      out.value[k] = T(p[0][k]) + x * (T(p[1][k]) + x * (T(p[2][k]) + x * T(p[3][k])));
+      out.slope[k] = T(p[1][k]) + x * (T(2.0 * p[2][k]) + x * T(3.0 * p[3][k]));
+    }
+    return out;
   }
 
   template <class T>

@@ -32,6 +32,12 @@ struct Mask {
   friend Mask operator&(const Mask& a, const Mask& b) { return {a.bits & b.bits}; }
   friend Mask operator|(const Mask& a, const Mask& b) { return {a.bits | b.bits}; }
   friend Mask operator!(const Mask& a) { return {~a.bits}; }
+  friend bool any(const Mask& a) {
+    bool out = false;
+    for (int i = 0; i < L; ++i) out |= a[i];
+    return out;
+  }
+  friend bool all(const Mask& a) { return !any(!a); }
 };
 
 /// L doubles that behave as one scalar, in vector extensions of GCC and Clang: the lanes of a template on the
@@ -51,6 +57,13 @@ struct Pack {
     Pack out;
     std::memcpy(&out.v, from, sizeof(Vector));
     return out;
+  }
+  /// f(lane).
+  template <class F>
+  [[gnu::always_inline]] static Pack by_lane(F&& f) {
+    Vector out{};
+    for (int lane = 0; lane < L; ++lane) out[lane] = f(lane);
+    return Pack(out);
   }
   void store(double* to) const { std::memcpy(to, &v, sizeof(Vector)); }
   double operator[](int lane) const { return v[lane]; }
@@ -81,6 +94,12 @@ struct Pack {
   }
   friend Pack min(const Pack& a, const Pack& b) { return select(b < a, b, a); }
   friend Pack max(const Pack& a, const Pack& b) { return select(a < b, b, a); }
+
+  friend double total(const Pack& a) {
+    double sum = a.v[0];
+    for (int i = 1; i < L; ++i) sum += a.v[i];
+    return sum;
+  }
 
   friend Pack sqrt(const Pack& a) {
     return each(a, [](double x) { return std::sqrt(x); });
@@ -136,9 +155,7 @@ struct Pack {
   static Mask<L> negative(const Pack& a) { return {std::bit_cast<Bits>(a.v) < 0}; }
   template <class F>
   static Pack each(const Pack& a, F&& f) {
-    Pack out;
-    for (int i = 0; i < L; ++i) out.v[i] = f(a.v[i]);
-    return out;
+    return by_lane([&](int lane) { return f(a.v[lane]); });
   }
 };
 

@@ -11,6 +11,10 @@ const T& select(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
 }
 
+/// Whether a condition holds in any lane, or in all.
+constexpr bool any(bool condition) { return condition; }
+constexpr bool all(bool condition) { return condition; }
+
 /// A value where a formula holds for it; elsewhere `fail`, called with the value, throws.
 template <class T, class Fail>
 const T& valid_where(bool holds, const T& value, Fail&& fail) {

@@ -49,6 +49,20 @@ struct ImmersedAttitude {
     }
   }
 
+  /// For parts side by side, to which it is one.
+  template <class S>
+  explicit ImmersedAttitude(const ImmersedAttitude<S>& one)
+      : axes(one.axes.template cast<T>()),
+        half(one.half.template cast<T>()),
+        below(one.below),
+        reaches(one.reaches),
+        shift(one.shift),
+        along(one.along),
+        across(one.across),
+        shift_rate(one.shift_rate),
+        along_rate(one.along_rate),
+        across_rate(one.across_rate) {}
+
  private:
   static constexpr double kLeast = 1e-6;      // of a radius: no attitude is singular
   static constexpr double kStruck = 0.4;      // 2 / C_S, with C_S 5 of what is flat

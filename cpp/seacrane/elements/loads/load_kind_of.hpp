@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <concepts>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -61,11 +62,13 @@ concept Leads = requires(const typename Load::Description& d) {
   Load::leads(d);
 };
 
-/// A load that has what it takes most work to find in common with those beside it that it shares() it with.
-/// It adds to that, and one of them puts the sum where it belongs.
+/// A load that has what it takes most work to find in common with those beside it that it shares() it with,
+/// which apply() and add_inertia() take at once.
 template <class Load>
-concept SharesWork = requires(const Load& load, const LoadInput<double>& in, LoadSum<double>& sum) {
-  load.put(load.template shared<double>(in), sum);
+concept SharesWork = requires(const Load& load, std::span<const Load> row, const LoadInput<double>& in,
+                              LoadSum<double>& sum, Mat6d* mass) {
+  Load::apply(row, in, sum);
+  Load::add_inertia(row, in, mass);
   { load.shares(load) } -> std::same_as<bool>;
 };
 
@@ -87,15 +90,15 @@ class LoadListOf final : public LoadsOf<Load> {
     this->names.push_back(name);
     this->bodies.emplace_back(on.begin(), on.end());
     if constexpr (SharesWork<Load>) {
-      if (items.empty() || !load.shares(items.back())) groups_.push_back(items.size());
-      ++groups_.back();
+      if (items.empty() || !load.shares(items.back())) rows_.push_back(items.size());
+      ++rows_.back();
     }
     items.push_back(load);
   }
 
   void apply(const LoadInput<double>& in, LoadSum<double>& sum) const override {
     if constexpr (SharesWork<Load>) {
-      for_each_shared(in, sum, [&](const Load& load, auto& shared) { load.apply(in, shared, sum); });
+      for_each_row([&](std::span<const Load> row) { Load::apply(row, in, sum); });
     } else {
       for (const Load& load : items) load.template apply<double>(in, sum);
     }
@@ -108,7 +111,7 @@ class LoadListOf final : public LoadsOf<Load> {
   }
   void add_inertia(const LoadInput<double>& in, Mat6d* mass) const override {
     if constexpr (AddsInertia<Load> && SharesWork<Load>) {
-      for_each_shared(in, mass, [&](const Load& load, auto& shared) { load.add_inertia(in, shared); });
+      for_each_row([&](std::span<const Load> row) { Load::add_inertia(row, in, mass); });
     } else if constexpr (AddsInertia<Load>) {
       for (const Load& load : items) load.template add_inertia<double>(in, mass);
     }
@@ -246,19 +249,17 @@ class LoadListOf final : public LoadsOf<Load> {
   }
 
  private:
-  /// Calls f(load, what it shares), and puts what each group adds up to.
-  template <class Out, class F>
-  void for_each_shared(const LoadInput<double>& in, Out&& out, F&& f) const {
-    Place i = 0;
-    for (const Place end : groups_) {
-      const Load& first = items[i];
-      auto shared = first.template shared<double>(in);
-      for (; i < end; ++i) f(items[i], shared);
-      first.put(shared, out);
+  /// Calls f(loads that share work).
+  template <class F>
+  void for_each_row(F&& f) const {
+    Place begin = 0;
+    for (const Place end : rows_) {
+      f(std::span<const Load>(items).subspan(begin, end - begin));
+      begin = end;
     }
   }
 
-  std::vector<Place> groups_;  // behind the last of each that share work
+  std::vector<Place> rows_;  // behind the last of each that share work
 };
 
 /// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "seacrane/math/dual.hpp"
+#include "seacrane/math/pack.hpp"
 #include "seacrane/math/select.hpp"
 #include "seacrane/math/types.hpp"
 
@@ -62,8 +63,9 @@ template <class T>
 WetShare<T> wet_box(const T& depth, const Vec3<T>& w) {
   WetShare<T> out;
   const T half = w[0] + w[1] + w[2];
-  if (depth <= -half) return out;
-  if (depth >= half) {
+  const auto dry = depth <= -half, sunk = depth >= half;
+  if (all(dry)) return out;
+  if (all(sunk)) {
     out.share = T(1);
     out.integral = depth;
     return out;
@@ -74,7 +76,7 @@ WetShare<T> wet_box(const T& depth, const Vec3<T>& w) {
   const T middle[4] = {depth + w[0] + w[1], depth + w[0] - w[1], depth - w[0] + w[1], depth - w[0] - w[1]};
   for (int n = 0; n < 4; ++n) {
     const T above = middle[n] + w[2], below = middle[n] - w[2];
-    const T high = above > T(0) ? above : T(0), low = below > T(0) ? below : T(0);
+    const T high = select(above > T(0), above, T(0)), low = select(below > T(0), below, T(0));
     const T high_cube = high * high * high, low_cube = low * low * low;
     pair[n] = high_cube - low_cube;
     both[n] = high_cube + low_cube;
@@ -87,6 +89,12 @@ WetShare<T> wet_box(const T& depth, const Vec3<T>& w) {
   out.over_width[1] = pair[0] + pair[1] - pair[2] - pair[3];
   out.over_width[2] = both[0] - both[1] - both[2] + both[3];
   for (int i = 0; i < 3; ++i) out.over_width[i] = out.over_width[i] * over - out.integral / w[i];
+  const auto in_part = [&](T& value, const T& of_sunk) {
+    value = select(dry, T(0), select(sunk, of_sunk, value));
+  };
+  in_part(out.share, T(1));
+  in_part(out.integral, depth);
+  for (int i = 0; i < 3; ++i) in_part(out.over_width[i], T(0));
   return out;
 }
 
@@ -115,15 +123,21 @@ WetShare<T> wet_cylinder(const T& depth, const Vec3<T>& w) {
 template <class T>
 WetShare<T> wet_sphere(const T& depth, double r) {
   WetShare<T> out;
-  if (depth <= T(-r)) return out;
-  if (depth >= T(r)) {
-    out.share = T(1);
-    out.integral = depth;
-    return out;
-  }
-  const T h = (depth + T(r)) / T(r);  // pi h^2 (1 - h / 3) over 4 pi / 3
+  const T h = clamped(T((depth + T(r)) / T(r)), T(0), T(2));  // pi h^2 (1 - h / 3) over 4 pi / 3
   out.share = T(0.25) * h * h * (T(3) - h);
-  out.integral = T(r) * h * h * h * (T(0.25) - h / T(16));
+  out.integral = T(r) * h * h * h * (T(0.25) - h / T(16)) + select(depth > T(r), T(depth - T(r)), T(0));
+  return out;
+}
+
+template <int L>
+WetShare<Pack<L>> wet_cylinder(const Pack<L>& depth, const Vec3<Pack<L>>& w) {
+  WetShare<Pack<L>> out;
+  for (int lane = 0; lane < L; ++lane) {
+    const WetShare<double> one = wet_cylinder(depth[lane], Vec3d(w[0][lane], w[1][lane], w[2][lane]));
+    out.share.set(lane, one.share);
+    out.integral.set(lane, one.integral);
+    for (int i = 0; i < 3; ++i) out.over_width[i].set(lane, one.over_width[i]);
+  }
   return out;
 }
 
