@@ -63,6 +63,13 @@ TEST_CASE("a matrix of blocks: its factors solve, and its inverse is the dense o
   }
 }
 
+TEST_CASE("two hulls whose added masses do not couple: neither is in the other's matrix") {
+  SceneDescription scene = two_hulls();
+  REQUIRE(compile(scene, false)->groups[0].pairs.size() == 1);
+  scene.groups[0].added_mass.setZero();
+  CHECK(compile(scene, false)->groups[0].pairs.empty());
+}
+
 TEST_CASE("two hulls in one water: accelerations and multipliers solve the whole system") {
   for (const SceneDescription& scene : {two_hulls(), tied_hulls()}) {
     MaximalSystem system(compile(scene, false));

@@ -124,7 +124,11 @@ void ArticulatedTree<T>::factor(Coupled& roots, bool with_water) {
   const int count = roots.mass.count();
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < i; ++j) {
-      roots.mass.set(i, j, with_water ? roots.coupling[idx(i * count + j)] : Mat6<T>(Mat6<T>::Zero()));
+      if (with_water) {
+        roots.mass.set(i, j, roots.coupling[idx(i * count + j)]);
+      } else {
+        roots.mass.set(i, j, Mat6<T>::Zero());
+      }
     }
     roots.mass.set(i, i, bodies_[idx(clusters()[roots.clusters[idx(i)]].body)].whole().matrix());
   }
