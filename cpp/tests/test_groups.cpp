@@ -45,7 +45,7 @@ TEST_CASE("a matrix of blocks: its factors solve, and its inverse is the dense o
     SpdBlocks<double> blocks(count);
     std::vector<Vec6d> x(idx(count));
     for (int i = 0; i < count; ++i) {
-      for (int j = 0; j <= i; ++j) blocks.at(i, j) = a.block<6, 6>(6 * i, 6 * j);
+      for (int j = 0; j <= i; ++j) blocks.set(i, j, a.block<6, 6>(6 * i, 6 * j));
       x[idx(i)] = Vec6d::LinSpaced(1.0 + i, 2.0);
     }
     VecXd right(n);
@@ -61,6 +61,13 @@ TEST_CASE("a matrix of blocks: its factors solve, and its inverse is the dense o
       }
     }
   }
+}
+
+TEST_CASE("two hulls whose added masses do not couple: neither is in the other's matrix") {
+  SceneDescription scene = two_hulls();
+  REQUIRE(compile(scene, false)->groups[0].pairs.size() == 1);
+  scene.groups[0].added_mass.setZero();
+  CHECK(compile(scene, false)->groups[0].pairs.empty());
 }
 
 TEST_CASE("two hulls in one water: accelerations and multipliers solve the whole system") {

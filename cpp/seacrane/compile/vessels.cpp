@@ -82,7 +82,7 @@ void add_groups(Model& model) {
     for (const std::string& name : d.vessels) group.vessels.push_back(vessel_of(model.description, name));
     const int count = static_cast<int>(group.vessels.size());
     for (int i = 0; i < count; ++i) {
-      for (int j = 0; j < i && d.added_mass.size() > 0; ++j) {
+      for (int j = 0; j < i && !d.added_mass.isZero(0.0); ++j) {
         const Mat6d block = d.added_mass.block<6, 6>(6 * i, 6 * j);
         group.pairs.push_back({i, j, block});
       }

@@ -123,8 +123,8 @@ void Terms::invert_coupled_masses() {
       return inertia_[idx(model_->vessels[idx(group.vessels[idx(place)])].body)];
     };
     const auto begin = coupling;
-    for (int i = 0; i < mass.count(); ++i) mass.at(i, i) = of(i).mass;
-    for (const HydroGroup::Pair& pair : group.pairs) mass.at(pair.first, pair.second) = (coupling++)->mass;
+    for (int i = 0; i < mass.count(); ++i) mass.set(i, i, of(i).mass);
+    for (const HydroGroup::Pair& pair : group.pairs) mass.set(pair.first, pair.second, (coupling++)->mass);
     mass.factor();
     mass.invert();
     for (int i = 0; i < mass.count(); ++i) of(i).inverse = mass.inverse(i, i);

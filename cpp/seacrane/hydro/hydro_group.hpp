@@ -39,9 +39,10 @@ struct HydroGroup {
   void couple(const YawFrame<T>* frames, F&& f) const {
     for (const Pair& pair : pairs) {
       const YawFrame<T>&a = frames[vessels[idx(pair.first)]], &b = frames[vessels[idx(pair.second)]];
-      const Mat6<T> mass = pair.added_mass.cast<T>();
-      f(pair, between<T>(a, pair.added_mass, b), a.to_inertial(Vec6<T>(mass * b.turning())),
-        b.to_inertial(Vec6<T>(mass.transpose() * a.turning())));
+      const Mat6<T> mass = between<T>(a, pair.added_mass, b);
+      const Vec6<T> first = mass * b.to_inertial(b.turning()),
+                    second = mass.transpose() * a.to_inertial(a.turning());
+      f(pair, mass, first, second);
     }
   }
 

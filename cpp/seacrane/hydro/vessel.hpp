@@ -113,18 +113,18 @@ struct YawFrame {
 
 template <class T>
 Mat6<T> between(const YawFrame<T>& loads, const Mat6d& a, const YawFrame<T>& motions) {
-  T cosine = motions.rotation(0, 0), sine = motions.rotation(1, 0);
-  Mat6<T> columns = a.cast<T>(), out;  // columns: those of a R^T
+  const T cosine = motions.rotation(0, 0), sine = motions.rotation(1, 0);
+  Mat6<T> out;
   for (int j = 0; j < 6; j += 3) {
-    columns.col(j) = cosine * a.col(j).cast<T>() - sine * a.col(j + 1).cast<T>();
-    columns.col(j + 1) = sine * a.col(j).cast<T>() + cosine * a.col(j + 1).cast<T>();
-  }
-  cosine = loads.rotation(0, 0);
-  sine = loads.rotation(1, 0);
-  out = columns;
-  for (int i = 0; i < 6; i += 3) {
-    out.row(i) = cosine * columns.row(i) - sine * columns.row(i + 1);
-    out.row(i + 1) = sine * columns.row(i) + cosine * columns.row(i + 1);
+    Vec6<T> x, y, z;  // columns of a R^T
+    for (int i = 0; i < 6; ++i) {
+      x[i] = cosine * T(a(i, j)) - sine * T(a(i, j + 1));
+      y[i] = sine * T(a(i, j)) + cosine * T(a(i, j + 1));
+      z[i] = T(a(i, j + 2));
+    }
+    out.col(j) = loads.to_inertial(x);
+    out.col(j + 1) = loads.to_inertial(y);
+    out.col(j + 2) = loads.to_inertial(z);
   }
   return out;
 }

@@ -125,12 +125,12 @@ void ArticulatedTree<T>::factor(Coupled& roots, bool with_water) {
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < i; ++j) {
       if (with_water) {
-        roots.mass.at(i, j) = roots.coupling[idx(i * count + j)];
+        roots.mass.set(i, j, roots.coupling[idx(i * count + j)]);
       } else {
-        roots.mass.at(i, j).setZero();
+        roots.mass.set(i, j, Mat6<T>::Zero());
       }
     }
-    roots.mass.at(i, i) = bodies_[idx(clusters()[roots.clusters[idx(i)]].body)].whole().matrix();
+    roots.mass.set(i, i, bodies_[idx(clusters()[roots.clusters[idx(i)]].body)].whole().matrix());
   }
   roots.mass.factor();
 }
