@@ -146,6 +146,32 @@ inline LoadKinks kinks_of(const Curve& curve, double value, double rate = 0.0) {
   return out;
 }
 
+/// The tension of a load that depends on accelerations, see InertialTensions.
+struct InertialTension {
+  /// At either end of a section.
+  struct Pull {
+    int body;
+    BodyLoad<double> path;  // of 1 N all along
+    double share;           // of that, by friction
+    Vec6d unit() const { return share * (Vec6d() << path.force, path.moment).finished(); }
+  };
+
+  double mass = 0.0;     // how it falls with the acceleration along the load, kg
+  double winding = 0.0;  // what each newton of it takes from a winch, m/s
+  double still = 0.0;    // with accelerations of zero, N
+  std::vector<Pull> pulls;
+
+  /// Along the load, of accelerations by body, that of the ground zero.
+  double along(const Vec6d* acceleration) const {
+    double sum = 0.0;
+    for (const auto& [body, path, share] : pulls) {
+      const Vec6d& a = acceleration[body];
+      sum += path.force.dot(a.head<3>()) + path.moment.dot(a.tail<3>());
+    }
+    return sum;
+  }
+};
+
 /// What loads add up: one wrench per body (the ground's is discarded), and the power that comes into the
 /// mechanical energy, potentials included, for the energy balance. Each load sets the rates of its own
 /// states.
@@ -154,6 +180,7 @@ struct LoadSum {
   BodyLoad<T>* wrench;
   T* state_rates = nullptr;  // of all loads
   T power = T(0), absolute_power = T(0);
+  InertialTension* inertial = nullptr;  // by place; null: not asked for
 
   void add_power(const T& p) {
     power += p;
