@@ -51,7 +51,7 @@ void InertialTensions::start(const Terms& terms, const Vec6d* acceleration) {
 
 const std::vector<Vec6d>& InertialTensions::unit(Eigen::Index line) {
   std::ranges::fill(unit_, Vec6d::Zero());
-  for (const InertialTension::Pull& p : pulls(line)) unit_[idx(p.body)] += p.unit();
+  for (const InertialTension::Pull& p : pulls(line)) p.add_to(unit_[idx(p.body)], 1.0);
   unit_.back().setZero();
   return unit_;
 }
@@ -85,7 +85,7 @@ const VecXd& InertialTensions::change(const VecXd& own, const Vec6d* acceleratio
 void InertialTensions::add_loads(const VecXd& tension, Vec6d* load) const {
   for (Eigen::Index i = 0; i < count(); ++i) {
     for (const InertialTension::Pull& p : pulls(i)) {
-      if (idx(p.body) + 1 < unit_.size()) load[p.body] += tension[i] * p.unit();
+      if (idx(p.body) + 1 < unit_.size()) p.add_to(load[p.body], tension[i]);
     }
   }
 }

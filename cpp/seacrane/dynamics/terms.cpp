@@ -227,10 +227,10 @@ void Terms::add_inertial(const VecXd& tension) {
     const double pull = tension[static_cast<Eigen::Index>(i)];
     for (const InertialTension::Pull& p : told_[i].pulls) {
       if (p.body == model_->body_count()) continue;
-      const Vec6d by = pull * p.unit();
-      wrench_[idx(p.body)].force += by.head<3>();
-      wrench_[idx(p.body)].moment += by.tail<3>();
-      load_[idx(p.body)] += by;
+      const Wrench<double> by = pull * p.unit();
+      wrench_[idx(p.body)].force += by.force();
+      wrench_[idx(p.body)].moment += by.moment();
+      p.add_to(load_[idx(p.body)], pull);
     }
     power_.add(told_[i].winding * pull);
   }

@@ -102,7 +102,7 @@ class TensionsByLane {
         }
         line.list[idx(lane)]->inertial(line.at, in, told_);
         for (const InertialTension::Pull& p : told_.pulls) {
-          unit_lane_[idx(p.body)] += p.unit();
+          p.add_to(unit_lane_[idx(p.body)], 1.0);
           path_lane_[idx(p.body)] += (Vec6d() << p.path.force, p.path.moment).finished();
         }
         const double a0 = told_.still - told_.mass * told_.along(acceleration_.data());

@@ -220,12 +220,12 @@ void RecursiveSystem::respond_to_tension(Eigen::Index i, double* u_rate) {
     return;
   }
   articulated_.rest(near);
-  for (const InertialTension::Pull& p : tensions_.pulls(i))
-    articulated_.push(p.body, Wrench<double>(p.unit()));
+  for (const InertialTension::Pull& p : tensions_.pulls(i)) articulated_.push(p.body, p.unit());
   articulated_.respond(near, u_rate);
   for (const std::size_t c : near) {
     for (const Member& m : tree_.clusters[c].members) {
-      response[idx(m.body)] = articulated_.acceleration(m.body).vector();
+      const Twist<double>& a = articulated_.acceleration(m.body);
+      response[idx(m.body)] << a.linear(), a.angular();
     }
   }
 }

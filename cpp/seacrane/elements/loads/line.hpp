@@ -424,6 +424,7 @@ struct Line {
 
   template <class T>
   SheaveFriction<T> friction_of(const Motion<T>& m) const {
+    if (!has_friction) return {};
     return {m.length, m.rate, m.unstretched, m.unstretched_rate, d.sheaves.slip_speed};
   }
   /// Lengths and rates, and how friction shares the tension; no tension yet.

@@ -153,7 +153,12 @@ struct InertialTension {
     int body;
     BodyLoad<double> path;  // of 1 N all along
     double share;           // of that, by friction
-    Vec6d unit() const { return share * (Vec6d() << path.force, path.moment).finished(); }
+    Wrench<double> unit() const { return {share * path.force, share * path.moment}; }
+    void add_to(Vec6d& load, double tension) const {
+      const Wrench<double> by = tension * unit();
+      load.head<3>() += by.force();
+      load.tail<3>() += by.moment();
+    }
   };
 
   double mass = 0.0;     // how it falls with the acceleration along the load, kg
