@@ -10,108 +10,97 @@
 namespace seacrane {
 
 InertialTensions::InertialTensions(const Model& model)
-    : bodies_(model.body_count()), load_(idx(model.body_count()) + 1, Vec6d::Zero()) {
-  const Eigen::Index n = model.inertial_tensions;
-  on_.resize(idx(n));
+    : on_(idx(model.inertial_tensions)),
+      response_(on_.size(), std::vector<Vec6d>(idx(model.body_count()) + 1, Vec6d::Zero())),
+      unit_(idx(model.body_count()) + 1, Vec6d::Zero()),
+      tension_(VecXd::Zero(model.inertial_tensions)),
+      change_(tension_) {
+  const int ground = model.body_count();
   model.loads.for_each([&](const LoadList& list, std::size_t i) {
     const int place = list.inertial_place(i);
     if (place < 0) return;
-    loads_.push_back({&list, i, place});
     std::vector<int>& on = on_[idx(place)] = list.bodies[i];
     std::ranges::sort(on);
     on.erase(std::ranges::unique(on).begin(), on.end());
-    std::erase(on, bodies_);
+    std::erase(on, ground);
   });
-  for (auto* wrenches : {&unit_, &path_, &response_}) wrenches->assign(idx(n), load_);
-  for (auto* values : {&mass_, &winding_, &tension_, &change_}) *values = VecXd::Zero(n);
-  std::vector<int> all(idx(bodies_));
+  std::vector<int> all(idx(ground));
   std::iota(all.begin(), all.end(), 0);
-  confine(std::vector<std::vector<int>>(idx(n), all));
+  confine(std::vector<std::vector<int>>(on_.size(), all));
 }
 
 void InertialTensions::confine(std::vector<std::vector<int>> moved) {
   moved_ = std::move(moved);
   felt_.assign(moved_.size(), {});
-  int band = 0;
-  for (int j = 0; j < count(); ++j) {
-    const std::vector<int>& by_j = moved_[idx(j)];
-    for (int i = 0; i < count(); ++i) {
-      std::vector<int> at = on_[idx(i)];
-      std::erase_if(at, [&](int b) { return std::ranges::find(by_j, b) == by_j.end(); });
-      if (at.empty()) continue;
-      felt_[idx(j)].push_back({i, std::move(at)});
+  Eigen::Index band = 0;
+  for (Eigen::Index j = 0; j < count(); ++j) {
+    const auto moves = [&](int b) { return std::ranges::find(moved_[idx(j)], b) != moved_[idx(j)].end(); };
+    for (Eigen::Index i = 0; i < count(); ++i) {
+      if (std::ranges::none_of(on_[idx(i)], moves)) continue;
+      felt_[idx(j)].push_back(i);
       band = std::max(band, std::abs(i - j));
     }
   }
   equations_ = BandLu(count(), band);
 }
 
-double InertialTensions::dot(Eigen::Index line, const std::vector<int>& bodies,
-                             const Vec6d* acceleration) const {
-  double sum = 0.0;
-  for (const int b : bodies) sum += path_[idx(line)][idx(b)].dot(acceleration[b]);
-  return sum;
+void InertialTensions::start(const Terms& terms, const Vec6d* acceleration) {
+  told_ = &terms.told();
+  for (Eigen::Index i = 0; i < count(); ++i) change_[i] = told(i).still + along(i, acceleration);
 }
 
-double InertialTensions::along(Eigen::Index line, const Vec6d* acceleration) const {
-  return -mass_[line] * dot(line, on_[idx(line)], acceleration);
-}
-
-void InertialTensions::start(const Terms& terms, double t, const double* memory, const Vec6d* acceleration) {
-  const LoadInput<double> in = terms.load_input(t, memory);
-  for (const Tensioned& one : loads_) {
-    std::vector<Vec6d>&unit = unit_[idx(one.place)], &path = path_[idx(one.place)];
-    for (const int b : one.list->bodies[one.at]) unit[idx(b)] = path[idx(b)] = Vec6d::Zero();
-    const InertialTension now = one.list->inertial(one.at, in, acceleration, unit.data(), path.data());
-    unit.back() = path.back() = Vec6d::Zero();
-    mass_[one.place] = now.mass;
-    winding_[one.place] = now.winding;
-    change_[one.place] = now.tension;
-  }
+const std::vector<Vec6d>& InertialTensions::unit(Eigen::Index line) {
+  std::ranges::fill(unit_, Vec6d::Zero());
+  for (const InertialTension::Pull& p : pulls(line)) p.add_to(unit_[idx(p.body)], 1.0);
+  unit_.back().setZero();
+  return unit_;
 }
 
 const VecXd& InertialTensions::finish(Terms& terms) {
   MatXd& matrix = equations_.matrix();
   equations_.clear();
-  for (int j = 0; j < count(); ++j) {
-    for (const auto& [i, at] : felt_[idx(j)]) matrix(i, j) = mass_[i] * dot(i, at, response(j).data());
+  for (Eigen::Index j = 0; j < count(); ++j) {
+    for (const Eigen::Index i : felt_[idx(j)]) matrix(i, j) = -along(i, response(j).data());
     matrix(j, j) += 1.0;
   }
   equations_.factor();
   tension_ = change_;
   equations_.solve(tension_);
-  std::fill(load_.begin(), load_.end(), Vec6d::Zero());
-  add_loads(tension_, load_.data());
-  terms.add_inertial(tension_, winding_, load_);
+  terms.add_inertial(tension_);
   return tension_;
 }
 
 void InertialTensions::add_accelerations(std::vector<Vec6d>& acceleration) const {
-  for (const Tensioned& one : loads_) {
-    const std::vector<Vec6d>& response = response_[idx(one.place)];
-    for (const int b : moved_[idx(one.place)]) acceleration[idx(b)] += tension_[one.place] * response[idx(b)];
+  for (Eigen::Index i = 0; i < count(); ++i) {
+    for (const int b : moved_[idx(i)]) acceleration[idx(b)] += tension_[i] * response_[idx(i)][idx(b)];
   }
 }
 
 const VecXd& InertialTensions::change(const VecXd& own, const Vec6d* acceleration) {
-  change_ = own;
-  for (const Tensioned& one : loads_) change_[one.place] += along(one.place, acceleration);
+  for (Eigen::Index i = 0; i < count(); ++i) change_[i] = own[i] + along(i, acceleration);
   equations_.solve(change_);
   return change_;
 }
 
 void InertialTensions::add_loads(const VecXd& tension, Vec6d* load) const {
-  for (const Tensioned& one : loads_) {
-    const std::vector<Vec6d>& unit = unit_[idx(one.place)];
-    for (const int b : on_[idx(one.place)]) load[b] += tension[one.place] * unit[idx(b)];
+  for (Eigen::Index i = 0; i < count(); ++i) {
+    for (const InertialTension::Pull& p : pulls(i)) {
+      if (idx(p.body) + 1 < unit_.size()) p.add_to(load[p.body], tension[i]);
+    }
   }
+}
+
+double InertialTensions::power(const VecXd& change) const {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < count(); ++i) sum += told(i).winding * change[i];
+  return sum;
 }
 
 double InertialTensions::absolute_power(const VecXd& change) const {
   double sum = 0.0;
-  for (const Tensioned& one : loads_) {
-    const double rate = winding_[one.place];
-    sum += (rate * tension_[one.place] < 0.0 ? -rate : rate) * change[one.place];
+  for (Eigen::Index i = 0; i < count(); ++i) {
+    const double rate = told(i).winding;
+    sum += (rate * tension_[i] < 0.0 ? -rate : rate) * change[i];
   }
   return sum;
 }

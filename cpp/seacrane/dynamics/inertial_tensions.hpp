@@ -17,7 +17,7 @@ class Terms;
 class InertialTensions {
  public:
   explicit InertialTensions(const Model& model);
-  bool any() const { return !loads_.empty(); }
+  bool any() const { return !on_.empty(); }
   Eigen::Index count() const { return tension_.size(); }
   /// The only bodies that each tension accelerates; without this call, all. A chain of bodies that float has
   /// equations within a band, which cost as many operations as it has lines.
@@ -25,11 +25,12 @@ class InertialTensions {
 
   // Call these in this order, right after an evaluation without the tensions.
 
-  /// Begins with the accelerations of that evaluation, by body.
-  void start(const Terms& terms, double t, const double* memory, const Vec6d* acceleration);
-  /// The wrenches u of 1 N in a line, and room for the response w to them of the bodies that it accelerates,
-  /// which the caller writes.
-  const std::vector<Vec6d>& unit(Eigen::Index line) const { return unit_[idx(line)]; }
+  /// Begins with what lines told, and the accelerations of that evaluation, by body.
+  void start(const Terms& terms, const Vec6d* acceleration);
+  /// What 1 N in a line puts on bodies: one by one, and by body until the next call; and room for the
+  /// response w to it of the bodies that it accelerates, which the caller writes.
+  const std::vector<InertialTension::Pull>& pulls(Eigen::Index line) const { return told(line).pulls; }
+  const std::vector<Vec6d>& unit(Eigen::Index line);
   std::vector<Vec6d>& response(Eigen::Index line) { return response_[idx(line)]; }
   /// The bodies on which a line acts, without the ground.
   const std::vector<int>& bodies(Eigen::Index line) const { return on_[idx(line)]; }
@@ -44,32 +45,24 @@ class InertialTensions {
   /// with tensions held; by body.
   const VecXd& change(const VecXd& own, const Vec6d* acceleration);
   /// How those with given accelerations change with these.
-  double along(Eigen::Index line, const Vec6d* acceleration) const;
+  double along(Eigen::Index line, const Vec6d* acceleration) const {
+    return -told(line).mass * told(line).along(acceleration);
+  }
   void add_loads(const VecXd& tension, Vec6d* load) const;
   /// Power of winches and sheaves, and the sum of magnitudes, for changes of the tensions.
-  double power(const VecXd& change) const { return winding_.dot(change); }
+  double power(const VecXd& change) const;
   double absolute_power(const VecXd& change) const;
 
  private:
-  double dot(Eigen::Index line, const std::vector<int>& bodies, const Vec6d* acceleration) const;
+  const InertialTension& told(Eigen::Index line) const { return (*told_)[idx(line)]; }
 
-  int bodies_;
-  struct Tensioned {
-    const LoadList* list;
-    std::size_t at;
-    int place;  // among the tensions
-  };
-  struct Felt {
-    int by;
-    std::vector<int> at;  // bodies
-  };
-  std::vector<Tensioned> loads_;
-  std::vector<std::vector<int>> on_;                        // bodies of each, without the ground, by place
-  std::vector<std::vector<int>> moved_;                     // bodies that it accelerates
-  std::vector<std::vector<Felt>> felt_;                     // tensions that act on these
-  std::vector<std::vector<Vec6d>> unit_, path_, response_;  // u, v and w, by place
-  std::vector<Vec6d> load_;
-  VecXd mass_, winding_, tension_, change_;
+  const std::vector<InertialTension>* told_ = nullptr;  // by the terms of start()
+  std::vector<std::vector<int>> on_;                    // bodies of each, without the ground, by place
+  std::vector<std::vector<int>> moved_;                 // bodies that it accelerates
+  std::vector<std::vector<Eigen::Index>> felt_;         // tensions that act on these
+  std::vector<std::vector<Vec6d>> response_;            // w, by place; zero of bodies that stay
+  std::vector<Vec6d> unit_;
+  VecXd tension_, change_;
   BandLu equations_;
 };
 

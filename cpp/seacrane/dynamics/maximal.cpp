@@ -68,7 +68,7 @@ void MaximalSystem::derivative(double t, const double* y, double* ydot) {
   if (model_.description.baumgarte > 0.0) rate_residual(*terms_, y, residual_.data());
   solver_.factor();
   solve_acceleration();
-  if (tensions_.any()) add_inertial_tensions(t, y + model_.layout.memory);
+  if (tensions_.any()) add_inertial_tensions();
   if (model_.paper_kinematics || !solver_.is_regular()) ++dense_solves_;
   write_rates(y, ydot);
 }
@@ -95,8 +95,8 @@ void MaximalSystem::solve_acceleration() {
   solver_.solve(terms_->loads(), gamma_, acceleration_, lambda_);
 }
 
-void MaximalSystem::add_inertial_tensions(double t, const double* memory) {
-  tensions_.start(*terms_, t, memory, acceleration_.data());
+void MaximalSystem::add_inertial_tensions() {
+  tensions_.start(*terms_, acceleration_.data());
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
     const std::vector<Vec6d>& unit = tensions_.unit(i);
     std::vector<Vec6d>& response = tensions_.response(i);

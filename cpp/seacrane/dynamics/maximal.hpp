@@ -86,7 +86,7 @@ class MaximalSystem final : public Formulation {
 
   void find_joined();
   void solve_acceleration();
-  void add_inertial_tensions(double t, const double* memory);
+  void add_inertial_tensions();
   void write_rates(const double* y, double* ydot);
   void write_pose_rates(const double* y, double* ydot) const;
   void move_poses(double* y);

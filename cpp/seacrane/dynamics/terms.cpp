@@ -23,6 +23,7 @@ Terms::Terms(std::shared_ptr<const Model> model)
       first_load_state_(model_->layout.loads - model_->layout.memory),
       slots_(idx(model_->slot_count), 0.0),
       inertial_(VecXd::Zero(model_->inertial_tensions)),
+      told_(idx(model_->inertial_tensions)),
       histories_(*model_),
       sea_(model_->sea, model_->stencils, model_->near) {
   const Model& m = *model_;
@@ -212,6 +213,7 @@ void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rat
   inertial_.setZero();
   const LoadInput<double> input = load_input(t, memory);
   LoadSum<double> sum{wrench_.data(), memory_rate + first_load_state_};
+  sum.inertial = told_.data();
   for (const auto& load : m.gravity) load.apply<double>(input, sum);
   for (const auto& list : loads.lists) list->apply(input, sum);
   apply_hydrodynamics(input, memory, memory_rate, sum);
@@ -219,14 +221,19 @@ void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rat
   power_ = {sum.power, sum.absolute_power};
 }
 
-void Terms::add_inertial(const VecXd& tension, const VecXd& winding, const std::vector<Vec6d>& load) {
+void Terms::add_inertial(const VecXd& tension) {
   inertial_ = tension;
-  for (std::size_t b = 0; b < load.size(); ++b) {
-    wrench_[b].force += load[b].head<3>();
-    wrench_[b].moment += load[b].tail<3>();
-    load_[b] += load[b];
+  for (std::size_t i = 0; i < told_.size(); ++i) {
+    const double pull = tension[static_cast<Eigen::Index>(i)];
+    for (const InertialTension::Pull& p : told_[i].pulls) {
+      if (p.body == model_->body_count()) continue;
+      const Wrench<double> by = pull * p.unit();
+      wrench_[idx(p.body)].force += by.force();
+      wrench_[idx(p.body)].moment += by.moment();
+      p.add_to(load_[idx(p.body)], pull);
+    }
+    power_.add(told_[i].winding * pull);
   }
-  for (Eigen::Index i = 0; i < tension.size(); ++i) power_.add(winding[i] * tension[i]);
 }
 
 void Terms::evaluate_loads(double t, const double* y, double* ydot) {

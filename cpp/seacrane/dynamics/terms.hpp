@@ -163,9 +163,10 @@ class Terms {
     power_.sum += power.sum;
     power_.absolute += power.absolute;
   }
-  /// Tensions that have been solved for with the accelerations, what each newton of them takes from a winch,
-  /// and what they put on the bodies.
-  void add_inertial(const VecXd& tension, const VecXd& winding, const std::vector<Vec6d>& load);
+  /// What lines told of theirs as wrenches were evaluated, by place.
+  const std::vector<InertialTension>& told() const { return told_; }
+  /// Tensions that have been solved for with the accelerations.
+  void add_inertial(const VecXd& tension);
   const VecXd& inertial() const { return inertial_; }
   /// Those of the same lines, solved for elsewhere: what loads tell of themselves, and nothing else.
   void set_inertial(const VecXd& tension) { inertial_ = tension; }
@@ -185,6 +186,7 @@ class Terms {
   int first_load_state_;  // in the memory part of a state
   std::vector<double> slots_;
   VecXd inertial_;  // tensions; zero until they are solved for
+  std::vector<InertialTension> told_;
   double curve_limit_ = std::numeric_limits<double>::infinity();
   VesselHistories histories_;
   std::vector<BodyKinematics<double>> bodies_;

@@ -97,22 +97,28 @@ class TensionsByLane {
       }
       const LoadInput<double> in = loads.input(lane, none());
       for (Line& line : lines_) {
-        for (const int b : line.touched) unit_lane_[idx(b)] = path_lane_[idx(b)] = Vec6d::Zero();
-        put(line, lane,
-            line.list[idx(lane)]->inertial(line.at, in, acceleration_.data(), unit_lane_.data(),
-                                           path_lane_.data()));
+        for (const int b : line.list[0]->bodies[line.at]) {
+          unit_lane_[idx(b)] = path_lane_[idx(b)] = Vec6d::Zero();
+        }
+        line.list[idx(lane)]->inertial(line.at, in, told_);
+        for (const InertialTension::Pull& p : told_.pulls) {
+          p.add_to(unit_lane_[idx(p.body)], 1.0);
+          path_lane_[idx(p.body)] += (Vec6d() << p.path.force, p.path.moment).finished();
+        }
+        const double a0 = told_.still - told_.mass * told_.along(acceleration_.data());
+        put(line, lane, told_.mass, told_.winding, a0);
       }
     };
     loads.for_each_lane(one, [&](int lane) {
       constexpr double none = std::numeric_limits<double>::quiet_NaN();
-      for (Line& line : lines_) put(line, lane, {none, none, none});
+      for (Line& line : lines_) put(line, lane, none, none, none);
     });
   }
 
-  void put(Line& line, int lane, const InertialTension& now) {
-    line.mass.set(lane, now.mass);
-    line.winding.set(lane, now.winding);
-    line.tension.set(lane, now.tension);
+  void put(Line& line, int lane, double mass, double winding, double tension) {
+    line.mass.set(lane, mass);
+    line.winding.set(lane, winding);
+    line.tension.set(lane, tension);
     for (std::size_t k = 0; k < line.touched.size(); ++k) {
       set_lane(line.unit[k], lane, unit_lane_[idx(line.touched[k])]);
       set_lane(line.path[k], lane, path_lane_[idx(line.touched[k])]);
@@ -168,6 +174,7 @@ class TensionsByLane {
   std::vector<double> zero_;
   std::vector<Twist<T>> without_;                            // accelerations without the tensions, by body
   std::vector<Vec6d> acceleration_, unit_lane_, path_lane_;  // of one lane, by body
+  InertialTension told_;
 };
 
 }  // namespace seacrane

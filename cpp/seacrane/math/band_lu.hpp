@@ -32,15 +32,17 @@ class BandLu {
     MatXd& a = matrix_;
     for (Eigen::Index k = 0; k < a.rows(); ++k) {
       const Eigen::Index last = below(k), end = above(k);
+      double* const by = a.col(k).data();
       Eigen::Index row = k;
       for (Eigen::Index i = k + 1; i <= last; ++i) {
-        if (std::abs(a(i, k)) > std::abs(a(row, k))) row = i;
+        if (std::abs(by[i]) > std::abs(by[row])) row = i;
       }
       pivot_[static_cast<std::size_t>(k)] = row;
       for (Eigen::Index j = k; row != k && j <= end; ++j) std::swap(a(k, j), a(row, j));
-      for (Eigen::Index i = k + 1; i <= last; ++i) a(i, k) /= a(k, k);
+      for (Eigen::Index i = k + 1; i <= last; ++i) by[i] /= by[k];
       for (Eigen::Index j = k + 1; j <= end; ++j) {
-        for (Eigen::Index i = k + 1; i <= last; ++i) a(i, j) -= a(i, k) * a(k, j);
+        double* const to = a.col(j).data();
+        for (Eigen::Index i = k + 1; i <= last; ++i) to[i] -= by[i] * to[k];
       }
     }
   }

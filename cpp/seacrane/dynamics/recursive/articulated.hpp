@@ -20,12 +20,6 @@ namespace seacrane {
 template <class T>
 class ArticulatedTree {
  public:
-  /// A wrench about the state point of a body, or of the ground, which takes it.
-  struct Push {
-    int body = 0;
-    Wrench<T> wrench;
-  };
-
   ArticulatedTree(const BodyTree& tree, int bodies)
       : kinematics_(tree, bodies),
         ground_(bodies),
@@ -96,9 +90,15 @@ class ArticulatedTree {
   /// Without `moving` velocities count as zero: the response to an impulse. Loads are used up: set them
   /// again.
   void solve(bool moving, T* u_rate, const T* torque = nullptr, const T* driven = nullptr);
-  /// Accelerations of the bodies of some clusters, whole trees and parents first, from rest under forces on
-  /// two bodies; others keep what they have.
-  void respond(const std::vector<std::size_t>& clusters, const Push& first, const Push& second, T* u_rate);
+  /// Accelerations of the bodies of some clusters, whole trees and parents first, from rest() under what
+  /// pushes them; others keep what they have.
+  void rest(const std::vector<std::size_t>& clusters) {
+    for (const std::size_t i : clusters) {
+      for (const Member& m : this->clusters()[i].members) bodies_[idx(m.body)].force = Wrench<T>::zero();
+    }
+  }
+  void push(int body, const Wrench<T>& wrench) { bodies_[idx(body)].force -= wrench; }
+  void respond(const std::vector<std::size_t>& clusters, T* u_rate);
   /// The force along the direction that the joint of a cluster holds, away from the parent, at the last
   /// solve(): N.
   const T& held(std::size_t cluster) const { return joints_[cluster].held.force; }

@@ -85,7 +85,7 @@ void RecursiveSystem::find_near() {
     for (std::size_t c = 0; c < tree_.clusters.size(); ++c) {
       const int own = root[idx(tree_.clusters[c].body)];
       if (std::ranges::none_of(bodies, [&](int b) { return root[idx(b)] == own; })) continue;
-      if (bodies.size() <= 2) near_[i].push_back(c);
+      near_[i].push_back(c);
       for (const Member& m : tree_.clusters[c].members) moved[i].push_back(m.body);
     }
   }
@@ -158,7 +158,7 @@ void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool act
   evaluate_wrenches(t, y, ydot, actuators_on_tree);
   solve_acceleration(ydot + layout_.speeds);
   own_.read_forces(forces_);
-  if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
+  if (tensions_.any()) add_inertial_tensions(ydot + layout_.speeds);
   if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
   for (std::size_t k = 0; k < driven_.count(); ++k) terms_->add_driver_power(driven_.power(k, forces_));
   if (loops_.rows() > 0) {
@@ -219,21 +219,19 @@ void RecursiveSystem::respond_to_tension(Eigen::Index i, double* u_rate) {
     std::ranges::copy(speed_rate_, u_rate);
     return;
   }
-  const auto push = [&](std::size_t k) -> ArticulatedTree<double>::Push {
-    const std::vector<int>& bodies = tensions_.bodies(i);
-    if (k >= bodies.size()) return {model_.body_count(), Wrench<double>::zero()};
-    return {bodies[k], Wrench<double>(tensions_.unit(i)[idx(bodies[k])])};
-  };
-  articulated_.respond(near, push(0), push(1), u_rate);
+  articulated_.rest(near);
+  for (const InertialTension::Pull& p : tensions_.pulls(i)) articulated_.push(p.body, p.unit());
+  articulated_.respond(near, u_rate);
   for (const std::size_t c : near) {
     for (const Member& m : tree_.clusters[c].members) {
-      response[idx(m.body)] = articulated_.acceleration(m.body).vector();
+      const Twist<double>& a = articulated_.acceleration(m.body);
+      response[idx(m.body)] << a.linear(), a.angular();
     }
   }
 }
 
-void RecursiveSystem::add_inertial_tensions(double t, const double* memory, double* u_rate) {
-  tensions_.start(*terms_, t, memory, acceleration_.data());
+void RecursiveSystem::add_inertial_tensions(double* u_rate) {
+  tensions_.start(*terms_, acceleration_.data());
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
     respond_to_tension(i, inertial_speed_rates_.col(i).data());
     own_.read_forces(force_response_[idx(i)], near_[idx(i)]);

@@ -90,7 +90,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void solve_with_loops(double* u_rate);
   void find_near();
   void respond_to_tension(Eigen::Index i, double* u_rate);
-  void add_inertial_tensions(double t, const double* memory, double* u_rate);
+  void add_inertial_tensions(double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
 

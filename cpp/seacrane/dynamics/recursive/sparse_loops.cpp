@@ -81,8 +81,10 @@ void SparseLoops::respond(const Node& column, int row, const RowBlock<double>* b
                           ArticulatedTree<double>& tree) {
   const RowBlock<double>& block = blocks[column.element];
   const Vec6d first = block.d[0].row(row).transpose(), second = block.d[1].row(row).transpose();
-  tree.respond(column.clusters, {column.first, Wrench<double>(first)},
-               {column.second, Wrench<double>(second)}, speeds_.data());
+  tree.rest(column.clusters);
+  tree.push(column.first, Wrench<double>(first));
+  tree.push(column.second, Wrench<double>(second));
+  tree.respond(column.clusters, speeds_.data());
 }
 
 double SparseLoops::factor(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, double* diagonal) {

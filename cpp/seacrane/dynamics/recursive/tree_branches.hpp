@@ -252,14 +252,7 @@ void ArticulatedTree<T>::solve(bool moving, T* u_rate, const T* torque, const T*
 }
 
 template <class T>
-void ArticulatedTree<T>::respond(const std::vector<std::size_t>& clusters, const Push& first,
-                                 const Push& second, T* u_rate) {
-  for (const std::size_t i : clusters) {
-    for (const Member& m : this->clusters()[i].members) bodies_[idx(m.body)].force = Wrench<T>::zero();
-  }
-  for (const Push* push : {&first, &second}) {
-    if (push->body != ground_) bodies_[idx(push->body)].force += -push->wrench;
-  }
+void ArticulatedTree<T>::respond(const std::vector<std::size_t>& clusters, T* u_rate) {
   solve(clusters, false, u_rate, nullptr, nullptr);
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "seacrane/elements/loads/line_description.hpp"
@@ -191,19 +192,9 @@ struct Line {
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
-    add_unit(in, movement(in), wrenches);
-  }
-  void add_unit(const LoadInput<double>& in, Motion<double> now, Vec6d* wrenches) const {
-    now.tension = 1.0;
-    for_each_tension<double>(
-        in, now, [&](const Section<double>& s, double tension, const SheaveFriction<double>&, std::size_t) {
-          s.add_to(wrenches, tension);
-        });
-  }
-  /// By how much the path gets shorter along the twists of bodies: what a unit adds without friction.
-  void add_path(const LoadInput<double>& in, const Motion<double>& now, Vec6d* wrenches) const {
-    for_each_section<double>(in, now,
-                             [&](const Section<double>& s, std::size_t) { s.add_to(wrenches, 1.0); });
+    for_each_share_of<double>(in, movement(in), 1.0,
+                              [&](const Section<double>& s, double share, const SheaveFriction<double>&,
+                                  std::size_t) { s.add_to(wrenches, share); });
   }
 
   /// Whether it is quasi-static and, on a side, neither taut nor free to haul in.
@@ -275,23 +266,27 @@ struct Line {
   /// the sheaves up to the section's second end.
   template <class T, class F>
   void for_each_tension(const LoadInput<T>& in, const Motion<T>& now, F&& f) const {
+    for_each_share_of<T>(in, now, now.tension, f);
+  }
+  /// The same of another mean tension.
+  template <class T, class F>
+  void for_each_share_of(const LoadInput<T>& in, const Motion<T>& now, const T& mean, F&& f) const {
     SheaveFriction<T> friction = friction_of(now);
     for_each_section<T>(in, now, [&](const Section<T>& s, std::size_t i) {
-      const T tension = now.tension * now.share * friction.share();
+      const T tension = mean * now.share * friction.share();
       if (has_friction) friction.pass(s, path.points()[i]);
       f(s, tension, friction, i);
     });
   }
 
-  /// EA s^2 e'' of a quasi-static stretch in this motion, for these accelerations of the bodies.
+  /// EA s^2 e'' of a quasi-static stretch in this motion, for these accelerations of the bodies; null: zero.
   template <class T>
   T inertial_tension(const LoadInput<T>& in, const Motion<T>& now, const Vec6d* acceleration) const {
     T bend(0);  // l''
     for_each_section<T>(in, now, [&](const Section<T>& s, std::size_t i) {
       bend += s.rate_change(point_acceleration<T>(in, path.points()[i - 1], s.lever_first, acceleration),
                             point_acceleration<T>(in, path.points()[i], s.lever_second, acceleration),
-                            acceleration[s.first].template tail<3>().template cast<T>(),
-                            acceleration[s.second].template tail<3>().template cast<T>());
+                            turn_rate<T>(s.first, acceleration), turn_rate<T>(s.second, acceleration));
       if (s.turns) bend += path.swing<T>(in, i);
     });
     const T strain_rate = now.straining() / now.unstretched;
@@ -299,8 +294,20 @@ struct Line {
                      now.length / now.unstretched * unstretched_acceleration(in, now);
     return strain_inertia() * (bend - driven) / now.unstretched;
   }
-  /// By how much that falls for each m/s2 by which the path shortens faster.
-  double inertial_mass(const Motion<double>& now) const { return strain_inertia() / now.unstretched; }
+  void inertial(const LoadInput<double>& in, const Motion<double>& now, InertialTension& out) const {
+    out.mass = strain_inertia() / now.unstretched;
+    out.winding = now.power_per_inertial();
+    out.still = inertial_tension<double>(in, now, nullptr);
+    out.pulls.resize(2 * (path.points().size() - 1));
+    for_each_share_of<double>(
+        in, now, 1.0,
+        [&](const Section<double>& s, double share, const SheaveFriction<double>&, std::size_t i) {
+          auto &first = out.pulls[2 * i - 2], &second = out.pulls[2 * i - 1];
+          first = {s.first, {}, share};
+          second = {s.second, {}, share};
+          s.add_to(first.path, second.path, 1.0);
+        });
+  }
 
   /// What the winch's drum does.
   Drum::Drive drive(const LoadInput<double>& in) const {
@@ -330,6 +337,9 @@ struct Line {
       out.state_rates[settled] = (now.straining() / now.unstretched - in.states[settled]) / T(d.settling);
     }
     if (winch) winch->set_rates(in, now.elastic, now.first(), out.state_rates);
+    if constexpr (std::is_same_v<T, double>) {
+      if (quasi_static() && out.inertial) inertial(in, now, out.inertial[place]);
+    }
   }
 
   double potential(const LoadInput<double>& in) const {
@@ -414,6 +424,7 @@ struct Line {
 
   template <class T>
   SheaveFriction<T> friction_of(const Motion<T>& m) const {
+    if (!has_friction) return {};
     return {m.length, m.rate, m.unstretched, m.unstretched_rate, d.sheaves.slip_speed};
   }
   /// Lengths and rates, and how friction shares the tension; no tension yet.
@@ -455,11 +466,17 @@ struct Line {
     return T(viscous) / T(sqrt(l0));
   }
   template <class T>
+  static Vec3<T> turn_rate(int body, const Vec6d* acceleration) {
+    if (!acceleration) return Vec3<T>::Zero();
+    return acceleration[body].template tail<3>().template cast<T>();
+  }
+  template <class T>
   static Vec3<T> point_acceleration(const LoadInput<T>& in, const PathPoint& at, const Vec3<T>& lever,
                                     const Vec6d* acceleration) {
-    const Vec3<T> linear = acceleration[at.body].template head<3>().template cast<T>();
+    Vec3<T> linear = Vec3<T>::Zero();
+    if (acceleration) linear = acceleration[at.body].template head<3>().template cast<T>();
     if (at.at_state) return linear;
-    const Vec3<T> angular = acceleration[at.body].template tail<3>().template cast<T>();
+    const Vec3<T> angular = turn_rate<T>(at.body, acceleration);
     const Vec3<T>& omega = in.bodies[at.body].angular_velocity;
     return linear + cross<T>(angular, lever) + cross<T>(omega, cross<T>(omega, lever));
   }

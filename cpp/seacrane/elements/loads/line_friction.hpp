@@ -20,6 +20,7 @@ namespace seacrane {
 template <class T>
 class SheaveFriction {
  public:
+  SheaveFriction() = default;  // none
   /// For a path's length and rate, and an unstretched length and rate.
   SheaveFriction(const T& length, const T& rate, const T& unstretched, const T& unstretched_rate,
                  double speed)
@@ -48,8 +49,8 @@ class SheaveFriction {
   T last_power() const { return -rise_ * passes_; }
 
  private:
-  T straining_, passes_;
-  double speed_;
+  T straining_ = T(0), passes_ = T(0);
+  double speed_ = 1.0;
   T share_ = T(1), weight_ = T(0), lost_ = T(0), rise_ = T(0);
 };
 

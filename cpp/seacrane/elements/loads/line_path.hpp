@@ -44,15 +44,16 @@ struct PathSection {
   double hold = std::numeric_limits<double>::infinity(), fleet = 0.0;
 
   /// Adds the wrenches of a tension in this section.
-  void add_to(BodyLoad<T>* wrench, const T& tension) const {
+  void add_to(BodyLoad<T>* wrench, const T& tension) const { add_to(wrench[first], wrench[second], tension); }
+  void add_to(BodyLoad<T>& on_first, BodyLoad<T>& on_second, const T& tension) const {
     if (!moves) return;
     const Vec3<T> force = pull * tension;
-    wrench[first].add(force, lever_first);
+    on_first.add(force, lever_first);
     const Vec3<T> back = -force;
-    wrench[second].add(back, lever_second);
+    on_second.add(back, lever_second);
     if (!turns) return;
-    wrench[first].moment -= turning_first * tension;
-    wrench[second].moment -= turning_second * tension;
+    on_first.moment -= turning_first * tension;
+    on_second.moment -= turning_second * tension;
   }
   void add_to(Vec6d* wrench, double tension) const requires std::is_same_v<T, double> {
     if (!moves) return;

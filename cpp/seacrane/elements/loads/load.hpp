@@ -146,6 +146,37 @@ inline LoadKinks kinks_of(const Curve& curve, double value, double rate = 0.0) {
   return out;
 }
 
+/// The tension of a load that depends on accelerations, see InertialTensions.
+struct InertialTension {
+  /// At either end of a section.
+  struct Pull {
+    int body;
+    BodyLoad<double> path;  // of 1 N all along
+    double share;           // of that, by friction
+    Wrench<double> unit() const { return {share * path.force, share * path.moment}; }
+    void add_to(Vec6d& load, double tension) const {
+      const Wrench<double> by = tension * unit();
+      load.head<3>() += by.force();
+      load.tail<3>() += by.moment();
+    }
+  };
+
+  double mass = 0.0;     // how it falls with the acceleration along the load, kg
+  double winding = 0.0;  // what each newton of it takes from a winch, m/s
+  double still = 0.0;    // with accelerations of zero, N
+  std::vector<Pull> pulls;
+
+  /// Along the load, of accelerations by body, that of the ground zero.
+  double along(const Vec6d* acceleration) const {
+    double sum = 0.0;
+    for (const auto& [body, path, share] : pulls) {
+      const Vec6d& a = acceleration[body];
+      sum += path.force.dot(a.head<3>()) + path.moment.dot(a.tail<3>());
+    }
+    return sum;
+  }
+};
+
 /// What loads add up: one wrench per body (the ground's is discarded), and the power that comes into the
 /// mechanical energy, potentials included, for the energy balance. Each load sets the rates of its own
 /// states.
@@ -154,6 +185,7 @@ struct LoadSum {
   BodyLoad<T>* wrench;
   T* state_rates = nullptr;  // of all loads
   T power = T(0), absolute_power = T(0);
+  InertialTension* inertial = nullptr;  // by place; null: not asked for
 
   void add_power(const T& p) {
     power += p;

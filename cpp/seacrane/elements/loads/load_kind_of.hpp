@@ -211,16 +211,8 @@ class LoadListOf final : public LoadsOf<Load> {
     if constexpr (HasInertialTension<Load>) return items[i].quasi_static() ? items[i].place : -1;
     return -1;
   }
-  InertialTension inertial(Place i, const LoadInput<double>& in, const Vec6d* acceleration, Vec6d* unit,
-                           Vec6d* path) const override {
-    if constexpr (HasInertialTension<Load>) {
-      const auto now = items[i].motion(in);
-      items[i].add_unit(in, now, unit);
-      items[i].add_path(in, now, path);
-      return {items[i].inertial_mass(now), now.power_per_inertial(),
-              items[i].inertial_tension(in, now, acceleration)};
-    }
-    return {};
+  void inertial(Place i, const LoadInput<double>& in, InertialTension& out) const override {
+    if constexpr (HasInertialTension<Load>) items[i].inertial(in, items[i].motion(in), out);
   }
   Slopes inertial(Place i, const LoadInput<Slopes>& in, const Vec6d* acceleration) const override {
     if constexpr (HasInertialTension<Load>) {

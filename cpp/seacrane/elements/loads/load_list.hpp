@@ -31,13 +31,6 @@ class Held {
   std::unique_ptr<T> value_;
 };
 
-/// The tension of a load that depends on accelerations, see InertialTensions.
-struct InertialTension {
-  double mass = 0.0;     // how it changes with the acceleration along the load, kg
-  double winding = 0.0;  // what each newton of it takes from a winch, m/s
-  double tension = 0.0;  // with given accelerations, N
-};
-
 /// Compiled loads of one kind, side by side: what the engine asks of them, with one call for all of them
 /// where it evaluates the equations of motion, and for one by its place otherwise. What a kind does not have
 /// is nothing: no states, no sides, no power.
@@ -101,9 +94,7 @@ class LoadList {
   // A load whose tension depends on accelerations.
   /// Its place among these tensions; -1: it has none.
   virtual int inertial_place(Place i) const = 0;
-  /// Adds what one newton puts on the bodies, with friction and without.
-  virtual InertialTension inertial(Place i, const LoadInput<double>& in, const Vec6d* acceleration,
-                                   Vec6d* unit, Vec6d* path) const = 0;
+  virtual void inertial(Place i, const LoadInput<double>& in, InertialTension& out) const = 0;
   virtual Slopes inertial(Place i, const LoadInput<Slopes>& in, const Vec6d* acceleration) const = 0;
 
   // A load along a coordinate of a joint, which a tree may have.
