@@ -58,7 +58,7 @@ class MonotoneSpline {
   template <int L>
   At<Pack<L>> at(const Pack<L>& place) const {
     const std::size_t first = place[0] < places_.back() ? piece(place[0]) : 0;
-    if (all(place >= Pack<L>(places_[first]) & place < Pack<L>(places_[first + 1]))) {
+    if (all((place >= Pack<L>(places_[first])) & (place < Pack<L>(places_[first + 1])))) {
       return in_piece(first, place);
     }
     At<Pack<L>> out;

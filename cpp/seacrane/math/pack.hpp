@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -86,11 +85,12 @@ struct Pack {
 
   friend Pack select(const Mask<L>& condition, const Pack& yes, const Pack& no) {
     const Bits chosen =
-        (std::bit_cast<Bits>(yes.v) & condition.bits) | (std::bit_cast<Bits>(no.v) & ~condition.bits);
-    return Pack(std::bit_cast<Vector>(chosen));
+        (reinterpret_cast<Bits>(yes.v) & condition.bits) | (reinterpret_cast<Bits>(no.v) & ~condition.bits);
+    return Pack(reinterpret_cast<Vector>(chosen));
   }
   friend Pack abs(const Pack& a) {
-    return Pack(std::bit_cast<Vector>(std::bit_cast<Bits>(a.v) & std::numeric_limits<std::int64_t>::max()));
+    return Pack(
+        reinterpret_cast<Vector>(reinterpret_cast<Bits>(a.v) & std::numeric_limits<std::int64_t>::max()));
   }
   friend Pack min(const Pack& a, const Pack& b) { return select(b < a, b, a); }
   friend Pack max(const Pack& a, const Pack& b) { return select(a < b, b, a); }
@@ -144,15 +144,16 @@ struct Pack {
     Pack angle = select(large, 0.25 * pi + (w + (rest + 0.5 * more_pi_2)), w + rest);
     angle = select(steep, (0.5 * pi - angle) + more_pi_2, angle);
     angle = select(negative(x), (pi - angle) + 2.0 * more_pi_2, angle);
-    return Pack(std::bit_cast<Vector>(std::bit_cast<Bits>(angle.v) |
-                                      (std::bit_cast<Bits>(y.v) & std::numeric_limits<std::int64_t>::min())));
+    return Pack(
+        reinterpret_cast<Vector>(reinterpret_cast<Bits>(angle.v) |
+                                 (reinterpret_cast<Bits>(y.v) & std::numeric_limits<std::int64_t>::min())));
   }
   friend Pack asin(const Pack& a) { return atan2(a, sqrt((1.0 - a) * (1.0 + a))); }
 
  private:
   static constexpr double more_pi_2 = 6.123233995736765886130e-17;  // pi / 2 less its double
 
-  static Mask<L> negative(const Pack& a) { return {std::bit_cast<Bits>(a.v) < 0}; }
+  static Mask<L> negative(const Pack& a) { return {reinterpret_cast<Bits>(a.v) < 0}; }
   template <class F>
   static Pack each(const Pack& a, F&& f) {
     return by_lane([&](int lane) { return f(a.v[lane]); });
