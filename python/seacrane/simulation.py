@@ -151,7 +151,7 @@ def simulate(
         (docs/troubleshooting.md).
     """
     if "stages" in shorthand:
-        raise SceneError("stages are given by that name; simulate takes them in the place of `t_end`")
+        raise SceneError("there is no 'stages'; give them in the place of `t_end`: simulate(scene, stages)")
     end, stages = (math.nan, t_end) if _several(t_end) else (t_end, None)
     written = {"checkpoint_every": checkpoint_every, "resume": resume, "overwrite": overwrite}
     _require_use(stages, to, accuracy, first=first, **written)
