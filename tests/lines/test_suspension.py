@@ -268,3 +268,13 @@ def test_pressures_hold_a_load_that_hangs_on_a_winch() -> None:
     scene.add_body(name="load", mass=HELD, inertia=(HELD, HELD, HELD), position=(0, 0, 50))
     with pytest.raises(SceneError, match=r"body 'load' accelerates by 9.81"):
         scene.hold_pressures()
+
+
+@pytest.mark.parametrize("rung", ["elastic", "quasi-static"])
+def test_a_line_with_all_points_on_one_body_is_told(rung: Any) -> None:
+    scene = Scene(name="stay")
+    scene.add_vessel(shipped_database(), name="ship")
+    ends = {"first_point": (0, 0, 5), "second_point": (10, 0, 5)}
+    scene.add_line("stay", first="ship", second="ship", EA=1e7, length=9.99, rung=rung, **ends)
+    with pytest.raises(SceneError, match=r"line 'stay': has all its points on 'ship', which it cannot move"):
+        simulate(scene, 1.0)

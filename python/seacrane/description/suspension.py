@@ -241,7 +241,7 @@ def _of_lines(name: str, segments: Mapping[str, _core.Line], joints: Iterable[st
     (highest, highest_line), (lowest, last) = next(iter(segments.items())), list(segments.items())[-1]
     path, hooked = path_of(last), hooked_body(last)
     spans = [pair for pair in pairwise(path) if (pair[0][0] == hooked) != (pair[1][0] == hooked)]
-    upper, lower = sorted(spans[-1], key=lambda end: end[0] == hooked)
+    upper, lower = sorted(spans[-1] if spans else path[-2:], key=lambda end: end[0] == hooked)
     return Suspension(
         name=name, channel=_beside(lowest, joints), top=_beside(highest, joints),
         rung=WITH_MASS if len(segments) > 1 or name != lowest else last.rung,
